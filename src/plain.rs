@@ -1,22 +1,22 @@
-//! Text of a user's as a terminal, a picture or a page may show it.
+//! Texts of users, made safe for a terminal, a picture or a page.
 //!
-//! Titles, keys, values, paths and what stands in files or results may hold characters that act instead of being seen: escape
-//! sequences that move the cursor or rename the window, marks that turn the direction of writing (U+202E), letters without width. Each
-//! is replaced by its escape `\u202E`, which JSON and TOML read back as the same character. Everything else is left as it is.
+//! Titles, keys, values, paths and the content of files may have invisible characters with effects: escape sequences that move the
+//! cursor or rename the window, marks that turn the direction of writing (U+202E), letters without width. Each is replaced by its
+//! escape `\u202E`, which JSON and TOML read back. All other text is unchanged.
 
 use serde::Serialize;
 use std::borrow::Cow;
 use std::path::Path;
 use toml::Value;
 
-/// Whether a character is not seen as itself: control characters, marks of direction, letters without width, and the code points
-/// that are no characters and that XML forbids.
+/// Whether a character is invisible: control characters, marks of direction, letters without width, and the code points that are
+/// not characters and that XML forbids.
 pub fn is_hidden(c: char) -> bool {
     c.is_control()
         || matches!(c,
             // Soft hyphen, joiners and fillers of several scripts.
             '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}'..='\u{1160}' | '\u{17b4}'..='\u{17b5}' | '\u{180e}' | '\u{3164}' | '\u{ffa0}'
-            // Spaces without width, directions, separators of lines, operators that are not seen.
+            // Spaces without width, directions, separators of lines, invisible operators.
             | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
             // Byte order, annotations, shorthand, music, tags.
             | '\u{feff}' | '\u{fff0}'..='\u{fffb}' | '\u{1bca0}'..='\u{1bca3}' | '\u{1d173}'..='\u{1d17a}' | '\u{e0000}'..='\u{e0fff}'
@@ -39,7 +39,7 @@ pub fn path(path: &Path) -> String {
     line(&path.to_string_lossy()).into_owned()
 }
 
-/// A number as a person would write it.
+/// A number in short form: decimal, or with an exponent where it is very small or large.
 pub fn float(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || !value.is_finite() || (1e-3..1e6).contains(&size) {
@@ -49,7 +49,7 @@ pub fn float(value: f64) -> String {
     }
 }
 
-/// TOML in which nothing is hidden and every text is read back as it was.
+/// TOML with invisible characters escaped, which reads back equal.
 pub(crate) fn toml(value: &impl Serialize) -> Result<String, toml::ser::Error> {
     let text = toml::to_string(value)?;
     if !text.contains(|c| is_hidden(c) && !matches!(c, '\n' | '\t')) {

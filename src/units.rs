@@ -1,10 +1,10 @@
-//! What the numbers of a case are measured in, as far as the case says or shows it.
+//! Units of the numbers of a case.
 //!
-//! Cases take any consistent units, and what programs read is never converted. Where people read, a unit has a name:
+//! Cases take any consistent units, and files are never converted. In tables, pictures and messages a unit has a name:
 //!
 //! - Of an SI unit with its prefix (m, mm, µm, nm; Pa … TPa) axes, tables and captions take the prefix with which their
 //!   numbers read well, 2.1·10¹¹ Pa as 210 GPa. A force is a pressure times an area: GPa·µm² = mN.
-//! - Any other name stands behind the numbers as they are.
+//! - Any other name is written behind unchanged numbers.
 //! - Without a name pressures are relative to the substrate's modulus where that is 1, p/E₂ as in the paper, and lengths to
 //!   the lattice period or the first level's radius where these are; otherwise units are unknown.
 
@@ -22,11 +22,11 @@ pub const CARRIED: RangeInclusive<f64> = 1e-60..=1e60;
 /// A unit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Unit {
-    /// Of a number without dimension, or of one of which nothing is known.
+    /// No unit, of a number without dimension or of unknown unit.
     None,
     /// A quantity of the case, by its symbol.
     Relative(String),
-    /// A name that says no more.
+    /// A name that is not of an SI unit.
     Named(String),
     /// An SI unit times a power of ten.
     Si {
@@ -76,7 +76,7 @@ impl Units {
         Self { length: Unit::None, pressure: Unit::None }
     }
 
-    /// The same with names for lengths, for pressures or for both.
+    /// The units with names for lengths, for pressures or for both.
     #[must_use]
     pub fn named(self, length: Option<&str>, pressure: Option<&str>) -> Self {
         Self {
@@ -178,7 +178,7 @@ impl Unit {
     }
 
     /// A number with its unit, as `text` writes the number.
-    pub fn told(&self, x: f64, text: impl Fn(f64) -> String) -> String {
+    pub fn with_unit(&self, x: f64, text: impl Fn(f64) -> String) -> String {
         let prefixed = self.prefixed(x);
         prefixed.behind(&text(prefixed.shown(x)))
     }
@@ -266,7 +266,7 @@ mod tests {
     #[test]
     fn an_energy_is_a_pressure_times_a_volume() {
         let energy = |length: &str, pressure: &str| {
-            units(1.0, 1.0, 1.0).named(Some(length), Some(pressure)).energy().told(2.0, |x| format!("{x}"))
+            units(1.0, 1.0, 1.0).named(Some(length), Some(pressure)).energy().with_unit(2.0, |x| format!("{x}"))
         };
         let told = [("µm", "GPa"), ("mm", "MPa"), ("m", "Pa"), ("in", "psi")].map(|(l, p)| energy(l, p));
         // GPa·µm³ = nJ, MPa·mm³ = mJ.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// How far a value may be from its reference.
+/// Tolerance of a value about its reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
     /// |value − reference| ≤ tolerance · |reference|.
@@ -17,39 +17,39 @@ pub enum Tolerance {
     AtLeast,
 }
 
-/// What a quantity is held against.
+/// Kind of a reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Evidence {
-    /// What is independent of the program: a closed form, a multiprecision table, another program.
+    /// Independent of the program: a closed form, a multiprecision table, another program.
     Reference,
-    /// The program itself: another mesh, another of its methods, its orders and iterations.
+    /// From the program itself: another mesh, another of its methods, its orders and iterations.
     Refinement,
-    /// What it was once found to say about the paper, pinned to the error of the mesh.
+    /// An earlier result of the program about the paper, within the error of the mesh.
     Finding,
 }
 
 impl Evidence {
-    /// All of them, as a report counts them.
+    /// All kinds, in the order of a report.
     pub const ALL: [Self; 3] = [Self::Reference, Self::Refinement, Self::Finding];
 }
 
 /// A quantity of a study, compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Check {
-    /// What is compared, in the words of the field; the same in every run.
+    /// Name of the quantity, equal in every run.
     pub quantity: String,
-    /// What percoat gives.
+    /// Value of percoat.
     pub value: f64,
-    /// What it should be.
+    /// Reference value.
     pub reference: f64,
-    /// How close it has to come.
+    /// Tolerance about the reference.
     pub tolerance: Tolerance,
-    /// What the reference is.
+    /// Kind of the reference.
     pub evidence: Evidence,
 }
 
 impl Check {
-    /// Compares `value` with `reference`, an independent one; bounds and orders are the program's own.
+    /// Compares `value` with an independent `reference`; bounds and orders count as the program's own.
     pub fn new(quantity: impl Into<String>, value: f64, reference: f64, tolerance: Tolerance) -> Self {
         let evidence = match tolerance {
             Tolerance::Relative(_) | Tolerance::Absolute(_) => Evidence::Reference,
@@ -58,13 +58,13 @@ impl Check {
         Self { quantity: quantity.into(), value, reference, tolerance, evidence }
     }
 
-    /// The same against the program itself.
+    /// With a reference from the program itself.
     #[must_use]
     pub fn of_refinement(self) -> Self {
         Self { evidence: Evidence::Refinement, ..self }
     }
 
-    /// The same against what was found before.
+    /// With an earlier result as the reference.
     #[must_use]
     pub fn as_finding(self) -> Self {
         Self { evidence: Evidence::Finding, ..self }
@@ -95,8 +95,7 @@ impl Check {
         Self::new(quantity, value, bound, Tolerance::AtLeast)
     }
 
-    /// Of many pairs (value, reference) under one tolerance, the one that is worst off stands for all; without any the
-    /// check fails.
+    /// The worst of many pairs (value, reference) under one tolerance; without any pair the check fails.
     pub fn worst(
         quantity: impl Into<String>,
         pairs: impl IntoIterator<Item = (f64, f64)>,
@@ -106,7 +105,7 @@ impl Check {
         let mut largest = f64::NEG_INFINITY;
         for (value, reference) in pairs {
             let error = Self::new("", value, reference, tolerance).badness();
-            // What is not a number is worse than any number, and stays.
+            // A value that is not a number is the worst.
             if error > largest || error.is_nan() {
                 (worst.value, worst.reference, largest) = (value, reference, error);
             }
@@ -126,7 +125,7 @@ impl Check {
         }
     }
 
-    /// What must not exceed the tolerance (or zero, where the reference is the bound).
+    /// The deviation that must not exceed the tolerance, or zero where the reference is a bound.
     fn badness(&self) -> f64 {
         match self.tolerance {
             Tolerance::Relative(_) | Tolerance::Absolute(_) | Tolerance::Order(_) => self.error().abs(),
@@ -135,7 +134,7 @@ impl Check {
         }
     }
 
-    /// The verdict. What is not a number fails.
+    /// The verdict; false for a value that is not a number.
     pub fn holds(&self) -> bool {
         let allowed = match self.tolerance {
             Tolerance::Relative(tolerance) | Tolerance::Absolute(tolerance) | Tolerance::Order(tolerance) => tolerance,

@@ -1,4 +1,4 @@
-//! What the figures of the studies share.
+//! Common parts of the figures of the studies.
 
 use crate::picture::{Chart, Curve, Figure, Style};
 

@@ -1,9 +1,9 @@
-//! Studies with verdicts: what percoat computes, held against closed forms, multiprecision references and peers.
+//! Studies with verdicts: results of percoat against closed forms, multiprecision references and other programs.
 //!
 //! A [`Study`] computes its quantities afresh and compares each with its reference: a [`Check`] that holds or fails.
-//! Its equation, source and tolerances stand in `validation/<study>/README.md`; reference numbers and case files lie
-//! beside it and are part of the program, so that `percoat validate` works wherever it is installed. A [`Report`] prints
-//! the verdicts as a table and as Markdown, and finds where two reports differ.
+//! Its equation, source and tolerances are in `validation/<study>/README.md`; reference numbers and case files beside it are
+//! embedded in the program, so that `percoat validate` works without the repository. A [`Report`] has the verdicts as a table and as
+//! Markdown, and the differences from another report.
 //!
 //! ```
 //! let study = percoat::validation::find("kernel").expect("a study");
@@ -103,7 +103,7 @@ pub fn find(name: &str) -> Option<&'static Study> {
     STUDIES.iter().find(|study| study.name == name)
 }
 
-/// The study of a name, or all whose folders lie in a folder of that name.
+/// The study of a name, or all studies in a folder of that name.
 pub fn named(name: &str) -> Vec<&'static Study> {
     let inside =
         |study: &&Study| study.name.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));

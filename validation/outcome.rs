@@ -1,40 +1,40 @@
-//! A study, and what it gives: its checks, the figure that shows them, and the data they rest on.
+//! A study, and its outcome: checks, figures and data.
 
 use super::check::Check;
 use super::paper::Claim;
 use crate::picture::Figure;
 
-/// Why a study could not be run to its end.
+/// The error of a study that could not be completed.
 pub type StudyError = Box<dyn std::error::Error + Send + Sync>;
 
 /// One study.
 #[derive(Debug, Clone, Copy)]
 pub struct Study {
-    /// Name, as typed and as the folder in `validation/` is called.
+    /// Name on the command line and of the folder in `validation/`.
     pub name: &'static str,
-    /// What it shows, in one line.
+    /// Summary, in one line.
     pub title: &'static str,
-    /// Files it leaves in its folder: figures, data of its own and data that are published.
+    /// Files that it writes into its folder: figures, data and published data.
     pub files: &'static [&'static str],
-    /// Computes everything afresh.
+    /// The whole study.
     pub run: fn() -> Result<Outcome, StudyError>,
-    /// The same of fewer points, in the time that a person waits for: each of its checks is one of the whole study's, of the same
-    /// name, tolerance and verdict. `None` where the whole study is as quick.
+    /// A quick form with fewer points; each of its checks is one of the whole study, with its name, tolerance and verdict. `None` where
+    /// the whole study is quick.
     pub quick: Option<fn() -> Result<Outcome, StudyError>>,
 }
 
-/// What a study found.
+/// The outcome of a study.
 #[derive(Debug, Clone, Default)]
 pub struct Outcome {
     /// The comparisons, in the order of the report.
     pub checks: Vec<Check>,
-    /// Figures by the name of their file, without its ending; the first one shows the agreement at a glance.
+    /// Figures by the name of their file, without its ending; the first one shows the agreement.
     pub figures: Vec<(&'static str, Figure)>,
-    /// Everything computed, for whoever wants to draw or look closer.
+    /// Tables of all computed values.
     pub data: Vec<Data>,
-    /// The curves of a published figure, written as `<name>.csv` to lie beside it.
+    /// The curves of published figures, written as `<name>.csv`.
     pub published: Vec<Data>,
-    /// Statements of the paper and how they fare; see [`Self::judge`].
+    /// Statements of the paper with their verdicts, see [`Self::judge`].
     pub claims: Vec<Claim>,
 }
 
@@ -47,7 +47,7 @@ impl Outcome {
         }
     }
 
-    /// Its tables by the names of their files, those that are published rounded.
+    /// Its tables by the names of their files, published ones rounded.
     pub fn tables(&self) -> impl Iterator<Item = (String, Data)> {
         let data = self.data.iter().map(|data| (format!("{}.data.csv", data.name), data.clone()));
         data.chain(self.published.iter().map(|data| (format!("{}.csv", data.name), data.rounded())))
@@ -93,7 +93,7 @@ impl Data {
         text
     }
 
-    /// The same table with six significant digits.
+    /// The table with six significant digits.
     #[must_use]
     pub fn rounded(&self) -> Self {
         let round = |x: &f64| format!("{x:.5e}").parse().unwrap_or(*x);
@@ -106,10 +106,10 @@ impl Data {
         index.map_or(Vec::new(), |index| self.rows.iter().map(|row| row[index]).collect())
     }
 
-    /// Reads a CSV table as [`Self::csv`] writes it; lines that begin with `#` say where it comes from.
+    /// Reads a CSV table of the form of [`Self::csv`]; lines that begin with `#` are comments on its source.
     ///
     /// # Errors
-    /// The first cell that is no number, or row of another length, with its line.
+    /// The first cell that is not a number, or row of another length, with its line.
     pub fn parse(name: &'static str, text: &str) -> Result<Self, String> {
         let mut lines = (1..).zip(text.lines()).filter(|(_, line): &(usize, &str)| !line.starts_with('#'));
         let header = lines.next().map_or("", |(_, line)| line);

@@ -1,4 +1,4 @@
-//! Random cases, the same in every run.
+//! Random cases, reproducible from a seed.
 
 use super::StudyError;
 use crate::body::{HalfSpace, Interface, Layer, Material};

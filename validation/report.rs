@@ -1,8 +1,7 @@
 //! The verdicts of a run, as a table for the terminal and as Markdown for the repository.
 //!
-//! References, own refinement and findings are counted apart ([`Evidence`]). [`differences`] holds one report against
-//! another: same studies, same quantities, same evidence, same verdicts. Values may differ in
-//! their digits; they are judged by their tolerances, not by the report.
+//! References, own refinement and findings are counted separately ([`Evidence`]). [`differences`] compares two reports by their
+//! studies, quantities, evidence and verdicts. Values may differ in their digits: their tolerances judge them, not the report.
 
 use super::{Check, Evidence, Outcome, Study, StudyError};
 use crate::notation::number;
@@ -12,14 +11,14 @@ use std::collections::BTreeMap;
 /// Columns of a row; Markdown leaves out the first one.
 const COLUMNS: [&str; 8] = ["study", "quantity", "value", "reference", "error", "tolerance", "evidence", "verdict"];
 
-/// The studies that were run, with what they found.
+/// The studies that were run, with their outcomes.
 #[derive(Debug, Default)]
 pub struct Report {
     results: Vec<(&'static Study, Result<Outcome, StudyError>)>,
 }
 
 impl Report {
-    /// Adds what a study found.
+    /// Adds the outcome of a study.
     pub fn add(&mut self, study: &'static Study, result: Result<Outcome, StudyError>) {
         self.results.push((study, result));
     }
@@ -39,7 +38,7 @@ impl Report {
         self.results.iter().flat_map(|(study, result)| rows(study, result)).filter(|row| row[7] == FAILS).count()
     }
 
-    /// How many checks there are of each kind, and whether all hold.
+    /// Number of checks of each kind, and the verdict, in words.
     pub fn summary(&self) -> String {
         let [references, own, findings] = Evidence::ALL.map(|evidence| self.count(evidence));
         let verdict = match self.failures() {
@@ -50,7 +49,7 @@ impl Report {
         format!("{references} independent references, {own} of own refinement, {findings} findings pinned: {verdict}")
     }
 
-    /// The checks of each study as a table that fits into so many columns of letters.
+    /// The checks of each study as a table of at most `width` letters.
     pub fn tables(&self, width: usize) -> String {
         let of = |(study, result): &(&'static Study, Result<Outcome, StudyError>)| {
             let rows = rows(study, result).into_iter().map(|row| row[1..].to_vec()).collect();
@@ -150,7 +149,7 @@ pub fn differences(expected: &str, found: &str, studies: Option<&[&str]>) -> Vec
     missing.chain(contradictions(expected, found, studies)).collect()
 }
 
-/// The same of a report that need not have all rows: those that changed or are new.
+/// Differences from a report that need not have all rows: rows that changed or are new.
 pub fn contradictions(expected: &str, found: &str, studies: Option<&[&str]>) -> Vec<String> {
     let known = verdicts(expected);
     let contradiction = |(row, now): (Row, String)| {
@@ -246,7 +245,7 @@ mod tests {
         assert_eq!(differences(&a, &twice, None).len(), 1);
         assert_eq!(differences(&a, "", None).len(), 3);
         assert_eq!(differences("", &a, None).len(), 3);
-        // Of a quick form rows may be missing.
+        // A quick form may lack rows.
         assert_eq!(contradictions(&a, &fewer, None), Vec::<String>::new());
         assert_eq!(contradictions(&fewer, &a, None), ["one: quantity 2: holds, but not expected at all"]);
         let failed = report(&[1.2]).markdown();

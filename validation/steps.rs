@@ -1,4 +1,4 @@
-//! Load steps that a study rests on: each must have converged.
+//! Load steps of a study, each of which must have converged.
 
 use super::StudyError;
 use crate::body::HalfSpace;
@@ -38,7 +38,7 @@ impl Steps {
         if step.report.stop.solved() { Ok(step) } else { Err(format!("{load}: {}", step.report).into()) }
     }
 
-    /// The next step and what is read off it.
+    /// The next step and its reading.
     pub fn solve(&mut self, load: Load) -> Result<(Step, Reading), StudyError> {
         let step = self.step(load)?;
         let reading = Reading::of(step.finest());

@@ -406,7 +406,7 @@ class Result:
     warnings
         What a reader should know before trusting the numbers.
     converged
-        Whether all steps are, and the accuracy is reached, if one was asked for.
+        Whether all steps are, and the accuracy is reached, if one was prescribed.
 
     Examples
     --------
@@ -482,12 +482,12 @@ class Result:
 
     @property
     def accuracy(self) -> Optional[float]:
-        """Change from the next coarser grid, where an accuracy was asked for."""
+        """Change from the next coarser grid, where an accuracy was prescribed."""
         return self._common.summary.get("accuracy")
 
     @property
     def converged(self) -> bool:
-        """Whether all steps are, and the accuracy is reached, if one was asked for."""
+        """Whether all steps are, and the accuracy is reached, if one was prescribed."""
         return self._common.accurate and all(step.converged for step in self.steps)
 
     def __len__(self) -> int:

@@ -126,7 +126,7 @@ impl Recorder for Keeping<'_> {
 /// Fields of a surface: x, y, and the level that owns each sample.
 type Places<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i32>>);
 
-/// Solves a case: its summary as a dict, whether the accuracy is reached if one was asked for, the places of its samples, and
+/// Solves a case: its summary as a dict, whether the accuracy is reached if one was prescribed, the places of its samples, and
 /// its steps.
 #[pyfunction]
 #[pyo3(signature = (case, threads = None, progress = None))]

@@ -12,7 +12,7 @@ const DEEPEST: usize = 32;
 /// A value that stands at `path` in a case.
 pub fn value(object: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
     if path.matches('.').count() > DEEPEST {
-        return Err(refused("no value of a case lies as deep as this: does it have itself within?"));
+        return Err(refused("no value of a case is nested so deeply: does it contain itself?"));
     }
     if object.is_instance_of::<PyBool>() {
         return Ok(Value::Boolean(object.extract()?));

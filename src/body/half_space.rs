@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn rows_keep_both_sides_of_every_interface() {
         let material = Material::from_shear(1.0, 0.3).unwrap();
-        // Just beside a row, and so near to the surface that no row tells it apart.
+        // Just beside a row, and nearer to the surface than the spacing of rows resolves.
         for thickness in [0.333_333_333_4, 0.333_333_333_3, 1.0 / 3.0, 1e-11, 1.0] {
             let layer = Layer::new(material, thickness, Interface::Bonded).unwrap();
             let rows = HalfSpace::new(vec![layer], material).rows(1.0, 3);

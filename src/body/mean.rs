@@ -12,7 +12,7 @@ use super::{HalfSpace, Interface, Layer, Material};
 ///   −(1+2ν₂)p̄/2, with the lateral strain ε₂ = −p̄(1−2ν₂)(1+ν₂)/(2E₂), which is imposed on each layer whose connection
 ///   to the substrate carries shear (bonded or spring: the load is wide against the length over which a spring slips):
 ///   σ_xx = Eε₂/(1−ν) − νp̄/(1−ν). Layers above a frictionless interface are a laminate of their own, a wide sheet
-///   whose loaded disc wants to spread: with A₁₁ = Σ Eh/(1−ν²) and T = Σ hνp̄/(1−ν) its strain is ε = T/(2A₁₁) (a disc
+///   whose loaded disc spreads: with A₁₁ = Σ Eh/(1−ν²) and T = Σ hνp̄/(1−ν) its strain is ε = T/(2A₁₁) (a disc
 ///   in an infinite sheet; for one layer σ_xx = −νp̄/2).
 ///
 /// **A spring of any stiffness is bonded here, a frictionless interface is not**, though the one is the limit of the other:

@@ -14,10 +14,10 @@ use crate::run::Sampling;
 pub(super) struct CounterbodySections<'a> {
     pub(super) levels: Vec<LevelSection>,
     pub(super) lattice: LatticeSection,
-    /// Where the cell is said to be what it is: a surface may say it itself.
+    /// The section that gives the cell: `[lattice]`, or `[surface]` with a size of its own.
     pub(super) cell_section: TableAt<'a>,
     pub(super) grid_section: TableAt<'a>,
-    /// A surface, the grid that it is on, and what is doubtful about it.
+    /// A surface with its grid and warnings; `None` for levels.
     pub(super) surface: Option<(SurfaceSection, Sampling, Vec<String>)>,
     pub(super) counterbody: Counterbody,
 }
@@ -29,10 +29,10 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
     let surface_section = match (&level_sections[..], root.section("surface")?) {
         ([], Some(section)) => Some(section),
         ([_, ..], None) => None,
-        ([_, ..], Some(section)) => return Err(root.both(["levels", "surface"], section.place)),
+        ([_, ..], Some(section)) => return Err(root.both(["levels", "surface"], section.span)),
         ([], None) => {
             root.required_section("lattice")?;
-            let refusal = Refusal::new(root.place, "the case has neither [[levels]] nor [surface]", "none up to here");
+            let refusal = Refusal::new(root.span, "the case has neither [[levels]] nor [surface]", "none up to here");
             return Err(refusal.help(format!("add a level, for example\n{}", root.example("levels"))));
         }
     };
@@ -60,7 +60,7 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
     // Both were checked key by key.
     let counterbody = Indenters::new(lattice, built)
         .map(Counterbody::from)
-        .map_err(|error| Refusal::new(cell_section.place, format!("`lattice`: {error}"), "no counterbody"))?;
+        .map_err(|error| Refusal::new(cell_section.span, format!("`lattice`: {error}"), "no counterbody"))?;
     Ok(CounterbodySections { levels, lattice: lattice_section, cell_section, grid_section, surface: None, counterbody })
 }
 

@@ -1,4 +1,4 @@
-//! Example cases that the program carries with it.
+//! Example cases that are embedded in the program.
 
 use super::Source;
 
@@ -26,7 +26,7 @@ pub fn all() -> &'static [(&'static str, &'static str)] {
     &CASES
 }
 
-/// An embedded case, ready to be read.
+/// An embedded case as a source; `None` for an unknown name.
 pub fn source(name: &str) -> Option<Source> {
     let (_, text) = CASES.iter().find(|(known, _)| *known == name)?;
     Some(Source { name: format!("embedded case {name}"), text: (*text).to_owned(), ..Source::default() })

@@ -1,5 +1,4 @@
-//! Why a case is refused, told to the person who wrote it: the line, the key, the value received,
-//! what is allowed and what to do.
+//! Errors of a case: the line, the key, the value received, what is allowed and what to do.
 
 use std::fmt;
 use std::ops::Range;
@@ -7,38 +6,38 @@ use std::ops::Range;
 use ariadne::{CharSet, Color, Config, IndexType, Label, Report, ReportKind};
 
 use super::Source;
-use super::place::Place;
+use super::span::Span;
 use crate::plain;
 
-/// A refusal while its place is still a span of one of several sources.
+/// A refusal at a span of one of the sources, before its excerpt is made.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Refusal {
-    place: Place,
+    span: Span,
     message: String,
     label: String,
     help: Option<String>,
 }
 
 impl Refusal {
-    /// A refusal of what stands at `place`; `message` names the key and the fault, `label` stands at the excerpt.
-    pub(super) fn new(place: Place, message: impl Into<String>, label: impl Into<String>) -> Self {
-        Self { place, message: message.into(), label: label.into(), help: None }
+    /// A refusal of the text at `span`; `message` names the key and the fault, `label` is shown at the excerpt.
+    pub(super) fn new(span: Span, message: impl Into<String>, label: impl Into<String>) -> Self {
+        Self { span, message: message.into(), label: label.into(), help: None }
     }
 
-    /// What to do about it.
+    /// Adds advice.
     pub(super) fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// What to do about it, unless something better is said already.
+    /// Adds advice where there is none.
     pub(super) fn or_help(mut self, help: impl Into<String>) -> Self {
         self.help.get_or_insert_with(|| help.into());
         self
     }
 }
 
-/// Why a case was refused: one fault, with the place in the case file or in the `--set` where it stands.
+/// Why a case was refused: one fault, with its place in the case file or in a `--set`.
 ///
 /// `Display` gives plain text; [`CaseError::render`] also in colour.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,11 +52,11 @@ struct Excerpt {
 }
 
 impl CaseError {
-    /// The refusal with the text it points into, the file's or that of a `--set`. A span over several lines is cut to its
-    /// first one. In all of it nothing is hidden.
+    /// The error of a refusal, with an excerpt of the file or `--set`. A span over several lines is cut to its first one; control
+    /// characters are escaped.
     pub(super) fn new(file: &Source, overrides: &[String], refusal: Refusal) -> Self {
-        let Refusal { place, message, label, help } = refusal;
-        let Place { source, start, end } = place;
+        let Refusal { span, message, label, help } = refusal;
+        let Span { source, start, end } = span;
         let (name, text) = match source {
             0 => (&file.name[..], &file.text),
             number => ("--set", &overrides[number - 1]),
@@ -66,15 +65,15 @@ impl CaseError {
         let start = boundary(start);
         let line = text[start..].find(['\r', '\n']).map_or(text.len(), |length| start + length);
         let end = boundary(end).clamp(start, line);
-        // Escapes are longer than what they stand for.
-        let span = [start, end].map(|at| plain::lines(&text[..at]).len());
+        // Escapes lengthen the text.
+        let shown = [start, end].map(|at| plain::lines(&text[..at]).len());
         let [message, label] = [message, label].map(|text| plain::line(&text).into_owned());
         let help = help.map(|help| plain::lines(&help).into_owned());
         Self(Box::new(Excerpt {
             name: plain::line(name).into_owned(),
             text: plain::lines(text).into_owned(),
-            span: span[0]..span[1],
-            refusal: Refusal { place, message, label, help },
+            span: shown[0]..shown[1],
+            refusal: Refusal { span, message, label, help },
         }))
     }
 
@@ -103,11 +102,11 @@ impl CaseError {
         let source = ariadne::Source::from(text.as_str());
         match report.finish().write((name.as_str(), source), &mut rendered) {
             Ok(()) => {
-                // As every other error of the command line is spelt; a kind of one's own is coloured always.
+                // In lower case, as all errors of the command line; a custom kind of report would always be coloured.
                 let lines = String::from_utf8_lossy(&rendered).replacen("Error:", "error:", 1);
                 lines.lines().map(str::trim_end).collect::<Vec<_>>().join("\n").trim_end().to_owned()
             }
-            // Writing into memory does not fail; the message alone would still be right.
+            // Writing into memory does not fail.
             Err(_) => refusal.message.clone(),
         }
     }

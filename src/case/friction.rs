@@ -1,4 +1,4 @@
-//! `[friction]`: the indenters slide.
+//! `[friction]`: sliding of the indenters.
 
 use super::error::Refusal;
 use super::feasibility::magnitude;
@@ -13,14 +13,14 @@ section! {
     /// The section `[friction]`.
     #[derive(Copy)]
     pub struct FrictionSection = FRICTION, rules a_direction {
-        /// μ: the body feels the traction μp
+        /// coefficient of friction μ: the traction on the body is μp
         pub coefficient: f64 = Key::new(&[Form::Number(Range::between(0.0, 100.0))], "0.3"),
         /// direction in which the indenters slide, of any length
         pub direction: [f64; 2] =
-            Key::new(&[Form::Tuple("a direction [x, y]", &[Form::Number(Range::Place); 2])], "[1.0, 1.0]")
+            Key::new(&[Form::Tuple("a direction [x, y]", &[Form::Number(Range::Coordinate); 2])], "[1.0, 1.0]")
                 .default("[1, 0]")
                 .rule("not [0, 0]"),
-        /// whether the pressure follows what the traction displaces
+        /// whether the displacement by the traction acts back on the pressure
         pub coupling: bool = Key::new(&[Form::Boolean], "false").default("true"),
     }
 }
@@ -35,7 +35,7 @@ impl FrictionSection {
         Ok(if self.coupling { friction } else { friction.uncoupled() })
     }
 
-    /// The problem with this friction, or why it cannot be.
+    /// The problem with this friction; a refusal where the method or the body does not allow it.
     pub(super) fn slide(
         &self,
         section: &TableAt<'_>,
@@ -47,14 +47,14 @@ impl FrictionSection {
         if let Some(method) = method.filter(|_| settings.method == Method::PolonskyKeer && self.is_coupled()) {
             let message =
                 "`solver.method` = \"polonsky-keer\" needs a symmetric operator, which coupled friction is not";
-            return Err(Refusal::new(method.node.place, message, "no method for this case")
+            return Err(Refusal::new(method.node.span, message, "no method for this case")
                 .help("leave the key out, or set friction.coupling = false"));
         }
         let refuse = |error: FrictionError| {
             let layer = if let FrictionError::Unheld(layer) = error { layers.get(layer - 1) } else { None };
             let interface = layer.and_then(|layer| layer.optional("interface"));
-            let place = interface.map_or(section.place, |interface| interface.node.place);
-            Refusal::new(place, format!("`friction`: {error}"), "slides without anything to hold it")
+            let span = interface.map_or(section.span, |interface| interface.node.span);
+            Refusal::new(span, format!("`friction`: {error}"), "slides without anything to hold it")
         };
         self.friction().and_then(|friction| problem.sliding(friction)).map_err(refuse)
     }

@@ -1,8 +1,8 @@
-//! `graded`: a layer whose moduli change with depth, laid out as sublayers that each are homogeneous and bonded.
+//! `graded`: a layer whose moduli change with depth, divided into homogeneous bonded sublayers.
 //!
 //! Of n sublayers of one thickness the k-th has the moduli of its middle, at the part t = (k − ½)/n of the layer's depth:
-//! E = E₀ + (E₁ − E₀) t, or E₀ (E₁/E₀)ᵗ; ν = ν₀ + (ν₁ − ν₀) t. What the layer does at a wavenumber q is a matter of its
-//! moduli's means over depth, of which the rule of the middles errs at second order in 1/n while qh < n.
+//! E = E₀ + (E₁ − E₀) t, or E₀ (E₁/E₀)ᵗ; ν = ν₀ + (ν₁ − ν₀) t. The response at a wavenumber q depends on means of the moduli over
+//! depth; the error of the midpoint rule is of second order in 1/n while qh < n.
 
 use super::error::Refusal;
 use super::keys::{Form, Key, Range, Unit};
@@ -20,15 +20,15 @@ const ENDS: &str = "two numbers, at the upper and the lower face, [upper, lower]
 words! {
     /// How a stiffness changes with depth.
     pub enum Law {
-        /// By equal amounts.
+        /// E₀ + (E₁ − E₀) t.
         Linear = "linear",
-        /// By equal factors.
+        /// E₀ (E₁/E₀)ᵗ.
         Exponential = "exponential",
     }
 }
 
 section! {
-    /// How a layer is graded.
+    /// The table `graded` of a layer.
     #[derive(Copy)]
     pub struct Grading = GRADING, rules one_stiffness {
         /// χ at the upper and the lower face
@@ -39,7 +39,7 @@ section! {
             .instead_of("shear_ratio"),
         /// Poisson's ratio at the upper and the lower face, linear between them
         pub poisson: [f64; 2] = Key::new(&[Form::Tuple(ENDS, &[POISSON; 2])], "[0.2, 0.3]"),
-        /// how the stiffness goes from one to the other
+        /// interpolation of the stiffness between the faces
         pub law: Law = Key::new(&[Form::Word(Law::WORDS)], "\"exponential\"").default("\"linear\""),
         /// number of sublayers, each a material of its own in the outputs
         pub sublayers: usize = Key::new(&[Form::Integer(1, LAYERS)], "40").default("20"),
@@ -51,7 +51,7 @@ fn one_stiffness(_: &Grading, section: &TableAt<'_>) -> Result<(), Refusal> {
 }
 
 impl Grading {
-    /// The same one, of so many sublayers.
+    /// This grading with another number of sublayers.
     pub(super) fn of(self, sublayers: usize) -> Self {
         Self { sublayers, ..self }
     }

@@ -1,4 +1,4 @@
-//! `[grid]`: how finely the cell is sampled.
+//! `[grid]`: the samples of the cell.
 
 use std::ops::Bound;
 
@@ -14,13 +14,13 @@ use crate::run::Sampling;
 const POINTS: Form = Form::Integer(4, 32_768);
 
 section! {
-    /// The section `[grid]`, which [`Sampling`] writes.
+    /// The section `[grid]`, serialised by [`Sampling`].
     pub struct GridSection = GRID {
         /// samples along each cell vector, a product of the factors 2, 3, 5 and 7
         pub points: Points = Key::new(&[POINTS, Form::Tuple("[n1, n2]", &[POINTS; 2])], "[512, 256]")
             .default("512")
             .rule("beside a surface's file its own when not given, which may have any factors"),
-        /// refine until results change by less, relatively
+        /// refine until results change by less than this, relatively
         pub accuracy: Option<f64> = Key::new(
             &[Form::Number(Range::Within(Bound::Excluded(0.0), Bound::Included(0.1)))],
             "1e-3",
@@ -35,7 +35,7 @@ section! {
 pub struct Points([usize; 2]);
 
 impl KeyValue for Points {
-    /// An integer for both directions, or one for each.
+    /// Reads an integer for both directions, or one for each.
     fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
         match &value.node.value {
             Value::Integer(_) => transformable(value).map(|n| Self([n; 2])),
@@ -53,10 +53,10 @@ impl KeyValue for Sampling {
     }
 }
 
-/// The sampling of a case; a surface from a `file` brings its own points, which may have any factors.
+/// The sampling of a case; `file`: the points of a surface from a file, which may have any factors.
 pub(super) fn read(section: &TableAt<'_>, file: Option<[usize; 2]>) -> Result<Sampling, Refusal> {
     if let (Some(_), Some(accuracy)) = (section.optional("points"), section.optional("accuracy")) {
-        return Err(section.both(["points", "accuracy"], accuracy.node.place));
+        return Err(section.both(["points", "accuracy"], accuracy.node.span));
     }
     let points = section.optional("points");
     if let Some(file) = file.filter(|file| points.as_ref().is_none_or(|points| is(points, *file)))
@@ -68,7 +68,7 @@ pub(super) fn read(section: &TableAt<'_>, file: Option<[usize; 2]>) -> Result<Sa
     Ok(accuracy.map_or(Sampling::Points(points), Sampling::Accuracy))
 }
 
-/// Whether these points are given.
+/// Whether a value is equal to `points`.
 fn is(value: &ValueAt<'_>, points: [usize; 2]) -> bool {
     let is = |value: &Value, n: usize| matches!(value, Value::Integer(m) if usize::try_from(*m) == Ok(n));
     match &value.node.value {
@@ -83,7 +83,7 @@ fn transformable(value: &ValueAt<'_>) -> Result<usize, Refusal> {
     if has_fast_factors(points) {
         return Ok(points);
     }
-    // What the table admits begins and ends with such numbers.
+    // The bounds of the key are such numbers.
     let below = (1..points).rev().find(|n| has_fast_factors(*n)).unwrap_or(points);
     let above = (points..).find(|n| has_fast_factors(*n)).unwrap_or(points);
     Err(value

@@ -4,14 +4,14 @@ use super::Source;
 use super::error::{CaseError, Refusal};
 use super::layers;
 use super::model::CASE;
-use super::place::Place;
 use super::reader::TableAt;
+use super::span::Span;
 use crate::body::HalfSpace;
 
-/// Reads the sections `[[layers]]` and `[substrate]`, as they stand in a case.
+/// Reads the sections `[[layers]]` and `[substrate]` in the form of a case.
 ///
 /// # Errors
-/// [`CaseError`] as of a case; any other section is refused.
+/// [`CaseError`] as for a case, and for any other section.
 pub fn half_space(source: &Source) -> Result<HalfSpace, CaseError> {
     read(source).map_err(|refusal| match source.as_text() {
         Some(text) => CaseError::new(&text, &[], read(&text).err().unwrap_or(refusal)),
@@ -22,11 +22,11 @@ pub fn half_space(source: &Source) -> Result<HalfSpace, CaseError> {
 fn read(source: &Source) -> Result<HalfSpace, Refusal> {
     let root = source.tree()?;
     let end = source.text.trim_end().len();
-    let root = TableAt::root(&root, &CASE, Place::new(0, end..end));
+    let root = TableAt::root(&root, &CASE, Span::new(0, end..end));
     root.only()?;
     if let Some(entry) = root.table.entries.iter().find(|entry| !["layers", "substrate"].contains(&&entry.key[..])) {
         let message = format!("`{}` has no place in a half-space", entry.key);
-        return Err(Refusal::new(entry.key_place, message, "not used here").help("allowed here: layers, substrate"));
+        return Err(Refusal::new(entry.key_span, message, "not used here").help("allowed here: layers, substrate"));
     }
     layers::read(&root).map(|body| body.half_space)
 }

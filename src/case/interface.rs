@@ -1,4 +1,4 @@
-//! `interface` and `interface_strength` of a layer: how its lower face holds, and what it bears.
+//! `interface` and `interface_strength` of a layer: kind and strengths of the interface below it.
 
 use serde::Serialize;
 
@@ -13,7 +13,7 @@ use crate::body::{Interface, InterfaceStrength};
 const SIZE: Form = Form::Number(Range::Size);
 
 words! {
-    /// An interface that a word names.
+    /// A word that names an interface.
     pub enum InterfaceWord {
         /// No relative displacement.
         Bonded = "bonded",
@@ -43,14 +43,14 @@ section! {
     /// Strengths of an interface; one that is absent is never reached.
     #[derive(Copy)]
     pub struct InterfaceStrengthSection = INTERFACE_STRENGTH {
-        /// what it bears under tension alone
+        /// normal strength: the tension at failure without shear
         pub normal: Option<f64> = Key::new(&[SIZE], "0.5").unit(Unit::Pressure).otherwise("never reached"),
-        /// what it bears under shear alone
+        /// shear strength: the shear stress at failure without tension
         pub shear: Option<f64> = Key::new(&[SIZE], "0.8").unit(Unit::Pressure).otherwise("never reached"),
     }
 }
 
-/// How the lower face of a layer holds to what lies below: a word or a table.
+/// The interface below a layer: a word or a table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum InterfaceSection {
@@ -63,7 +63,6 @@ pub enum InterfaceSection {
 impl InterfaceSection {
     pub(super) const WORDS: &'static [&'static str] = InterfaceWord::WORDS;
 
-    /// The interface of the core.
     pub(super) fn interface(self) -> Interface {
         match self {
             Self::Word(InterfaceWord::Bonded) => Interface::Bonded,
@@ -100,7 +99,7 @@ const NO_SHEAR: &str = "for no tangential stiffness write interface = \"friction
 const NO_PRESSURE: &str =
     "without normal stiffness an interface carries no pressure; leave the key out where the faces do not approach";
 
-/// What to write instead of the first stiffness that is 0 or infinite.
+/// Advice for the first stiffness that is 0 or infinite.
 fn stiffness_advice(section: &TableAt<'_>) -> Option<&'static str> {
     [("tangential_stiffness", NO_SHEAR), ("normal_stiffness", NO_PRESSURE)].into_iter().find_map(|(key, without)| {
         match section.optional(key)?.node.value {
@@ -114,7 +113,6 @@ fn stiffness_advice(section: &TableAt<'_>) -> Option<&'static str> {
 }
 
 impl InterfaceStrengthSection {
-    /// The strength of the core.
     pub(super) fn strength(&self) -> InterfaceStrength {
         InterfaceStrength { normal: self.normal, shear: self.shear }
     }

@@ -1,4 +1,4 @@
-//! `[lattice]`: the cell, and where the indenters of each level stand in it.
+//! `[lattice]`: the cell, and the sites of each level.
 
 use super::error::Refusal;
 use super::keys::{Form, Key, Range, Unit};
@@ -7,8 +7,8 @@ use super::reader::TableAt;
 use super::section::{Words, demanded, section, words};
 use crate::lattice::{Cell, Lattice, LatticeError};
 
-const PLACE: Form = Form::Number(Range::Place);
-const VECTOR: Form = Form::Tuple("a vector [x, y]", &[PLACE; 2]);
+const COORDINATE: Form = Form::Number(Range::Coordinate);
+const VECTOR: Form = Form::Tuple("a vector [x, y]", &[COORDINATE; 2]);
 
 words! {
     /// Kinds of lattices.
@@ -30,7 +30,7 @@ section! {
         ("a2", "the cell of a hexagonal or square lattice follows from `period`"),
         ("period", "the cell of an oblique lattice is given by `a1` and `a2`"),
     ] {
-        /// which lattice: of triangles, of squares, or any cell
+        /// lattice of equilateral triangles, of squares, or any cell
         pub kind: LatticeKind = Key::new(&[Form::Word(LatticeKind::WORDS)], "\"hexagonal\""),
         /// the distance of neighbouring indenters whatever their level
         pub period: Option<f64> = Key::new(&[Form::Number(Range::Size)], "1.0")
@@ -66,7 +66,7 @@ impl LatticeSection {
         }
     }
 
-    /// The cell whose side is the period, or the one given.
+    /// The cell of side `period`, or of the vectors `a1` and `a2`.
     pub(super) fn cell(&self) -> Result<Cell, LatticeError> {
         match self.kind {
             LatticeKind::Hexagonal => Cell::hexagonal(demanded(self.period)),
@@ -75,7 +75,7 @@ impl LatticeSection {
         }
     }
 
-    /// The lattice of the levels: their own sites, or the standard ones.
+    /// The lattice of the levels, with their own sites or the standard ones.
     pub(super) fn build(&self, levels: &[LevelSection]) -> Result<Lattice, LatticeError> {
         let sites: Option<Vec<_>> = levels.iter().map(|level| level.sites.clone()).collect();
         match (sites, self.kind) {
@@ -89,7 +89,7 @@ impl LatticeSection {
     }
 }
 
-/// The lattice of the case, or what is wrong with it at the line where it stands.
+/// The lattice of the case, or a refusal at the line of the fault.
 pub(super) fn build(
     lattice: &LatticeSection,
     section: &TableAt<'_>,
@@ -100,7 +100,7 @@ pub(super) fn build(
     let absent = levels.iter().position(|level| level.sites.is_none());
     if let (Some(given), Some(absent)) = (given, absent) {
         let message = format!("`levels[{absent}].sites` is missing, while `levels[{given}]` has its sites");
-        return Err(Refusal::new(level_sections[absent].place, message, "no `sites` in this level")
+        return Err(Refusal::new(level_sections[absent].span, message, "no `sites` in this level")
             .help("give every level its sites, or none"));
     }
     let mut count = 0;
@@ -109,36 +109,36 @@ pub(super) fn build(
         if count > MOST_INDENTERS {
             let message =
                 format!("the cell must hold at most {MOST_INDENTERS} indenters: with `levels` up to here {count}");
-            return Err(Refusal::new(section.place, message, "too many sites"));
+            return Err(Refusal::new(section.span, message, "too many sites"));
         }
     }
     build_cell(lattice, section)?;
     lattice.build(levels).map_err(|error| match error {
         LatticeError::NoStandardSites { .. } if lattice.kind == LatticeKind::Oblique => {
-            Refusal::new(level_sections[0].place, "`levels[0].sites` is missing", "no `sites` in this level")
+            Refusal::new(level_sections[0].span, "`levels[0].sites` is missing", "no `sites` in this level")
                 .help("an oblique cell has no standard sites: give each level its own, in fractions of a1, a2: sites = [[0.0, 0.0]]")
         }
         LatticeError::NoStandardSites { lattice, levels, standard } => {
-            let place = level_sections.last().map_or(section.place, |section| section.place);
+            let span = level_sections.last().map_or(section.span, |section| section.span);
             let message = format!("`levels`: a {lattice} lattice has standard sites for {standard} levels, not {levels}");
-            Refusal::new(place, message, format!("received {levels} [[levels]]"))
+            Refusal::new(span, message, format!("received {levels} [[levels]]"))
                 .help("or give every level its own, in fractions of the cell's vectors: sites = [[0.0, 0.0]]")
         }
         LatticeError::NoSite(level) | LatticeError::SharedSite(_, level) => {
-            let place = level_sections[level - 1].optional("sites").map_or(section.place, |sites| sites.node.place);
+            let span = level_sections[level - 1].optional("sites").map_or(section.span, |sites| sites.node.span);
             let fault = match error {
                 LatticeError::SharedSite(other, _) if other == level => "two of them are the same place".to_owned(),
                 LatticeError::SharedSite(other, _) => format!("`levels[{}]` has one at the same place", other - 1),
                 other => other.to_string(),
             };
-            Refusal::new(place, format!("`levels[{}].sites`: {fault}", level - 1), "these sites")
+            Refusal::new(span, format!("`levels[{}].sites`: {fault}", level - 1), "these sites")
                 .help("the cell is periodic: fractions that differ by integers are one place")
         }
         LatticeError::FlatCell(..) | LatticeError::NoPoints(..) | LatticeError::Site(_) => flat(section, &error),
     })
 }
 
-/// The cell, whose reduced basis is no more than a few thousand of its own vectors away, or what is wrong with it.
+/// The cell, or a refusal of vectors that are nearly parallel or of a size beyond double precision.
 pub(super) fn build_cell(lattice: &LatticeSection, section: &TableAt<'_>) -> Result<Cell, Refusal> {
     let cell = lattice.cell().map_err(|error| flat(section, &error))?;
     let [[x1, y1], [x2, y2]] = cell.vectors();
@@ -150,9 +150,9 @@ pub(super) fn build_cell(lattice: &LatticeSection, section: &TableAt<'_>) -> Res
 
 fn flat(section: &TableAt<'_>, error: &LatticeError) -> Refusal {
     match section.optional("a2") {
-        Some(a2) => Refusal::new(a2.node.place, format!("`{}`: {error}", a2.path), "no cell")
+        Some(a2) => Refusal::new(a2.node.span, format!("`{}`: {error}", a2.path), "no cell")
             .help("give two vectors that are not parallel"),
-        None => Refusal::new(section.place, format!("`{}`: {error}", section.path("period")), "no cell")
+        None => Refusal::new(section.span, format!("`{}`: {error}", section.path("period")), "no cell")
             .help("choose a unit in which the period is not as small or large"),
     }
 }

@@ -15,7 +15,7 @@ const LETTERS: usize = 40;
 const SIZE: Form = Form::Number(Range::Size);
 const POISSON: Form = Form::Number(Range::between(0.0, 0.5));
 
-// What layers and the substrate have alike.
+// Keys of layers and of the substrate.
 const NAME: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its number");
 const YIELD: Key = Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("never reached");
 const TENSILE: Key = Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("never reached");
@@ -23,7 +23,7 @@ const TENSILE: Key = Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("ne
 section! {
     /// One section of `[[layers]]`, from the surface down.
     pub struct LayerSection = LAYER, rules consistent {
-        /// name of the material, which stands in place of its number in tables and pictures
+        /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
         /// the thickness of the layer
         pub thickness: f64 = Key::new(&[SIZE], "0.5").unit(Unit::Length),
@@ -33,25 +33,25 @@ section! {
         pub young: Option<f64> = Key::new(&[SIZE], "300.0").unit(Unit::Pressure).instead_of("shear_ratio"),
         /// Poisson's ratio
         pub poisson: Option<f64> = Key::new(&[POISSON], "0.25"),
-        /// moduli, `poisson` among them, that change with depth, the layer laid out as bonded sublayers
+        /// moduli that change with depth, `poisson` included; the layer is divided into bonded sublayers
         pub graded: Option<Grading> =
             Key::new(&[Form::Table(&GRADING)], "{ young = [4.0, 1.0], poisson = [0.2, 0.3] }")
                 .instead_of("young")
                 .and_of(&["shear_ratio", "poisson"]),
-        /// how the lower face holds to what lies below; a table is a spring
+        /// the interface below the layer; a table is a spring
         pub interface: InterfaceSection =
             Key::new(&[Form::Word(InterfaceSection::WORDS), Form::Table(&SPRING)], "{ tangential_stiffness = 10.0 }")
                 .default("\"bonded\""),
         /// equi-biaxial residual stress, positive in tension
-        pub residual_stress: f64 = Key::new(&[Form::Number(Range::Place)], "-2.0")
+        pub residual_stress: f64 = Key::new(&[Form::Number(Range::Coordinate)], "-2.0")
             .unit(Unit::Pressure)
             .default("0")
             .omitted_as_nothing(),
-        /// what the stress of von Mises must not reach
+        /// yield strength, compared with the von Mises stress
         pub yield_strength: Option<f64> = YIELD,
-        /// what the largest principal stress must not reach
+        /// tensile strength, compared with the largest principal stress
         pub tensile_strength: Option<f64> = TENSILE,
-        /// what the lower face bears
+        /// strengths of the interface below the layer
         pub interface_strength: Option<InterfaceStrengthSection> =
             Key::new(&[Form::Table(&INTERFACE_STRENGTH)], "{ normal = 0.5, shear = 0.8 }")
                 .otherwise("never reached")
@@ -64,20 +64,20 @@ section! {
     pub struct SubstrateSection = SUBSTRATE, misplaced [
         ("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")
     ] {
-        /// name of the material, which stands in place of its number in tables and pictures
+        /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
         /// Young's modulus
         pub young: f64 = Key::new(&[SIZE], "210.0").unit(Unit::Pressure),
         /// Poisson's ratio
         pub poisson: f64 = Key::new(&[POISSON], "0.3"),
-        /// what the stress of von Mises must not reach
+        /// yield strength, compared with the von Mises stress
         pub yield_strength: Option<f64> = YIELD,
-        /// what the largest principal stress must not reach
+        /// tensile strength, compared with the largest principal stress
         pub tensile_strength: Option<f64> = TENSILE,
     }
 }
 
-/// A strength of the lower face that is one, and either a modulus and Poisson's ratio or `graded`, which stands for both.
+/// Refuses interface strengths without a number, and a layer without either a modulus and Poisson's ratio or `graded`.
 fn consistent(layer: &LayerSection, section: &TableAt<'_>) -> Result<(), Refusal> {
     if layer.interface_strength == Some(InterfaceStrengthSection { normal: None, shear: None }) {
         let refusal = section.value("interface_strength")?.refuse_form();
@@ -86,19 +86,18 @@ fn consistent(layer: &LayerSection, section: &TableAt<'_>) -> Result<(), Refusal
     if layer.graded.is_some() {
         let uniform = ["shear_ratio", "young", "poisson"];
         let other = uniform.into_iter().find_map(|key| Some((key, section.optional(key)?)));
-        return other.map_or(Ok(()), |(key, value)| Err(section.both(["graded", key], value.node.place)));
+        return other.map_or(Ok(()), |(key, value)| Err(section.both(["graded", key], value.node.span)));
     }
     section.one_of(["shear_ratio", "young"])?;
     section.value("poisson").map(drop)
 }
 
 impl LayerSection {
-    /// Number of homogeneous layers that it is laid out as.
+    /// Number of its homogeneous sublayers; 1 without `graded`.
     pub fn sublayers(&self) -> usize {
         self.graded.map_or(1, |graded| graded.sublayers)
     }
 
-    /// The key of its stiffness.
     fn stiffness_key(&self) -> &'static str {
         match (&self.graded, self.young) {
             (Some(_), _) => "graded",
@@ -169,7 +168,7 @@ pub(super) fn read<'a>(root: &TableAt<'a>) -> Result<Body<'a>, Refusal> {
     Ok(Body { layers, substrate, half_space, sections })
 }
 
-/// The half-space of the case, or what is wrong with it at the line where it stands.
+/// The half-space of the case, or a refusal at the line of the fault.
 fn build(
     layers: &[LayerSection],
     layer_sections: &[TableAt<'_>],
@@ -177,8 +176,8 @@ fn build(
     substrate_section: &TableAt<'_>,
 ) -> Result<HalfSpace, Refusal> {
     let refuse = |section: &TableAt<'_>, key: &str, error: MaterialError| {
-        let place = section.optional(key).map_or(section.place, |value| value.node.place);
-        Refusal::new(place, format!("`{}`: {error}", section.path(key)), "this material")
+        let span = section.optional(key).map_or(section.span, |value| value.node.span);
+        Refusal::new(span, format!("`{}`: {error}", section.path(key)), "this material")
     };
     let base = Material::from_young(substrate.young, substrate.poisson)
         .map_err(|error| refuse(substrate_section, "young", error))?;
@@ -199,21 +198,21 @@ fn build(
         .map_err(|error| refuse(substrate_section, "yield_strength", error))
 }
 
-/// Refuses more layers and sublayers than a case can have, at the layer with which they are too many.
+/// Refuses more than [`LAYERS`] layers and sublayers, at the layer that exceeds them.
 fn count(layers: &[LayerSection], sections: &[TableAt<'_>]) -> Result<(), Refusal> {
     let mut count = 0;
     for (layer, section) in layers.iter().zip(sections) {
         count += layer.sublayers();
         if count > LAYERS {
-            let place = section.optional("graded").map_or(section.place, |value| value.node.place);
+            let span = section.optional("graded").map_or(section.span, |value| value.node.span);
             let message = format!("`layers` must be at most {LAYERS} layers and sublayers, not {count} up to here");
-            return Err(Refusal::new(place, message, "too many").help("give fewer `sublayers`"));
+            return Err(Refusal::new(span, message, "too many").help("give fewer `sublayers`"));
         }
     }
     Ok(())
 }
 
-/// The half-space with twice the sublayers in graded layers.
+/// The half-space with twice the sublayers in graded layers; `None` without graded layers.
 pub(super) fn refined(layers: &[LayerSection], substrate: &SubstrateSection) -> Option<HalfSpace> {
     let base = Material::from_young(substrate.young, substrate.poisson).ok()?;
     let layers = layers.iter().map(|layer| layer.refined().build(None, base).ok()).collect::<Option<Vec<_>>>()?;

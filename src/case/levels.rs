@@ -7,7 +7,7 @@ use super::section::{Words, demanded, section, words};
 use crate::counterbody::{Level, Shape};
 
 const SIZE: Form = Form::Number(Range::Size);
-const PLACE: Form = Form::Number(Range::Place);
+const COORDINATE: Form = Form::Number(Range::Coordinate);
 
 words! {
     /// Kinds of shapes.
@@ -42,10 +42,10 @@ section! {
         /// n of the profile c rⁿ
         pub exponent: Option<f64> = Key::new(&[SIZE], "3.0").of(&["power"]),
         /// protrusion of the apices, of which only differences matter
-        pub height: f64 = Key::new(&[PLACE], "0.02").unit(Unit::Length).default("0"),
-        /// where its indenters stand, in fractions of a₁ and a₂
+        pub height: f64 = Key::new(&[COORDINATE], "0.02").unit(Unit::Length).default("0"),
+        /// places of its indenters, in fractions of a₁ and a₂
         pub sites: Option<Vec<[f64; 2]>> = Key::new(
-            &[Form::List { of: &Form::Tuple("a site [s1, s2]", &[PLACE; 2]), count: [1, 10_000] }],
+            &[Form::List { of: &Form::Tuple("a site [s1, s2]", &[COORDINATE; 2]), count: [1, 10_000] }],
             "[[0.0, 0.0], [0.5, 0.5]]",
         )
         .otherwise("the lattice's standard ones")
@@ -65,9 +65,8 @@ impl LevelSection {
         }
     }
 
-    /// The level of the core.
     pub(super) fn build(&self, section: &TableAt<'_>) -> Result<Level, Refusal> {
         Level::new(self.shape(), self.height)
-            .map_err(|error| Refusal::new(section.place, format!("`{}`: {error}", section.path("shape")), "this level"))
+            .map_err(|error| Refusal::new(section.span, format!("`{}`: {error}", section.path("shape")), "this level"))
     }
 }

@@ -17,7 +17,7 @@ const SIZE_OR_ZERO: Form = Form::Number(Range::SizeOrZero);
 const LOADS: Form = Form::List { of: &SIZE_OR_ZERO, count: [1, STEPS] };
 
 section! {
-    /// The section `[load]`: one of both, one value a load step.
+    /// The section `[load]`: one of the two keys, one value a load step.
     pub struct LoadSection = LOAD, rules one {
         /// the nominal pressure p̄
         pub mean_pressure: Option<Steps> =
@@ -48,7 +48,7 @@ section! {
 }
 
 words! {
-    /// How the values of a range follow each other.
+    /// Spacing of the values of a range.
     pub enum Spacing {
         /// By equal amounts.
         Linear = "linear",
@@ -68,7 +68,7 @@ impl Serialize for Steps {
 }
 
 impl KeyValue for Steps {
-    /// A number, a list, or a range.
+    /// Reads a number, a list, or a range.
     fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
         match &value.node.value {
             Value::List(_) => Vec::read(value),
@@ -107,18 +107,18 @@ impl LoadSection {
         self.prescribed().2
     }
 
-    /// Name of what is prescribed, as in the case file.
+    /// Name of the prescribed quantity, as in the case file.
     pub fn quantity(&self) -> &'static str {
         self.prescribed().0
     }
 
-    /// What each load step prescribes.
+    /// The prescribed load of each step.
     pub fn loads(&self) -> Vec<Load> {
         let (_, load, values) = self.prescribed();
         values.iter().map(|&value| load(value)).collect()
     }
 
-    /// The nominal pressures p̄, if they are prescribed.
+    /// The nominal pressures p̄; `None` where penetrations are prescribed.
     pub fn mean_pressures(&self) -> Option<&[f64]> {
         self.mean_pressure.as_ref().map(|Steps(values)| &values[..])
     }
@@ -145,7 +145,7 @@ mod tests {
 
     fn read(value: &str) -> Result<LoadSection, Refusal> {
         let table = Table::parse(&format!("mean_pressure = {value}")).unwrap();
-        LoadSection::read_table(&TableAt::root(&table, &LOAD, Node::parse("0", 0, 0).unwrap().place))
+        LoadSection::read_table(&TableAt::root(&table, &LOAD, Node::parse("0", 0, 0).unwrap().span))
     }
 
     #[test]

@@ -15,16 +15,16 @@ words! {
 section! {
     /// The section `[localized]`.
     pub struct LocalizedSection = LOCALIZED {
-        /// how many indenters stand inside the circle, one number a circle
+        /// number of indenters inside the circle, one number a circle
         pub indenters: Vec<usize> =
             Key::new(&[Form::List { of: &Form::Integer(1, 10_000), count: [1, 100] }], "[7, 37]")
                 .default("[7, 13, 37, 73]"),
         /// elements across the largest contact
         pub elements: usize = Key::new(&[Form::Integer(4, 1000)], "64").default("48"),
-        /// radius of the circle; with "lattice-sum" all indenters stand outside it, in place of the uniform pressure
+        /// radius of the circle; with "lattice-sum" the indenters outside act in place of the uniform pressure
         pub radius: CircleRadius =
             Key::new(&[Form::Word(CircleRadius::WORDS)], "\"area-balanced\"").default("\"load-balanced\""),
-        /// whether the indenters around the one looked at act on it
+        /// whether neighbouring indenters act on each other
         pub mutual_effect: bool = Key::new(&[Form::Boolean], "false").default("true"),
     }
 }

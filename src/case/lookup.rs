@@ -1,4 +1,4 @@
-//! Which case is meant by a path or a name.
+//! The case of a path or a name.
 
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -7,27 +7,27 @@ use super::named_pipes::is_pipe;
 use super::{Source, embedded};
 use crate::plain;
 
-/// Why there is no case where one is looked for.
+/// Why no case is found.
 #[derive(Debug, thiserror::Error)]
 pub enum NoCase {
-    /// It is neither a file nor an embedded case.
+    /// The path is neither a file nor an embedded case.
     #[error("{} is neither a file nor an embedded case ({})", plain::path(.0), names().join(", "))]
     Unknown(PathBuf),
-    /// The file can be read, but is no text of a case.
+    /// The file is not the text of a case.
     #[error("{0}")]
     NoText(io::Error),
     /// The file cannot be read.
     #[error("cannot read {}: {error}", plain::path(path))]
     Unreadable {
-        /// Which.
+        /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         error: io::Error,
     },
 }
 
 impl NoCase {
-    /// What reading `path` has come to.
+    /// The error of reading `path`.
     pub fn at(path: &Path, error: io::Error) -> Self {
         match error.kind() {
             ErrorKind::InvalidData => Self::NoText(error),

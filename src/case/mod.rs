@@ -1,12 +1,12 @@
-//! The case file: what a person writes, checked once, with every default resolved.
+//! The case file: the input of percoat, checked once, with every default resolved.
 //!
-//! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and handed on as the core's types:
-//! its problem, and the run that solves it. What is wrong is refused with its line ([`CaseError`]).
+//! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and converted to the core's types: its problem,
+//! and the run that solves it. Faults are refused with their line ([`CaseError`]).
 //!
 //! One file a section: lattice, levels, surface, layers (with the substrate, `interface` and `grading`), load, grid, solver,
 //! friction, units, stress, localized; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
-//! says of keys what `percoat explain` and the schema show. A document is read as a tree (`node`), changed by `overrides`, and
-//! read strictly (`reader`, `value`). [`feasibility`] refuses or doubts what cannot be solved or is hardly meant.
+//! makes of them the texts of `percoat explain` and the schema. A document is parsed to a tree (`node`), changed by `overrides`,
+//! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
 //!
 //! ```
 //! use percoat::case::{Case, embedded};
@@ -36,11 +36,11 @@ mod model;
 mod named_pipes;
 mod node;
 mod overrides;
-mod place;
 mod reader;
 mod section;
 mod solver;
 mod source;
+mod span;
 mod stress;
 mod suggestions;
 mod surface;
@@ -69,7 +69,7 @@ pub use lookup::{NoCase, find};
 pub use model::Case;
 pub use named_pipes::Pipes;
 pub use source::Source;
-pub use stress::{Cut, Origin, StressSection, Toward};
+pub use stress::{CutSection, Origin, StressSection, Toward};
 pub use surface::{ORIENTATION, RandomSection, Sides, SurfaceSection, Taper};
 pub use units::UnitsSection;
 pub(crate) use writer::written;

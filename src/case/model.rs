@@ -13,10 +13,10 @@ use super::levels::LEVELS;
 use super::load::LOAD;
 use super::localized::LOCALIZED;
 use super::overrides;
-use super::place::Place;
 use super::reader::TableAt;
 use super::section::{KeyValue, section};
 use super::solver::SOLVER;
+use super::span::Span;
 use super::stress::STRESS;
 use super::surface::SURFACE;
 use super::units::UNITS;
@@ -35,16 +35,16 @@ use crate::units::Units;
 use std::sync::Arc;
 
 section! { whole
-    /// A valid case with every default resolved. It is read, never edited: overrides change it while it is read.
+    /// A valid case with every default resolved. Its values do not change after reading; overrides act while it is read.
     ///
     /// Serialised it has the keys of the case file; sections and keys that are absent are skipped.
     pub struct Case = CASE {
-        /// what the case is
+        /// title of the case
         pub title: String =
             Key::new(&[Form::Text("a text of one line")], "\"three levels in contact\"").default("\"\""),
-        /// the cell, and with it the places of the indenters
+        /// the cell and the places of the indenters
         pub lattice: LatticeSection = Key::new(&[Form::Table(&LATTICE)], "{ kind = \"hexagonal\", period = 1.0 }")
-            .otherwise("needed, unless `surface` says how large the cell is"),
+            .otherwise("required, unless `surface` gives the size of the cell"),
         /// indenters of one shape and height, one section `[[levels]]` a level
         pub levels: Vec<LevelSection> =
             Key::new(&[Form::Sections(&LEVELS, 200)], "[{ shape = \"paraboloid\", radius = 0.8, height = 0.0 }]")
@@ -58,22 +58,22 @@ section! { whole
                 .otherwise("uncoated")
                 .rule("sublayers of graded layers count among the 200")
                 .omitted_as_nothing(),
-        /// what the coating lies on
+        /// the material below the layers
         pub substrate: SubstrateSection = Key::new(&[Form::Table(&SUBSTRATE)], "{ young = 1.0, poisson = 0.3 }"),
-        /// what is prescribed, one value a load step
+        /// mean pressure or penetration, one value a load step
         pub load: LoadSection = Key::new(&[Form::Table(&LOAD)], "{ mean_pressure = 0.01 }"),
         /// samples of the cell
         pub grid: Sampling = Key::new(&[Form::Table(&GRID)], "{ points = 256 }").otherwise("its defaults"),
-        /// how the contact problem is solved, and how far
+        /// method, tolerance and iterations of the solver
         pub solver: Settings =
             Key::new(&[Form::Table(&SOLVER)], "{ method = \"polonsky-keer\" }").otherwise("its defaults"),
-        /// the indenters slide
+        /// sliding friction of the indenters
         pub friction: Option<FrictionSection> =
-            Key::new(&[Form::Table(&FRICTION)], "{ coefficient = 0.3 }").otherwise("they do not slide"),
+            Key::new(&[Form::Table(&FRICTION)], "{ coefficient = 0.3 }").otherwise("no friction"),
         /// names for axes, tables and captions; numbers are not converted
         pub units: Option<UnitsSection> =
             Key::new(&[Form::Table(&UNITS)], "{ length = \"µm\", pressure = \"GPa\" }").otherwise("no names"),
-        /// stresses that are wanted
+        /// stresses to be computed
         pub stress: Option<StressSection> =
             Key::new(&[Form::Table(&STRESS)], "{ planes = [0.0, 0.5], mean = \"half-space\" }").otherwise("no stresses"),
         /// circles of the localized method, for `compare`
@@ -81,20 +81,20 @@ section! { whole
             Key::new(&[Form::Table(&LOCALIZED)], "{ indenters = [7, 37] }").otherwise("its defaults"),
     }
     beside {
-        /// What its surface makes doubtful, a sentence each.
+        /// Warnings about its surface, a sentence each.
         surface_doubts: Vec<String>,
         problem: Arc<Problem>,
     }
 }
 
 impl Case {
-    /// Read a case and change it by `overrides`, each `KEY=VALUE`, in their order.
+    /// Reads a case and changes it by `overrides`, each `KEY=VALUE`, in their order.
     ///
     /// # Errors
     /// [`CaseError`] for the first fault found: TOML, unknown, missing or misspelt keys, types, ranges.
     pub fn read(source: &Source, overrides: &[String]) -> Result<Self, CaseError> {
         read(source, overrides).map_err(|refusal| match source.as_text() {
-            // Only a text has lines to show: that of values is made, and refused in turn, where they are.
+            // An excerpt needs a text: a case of values is written as text and refused again.
             Some(text) => CaseError::new(&text, overrides, read(&text, overrides).err().unwrap_or(refusal)),
             None => CaseError::new(source, overrides, refusal),
         })
@@ -105,7 +105,7 @@ impl Case {
         written(self).expect("keys are strings, integers come from TOML, absent values are skipped")
     }
 
-    /// What is pressed into what.
+    /// Counterbody and half-space.
     pub fn problem(&self) -> &Arc<Problem> {
         &self.problem
     }
@@ -120,18 +120,18 @@ impl Case {
         self.problem.half_space()
     }
 
-    /// What lengths and pressures are measured in, by name or as far as the problem shows it.
+    /// Units of lengths and pressures: their names, or quantities of the problem where they have none.
     pub fn units(&self) -> Units {
         let name = |of: fn(&UnitsSection) -> &Option<String>| self.units.as_ref().and_then(|own| of(own).as_deref());
         Units::of(&self.problem).named(name(|own| &own.length), name(|own| &own.pressure))
     }
 
-    /// What was found doubtful when its surface was read, a sentence each.
+    /// Warnings about its surface, a sentence each.
     pub(super) fn surface_doubts(&self) -> &[String] {
         &self.surface_doubts
     }
 
-    /// What `percoat compare` does: the last load by both methods.
+    /// The task of `percoat compare`: the last load by both methods.
     pub fn comparison(&self) -> ComparisonTask {
         let LocalizedSection { indenters, elements, radius, mutual_effect } = &self.localized;
         let loads = self.load.loads();
@@ -147,12 +147,12 @@ impl Case {
         }
     }
 
-    /// The mean lateral stress of largest stresses and limits: the default without a section `stress`.
+    /// The mean lateral stress in largest stresses and limits; the default without a section `stress`.
     pub fn mean_stress(&self) -> MeanStress {
         self.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean)
     }
 
-    /// What `percoat solve` does.
+    /// The run of `percoat solve`.
     pub fn run(&self) -> Run {
         Run {
             problem: Arc::clone(&self.problem),
@@ -170,13 +170,13 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         overrides::apply(text, number, &mut root, &CASE)?;
     }
     let end = source.text.trim_end().len();
-    let root = TableAt::root(&root, &CASE, Place::new(0, end..end));
+    let root = TableAt::root(&root, &CASE, Span::new(0, end..end));
     root.only()?;
     let title = title(&root)?;
     let CounterbodySections { levels, lattice, cell_section, grid_section, surface, counterbody } =
         counterbody::read(&root, source)?;
     let Body { layers, substrate, half_space, sections } = layers::read(&root)?;
-    // One a layer of the half-space: the section where it stands.
+    // The section of each layer of the half-space.
     let places = layers.iter().zip(&sections);
     let places = places.flat_map(|(layer, section)| std::iter::repeat_n(section, layer.sublayers()));
     let places: Vec<&TableAt<'_>> = places.collect();

@@ -1,4 +1,4 @@
-//! Files that can be read once alone: named pipes, and what a shell substitutes for a process.
+//! Files that can be read only once: named pipes and process substitutions of a shell.
 
 use crate::machine::available_memory;
 use std::collections::BTreeMap;
@@ -11,14 +11,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Debug, Clone, Default)]
 pub struct Pipes(Arc<Mutex<BTreeMap<PathBuf, Arc<[u8]>>>>);
 
-/// What was read so far makes no other source.
+/// The cache is not part of the comparison of sources.
 impl PartialEq for Pipes {
     fn eq(&self, _: &Self) -> bool {
         true
     }
 }
 
-/// Whether what stands at `path` is neither a file nor a folder.
+/// Whether `path` exists and is neither a file nor a folder.
 pub(super) fn is_pipe(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|own| !own.is_file() && !own.is_dir())
 }
@@ -30,7 +30,7 @@ impl Pipes {
         if let Some(bytes) = known.get(path) {
             return Ok(Arc::clone(bytes));
         }
-        // Its length is not known before; the numbers in it take as much again, and more.
+        // Its length is not known in advance, and its numbers take more memory than its text.
         let most = available_memory() / 8;
         let mut bytes = Vec::new();
         fs::File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;

@@ -1,29 +1,29 @@
-//! A case as a tree of values that know where they were written.
+//! A case as a tree of values with their places in the text.
 //!
-//! The tree is converted once from the TOML parser's, or made of values that stand in no text; afterwards overrides change it and
-//! the reader reads it.
+//! The tree is converted once from that of the TOML parser, or from values without a text; then overrides change it and the reader
+//! reads it.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::Refusal;
-use super::place::Place;
+use super::span::Span;
 use crate::plain;
 
-/// A value and where it was written.
+/// A value and its place.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Node {
     pub(super) value: Value,
-    pub(super) place: Place,
+    pub(super) span: Span,
 }
 
 /// A TOML value.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Value {
     Text(String),
-    /// An integer that fits; a larger one is kept as the nearest float, in hexadecimal, octal or binary as an infinite one.
+    /// A 64-bit integer; a larger one becomes the nearest float, in hexadecimal, octal or binary infinity.
     Integer(i64),
-    /// Also the not finite ones: refusing them is the reader's task.
+    /// Any float; the reader refuses those that are not finite.
     Float(f64),
     Boolean(bool),
     Date(String),
@@ -41,20 +41,19 @@ pub(super) struct Table {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Entry {
     pub(super) key: String,
-    pub(super) key_place: Place,
+    pub(super) key_span: Span,
     pub(super) node: Node,
 }
 
 impl Table {
-    /// The table of a whole document, source number 0.
+    /// Parses a whole document, source number 0.
     pub(super) fn parse(text: &str) -> Result<Self, Refusal> {
         match DeTable::parse(text) {
-            Ok(table) => Ok(Origin { source: 0, offset: 0 }.table(table.get_ref())),
-            Err(error) => Err(syntax(&error, Place::new(0, 0..0), text)),
+            Ok(table) => Ok(SourceOffset { source: 0, offset: 0 }.table(table.get_ref())),
+            Err(error) => Err(syntax(&error, Span::new(0, 0..0), text)),
         }
     }
 
-    /// The entry of a key.
     pub(super) fn get(&self, key: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.key == key)
     }
@@ -64,30 +63,30 @@ impl Table {
         self.entries.iter_mut().find(|entry| entry.key == key).map(|entry| &mut entry.node)
     }
 
-    /// Add an entry in place of the one with its key, if any.
+    /// Adds an entry, or replaces the one with its key.
     pub(super) fn insert(&mut self, entry: Entry) {
         self.remove(&entry.key);
         self.entries.push(entry);
     }
 
-    /// Remove the entry of a key, if any.
+    /// Removes the entry of a key, if any.
     pub(super) fn remove(&mut self, key: &str) {
         self.entries.retain(|entry| entry.key != key);
     }
 }
 
 impl Node {
-    /// The single value `text`, which stands at the byte `offset` of source number `source`.
+    /// Parses the single value `text` at the byte `offset` of source number `source`.
     pub(super) fn parse(text: &str, source: usize, offset: usize) -> Result<Self, Refusal> {
         match DeValue::parse(text) {
-            Ok(value) => Ok(Origin { source, offset }.node(&value)),
-            Err(error) => Err(syntax(&error, Place::new(source, offset..offset + text.len()), text)),
+            Ok(value) => Ok(SourceOffset { source, offset }.node(&value)),
+            Err(error) => Err(syntax(&error, Span::new(source, offset..offset + text.len()), text)),
         }
     }
 }
 
 impl Value {
-    /// What the value is, for "not …" in an error.
+    /// Description of the value for "not …" in an error.
     pub(super) fn describe(&self) -> String {
         match self {
             Self::Text(text) => format!("the text {text:?}"),
@@ -104,19 +103,19 @@ impl Value {
     }
 }
 
-/// The tree of values that stand in no text.
+/// The tree of values without a text.
 impl From<&toml::Table> for Table {
     fn from(values: &toml::Table) -> Self {
         let entry = |(key, value): (&String, &toml::Value)| Entry {
             key: key.clone(),
-            key_place: Place::NOWHERE,
+            key_span: Span::NOWHERE,
             node: Node::from(value),
         };
         Self { entries: values.iter().map(entry).collect() }
     }
 }
 
-/// A value that stands in no text.
+/// A value without a text.
 impl From<&toml::Value> for Node {
     fn from(value: &toml::Value) -> Self {
         let value = match value {
@@ -128,24 +127,24 @@ impl From<&toml::Value> for Node {
             toml::Value::Array(items) => Value::List(items.iter().map(Self::from).collect()),
             toml::Value::Table(table) => Value::Table(Table::from(table)),
         };
-        Self { value, place: Place::NOWHERE }
+        Self { value, span: Span::NOWHERE }
     }
 }
 
-/// Which source a parsed value comes from, and from which byte on.
-struct Origin {
+/// Source of a parsed text, and the byte at which it begins there.
+struct SourceOffset {
     source: usize,
     offset: usize,
 }
 
-impl Origin {
-    fn place<T>(&self, spanned: &Spanned<T>) -> Place {
+impl SourceOffset {
+    fn span<T>(&self, spanned: &Spanned<T>) -> Span {
         let span = spanned.span();
-        Place::new(self.source, span.start + self.offset..span.end + self.offset)
+        Span::new(self.source, span.start + self.offset..span.end + self.offset)
     }
 
     fn node(&self, value: &Spanned<DeValue<'_>>) -> Node {
-        Node { value: self.value(value.get_ref()), place: self.place(value) }
+        Node { value: self.value(value.get_ref()), span: self.span(value) }
     }
 
     fn value(&self, value: &DeValue<'_>) -> Value {
@@ -156,7 +155,7 @@ impl Origin {
                 Err(_) if integer.radix() == 10 => Value::Float(integer.as_str().parse().unwrap_or(f64::INFINITY)),
                 Err(_) => Value::Float(f64::INFINITY),
             },
-            // The parser lets only numbers through.
+            // The parser admits only numbers.
             DeValue::Float(float) => Value::Float(float.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(value) => Value::Boolean(*value),
             DeValue::Datetime(date) => Value::Date(date.to_string()),
@@ -170,35 +169,35 @@ impl Origin {
             .iter()
             .map(|(key, value)| Entry {
                 key: key.get_ref().to_string(),
-                key_place: self.place(key),
+                key_span: self.span(key),
                 node: self.node(value),
             })
             .collect();
-        entries.sort_by_key(|entry| entry.key_place.start);
+        entries.sort_by_key(|entry| entry.key_span.start);
         Table { entries }
     }
 }
 
-/// Refusal of a text that is not TOML; `whole` is where the text stands.
-fn syntax(error: &toml::de::Error, whole: Place, text: &str) -> Refusal {
-    let span = error.span().unwrap_or(0..text.len());
-    let place = Place::new(whole.source, whole.start + span.start..whole.start + span.end);
-    let rest = text.get(span.start..).unwrap_or_default();
+/// Refusal of a text that is not TOML; `whole` is the span of the text.
+fn syntax(error: &toml::de::Error, whole: Span, text: &str) -> Refusal {
+    let within = error.span().unwrap_or(0..text.len());
+    let span = Span::new(whole.source, whole.start + within.start..whole.start + within.end);
+    let rest = text.get(within.start..).unwrap_or_default();
     let word: String = rest.chars().take_while(|c| !c.is_whitespace() && !",]}#".contains(*c)).collect();
     let message = match error.message() {
         unquoted if unquoted.contains("string values must be quoted") => {
             if word.starts_with(char::is_alphabetic) {
-                "text must stand in quotes"
+                "text must be in quotes"
             } else {
                 "this is not one value"
             }
         }
         message => message.trim_end_matches(", expected nothing"),
     };
-    let refusal = Refusal::new(place, format!("not valid TOML: {message}"), message);
+    let refusal = Refusal::new(span, format!("not valid TOML: {message}"), message);
     match message {
-        "text must stand in quotes" => refusal.help(format!("write \"{word}\"")),
-        "duplicate key" => refusal.help("each key may stand once in a table: remove one of them"),
+        "text must be in quotes" => refusal.help(format!("write \"{word}\"")),
+        "duplicate key" => refusal.help("each key is allowed once in a table: remove one of them"),
         _ => refusal,
     }
 }
@@ -211,16 +210,16 @@ mod tests {
     fn values_know_where_they_stand() {
         let text = "[lattice]\nkind = \"square\"\nperiod = 2\n[[levels]]\nradius = 1_0.5\n";
         let root = Table::parse(text).unwrap();
-        let shown = |place: Place| &text[place.start..place.end];
+        let shown = |span: Span| &text[span.start..span.end];
         let lattice = root.get("lattice").unwrap();
-        assert_eq!(shown(lattice.node.place), "[lattice]");
+        assert_eq!(shown(lattice.node.span), "[lattice]");
         let Value::Table(lattice) = &lattice.node.value else { panic!("a table") };
         let keys: Vec<&str> = lattice.entries.iter().map(|entry| entry.key.as_str()).collect();
         assert_eq!(keys, ["kind", "period"]);
         let period = lattice.get("period").unwrap();
-        assert_eq!((shown(period.key_place), shown(period.node.place)), ("period", "2"));
+        assert_eq!((shown(period.key_span), shown(period.node.span)), ("period", "2"));
         let Value::List(levels) = &root.get("levels").unwrap().node.value else { panic!("a list") };
-        assert_eq!(shown(levels[0].place), "[[levels]]");
+        assert_eq!(shown(levels[0].span), "[[levels]]");
         let Value::Table(level) = &levels[0].value else { panic!("a table") };
         assert_eq!(level.get("radius").unwrap().node.value, Value::Float(10.5));
     }

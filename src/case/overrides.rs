@@ -5,42 +5,42 @@
 use super::error::Refusal;
 use super::keys::Keys;
 use super::node::{Entry, Node, Table, Value};
-use super::place::Place;
+use super::span::Span;
 use super::suggestions::nearest;
 
-/// Parts of the longest path; the longest of a case has four.
+/// Most parts of a path; the longest of a case has four.
 const DEEPEST: usize = 16;
 
 /// One part of a dotted path.
 #[derive(Debug, Clone, PartialEq)]
-struct Step {
+struct PathStep {
     name: String,
-    place: Place,
+    span: Span,
 }
 
-impl Step {
+impl PathStep {
     fn index(&self) -> Option<usize> {
         self.name.parse().ok()
     }
 }
 
-/// Sets `KEY=VALUE`, which is source number `source`, in the case's tree, which has these `keys`.
+/// Applies `KEY=VALUE`, source number `source`, to the tree of a case with these `keys`.
 pub(super) fn apply(text: &str, source: usize, root: &mut Table, keys: &'static Keys) -> Result<(), Refusal> {
     let (key, value) = split(text, source)?;
     let steps = steps(key, source)?;
     if let Some(step) = steps.get(DEEPEST) {
-        return Err(Refusal::new(step.place, "no key of a case lies as deep as this", "too deep")
+        return Err(Refusal::new(step.span, "no key of a case has so many parts", "too many parts")
             .help("write KEY=VALUE, for example layers.0.thickness=0.2"));
     }
     let offset = key.len() + 1 + (value.len() - value.trim_start().len());
     let (key, value) = (key.trim(), value.trim());
-    let place = Place::new(source, offset..offset + value.len());
+    let span = Span::new(source, offset..offset + value.len());
     if value.is_empty() {
         let message = format!("no value is given for `{key}`");
-        return Err(Refusal::new(place, message, "no value here").help(format!("write {key}=VALUE")));
+        return Err(Refusal::new(span, message, "no value here").help(format!("write {key}=VALUE")));
     }
     let value = match Node::parse(value, source, offset) {
-        Err(_) if is_bare_word(value) => Node { value: Value::Text(value.to_owned()), place },
+        Err(_) if is_bare_word(value) => Node { value: Value::Text(value.to_owned()), span },
         parsed => {
             parsed.map_err(|refusal| if is_decimal_comma(value) { refusal.help(WITH_A_POINT) } else { refusal })?
         }
@@ -54,12 +54,12 @@ fn split(text: &str, source: usize) -> Result<(&str, &str), Refusal> {
         Some((key, _)) if key.trim().is_empty() => ("an override needs a key", "no key before `=`"),
         Some(pair) => return Ok(pair),
     };
-    Err(Refusal::new(Place::new(source, 0..text.len()), message, label)
+    Err(Refusal::new(Span::new(source, 0..text.len()), message, label)
         .help("write KEY=VALUE, for example solver.tolerance=1e-10"))
 }
 
-/// The steps of `layers.0.thickness`, also written `layers[0].thickness` as in errors.
-fn steps(key: &str, source: usize) -> Result<Vec<Step>, Refusal> {
+/// The parts of `layers.0.thickness`, also written `layers[0].thickness` as in errors.
+fn steps(key: &str, source: usize) -> Result<Vec<PathStep>, Refusal> {
     let mut at = 0;
     key.split(['.', '['])
         .map(|part| {
@@ -67,12 +67,12 @@ fn steps(key: &str, source: usize) -> Result<Vec<Step>, Refusal> {
             at += part.len() + 1;
             let part = part.trim();
             let name = part.strip_suffix(']').unwrap_or(part);
-            let place = Place::new(source, start..start + part.len());
+            let span = Span::new(source, start..start + part.len());
             if name.is_empty() {
-                return Err(Refusal::new(place, format!("`{}` has an empty part", key.trim()), "nothing here")
+                return Err(Refusal::new(span, format!("`{}` has an empty part", key.trim()), "nothing here")
                     .help("write the path with single dots, for example layers.0.thickness"));
             }
-            Ok(Step { name: name.to_owned(), place })
+            Ok(PathStep { name: name.to_owned(), span })
         })
         .collect()
 }
@@ -85,7 +85,7 @@ fn is_decimal_comma(value: &str) -> bool {
     value.trim_start_matches(['-', '+']).split_once(',').is_some_and(|(whole, part)| digits(whole) && digits(part))
 }
 
-/// Whether a value that is not TOML is meant as text: it begins like a word or a path and has no TOML punctuation.
+/// Whether a value that is not TOML is read as text: it begins like a word or a path and has no TOML punctuation.
 fn is_bare_word(value: &str) -> bool {
     value.starts_with(|c: char| c.is_alphabetic() || "_./~\\".contains(c))
         && !value.contains(['"', '[', '{', '\n', '='])
@@ -96,10 +96,10 @@ fn set_in_table(
     table: &mut Table,
     keys: &'static Keys,
     path: &str,
-    steps: &[Step],
+    steps: &[PathStep],
     value: Node,
 ) -> Result<(), Refusal> {
-    // A path has a step at least, and `set_in_node` passes on only what is left of it.
+    // A path has at least one part; `set_in_node` passes on a path only where parts are left.
     let [step, rest @ ..] = steps else { return Ok(()) };
     let path = if path.is_empty() { step.name.clone() } else { format!("{path}.{}", step.name) };
     let next = match (rest.first(), table.get_mut(&step.name)) {
@@ -107,7 +107,7 @@ fn set_in_table(
         (Some(_), Some(node)) => return set_in_node(node, keys.within(&step.name), &path, rest, value),
         (Some(next), None) if next.index().is_some() => {
             let message = format!("`{path}` has no item {}: the case has no `{path}`", next.name);
-            let refusal = Refusal::new(next.place, message, "no such item");
+            let refusal = Refusal::new(next.span, message, "no such item");
             let known: Vec<&str> = keys.all.iter().map(|key| key.name).collect();
             return Err(match nearest(&step.name, &known) {
                 Some((near, _)) if near != step.name => refusal.help(format!("did you mean `{near}`?")),
@@ -117,16 +117,22 @@ fn set_in_table(
         (Some(_), None) => {
             let mut created = Table::default();
             set_in_table(&mut created, keys.within(&step.name), &path, rest, value)?;
-            Node { value: Value::Table(created), place: step.place }
+            Node { value: Value::Table(created), span: step.span }
         }
     };
     keys.excluded(&step.name).into_iter().for_each(|other| table.remove(other));
-    table.insert(Entry { key: step.name.clone(), key_place: step.place, node: next });
+    table.insert(Entry { key: step.name.clone(), key_span: step.span, node: next });
     Ok(())
 }
 
 /// Sets a value inside a table with these `keys`, or inside one of a list of such tables.
-fn set_in_node(node: &mut Node, keys: &'static Keys, path: &str, steps: &[Step], value: Node) -> Result<(), Refusal> {
+fn set_in_node(
+    node: &mut Node,
+    keys: &'static Keys,
+    path: &str,
+    steps: &[PathStep],
+    value: Node,
+) -> Result<(), Refusal> {
     let Some((step, rest)) = steps.split_first() else {
         *node = value;
         return Ok(());
@@ -144,19 +150,19 @@ fn set_in_node(node: &mut Node, keys: &'static Keys, path: &str, steps: &[Step],
                 Some((index, Some(item))) => set_in_node(item, keys, &format!("{path}[{index}]"), rest, value),
                 Some((index, None)) => {
                     let message = format!("`{path}` has no item {index}: {allowed}");
-                    Err(Refusal::new(step.place, message, "no such item").help("items are counted from 0"))
+                    Err(Refusal::new(step.span, message, "no such item").help("items are counted from 0"))
                 }
                 None => {
                     let message = format!("`{path}` is a list: {allowed}");
                     let label = format!("a number is needed here, not `{}`", step.name);
                     let rest: String = steps.iter().map(|step| format!(".{}", step.name)).collect();
-                    Err(Refusal::new(step.place, message, label).help(format!("for example {path}.0{rest}")))
+                    Err(Refusal::new(step.span, message, label).help(format!("for example {path}.0{rest}")))
                 }
             }
         }
         other => {
             let message = format!("`{path}` is {}: it holds no `{}`", other.describe(), step.name);
-            Err(Refusal::new(step.place, message, "no such key")
+            Err(Refusal::new(step.span, message, "no such key")
                 .help(format!("set it as a whole: {path}={{ {} = … }}", step.name)))
         }
     }
@@ -235,7 +241,7 @@ mod tests {
         assert_eq!(value(&root, &["levels", "0", "height"]), Some(&Value::Integer(1)));
     }
 
-    /// Faults are to be told, not cleared away.
+    /// Faults are reported, not repaired.
     #[test]
     fn keys_that_exclude_each_other_elsewhere_stay() {
         let root = set("[substrate]\nshear_ratio = 1\n", "substrate.young=2").unwrap();

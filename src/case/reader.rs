@@ -1,15 +1,15 @@
-//! Strict reading of a table: keys that are known, missing or misspelt, and what holds where one is absent, as its [`Keys`] say.
+//! Strict reading of a table by its [`Keys`]: unknown, misspelt and missing keys are refused, defaults are filled in.
 
 use std::borrow::Cow;
 
 use super::error::Refusal;
 use super::keys::{Absent, Form, Key, Keys};
 use super::node::{Entry, Node, Table, Value};
-use super::place::Place;
+use super::span::Span;
 use super::suggestions::{alternatives, nearest};
 use super::value::ValueAt;
 
-/// A table without entries, for a section that is not there.
+/// An empty table for an absent section.
 static EMPTY: Table = Table { entries: Vec::new() };
 
 /// A table of the case with its keys and its path (empty for the whole case).
@@ -19,15 +19,15 @@ pub(super) struct TableAt<'a> {
     keys: &'static Keys,
     /// The keys of the whole case.
     all: &'static Keys,
-    /// Where it begins.
-    pub(super) place: Place,
+    /// Its place in the text.
+    pub(super) span: Span,
     path: String,
 }
 
 impl<'a> TableAt<'a> {
-    /// A table that stands in no other, such as the whole case; `end` is where its text ends.
-    pub(super) fn root(table: &'a Table, keys: &'static Keys, end: Place) -> Self {
-        Self { table, keys, all: keys, place: end, path: String::new() }
+    /// A table that is not inside another, such as the whole case; `end` is the end of its text.
+    pub(super) fn root(table: &'a Table, keys: &'static Keys, end: Span) -> Self {
+        Self { table, keys, all: keys, span: end, path: String::new() }
     }
 
     /// Full path of a key of this table.
@@ -35,13 +35,13 @@ impl<'a> TableAt<'a> {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
 
-    /// The value of a key, if it is there.
+    /// The value of a key; `None` where it is absent.
     pub(super) fn optional(&self, key: &str) -> Option<ValueAt<'a>> {
         let entry = self.table.get(key)?;
         Some(ValueAt::new(Cow::Borrowed(&entry.node), self.keys.get(key)?, self.all, self.path(key)))
     }
 
-    /// The value of a key, that which it has when not given, or the refusal that says what it is.
+    /// The value of a key or its default; a refusal where it has none.
     pub(super) fn value(&self, key: &str) -> Result<ValueAt<'a>, Refusal> {
         if let Some(value) = self.optional(key) {
             return Ok(value);
@@ -50,45 +50,45 @@ impl<'a> TableAt<'a> {
         if let Some(known) = known
             && let Absent::Value(text) = known.absent
         {
-            let node = Node { place: self.place, ..Node::parse(text, 0, 0)? };
+            let node = Node { span: self.span, ..Node::parse(text, 0, 0)? };
             return Ok(ValueAt::new(Cow::Owned(node), known, self.all, self.path(key)));
         }
         Err(self.missing(key))
     }
 
-    /// Refusal of a table without a key.
+    /// Refusal of a table in which a key is missing.
     pub(super) fn missing(&self, key: &str) -> Refusal {
-        let (path, told) = (self.path(key), self.keys.get(key).map_or(String::new(), Key::told));
-        Refusal::new(self.place, format!("`{path}` is missing"), format!("`{key}` is missing here"))
+        let (path, told) = (self.path(key), self.keys.get(key).map_or(String::new(), Key::description));
+        Refusal::new(self.span, format!("`{path}` is missing"), format!("`{key}` is missing here"))
             .help(format!("add `{key}`: {told}"))
     }
 
-    /// A section of the case, if it is there.
+    /// A section of the case; `None` where it is absent.
     pub(super) fn section(&self, key: &str) -> Result<Option<TableAt<'a>>, Refusal> {
         self.optional(key).map(|value| value.table_or(&format!("write it as a section, [{key}]"))).transpose()
     }
 
-    /// A section of the case, empty where it is not there.
+    /// A section of the case; an empty one where it is absent.
     pub(super) fn section_or_empty(&self, key: &str) -> Result<TableAt<'a>, Refusal> {
         let (all, keys) = (self.all, self.keys.within(key));
-        let empty = || TableAt { table: &EMPTY, keys, all, place: self.place, path: self.path(key) };
+        let empty = || TableAt { table: &EMPTY, keys, all, span: self.span, path: self.path(key) };
         Ok(self.section(key)?.unwrap_or_else(empty))
     }
 
-    /// A section of the case that must be there.
+    /// A required section of the case.
     pub(super) fn required_section(&self, key: &str) -> Result<TableAt<'a>, Refusal> {
         self.section(key)?.ok_or_else(|| {
-            Refusal::new(self.place, format!("the section [{key}] is missing"), format!("no [{key}] up to here"))
+            Refusal::new(self.span, format!("the section [{key}] is missing"), format!("no [{key}] up to here"))
                 .help(format!("add it, for example\n{}", self.example(key)))
         })
     }
 
-    /// A key as it may stand in a case.
+    /// Example lines of a key.
     pub(super) fn example(&self, key: &str) -> String {
         self.keys.get(key).map_or(String::new(), Key::example_lines)
     }
 
-    /// The tables of a list, [[key]], none if it is not there; more than the key admits are refused.
+    /// The tables of a list, [[key]]; none where it is absent; more than the key admits are refused.
     pub(super) fn sections(&self, key: &str) -> Result<Vec<TableAt<'a>>, Refusal> {
         let Some(value) = self.optional(key) else { return Ok(Vec::new()) };
         let help = format!("write each one as a section of its own, [[{key}]] in double brackets");
@@ -97,12 +97,12 @@ impl<'a> TableAt<'a> {
         };
         if let Some(item) = items.get(most) {
             let message = format!("`{key}` must be at most {most} sections, not {}", items.len());
-            return Err(Refusal::new(item.place, message, "one too many"));
+            return Err(Refusal::new(item.span, message, "one too many"));
         }
         value.each(value.forms).map(|item| item.table_of(keys, &help)).collect()
     }
 
-    /// Refuse keys that the table does not have, or not for its kind, and a table without a key that its kind demands.
+    /// Refuses keys that the table or its kind does not have, and a table without a key that its kind demands.
     pub(super) fn only(&self) -> Result<(), Refusal> {
         let kind = self.kind()?;
         let is_of_kind = |key: &&Key| key.kinds.is_empty() || kind.is_some_and(|kind| key.kinds.contains(&kind));
@@ -115,7 +115,7 @@ impl<'a> TableAt<'a> {
         demanded.find(|key| self.table.get(key.name).is_none()).map_or(Ok(()), |key| Err(self.missing(key.name)))
     }
 
-    /// The kind of the table, the word of its first key, where its keys differ with it.
+    /// The kind of the table, the word of its first key; `None` where its keys do not depend on it.
     fn kind(&self) -> Result<Option<&'static str>, Refusal> {
         match self.keys.all.first() {
             Some(first) if self.keys.all.iter().any(|key| !key.kinds.is_empty()) => {
@@ -125,14 +125,14 @@ impl<'a> TableAt<'a> {
         }
     }
 
-    /// Refusal of an entry that is none of the `known` keys.
+    /// Refusal of an entry that is not among the `known` keys.
     fn unknown(&self, entry: &Entry, known: &[&str]) -> Refusal {
         let (key, path) = (entry.key.as_str(), self.path(&entry.key));
         if let Some((_, why)) = self.keys.misplaced.iter().find(|(misplaced, _)| *misplaced == key) {
-            return Refusal::new(entry.key_place, format!("`{path}` has no place here: {why}"), "not used here")
+            return Refusal::new(entry.key_span, format!("`{path}` has no place here: {why}"), "not used here")
                 .help(format!("remove it; allowed here: {}", known.join(", ")));
         }
-        let refusal = Refusal::new(entry.key_place, format!("unknown key `{path}`"), "unknown key");
+        let refusal = Refusal::new(entry.key_span, format!("unknown key `{path}`"), "unknown key");
         let homes = self.all.homes(key);
         match nearest(key, known) {
             // `heights` in [[levels]] is a slip, `mean` in [load] a key of another section.
@@ -144,26 +144,26 @@ impl<'a> TableAt<'a> {
         }
     }
 
-    /// The value of the one key of two that is there: refused when both are, or none.
+    /// Index and value of the one of two keys that is given; refused where both are, or none.
     pub(super) fn one_of(&self, keys: [&str; 2]) -> Result<(usize, ValueAt<'a>), Refusal> {
         let [a, b] = keys;
         match (self.optional(a), self.optional(b)) {
             (Some(value), None) => Ok((0, value)),
             (None, Some(value)) => Ok((1, value)),
-            (Some(_), Some(second)) => Err(self.both(keys, second.node.place)),
+            (Some(_), Some(second)) => Err(self.both(keys, second.node.span)),
             (None, None) => {
                 let message = format!("`{}` or `{}` is missing", self.path(a), self.path(b));
                 let label = format!("either `{a}` or `{b}` is missing here");
                 let told = keys.map(|key| format!("`{key}` ({})", self.keys.get(key).map_or("", |key| key.what)));
-                Err(Refusal::new(self.place, message, label).help(format!("add {}", told.join(" or "))))
+                Err(Refusal::new(self.span, message, label).help(format!("add {}", told.join(" or "))))
             }
         }
     }
 
     /// Refusal of two keys that exclude each other.
-    pub(super) fn both(&self, [a, b]: [&str; 2], place: Place) -> Refusal {
+    pub(super) fn both(&self, [a, b]: [&str; 2], span: Span) -> Refusal {
         let message = format!("`{}` and `{}` exclude each other", self.path(a), self.path(b));
-        Refusal::new(place, message, format!("`{a}` is given too")).help("remove one of them")
+        Refusal::new(span, message, format!("`{a}` is given too")).help("remove one of them")
     }
 }
 
@@ -181,8 +181,8 @@ impl<'a> ValueAt<'a> {
 
     fn table_of(&self, keys: &'static Keys, help: &str) -> Result<TableAt<'a>, Refusal> {
         match &self.node {
-            Cow::Borrowed(Node { value: Value::Table(table), place }) => {
-                Ok(TableAt { table, keys, all: self.all, place: *place, path: self.path.clone() })
+            Cow::Borrowed(Node { value: Value::Table(table), span }) => {
+                Ok(TableAt { table, keys, all: self.all, span: *span, path: self.path.clone() })
             }
             // No default is a table.
             _ => Err(self.refuse("a table").help(help)),

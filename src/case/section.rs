@@ -1,4 +1,4 @@
-//! A key of the case file is declared once: as a field of its section, with all that is known of it.
+//! Declaration of the keys of the case file, each once, as a field of its section.
 //!
 //! [`section!`] makes of one list of fields the struct, the table of keys ([`Keys`]: forms, ranges, units, defaults, examples,
 //! from which refusals, `percoat explain`, the schema and the README's table are made), the reader and the writer:
@@ -7,16 +7,16 @@
 //! section! {
 //!     /// The section `[friction]`.
 //!     pub struct FrictionSection = FRICTION, rules FrictionSection::rules {
-//!         /// coefficient μ: the body feels the traction μp
+//!         /// coefficient of friction μ: the traction on the body is μp
 //!         pub coefficient: f64 = Key::new(&[Form::Number(Range::between(0.0, 100.0))], "0.3"),
 //!         …
 //!     }
 //! }
 //! ```
 //!
-//! The comment of a field is what messages and `percoat explain` say the key is. The type says how the value is read
-//! ([`KeyValue`]); an `Option` may be absent. `rules` is a function of what the keys of a table demand of each other.
-//! `misplaced [("key", "why")]` names keys that are often looked for in the wrong table.
+//! The comment of a field is the meaning of the key in messages and `percoat explain`. Its type determines how the value is read
+//! ([`KeyValue`]); an `Option` may be absent. `rules` is a function that checks the keys of a table together.
+//! `misplaced [("key", "why")]` names keys that are often written in the wrong table.
 //! `section! { for Type = KEYS { … } }` declares the keys of a struct that the core defines; `section! { whole … }` has no reader.
 
 use super::error::Refusal;
@@ -24,27 +24,27 @@ use super::keys::{Form, Key, Written};
 use super::reader::TableAt;
 use super::value::ValueAt;
 
-/// What the value of a key is read as.
+/// A type that the value of a key is read as.
 pub(in crate::case) trait KeyValue: Sized {
-    /// The value, or the refusal of one that the key does not admit.
+    /// The value; a refusal where the key does not admit it.
     fn read(value: &ValueAt<'_>) -> Result<Self, Refusal>;
 
-    /// The value of a key of a table, its default where it is absent, or the refusal of a table without it.
+    /// The value of a key of a table, or its default; a refusal where it is missing.
     fn of(table: &TableAt<'_>, key: &str) -> Result<Self, Refusal> {
         Self::read(&table.value(key)?)
     }
 
-    /// Whether it stands for an absent key.
+    /// Whether it is that of an absent key.
     fn is_absent(&self) -> bool {
         false
     }
 
-    /// Whether it is what a key has that says nothing: 0, or no items.
+    /// Whether it is 0 or an empty list.
     fn is_nothing(&self) -> bool {
         false
     }
 
-    /// Whether it stands in a case that is written.
+    /// Whether a written case has it.
     fn is_written(&self, key: &Key) -> bool {
         match key.written {
             Written::WhereGiven => !self.is_absent(),
@@ -142,12 +142,12 @@ macro_rules! section {
             @read $name [$($rules)?] [$($field)*] [$($($other)*)?]
         }
     };
-    // The keys of a struct of the core, which writes itself.
+    // The keys of a struct of the core, which has its own serialisation.
     (for $name:ident = $keys:ident { $($(#[doc = $what:literal])+ $field:ident = $key:expr,)* }) => {
         $crate::case::section::section! { @keys $keys [] $($($what)+ $field = $key,)* }
         $crate::case::section::section! { @read $name [] [$($field)*] [] }
     };
-    // A struct that is more than its keys, read by hand.
+    // A struct with further fields, read by hand.
     (whole
         $(#[$attribute:meta])*
         pub struct $name:ident = $keys:ident {
@@ -199,7 +199,7 @@ macro_rules! section {
             }
         }
         impl $name {
-            /// The section with the keys of a table.
+            /// Reads the section with the keys of a table.
             pub(in crate::case) fn read_table(
                 table: &$crate::case::reader::TableAt<'_>,
             ) -> Result<Self, $crate::case::error::Refusal> {

@@ -1,4 +1,4 @@
-//! `[solver]`: how the contact problem is solved, and how far.
+//! `[solver]`: method, tolerance and iterations of the solver.
 
 use super::keys::{Form, Key, Range};
 use super::section::{Words, section, words};
@@ -8,7 +8,7 @@ words! { Method { Preconditioned = "preconditioned", PolonskyKeer = "polonsky-ke
 
 section! {
     for Settings = SOLVER {
-        /// which method of conjugate gradients
+        /// method of conjugate gradients
         method = Key::new(&[Form::Word(Method::WORDS)], "\"polonsky-keer\"")
             .default("\"preconditioned\"")
             .rule("not \"polonsky-keer\" under coupled friction"),

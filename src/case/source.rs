@@ -1,4 +1,4 @@
-//! Where a case comes from.
+//! Sources of cases: files, standard input, values in memory.
 
 use crate::plain;
 use ndarray::ArrayD;
@@ -12,43 +12,42 @@ use super::error::Refusal;
 use super::named_pipes::{Pipes, is_pipe};
 use super::node::Table;
 
-/// Text of a case and where it comes from.
+/// Text of a case with its name and its files.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Source {
     /// Name shown in errors, such as the path of the file.
     pub name: String,
     /// The TOML; empty with `values`.
     pub text: String,
-    /// The case as values that stand in no text, such as those of a dict of Python.
+    /// The case as values without a text, such as those of a dict of Python.
     pub values: Option<toml::Table>,
-    /// Folder to which a surface's file is relative.
+    /// Folder to which the path of a surface's file is relative.
     pub folder: PathBuf,
-    /// Files in memory, by the names that the case calls them: looked at before those of the folder.
+    /// Files in memory by their names in the case; they take precedence over those of the folder.
     pub files: BTreeMap<String, Arc<[u8]>>,
-    /// Arrays of heights in memory, axis 0 along a₁, by the names that the case calls them.
+    /// Arrays of heights in memory, axis 0 along a₁, by their names in the case.
     pub arrays: BTreeMap<String, Arc<ArrayD<f64>>>,
-    /// What pipes among its files gave, which can be read once alone.
+    /// Content of pipes among its files, which can be read only once.
     pub pipes: Pipes,
 }
 
-/// Bytes of the longest case file that is read: a case of ten thousand loads and sites has a tenth of it.
+/// Largest case file, bytes: a case of ten thousand loads and sites has a tenth of it.
 const LONGEST: u64 = 16 << 20;
 
 impl Source {
-    /// The case file at `path`; out of a pipe, a surface's file is relative to the working folder.
+    /// Reads the case file at `path`; for a pipe a surface's file is relative to the working folder.
     ///
     /// # Errors
-    /// When the file cannot be read, or, as [`io::ErrorKind::InvalidData`], when it is no text of a case: longer than
-    /// 16 MiB or not UTF-8.
+    /// When the file cannot be read; [`io::ErrorKind::InvalidData`] when it is longer than 16 MiB or not UTF-8.
     pub fn file(path: &Path) -> io::Result<Self> {
         let folder = path.parent().filter(|_| !is_pipe(path)).map(Path::to_path_buf).unwrap_or_default();
         Self::of(plain::path(path), folder, fs::File::open(path)?)
     }
 
-    /// A case written to standard input; a surface's file is relative to the working folder.
+    /// Reads a case from standard input; a surface's file is relative to the working folder.
     ///
     /// # Errors
-    /// As those of [`Source::file`].
+    /// Those of [`Source::file`].
     pub fn standard_input() -> io::Result<Self> {
         Self::of("standard input".to_owned(), PathBuf::new(), io::stdin().lock())
     }
@@ -62,19 +61,19 @@ impl Source {
         self.values.as_ref().map_or_else(|| Table::parse(&self.text), |values| Ok(Table::from(values)))
     }
 
-    /// A case of values as text, in which a refusal can be shown; `None` of one that is text.
+    /// A case of values written as text, for the excerpt of an error; `None` for one that is text.
     pub(super) fn as_text(&self) -> Option<Self> {
         let text = toml::to_string(self.values.as_ref()?).ok()?;
         Some(Self { text, values: None, ..self.clone() })
     }
 
-    /// Where the file stands that the case calls `name`; `None` for one in memory.
+    /// Path of the file `name` of the case; `None` for one in memory.
     pub(super) fn path(&self, name: &str) -> Option<PathBuf> {
         let path = || self.folder.join(name);
         (!self.is_in_memory(name)).then(|| std::path::absolute(path()).unwrap_or_else(|_| path()))
     }
 
-    /// The file that the case calls `name`, and its length in bytes. A pipe is read whole, once for all readers.
+    /// Opens the file `name` of the case; returns its length in bytes too. A pipe is read whole, once for all readers.
     pub(super) fn open(&self, name: &str) -> io::Result<(Box<dyn BufRead + '_>, u64)> {
         if let Some(bytes) = self.files.get(name) {
             return Ok((Box::new(&bytes[..]), bytes.len() as u64));
@@ -90,7 +89,7 @@ impl Source {
         Ok((Box::new(BufReader::new(file)), length))
     }
 
-    /// Whether the case calls a pipe `name`, as a process substitution of the shell gives it: it has no ending.
+    /// Whether the file `name` of the case is a pipe, which has no ending of a format.
     pub(super) fn is_pipe(&self, name: &str) -> bool {
         !self.is_in_memory(name) && is_pipe(&self.folder.join(name))
     }
@@ -109,7 +108,7 @@ impl Source {
     }
 }
 
-/// Where a file ceases to be UTF-8, and what to do about it.
+/// Message on the first byte of a file that is not UTF-8.
 fn not_utf8(name: &str, bytes: &[u8], at: usize) -> String {
     let (before, byte) = (&bytes[..at], bytes[at]);
     let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();

@@ -1,4 +1,4 @@
-//! `[stress]`: where the stresses are wanted.
+//! `[stress]`: places at which stresses are computed.
 
 use serde::{Serialize, Serializer};
 
@@ -18,7 +18,7 @@ use crate::stress::SurfaceLine;
 
 const SIZE: Form = Form::Number(Range::Size);
 const SIZE_OR_ZERO: Form = Form::Number(Range::SizeOrZero);
-const PLACE: Form = Form::Number(Range::Place);
+const COORDINATE: Form = Form::Number(Range::Coordinate);
 const LEVEL: Form = Form::Text("a level such as \"level 1\"");
 
 words! { MeanStress { Confined = "confined", HalfSpace = "half-space", } }
@@ -34,14 +34,14 @@ section! {
         /// the mean lateral stress: that of no mean lateral strain, or under the centre of a wide loaded disc
         pub mean: MeanStress = Key::new(&[Form::Word(MeanStress::WORDS)], "\"half-space\"").default("\"confined\""),
         /// a vertical cut from one level or place toward another, or along a direction
-        pub section: Option<Cut> = Key::new(
+        pub section: Option<CutSection> = Key::new(
             &[Form::Table(&CUT)],
             "{ from = \"level 1\", toward = \"level 2\", length = 1.0, depth = 1.0 }",
         )
         .otherwise("no cut"),
         /// single points, z ≥ 0 into the body
         pub points: Vec<[f64; 3]> = Key::new(
-            &[Form::List { of: &Form::Tuple("a point [x, y, z]", &[PLACE, PLACE, SIZE_OR_ZERO]), count: [0, 100_000] }],
+            &[Form::List { of: &Form::Tuple("a point [x, y, z]", &[COORDINATE, COORDINATE, SIZE_OR_ZERO]), count: [0, 100_000] }],
             "[[0.0, 0.0, 0.1]]",
         )
         .unit(Unit::Length)
@@ -56,28 +56,28 @@ section! {
 section! {
     /// A vertical cut from the axis of an indenter toward a neighbour, or from any place along a direction.
     #[derive(Copy)]
-    pub struct Cut = CUT {
-        /// where the cut has its origin: the axis of a level's first indenter, or a place
+    pub struct CutSection = CUT {
+        /// origin of the cut: the axis of a level's first indenter, or a place
         pub from: Origin =
-            Key::new(&[LEVEL, Form::Tuple("a place [x, y]", &[PLACE; 2])], "\"level 1\"").unit(Unit::Length),
-        /// where it runs to: the nearest other indenter of a level, or a direction
-        pub toward: Option<Toward> = Key::new(&[LEVEL, Form::Tuple("a direction [x, y]", &[PLACE; 2])], "\"level 2\"")
+            Key::new(&[LEVEL, Form::Tuple("a place [x, y]", &[COORDINATE; 2])], "\"level 1\"").unit(Unit::Length),
+        /// direction of the cut: to the nearest other indenter of a level, or [x, y]
+        pub toward: Option<Toward> = Key::new(&[LEVEL, Form::Tuple("a direction [x, y]", &[COORDINATE; 2])], "\"level 2\"")
             .otherwise("the direction of sliding; needed without [friction]"),
-        /// its length along the surface
+        /// length along the surface
         pub length: f64 = Key::new(&[SIZE], "1.0").unit(Unit::Length),
-        /// how far behind the origin it begins
+        /// distance behind the origin at which the cut begins
         pub behind: Option<f64> = Key::new(&[SIZE_OR_ZERO], "0.5")
             .unit(Unit::Length)
             .otherwise("half the length without `toward`, else 0")
             .omitted_as_nothing(),
-        /// how deep it goes
+        /// largest depth
         pub depth: f64 = Key::new(&[SIZE], "1.0").unit(Unit::Length),
     }
 }
 
 section! {
     for Volume = VOLUME {
-        /// how deep it goes
+        /// largest depth
         depth = Key::new(&[SIZE], "1.0").unit(Unit::Length),
         /// intervals in depth
         rows = Key::new(&[Form::Integer(1, 2048)], "60").default("40"),
@@ -86,7 +86,7 @@ section! {
     }
 }
 
-/// Where a cut has its origin.
+/// Origin of a cut.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Origin {
@@ -96,7 +96,7 @@ pub enum Origin {
     Place([f64; 2]),
 }
 
-/// Where a cut runs.
+/// Direction of a cut.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Toward {
@@ -107,7 +107,7 @@ pub enum Toward {
 }
 
 impl StressSection {
-    /// Reads the section of a case with this many levels (none: a surface from a file), which may slide in a direction.
+    /// Reads the section; `levels`: number of levels, 0 beside a surface; `sliding`: direction of sliding.
     pub(super) fn read_in(section: &TableAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {
         if let Some(cut) = section.optional("section") {
             check_levels(&cut, levels)?;
@@ -119,10 +119,10 @@ impl StressSection {
         Ok(Self { section: own.section.map(|cut| cut.completed(sliding)), ..own })
     }
 
-    /// What a run on `counterbody` is asked for.
+    /// The request for a run on `counterbody`.
     pub(super) fn request(&self, counterbody: &Counterbody) -> StressRequest {
         let lattice = counterbody.indenters().map(Indenters::lattice);
-        let cut = |cut: Cut| Some(run::Cut { line: cut.line(lattice)?, depth: cut.depth });
+        let cut = |cut: CutSection| Some(run::Cut { line: cut.line(lattice)?, depth: cut.depth });
         StressRequest {
             mean: self.mean,
             planes: self.planes.clone(),
@@ -133,7 +133,7 @@ impl StressSection {
     }
 }
 
-/// That both ends of a cut are levels that the case has, or places.
+/// Refuses a cut from or toward a level that the case does not have.
 fn check_levels(cut: &ValueAt<'_>, levels: usize) -> Result<(), Refusal> {
     let section = match levels {
         0 => cut.table_or("{ from = [0.0, 0.0], toward = [1.0, 0.0], length = 1.0, depth = 1.0 }")?,
@@ -148,15 +148,15 @@ fn check_levels(cut: &ValueAt<'_>, levels: usize) -> Result<(), Refusal> {
     Ok(())
 }
 
-impl Cut {
-    /// The cut with its direction, that of sliding where it has none; along the sliding both edges of a contact count.
+impl CutSection {
+    /// The cut with the direction of sliding where it has none; it then begins behind the origin, to show both edges of a contact.
     fn completed(self, sliding: Option<[f64; 2]>) -> Self {
         let behind = if self.toward.is_none() { 0.5 * self.length } else { 0.0 };
         let toward = self.toward.or(sliding.map(Toward::Direction));
         Self { toward, behind: self.behind.or(Some(behind)), ..self }
     }
 
-    /// Its line; `None` for levels without indenters.
+    /// Its line on the surface; `None` for levels without indenters.
     fn line(&self, lattice: Option<&Lattice>) -> Option<SurfaceLine> {
         let first = |level: usize| Some(lattice?.sites()[level - 1][0]);
         let origin = match self.from {

@@ -1,8 +1,8 @@
-//! Words beside each other: the one that was meant, and a list as it is spoken.
+//! The nearest known word to a misspelt one, and lists joined in words.
 
 use std::fmt::Write as _;
 
-/// The known word nearest to a misspelt one, and how like they are, at most 1.
+/// The known word nearest to a misspelt one, and their similarity, at most 1.
 pub(super) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<(&'a str, f64)> {
     let word = word.to_lowercase().replace('_', "-");
     known
@@ -12,13 +12,13 @@ pub(super) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<(&'a str, f64
         .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// "a", "a" or "b", "a", "b" or "c", each in this kind of quotes.
+/// Names in quotes, joined by commas and "or".
 pub(super) fn alternatives(names: &[impl AsRef<str>], quote: char) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("{quote}{}{quote}", name.as_ref())).collect();
     joined(&quoted, "or")
 }
 
-/// a, a or b, a, b or c, with this word before the last one.
+/// Names joined by commas, with `word` before the last one.
 pub(super) fn joined(names: &[impl AsRef<str>], word: &str) -> String {
     let mut text = String::new();
     for (index, name) in names.iter().enumerate() {

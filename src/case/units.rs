@@ -1,4 +1,4 @@
-//! `[units]`: what lengths and pressures are measured in, by name.
+//! `[units]`: names of the units of lengths and pressures.
 
 use super::keys::{Form, Key};
 use super::section::section;
@@ -9,11 +9,11 @@ const LETTERS: usize = 12;
 const NAME: Form = Form::Name("a name", LETTERS);
 
 section! {
-    /// The section `[units]`: names alone, no number is converted.
+    /// The section `[units]`: only names, no number is converted.
     pub struct UnitsSection = UNITS {
-        /// what lengths are measured in
+        /// unit of all lengths
         pub length: Option<String> = Key::new(&[NAME], "\"µm\"").otherwise("not named"),
-        /// what pressures are measured in
+        /// unit of all pressures
         pub pressure: Option<String> = Key::new(&[NAME], "\"GPa\"").otherwise("not named"),
     }
 }

@@ -1,4 +1,4 @@
-//! Strict reading of a value: a key of [`keys`] has the types and ranges that it admits; every other value is refused.
+//! Strict reading of a value: only the types and ranges that its key admits ([`keys`]).
 
 use std::borrow::Cow;
 
@@ -28,20 +28,20 @@ impl<'a> ValueAt<'a> {
     pub(super) fn refuse(&self, wanted: impl std::fmt::Display) -> Refusal {
         let received = self.node.value.describe();
         let message = format!("`{}` must be {wanted}, not {received}", self.path);
-        Refusal::new(self.node.place, message, format!("received {received}"))
+        Refusal::new(self.node.span, message, format!("received {received}"))
     }
 
-    /// Refusal of a value that has none of its forms.
+    /// Refusal of a value that has none of the forms of its key.
     pub(super) fn refuse_form(&self) -> Refusal {
-        self.refuse(keys::told(self.forms))
+        self.refuse(keys::requirement(self.forms))
     }
 
-    /// The same, with an example of what can be written.
+    /// Refusal of a value that has none of the forms of its key, with an example.
     fn refuse_with_example(&self) -> Refusal {
         self.refuse_form().help(self.example())
     }
 
-    /// "for example planes = [0.0, 0.5]".
+    /// An example, as in "for example planes = [0.0, 0.5]".
     pub(super) fn example(&self) -> String {
         format!("for example {} = {}", self.key.name, self.key.example)
     }
@@ -49,7 +49,7 @@ impl<'a> ValueAt<'a> {
     /// A number that the key admits; integers count as numbers.
     pub(super) fn number(&self) -> Result<f64, Refusal> {
         let value = match self.node.value {
-            // Up to 2⁵³ exactly; beyond, the nearest float as for any decimal.
+            // Exact up to 2⁵³, else the nearest float as for any decimal.
             Value::Integer(value) => value as f64,
             Value::Float(value) => value,
             _ => return Err(self.refuse_form()),
@@ -71,7 +71,7 @@ impl<'a> ValueAt<'a> {
         {
             return Ok(value);
         }
-        Err(self.refuse(keys::told(&[Form::Integer(*low, *high)])))
+        Err(self.refuse(keys::requirement(&[Form::Integer(*low, *high)])))
     }
 
     /// True or false.
@@ -82,7 +82,6 @@ impl<'a> ValueAt<'a> {
         }
     }
 
-    /// A text, where the key has one.
     pub(super) fn text(&self) -> Result<&str, Refusal> {
         let known = self.forms.iter().any(|form| matches!(form, Form::Text(_)));
         match &self.node.value {
@@ -101,7 +100,7 @@ impl<'a> ValueAt<'a> {
         };
         match &self.node.value {
             Value::Text(text) if fits(text) => Ok(text),
-            _ => Err(self.refuse(format!("{}, such as {}", keys::told(self.forms), self.key.example))),
+            _ => Err(self.refuse(format!("{}, such as {}", keys::requirement(self.forms), self.key.example))),
         }
     }
 
@@ -118,7 +117,7 @@ impl<'a> ValueAt<'a> {
         })
     }
 
-    /// So many items in brackets.
+    /// `N` items in brackets.
     pub(super) fn tuple<const N: usize>(&self) -> Result<[ValueAt<'a>; N], Refusal> {
         let known = |form: &&'static Form| matches!(form, Form::Tuple(_, items) if items.len() == N);
         let form = self.forms.iter().find(known);
@@ -129,7 +128,7 @@ impl<'a> ValueAt<'a> {
         items.try_into().map_err(|_| self.refuse_with_example())
     }
 
-    /// So many numbers in brackets.
+    /// `N` numbers in brackets.
     pub(super) fn numbers<const N: usize>(&self) -> Result<[f64; N], Refusal> {
         let mut numbers = [0.0; N];
         for (number, item) in numbers.iter_mut().zip(self.tuple::<N>()?) {
@@ -138,7 +137,7 @@ impl<'a> ValueAt<'a> {
         Ok(numbers)
     }
 
-    /// The items of a list, no fewer and no more than the key admits.
+    /// The items of a list, as many as the key admits.
     pub(super) fn list(&self) -> Result<Vec<ValueAt<'a>>, Refusal> {
         let form = self.forms.iter().find(|form| matches!(form, Form::List { .. }));
         let (Value::List(items), Some(form @ Form::List { of, count: [least, most] })) = (&self.node.value, form)
@@ -146,7 +145,7 @@ impl<'a> ValueAt<'a> {
             return Err(self.refuse_with_example());
         };
         if items.len() < *least {
-            return Err(self.refuse(keys::told(std::slice::from_ref(form))).help(self.example()));
+            return Err(self.refuse(keys::requirement(std::slice::from_ref(form))).help(self.example()));
         }
         if items.len() > *most {
             return Err(self.refuse(format!("a list of at most {most} items")));
@@ -154,7 +153,7 @@ impl<'a> ValueAt<'a> {
         Ok(self.each(std::slice::from_ref(*of)).collect())
     }
 
-    /// The items of what is a list: of one form, or each of its own.
+    /// The items of a list, of one form or each of its own.
     pub(super) fn each(&self, forms: &'static [Form]) -> impl Iterator<Item = ValueAt<'a>> {
         let nodes: Vec<Cow<'a, Node>> = match &self.node {
             Cow::Borrowed(Node { value: Value::List(items), .. }) => items.iter().map(Cow::Borrowed).collect(),

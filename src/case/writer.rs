@@ -4,13 +4,13 @@ use serde::Serialize;
 
 use crate::plain;
 
-/// A case as TOML: one that has been read, or what a result says of it, which may be anything.
+/// A case as TOML: one that was read, or the record of one in a result.
 pub(crate) fn written(case: &impl Serialize) -> Result<String, toml::ser::Error> {
     let text = plain::toml(case)?;
     Ok(text.lines().fold(String::new(), |text, line| text + &readable(line) + "\n"))
 }
 
-/// A line `key = value` with the numbers of the value as a person would write them: 2e-7 for 0.0000002.
+/// A line `key = value` with short numbers: 2e-7 for 0.0000002.
 fn readable(line: &str) -> String {
     let Some((key, value)) = line.split_once(" = ").filter(|(_, value)| !value.starts_with(['"', '\''])) else {
         return line.to_owned();

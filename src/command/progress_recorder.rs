@@ -6,7 +6,7 @@ use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
 use crate::output::{Clock, OutputError, Recording};
-use crate::run::{Finished, Recorder, Run, StepRecord};
+use crate::run::{EarlierRun, Recorder, Run, StepRecord};
 use crate::spectral::Checkpoint;
 use crate::{Load, Solver, Step, StressField, VerticalSection};
 
@@ -43,7 +43,7 @@ impl<'a> ProgressRecorder<'a> {
 impl Recorder for ProgressRecorder<'_> {
     type Error = OutputError;
 
-    fn finished(&mut self) -> Option<Finished> {
+    fn finished(&mut self) -> Option<EarlierRun> {
         self.recording.finished()
     }
 

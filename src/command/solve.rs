@@ -19,7 +19,7 @@ use crate::output::{
 };
 use crate::picture::Snapshot;
 use crate::plain;
-use crate::run::{Finished, Outcome, Run, Sampling, StepRecord};
+use crate::run::{EarlierRun, Outcome, Run, Sampling, StepRecord};
 use crate::stress::VerticalSection;
 use clap::Args;
 use std::io::Write;
@@ -113,7 +113,7 @@ fn draw(
 
 /// Steps of an earlier run into the folder with which this one goes on. With `demanded` (`--resume`) steps of another run are an
 /// error, and damaged ones are moved aside and solved again.
-fn earlier(results: &mut Results, fingerprint: &str, run: &Run, demanded: bool) -> Result<Option<Finished>, Failure> {
+fn earlier(results: &mut Results, fingerprint: &str, run: &Run, demanded: bool) -> Result<Option<EarlierRun>, Failure> {
     let (claim, quiet) = (&mut results.claim, results.saying.quiet);
     if !claim.resumes() {
         return Ok(None);
@@ -140,7 +140,7 @@ fn earlier(results: &mut Results, fingerprint: &str, run: &Run, demanded: bool) 
 }
 
 /// Number of loads that an earlier run has solved on its last grid.
-fn done(earlier: &Finished) -> usize {
+fn done(earlier: &EarlierRun) -> usize {
     earlier.steps.len() + usize::from(earlier.last.is_some())
 }
 

@@ -1,34 +1,34 @@
-//! Decimal commas in a text whose numbers commas part: "0,5,0,3" is two heights or four.
+//! Decimal commas in a text whose numbers are separated by commas: "0,5,0,3" is two heights or four.
 //!
-//! Read number by number, every second one is then the digits behind a comma: no sign, leading zeros, exponents behind these
-//! digits alone. Where the spelling proves nothing the numbers do: along a line of a surface both halves are alike, the
-//! neighbours but one no farther apart than the neighbours, and the halves no farther from each other than from themselves.
+//! With decimal commas every second number is the digits behind a comma: it has no sign, may have leading zeros, and exponents
+//! follow only these numbers. Where the spelling is not conclusive the values are compared: along a line of a surface the numbers at
+//! even and odd places have similar differences and similar means.
 //!
-//! A comma may part thousands too: "5,234.50". Between commas these are pairs of one to three digits and of three with a point.
-//! Where commas do not part the numbers, "5,234" is 5.234 or 5234: three digits behind every comma, and no zero before one.
+//! A comma may also separate thousands, "5,234.50": between commas pairs of one to three digits and of three digits with a point.
+//! Where other characters separate the numbers, "5,234" is 5.234 or 5234: three digits behind every comma, and no zero before one.
 
 use super::fault::{Fault, Heights};
 
-/// Squares of the rises between neighbours but one of one half over those of the other, beyond which they are not alike.
+/// Ratio of the squared differences of the two halves beyond which they are not similar.
 const UNLIKE: f64 = 4.0;
-/// Mean distance of the halves over the rms distance of neighbours, beyond which they are apart.
+/// Mean difference of the two halves over the rms difference of neighbours, beyond which they are not similar.
 const APART: f64 = 0.6;
-/// Fewest pairs of numbers that tell.
+/// Fewest pairs of numbers that are compared.
 const FEWEST: usize = 16;
 
-/// How the numbers of a text are spelt, by their place in the line: the first, third, … and the second, fourth, …
+/// Spelling of the numbers of a text by their place in the line: the first, third, … and the second, fourth, …
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Commas {
     has_points: bool,
     leading_zeros: [bool; 2],
     signs: [usize; 2],
     exponents: [bool; 2],
-    /// Numbers that are no thousands: in commas not one to three digits in the first half, three before a point in the second;
-    /// elsewhere without a comma, with other than three digits behind it, or a zero before it.
+    /// Whether a number shows that commas do not separate thousands: between commas other than one to three digits at odd places or
+    /// three before a point at even ones; elsewhere no comma, other than three digits behind it, or a zero before it.
     no_thousands: bool,
 }
 
-/// Whether a number without its sign could stand before a comma that parts thousands.
+/// Whether a number without its sign can be the first group of thousands.
 fn is_first_group(digits: &str) -> bool {
     (1..=3).contains(&digits.len()) && !digits.starts_with('0') && is_digits(digits)
 }
@@ -38,7 +38,7 @@ fn is_digits(text: &str) -> bool {
 }
 
 impl Commas {
-    /// Takes number `column` of a line, from 0.
+    /// Notes the spelling of number `column` of a line, from 0.
     pub fn note(&mut self, column: usize, part: &str) {
         let half = column % 2;
         let digits = part.trim_start_matches(['+', '-']);
@@ -54,14 +54,14 @@ impl Commas {
         };
     }
 
-    /// Takes a number of a text whose numbers something else parts: its comma is read as a decimal one.
+    /// Notes the spelling of a number with a decimal comma, in a text with another separator.
     pub fn note_decimal(&mut self, part: &str) {
         let digits = part.trim_start_matches(['+', '-']);
         let is_thousand = |(first, rest): (&str, &str)| is_first_group(first) && rest.len() == 3 && is_digits(rest);
         self.no_thousands |= !digits.split_once(',').is_some_and(is_thousand);
     }
 
-    /// That every comma of a text whose numbers something else parts may stand for thousands.
+    /// A warning where every decimal comma of a text with another separator may separate thousands.
     pub fn doubt_decimal(&self, count: usize) -> Option<String> {
         (!self.no_thousands && count >= FEWEST).then(|| {
             "surface.heights: every number has three digits behind its comma, which is read as a decimal one, 5,234 as 5.234: \
@@ -70,7 +70,7 @@ impl Commas {
         })
     }
 
-    /// Refuses what its spelling shows to be decimal commas.
+    /// Refuses a text whose spelling shows decimal commas or thousands.
     pub fn refuse(&self, [lines, columns]: [usize; 2]) -> Result<(), Fault> {
         let could_be = !self.has_points && columns.is_multiple_of(2) && self.signs[1] == 0 && !self.exponents[0];
         if could_be && ((self.leading_zeros[1] && !self.leading_zeros[0]) || self.exponents[1]) {
@@ -90,14 +90,14 @@ impl Commas {
         Ok(())
     }
 
-    /// That the numbers, if not their spelling, look like decimal commas.
+    /// A warning where the values suggest decimal commas.
     pub fn doubt(&self, heights: &Heights) -> Option<String> {
         let [lines, columns] = heights.points;
         let could_be = !self.has_points && self.signs[1] == 0 && !self.exponents.contains(&true);
         if !could_be || columns % 2 == 1 || columns < 4 || lines * columns < 2 * FEWEST {
             return None;
         }
-        // Below zero in every second column alone.
+        // Only every second column has signs.
         let signed = columns >= 8 && 8 * self.signs[0] >= lines * columns;
         (signed || halves_differ(heights)).then(|| {
             format!(
@@ -111,7 +111,7 @@ impl Commas {
 
 const HELP: &str = "write decimal points, or part the numbers by semicolons, tabs or blanks";
 
-/// Whether every second number of the lines is another quantity than those between.
+/// Whether the numbers at even and odd places differ as different quantities do.
 fn halves_differ(heights: &Heights) -> bool {
     let columns = heights.points[1];
     let (mut own, mut risen, mut across, mut between, mut count) = ([0.0; 2], [0.0; 2], 0.0, 0.0, 0.0);
@@ -119,7 +119,7 @@ fn halves_differ(heights: &Heights) -> bool {
         for (j, three) in line.windows(3).enumerate() {
             own[j % 2] += (three[2] - three[0]).powi(2);
             risen[j % 2] += f64::from(u8::from(three[2] != three[0]));
-            // Neighbours against the mean of theirs: a slope and a curvature cancel between the halves.
+            // A value less the mean of its neighbours: slope and curvature of the surface cancel.
             let bend = three[1] - 0.5 * (three[0] + three[2]);
             across += if j.is_multiple_of(2) { bend } else { -bend };
             between += bend * bend;
@@ -128,7 +128,7 @@ fn halves_differ(heights: &Heights) -> bool {
     }
     let (mean, rms): (f64, f64) = (across / count, f64::sqrt(between / count));
     let livelier = usize::from(own[1] > own[0]);
-    // A few peaks in one half are a surface's.
+    // A few peaks in one half are possible on a surface.
     let are_unlike = own[livelier] > UNLIKE * own[1 - livelier] && risen[livelier] > 0.25 * count;
     are_unlike || mean.abs() > APART * rms
 }

@@ -1,4 +1,4 @@
-//! Heights as a file holds them, and what can be wrong with any of them.
+//! Heights of a file, and its faults.
 
 use crate::machine::{available_memory, bytes};
 use crate::plain;
@@ -20,7 +20,7 @@ pub struct Heights {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
     pub what: String,
-    /// Stands at the excerpt of the case.
+    /// Label at the excerpt of the case.
     pub label: String,
     pub help: Option<String>,
 }
@@ -30,12 +30,12 @@ impl Fault {
         Self { what: what.into(), label: label.into(), help: None }
     }
 
-    /// What to do about it.
+    /// Adds advice.
     pub fn help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
 
-    /// What stands at the excerpt.
+    /// Label at the excerpt of the case.
     pub fn label(self) -> String {
         self.label
     }
@@ -46,7 +46,7 @@ impl Fault {
 }
 
 impl Heights {
-    /// Of n₁ × n₂ samples, each a number that double precision carries.
+    /// Heights of n₁ × n₂ samples; a fault for a number of samples out of range, and for heights that are not finite or beyond 1e60.
     pub fn new(points: [usize; 2], values: Vec<f64>) -> Result<Self, Fault> {
         let [n1, n2] = points;
         if points.iter().any(|n| !(2..=MOST).contains(n)) {
@@ -64,7 +64,7 @@ impl Heights {
     }
 }
 
-/// Refuses what takes more memory than there is.
+/// Refuses `needed` bytes that exceed the available memory.
 pub fn fits(needed: u64) -> Result<(), Fault> {
     let room = available_memory();
     if needed <= room {

@@ -1,4 +1,4 @@
-//! What the comments before a text of heights say of it, as Gwyddion, SPIP and others write them.
+//! The header of a text of heights: comments as written by Gwyddion, SPIP and other programs.
 //!
 //! ```text
 //! # Width: 10.00 µm         # x-pixels = 512          # h=650 w=650
@@ -6,7 +6,7 @@
 //! # Value units: m          # x-unit = nm
 //! ```
 //!
-//! Such a text is an image: a line runs along x, the first one on top. Comments of other keys count for nothing.
+//! Such a text is an image: a line runs along x, the first one on top. Comments with other keys are ignored.
 
 use super::fault::Fault;
 use super::unit;
@@ -18,36 +18,36 @@ pub struct Length {
     pub unit: Option<String>,
 }
 
-/// What heights are measured in, by the file.
+/// Unit of the heights in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum HeightsUnit {
-    /// A unit of length that is known.
+    /// A known unit of length.
     Known(String),
-    /// No length, or a factor that was not applied.
+    /// Another unit than one of length, or a factor that was not applied.
     Other,
 }
 
-/// What comments say.
+/// Values of the known keys.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Header {
-    /// Of an image along its lines, and across them.
+    /// Sides of an image along its lines and across them.
     sides: [Option<Length>; 2],
     pixel: Option<Length>,
-    /// Numbers of a line, and lines.
+    /// Number of values in a line, and of lines.
     counts: [Option<usize>; 2],
-    /// Of sides that are written without one.
+    /// Unit of sides that are written without one.
     lateral: Option<String>,
     heights: Option<HeightsUnit>,
     has_channel: bool,
 }
 
-/// What a key is about.
+/// Quantity of a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum About {
-    /// Along a line (0), across the lines (1).
+    /// Side along a line (0) or across the lines (1).
     Side(usize),
     Pixel,
-    /// Of a line (0), of lines (1).
+    /// Number of values in a line (0) or of lines (1).
     Count(usize),
     Lateral,
     Heights,
@@ -78,7 +78,7 @@ impl About {
 }
 
 impl Header {
-    /// Takes a comment at line `number`, without its mark; `begun`: numbers stand before it.
+    /// Reads the comment at line `number`, without its mark; `begun`: whether numbers precede it.
     pub fn note(&mut self, number: usize, comment: &str, begun: bool) -> Result<(), Fault> {
         for (about, value) in pairs(comment) {
             if begun || (about == About::Channel && self.has_channel) {
@@ -102,7 +102,7 @@ impl Header {
             About::Channel => self.has_channel = true,
             About::Count(axis) => self.counts[axis] = counted(),
             About::Side(axis) if ["px", "pixel", "pixels"].contains(&unit) => self.counts[axis] = counted(),
-            // "Height: nm"; other words are none of a header.
+            // "Height: nm" is the unit of the heights; other words are ignored.
             About::Side(1) if amount.is_none() => {
                 self.heights = known(value.trim()).map(HeightsUnit::Known).or(self.heights.take());
             }
@@ -125,7 +125,7 @@ impl Header {
                 Some(name) => self.lateral = Some(name),
                 None => return Err(unreadable("sides in a unit of length that is not known")),
             },
-            // A factor stands before the unit that it leads to.
+            // A factor precedes the unit that applies after it.
             About::Heights if self.heights == Some(HeightsUnit::Other) => {}
             About::Heights => {
                 self.heights = Some(known(value.trim()).map_or(HeightsUnit::Other, HeightsUnit::Known));
@@ -135,17 +135,17 @@ impl Header {
         Ok(())
     }
 
-    /// Whether lines are those of an image.
+    /// Whether the text is an image.
     pub fn is_image(&self) -> bool {
         self.sides.iter().any(Option::is_some) || self.pixel.is_some() || self.counts.iter().any(Option::is_some)
     }
 
-    /// What heights are measured in.
+    /// Unit of the heights; `None` where the header has none.
     pub fn heights(&self) -> Option<&HeightsUnit> {
         self.heights.as_ref()
     }
 
-    /// What coordinates of points are measured in: said, or that of the heights.
+    /// Unit of the coordinates of points: that of the sides, or of the heights.
     pub fn of_coordinates(&self) -> Option<String> {
         let heights = match &self.heights {
             Some(HeightsUnit::Known(name)) => Some(name.clone()),
@@ -154,8 +154,8 @@ impl Header {
         self.lateral.clone().or(heights)
     }
 
-    /// Sides of an image of so many `numbers` a line and `lines`; `None` where nothing tells them. Refused where it has other
-    /// counts, or one side alone.
+    /// Sides of an image of `lines` lines of `numbers` values; `None` where the header has none. Refused where the header has other
+    /// counts, or only one side.
     pub fn sides(&self, [numbers, lines]: [usize; 2]) -> Result<Option<[Length; 2]>, Fault> {
         let says = [self.counts[0].unwrap_or(numbers), self.counts[1].unwrap_or(lines)];
         if says != [numbers, lines] {
@@ -194,7 +194,7 @@ fn pairs(comment: &str) -> Vec<(About, &str)> {
     whole.into_iter().collect()
 }
 
-/// A number at the beginning and what follows it, in the spelling of the micro sign that is known.
+/// A number at the beginning of a value and the text behind it, the micro sign normalised.
 fn measured(value: &str) -> (Option<f64>, &str) {
     let value = value.trim();
     let end = value.find(|c: char| !(c.is_ascii_digit() || "+-.,eE".contains(c))).unwrap_or(value.len());

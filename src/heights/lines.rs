@@ -1,31 +1,31 @@
-//! Lines of a text of heights: those that hold numbers one by one, the comments between them into a [`Header`].
+//! Lines of a text of heights: those with numbers one by one, the comments between them in a [`Header`].
 
 use super::fault::Fault;
 use super::header::Header;
 use std::io::BufRead;
 
-/// Bytes of the longest line that is read: 32768 numbers of 32 digits.
+/// Longest line, bytes: 32768 numbers of 32 digits.
 const LONGEST: usize = 1 << 20;
 
-/// A line that holds anything but a comment.
+/// A line that is not empty and not a comment.
 #[derive(Debug)]
 pub struct Line {
-    /// From 1.
+    /// Number in the file, from 1.
     pub number: usize,
-    /// Without blanks around it.
+    /// Text without blanks around it.
     pub text: String,
-    /// Whether an empty line or a comment stands before it.
+    /// Whether an empty line or a comment precedes it.
     pub is_apart: bool,
 }
 
-/// Lines of a text that hold anything, with their numbers from 1.
+/// Reader of the lines of a text, without empty ones and comments.
 #[derive(Debug)]
 pub struct Lines<R> {
     reader: R,
     number: usize,
     begun: bool,
     bytes: Vec<u8>,
-    /// What the comments so far say of the heights.
+    /// Header from the comments so far.
     pub header: Header,
 }
 
@@ -52,7 +52,7 @@ impl<R: BufRead> Lines<R> {
             if self.number == 1 && (self.bytes.starts_with(&[0xff, 0xfe]) || self.bytes.starts_with(&[0xfe, 0xff])) {
                 return Err(Fault::new("looks like UTF-16", "which encoding?").help("save it as UTF-8 or plain ASCII"));
             }
-            // What is no number is refused by the line; comments may be in any encoding.
+            // Comments may be in any encoding; a number that cannot be read is refused later.
             let text = String::from_utf8_lossy(&self.bytes);
             let text = text.trim_start_matches('\u{feff}').trim_matches(|c: char| c.is_whitespace() && c != '\t');
             let text = text.trim_end();

@@ -1,7 +1,7 @@
-//! File formats of heights: NumPy arrays, matrices and points as text, with what their headers say of units and sides.
+//! File formats of heights: NumPy arrays, matrices and points as text, with units and sides from their headers.
 //!
-//! One file a format (`npy`, `text` with its `lines`, `header` and `decimal_commas`, `xyz`); [`Stored`] is what any of them holds, and a
-//! [`Fault`] what is wrong with one. `suspicious_values` refuses or doubts numbers that are no heights.
+//! One module a format (`npy`, `text` with its `lines`, `header` and `decimal_commas`, `xyz`); [`Stored`] is the content of a file, and
+//! a [`Fault`] the reason of its refusal. `suspicious_values` refuses values that are not heights, or warns of them.
 
 mod decimal_commas;
 mod fault;
@@ -16,4 +16,4 @@ mod xyz;
 
 pub use fault::{Fault, Heights, fits};
 pub use header::{HeightsUnit, Length};
-pub use stored::{FORMATS, Format, Stored};
+pub use stored::{FORMATS, HeightsFormat, Stored};

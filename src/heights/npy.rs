@@ -2,21 +2,21 @@
 //! the axes.
 //!
 //! The head is a Python dictionary behind a magic word, a version and its length:
-//! `{'descr': '<f8', 'fortran_order': False, 'shape': (64, 48), }`. It is read by hand, since it may hold anything: a
-//! parser of all of Python's literals runs out of stack on deep nesting, and sizes whose product overflows must be refused.
+//! `{'descr': '<f8', 'fortran_order': False, 'shape': (64, 48), }`. It is parsed here, since it may have any content: a parser of all
+//! of Python's literals runs out of stack on deep nesting, and sizes whose product overflows must be refused.
 
 use std::io::{self, Read};
 
 use super::fault::{Fault, Heights, MOST, fits};
 use ndarray::ArrayD;
 
-/// Bytes of the longest head that is read; that of a plain array has 118.
+/// Longest head, bytes; that of a plain array has 118.
 const LONGEST: usize = 1 << 16;
 
-/// The bytes of a value as a number.
+/// Conversion of the bytes of a value to a number.
 type Decode = fn(&[u8]) -> f64;
 
-/// What the head of a file says.
+/// The head of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Head {
     /// Type of the values as written, such as `'<f8'` with its quotes.
@@ -28,7 +28,7 @@ struct Head {
 }
 
 impl Head {
-    /// Read the head; the reader then stands before the values.
+    /// Reads the head, up to the values.
     fn read(reader: &mut impl Read) -> io::Result<Self> {
         let mut magic = [0; 8];
         reader.read_exact(&mut magic)?;
@@ -45,7 +45,7 @@ impl Head {
         let mut text = vec![0; size];
         reader.read_exact(&mut text)?;
         let text = std::str::from_utf8(&text).map_err(|_| invalid("its head is no text"))?;
-        Self::parse(text).ok_or_else(|| invalid("its head says neither type nor shape"))
+        Self::parse(text).ok_or_else(|| invalid("its head has no type or no shape"))
     }
 
     fn parse(text: &str) -> Option<Self> {
@@ -64,14 +64,14 @@ impl Head {
         Some(Self { kind: kind?, fortran: fortran?, shape: shape? })
     }
 
-    /// Its type in words: as written where it is one of NumPy's short ones, since a head may hold anything.
-    fn told(&self) -> String {
+    /// Its type in words: as written for the short names of NumPy, since a head may have any content.
+    fn kind_in_words(&self) -> String {
         let short =
             self.kind.len() <= 6 && self.kind.chars().all(|c| c.is_ascii_alphanumeric() || "<>|='\"".contains(c));
         if short { format!("type {}", self.kind) } else { "another type".to_owned() }
     }
 
-    /// Bytes of a value, and what they are as a number; `None` for a type that is no real number.
+    /// Size of a value in bytes and its conversion; `None` for a type that is not a real number.
     fn decode(&self) -> Option<(usize, Decode)> {
         macro_rules! number {
             ($type:ty, $read:ident) => {
@@ -104,7 +104,7 @@ impl Head {
 
 const WANTED: &str = "needed: heights of shape (n1, n2) and type float64, float32 or an integer, written by numpy.save";
 
-/// Read a file of `bytes` bytes.
+/// Reads a file of `bytes` bytes.
 pub fn read(mut reader: impl Read, bytes: u64) -> Result<Heights, Fault> {
     read_heights(&mut reader, bytes).map_err(|fault| if fault.help.is_none() { fault.help(WANTED) } else { fault })
 }
@@ -117,7 +117,7 @@ pub fn of_array(array: &ArrayD<f64>) -> Result<Heights, Fault> {
     Heights::new(points, array.iter().copied().collect())
 }
 
-/// Samples along both axes of an array, or why it has no two axes of lengths that a surface can have.
+/// Samples along both axes of an array; a fault without two axes of allowed lengths.
 fn points(shape: &[u64]) -> Result<[usize; 2], Fault> {
     let most = MOST as u64;
     match *shape {
@@ -134,7 +134,7 @@ fn points(shape: &[u64]) -> Result<[usize; 2], Fault> {
 fn read_heights(reader: &mut impl Read, bytes: u64) -> Result<Heights, Fault> {
     let head = Head::read(reader).map_err(|error| Fault::new(format!("is not a NumPy file: {error}"), "this file"))?;
     let points = points(&head.shape)?;
-    let kind = head.told();
+    let kind = head.kind_in_words();
     let Some((size, number)) = head.decode() else {
         return Err(Fault::new(format!("holds values of {kind}"), kind));
     };
@@ -143,7 +143,7 @@ fn read_heights(reader: &mut impl Read, bytes: u64) -> Result<Heights, Fault> {
     if bytes < (size * n1 * n2) as u64 {
         return Err(truncated());
     }
-    // In the order of the grid, and a line as stored.
+    // The heights in the order of the grid, and one line as stored.
     fits(8 * (n1 * n2) as u64)?;
     let mut values = vec![0.0; n1 * n2];
     let [lines, along] = if head.fortran { [n2, n1] } else { [n1, n2] };
@@ -157,7 +157,7 @@ fn read_heights(reader: &mut impl Read, bytes: u64) -> Result<Heights, Fault> {
     Heights::new(points, values)
 }
 
-/// The parts between commas that stand in no brackets.
+/// The parts between commas outside brackets.
 fn entries(body: &str) -> impl Iterator<Item = &str> {
     let mut depth = 0_i64;
     let parts = body.split(move |c: char| {

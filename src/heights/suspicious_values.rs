@@ -1,12 +1,11 @@
-//! Signs that heights are something else: coordinates, places without a measurement, digits.
+//! Values that are probably not heights: coordinates, marks of missing data, digits behind decimal commas.
 //!
-//! [`no_data`] refuses numbers that no surface has; [`doubts`] returns a warning for what hardly any surface has, and the numbers
-//! are then pressed as they are.
+//! [`no_data`] refuses values that no surface has; [`doubts`] returns warnings about implausible ones, which are used nevertheless.
 
 use super::fault::{Fault, Heights};
 use crate::numeric::sums;
 
-/// Numbers that instruments and programs write where nothing was measured.
+/// Values that instruments and programs write for missing data.
 const NO_DATA: [f64; 20] = [
     -999.0,
     -9999.0,
@@ -29,22 +28,21 @@ const NO_DATA: [f64; 20] = [
     -1e30,
     -1e32,
 ];
-/// The same where they are the largest numbers of a format, written to a few digits: Surfer's blank, netCDF's fill, the ends of single
-/// precision.
+/// Values for missing data that are written to a few digits: Surfer's blank, netCDF's fill, the limits of single precision.
 const NO_DATA_ABOUT: [f64; 5] = [1.701_41e38, 9.969_21e36, 3.402_82e38, -3.402_82e38, -1e38];
-/// Standard deviations beyond which a height lies outside.
+/// Distance of an outlier from the mean, standard deviations.
 const OUTSIDE: f64 = 20.0;
-/// Fewest lines that can rise evenly.
+/// Fewest values of a line that rises evenly.
 const RISES: usize = 6;
-/// How far coordinates lie from even ones, in spacings.
+/// Largest deviation of coordinates from even spacing, in spacings.
 const NEAR: f64 = 0.1;
 
-/// Refuses numbers that stand for no height: those of [`NO_DATA`] that lie farther from all others than these from each other.
+/// Refuses marks of missing data: values of [`NO_DATA`] farther from all others than these from each other.
 pub fn no_data(heights: &Heights) -> Result<(), Fault> {
     let values = &heights.values;
     let is = |code: f64, about: f64, x: f64| (x - code).abs() <= about * code.abs();
     let codes = NO_DATA.iter().map(|code| (*code, 0.0)).chain(NO_DATA_ABOUT.iter().map(|code| (*code, 1e-4)));
-    // Those that are there: few files have any.
+    // Only values between the smallest and the largest height can occur.
     let (low, high) = ends(values.iter().copied());
     for (code, about) in codes {
         if !is(code, about, low) && !is(code, about, high) {
@@ -73,7 +71,7 @@ fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
 }
 
-/// What is doubtful about numbers taken for heights, a sentence each.
+/// Warnings about implausible heights, a sentence each.
 pub fn doubts(heights: &Heights) -> Vec<String> {
     let rises = [0, 1].into_iter().filter_map(|axis| rising(heights, axis));
     let zeros = [0, 1].into_iter().filter_map(|axis| alternating(heights, axis));
@@ -88,7 +86,7 @@ fn line(heights: &Heights, axis: usize, k: usize) -> impl Iterator<Item = f64> +
     (0..count).map(move |index| heights.values[start + index * step])
 }
 
-/// Lines along `axis` that rise evenly while most do not: coordinates.
+/// A warning about lines along `axis` that rise evenly while most do not: coordinates.
 fn rising(heights: &Heights, axis: usize) -> Option<String> {
     let (count, lines) = (heights.points[axis], heights.points[1 - axis]);
     if count < RISES {
@@ -114,7 +112,7 @@ fn rising(heights: &Heights, axis: usize) -> Option<String> {
     ))
 }
 
-/// Every second number along `axis` is 0.
+/// A warning where every second number along `axis` is 0.
 fn alternating(heights: &Heights, axis: usize) -> Option<String> {
     let [n1, n2] = heights.points;
     if heights.points[axis] < 4 || n1 * n2 < 32 {
@@ -137,7 +135,7 @@ fn alternating(heights: &Heights, axis: usize) -> Option<String> {
     found.then(|| format!("surface.heights: every second {along}, or another quantity beside the heights?"))
 }
 
-/// A height that occurs more than once and lies alone, far from all others.
+/// A warning about a height that occurs several times, far from all others.
 fn alone(heights: &Heights) -> Option<String> {
     let values = &heights.values;
     let (low, high) = ends(values.iter().copied());
@@ -153,7 +151,7 @@ fn alone(heights: &Heights) -> Option<String> {
             let first = values.iter().position(|x| *x == code).expect("it occurs");
             let n2 = heights.points[1];
             format!(
-                "surface.heights: the same height stands at {count} of {} places, the first at [{}, {}], far from all others: does it \
+                "surface.heights: the same height occurs at {count} of {} places, the first at [{}, {}], far from all others: does it \
                  mark places without a measurement? Fill them before",
                 values.len(),
                 first / n2,
@@ -170,7 +168,7 @@ fn deviation(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
     [mean, (values.map(|x| (x - mean).powi(2)).sum::<f64>() / count).sqrt()]
 }
 
-/// A height far outside the distribution of the others.
+/// A warning about a height far outside the distribution of the others.
 fn outside(heights: &Heights) -> Option<String> {
     let values = &heights.values;
     let mean = sums::mean(values);
@@ -178,7 +176,7 @@ fn outside(heights: &Heights) -> Option<String> {
     let others = values.iter().enumerate().filter(|(k, _)| *k != farthest).map(|(_, x)| *x);
     let [mean, rest] = deviation(others);
     let away = (values[farthest] - mean).abs();
-    // Of a flat surface with one peak the deviation is rounding.
+    // On a flat surface with one peak the standard deviation is rounding.
     let (is_number, times) = (rest > 1e-12 * away, away / rest);
     (is_number && times > OUTSIDE).then(|| {
         let n2 = heights.points[1];
@@ -191,7 +189,7 @@ fn outside(heights: &Heights) -> Option<String> {
     })
 }
 
-/// Three columns that have nothing in common.
+/// A warning about three columns without similarity: points rather than heights.
 fn three(heights: &Heights) -> Option<String> {
     let [lines, 3] = heights.points else { return None };
     let column = |k: usize| line(heights, 0, k);
@@ -286,7 +284,7 @@ mod tests {
             ),
             (
                 surface([40, 40], |i, j| if (i + 3 * j).is_multiple_of(31) { 0.0 } else { 50.0 + 0.5 * rough(i, j) }),
-                "the same height stands at",
+                "the same height occurs at",
             ),
             (surface([64, 3], |i, j| hash(3 * i + j)), "64 lines of three numbers"),
         ] {

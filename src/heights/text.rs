@@ -1,8 +1,7 @@
 //! Matrices of numbers as text: one line a row along **a**₁, its numbers along **a**₂.
 //!
-//! Numbers stand apart by semicolons, tabs, commas or blanks, whichever the first line has, in this order. Where commas do
-//! not separate, they are decimal commas. Lines that begin with # or % are comments, some of which [`Header`] reads; empty ones
-//! count for nothing.
+//! The separator is the first of semicolon, tab, comma and blank in the first line. Where commas do not separate, they are decimal
+//! commas. Lines that begin with # or % are comments, some of which [`Header`] reads; empty lines are skipped.
 
 use super::decimal_commas::Commas;
 use super::fault::{Fault, Heights, MOST, fits};
@@ -10,7 +9,7 @@ use super::header::Header;
 use super::lines::{Line, Lines};
 use std::io::BufRead;
 
-/// What stands between the numbers of a line.
+/// Separator of the numbers of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Separator {
     Mark(char),
@@ -19,7 +18,7 @@ enum Separator {
 
 impl Separator {
     fn of(line: &str) -> Self {
-        // "1,5 2,5": where every word between blanks has a comma between digits at most, and no point, it is a decimal one.
+        // "1,5 2,5": commas between digits, in words between blanks without points, are decimal.
         let words: Vec<&str> = line.split_whitespace().collect();
         let is_decimal = |word: &&str| match word.split_once(',') {
             None => true,
@@ -37,7 +36,7 @@ impl Separator {
         }
     }
 
-    /// The parts of a line; one separator at its end is none.
+    /// The parts of a line; one separator at its end is ignored.
     fn split(self, line: &str) -> Vec<&str> {
         match self {
             Self::Mark(mark) => line.strip_suffix(mark).unwrap_or(line).split(mark).map(str::trim).collect(),
@@ -47,31 +46,31 @@ impl Separator {
 
     fn number(self, part: &str) -> Option<f64> {
         if self != Self::Mark(',') && part.contains(',') {
-            // Where a point stands too, one of them marks thousands.
+            // With a point too, one of them separates thousands.
             return part.replacen(',', ".", 1).parse().ok().filter(|_| !part.contains('.'));
         }
         part.parse().ok()
     }
 }
 
-/// A table of numbers, one line of it a line of the file.
+/// A table of numbers, one row a line of the file.
 #[derive(Debug)]
-pub struct Table {
+pub struct NumberTable {
     /// Numbers line by line; points [lines, numbers of a line].
     pub heights: Heights,
-    /// Numbers of the lines in the file, of a table of few columns alone.
+    /// Numbers of the lines in the file; empty for tables of many columns.
     pub lines: Vec<usize>,
-    /// What its comments say.
+    /// Header from its comments.
     pub header: Header,
-    /// What is doubtful about how it is written.
+    /// Warnings about its format, a sentence each.
     pub doubts: Vec<String>,
 }
 
-/// Columns up to which a table may be one of points.
+/// Most columns of a table of points.
 pub const FEW: usize = 6;
 
-/// Read a matrix of `bytes` bytes.
-pub fn read(reader: impl BufRead, bytes: u64) -> Result<Table, Fault> {
+/// Reads a matrix from a file of `bytes` bytes.
+pub fn read(reader: impl BufRead, bytes: u64) -> Result<NumberTable, Fault> {
     let mut lines = Lines::new(reader);
     let (mut values, mut rows, mut columns, mut separator) = (Vec::new(), 0, 0, None);
     let (mut commas, mut numbers, mut blocks) = (Commas::default(), Vec::new(), vec![0_usize]);
@@ -118,12 +117,12 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<Table, Fault> {
         _ => commas.doubt_decimal(heights.values.len()),
     };
     let doubts = doubt.into_iter().chain(several(&blocks, columns)).collect();
-    Ok(Table { heights, lines: numbers, header: lines.header, doubts })
+    Ok(NumberTable { heights, lines: numbers, header: lines.header, doubts })
 }
 
 const DECIMAL: &str = "if its commas are decimal ones, write points, or part the numbers by semicolons, tabs or blanks";
 
-/// The fault of a cell that is no number, `column` counted from 0; its text is not repeated.
+/// The fault of a cell that is not a number, `column` counted from 0; its text is not repeated.
 fn no_number(line: usize, column: usize, part: &str, is_first: bool) -> Fault {
     let kind = match part {
         "" => "nothing",
@@ -138,7 +137,7 @@ fn no_number(line: usize, column: usize, part: &str, is_first: bool) -> Fault {
     }
 }
 
-/// That empty lines part a matrix into equal blocks of several lines.
+/// A warning where empty lines divide a matrix into equal blocks of several lines.
 fn several(blocks: &[usize], columns: usize) -> Option<String> {
     let [first, rest @ ..] = blocks else { return None };
     let are_equal = !rest.is_empty() && *first > 1 && rest.iter().all(|lines| lines == first);

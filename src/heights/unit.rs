@@ -1,6 +1,6 @@
-//! Units of length that files and cases are in.
+//! Units of length of files and cases.
 
-/// What a unit is in metres, by the names it goes by.
+/// Names of the units, and each unit in metres.
 const UNITS: [(&[&str], f64); 9] = [
     (&["m"], 1.0),
     (&["cm"], 1e-2),
@@ -13,31 +13,31 @@ const UNITS: [(&[&str], f64); 9] = [
     (&["mil"], 2.54e-5),
 ];
 
-/// Names that are told of.
+/// Known names, for error messages.
 pub const KNOWN: &str = "\"m\", \"cm\", \"mm\", \"µm\", \"nm\", \"pm\", \"Å\", \"in\" or \"mil\"";
 
-/// A unit that is not known.
+/// The error for an unknown unit of length.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("\"{0}\" is no unit of length that is known")]
 pub struct UnknownUnit(pub String);
 
 /// A unit of length in metres.
 fn metres(name: &str) -> Result<f64, UnknownUnit> {
-    // The micro sign of Latin-1 is no text of UTF-8.
+    // The micro sign of Latin-1 is not UTF-8, and read as U+FFFD.
     let own = name.trim().replace('\u{fffd}', "µ");
     let known = UNITS.iter().find(|(names, _)| names.contains(&&own[..]));
     known.map(|(_, metres)| *metres).ok_or_else(|| UnknownUnit(name.to_owned()))
 }
 
-/// Whether a name is that of a unit of length.
+/// Whether a name is a known unit of length.
 pub fn is_known(name: &str) -> bool {
     metres(name).is_ok()
 }
 
-/// What a length in the unit `from` is multiplied by to be in the unit `to`.
+/// Factor from lengths in the unit `from` to lengths in the unit `to`.
 pub fn factor(from: &str, to: &str) -> Result<f64, UnknownUnit> {
     let (from, to) = (metres(from)?, metres(to)?);
-    // Powers of ten divide without rounding where the quotient is one.
+    // Quotients of powers of ten without rounding.
     Ok(if from >= to { (from / to * 1e12).round() / 1e12 } else { 1.0 / ((to / from * 1e12).round() / 1e12) })
 }
 

@@ -1,8 +1,8 @@
-//! Points `x y z`, one a line, that stand on a regular grid along x and y, in any order: x along **a**₁, y along **a**₂.
+//! Points `x y z`, one a line, on a regular grid along x and y, in any order: x along **a**₁, y along **a**₂.
 //!
-//! Coordinates of one column differ by rounding, those of neighbours by the spacing: the sorted ones are cut where they
-//! rise by more than half of their largest rise. Every point must then stand within a tenth of a spacing of its place, and
-//! every place must have one point.
+//! Coordinates of one column differ by rounding, those of neighbours by the spacing: the sorted ones are divided where they rise by
+//! more than half of their largest rise. Every point must lie within a tenth of a spacing of a grid point, and every grid point
+//! must have one point.
 
 use super::fault::{Fault, Heights, MOST, fits};
 use super::header::Header;
@@ -10,9 +10,9 @@ use super::lines::{Line, Lines};
 use super::text::FEW;
 use std::io::BufRead;
 
-/// How far a point may stand from its place, in spacings.
+/// Largest distance of a point from its grid point, in spacings.
 const NEAR: f64 = 0.1;
-/// Memory per point: itself, its line, its place and a sorted coordinate, and the list before it has grown.
+/// Memory per point, bytes: the point, its line, its grid point, a sorted coordinate, and the list while it grows.
 const PER_POINT: u64 = 72;
 
 /// A point and its line.
@@ -24,13 +24,13 @@ struct Point {
 
 /// Equally spaced coordinates.
 #[derive(Debug, Clone, Copy)]
-struct Axis {
+struct EvenAxis {
     first: f64,
     step: f64,
     count: usize,
 }
 
-impl Axis {
+impl EvenAxis {
     fn of(mut coordinates: Vec<f64>) -> Self {
         coordinates.sort_unstable_by(f64::total_cmp);
         let rises = || coordinates.windows(2).map(|pair| pair[1] - pair[0]);
@@ -40,7 +40,7 @@ impl Axis {
         Self { first, step: (last - first) / (count.max(2) - 1) as f64, count }
     }
 
-    /// Index of a coordinate; none away from every place.
+    /// Index of a coordinate; none away from every grid line.
     fn index(&self, x: f64) -> Option<usize> {
         let steps = if self.step > 0.0 { (x - self.first) / self.step } else { 0.0 };
         let index = steps.round();
@@ -54,15 +54,15 @@ impl Axis {
 
 /// A regular grid of points.
 #[derive(Debug)]
-pub struct Points {
-    /// Along x and y.
+pub struct PointGrid {
+    /// Heights, axis 0 along x, axis 1 along y.
     pub heights: Heights,
-    /// Along x and y, n times the spacing.
+    /// Period along x and y: n times the spacing.
     pub period: [f64; 2],
 }
 
-/// Read points from a file of `bytes` bytes; also what its comments say.
-pub fn read(reader: impl BufRead, bytes: u64) -> Result<(Points, Header), Fault> {
+/// Reads points from a file of `bytes` bytes, and its header.
+pub fn read(reader: impl BufRead, bytes: u64) -> Result<(PointGrid, Header), Fault> {
     let mut lines = Lines::new(reader);
     let mut points = Vec::new();
     while let Some(Line { number: line, text, .. }) = lines.next_line()? {
@@ -84,9 +84,9 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<(Points, Header), Fault>
     Ok((on_grid(&points)?, lines.header))
 }
 
-/// A table whose first two columns are the places of a regular grid; `None` of one whose are not. Refused where points are missing, and
-/// where more than a height follows. `lines` are the numbers of the table's in the file, or none: then they count from 1.
-pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<Points, Fault>> {
+/// Points of a table whose first two columns form a regular grid; `None` where they do not. Refused where points are missing, and
+/// with more than one height a point. `lines` are the numbers of the rows in the file; empty: they count from 1.
+pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<PointGrid, Fault>> {
     let [count, columns] = table.points;
     if !(3..=FEW).contains(&columns) || count < 4 {
         return None;
@@ -103,7 +103,7 @@ pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<Points, Fault
     }
     let axes = axes(&points);
     let [n1, n2] = axes.map(|axis| axis.count);
-    // Small whole numbers fill a grid by chance while they are few.
+    // A few small whole numbers fill a grid by chance.
     let most = if count < 9 { count } else { 2 * count };
     if n1.min(n2) < 2 || n1.max(n2) > count / 2 || !(count..=most).contains(&(n1 * n2)) {
         return None;
@@ -125,12 +125,12 @@ pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<Points, Fault
     })
 }
 
-fn axes(points: &[Point]) -> [Axis; 2] {
-    [0, 1].map(|axis| Axis::of(points.iter().map(|point| point.at[axis]).collect()))
+fn axes(points: &[Point]) -> [EvenAxis; 2] {
+    [0, 1].map(|axis| EvenAxis::of(points.iter().map(|point| point.at[axis]).collect()))
 }
 
 /// The heights of points, and the period along x and y.
-fn on_grid(points: &[Point]) -> Result<Points, Fault> {
+fn on_grid(points: &[Point]) -> Result<PointGrid, Fault> {
     if points.len() < 4 {
         return Err(Fault::new(format!("holds {} points, too few for a surface", points.len()), "too few points"));
     }
@@ -146,7 +146,7 @@ fn on_grid(points: &[Point]) -> Result<Points, Fault> {
         let place = axes[0].index(at[0]).zip(axes[1].index(at[1])).map(|(i, j)| i * counts[1] + j);
         let Some(place) = place.filter(|place| *place < values.len()) else {
             let what = format!(
-                "line {line}: its point stands on no grid of equal spacings along x and y ({} × {} were found)",
+                "line {line}: its point is on no grid of equal spacings along x and y ({} × {} were found)",
                 counts[0], counts[1]
             );
             return Err(Fault::new(what, format!("line {line}"))
@@ -164,7 +164,7 @@ fn on_grid(points: &[Point]) -> Result<Points, Fault> {
         let what = format!("{missing} of {} × {} points are missing, the first at ({x}, {y})", counts[0], counts[1]);
         return Err(Fault::new(what, "points are missing").help("fill what was not measured before"));
     }
-    Ok(Points { heights: Heights::new(counts, values)?, period: axes.map(|axis| axis.count as f64 * axis.step) })
+    Ok(PointGrid { heights: Heights::new(counts, values)?, period: axes.map(|axis| axis.count as f64 * axis.step) })
 }
 
 #[cfg(test)]
@@ -172,7 +172,7 @@ mod tests {
     use super::*;
 
     fn of(text: &str) -> Result<(Heights, [f64; 2]), Fault> {
-        read(text.as_bytes(), text.len() as u64).map(|(Points { heights, period }, _)| (heights, period))
+        read(text.as_bytes(), text.len() as u64).map(|(PointGrid { heights, period }, _)| (heights, period))
     }
 
     /// 3 × 2 points, spacing ⅓ and 2, of height 10 i + j.

@@ -61,7 +61,7 @@ pub(crate) fn resampled(
     };
     let columns: Vec<(usize, usize, f64)> = (0..to[1]).map(|j| place(j, 1)).collect();
     let mut result = vec![0.0; to[0] * to[1]];
-    rows::each(to[1], result.par_chunks_mut(to[1]), |i, row| {
+    rows::each_row(to[1], result.par_chunks_mut(to[1]), |i, row| {
         let (low, high, s) = place(i, 0);
         if !(positive[low] || positive[high]) {
             return;

@@ -106,7 +106,6 @@ fn enclosed(mesh: &Mesh, pressure: &[f64]) -> Vec<bool> {
     enclosed
 }
 
-/// The fit of one rim.
 struct RimFit<'a> {
     elements: &'a [RimElement],
     edge: &'a EdgeRatios,

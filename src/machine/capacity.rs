@@ -5,59 +5,59 @@ use crate::notation::number;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Memory taken for granted where the system says nothing, bytes.
+/// Memory assumed where the system does not report it, bytes.
 const UNKNOWN: u64 = 64 << 30;
 
-/// Addresses that a thread reserves beside what it takes: its stack, and what its allocator holds ready.
+/// Address space that a thread reserves for its stack and its allocator, bytes.
 const RESERVED: u64 = 72 << 20;
 
 /// Bytes of a mebibyte.
 const MEBIBYTE: f64 = 1024.0 * 1024.0;
 
-/// What a run may still take, bytes.
+/// Available memory and disk, bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Capacity {
-    /// Memory, see [`available_memory`].
+    /// [Available memory](available_memory).
     pub memory: u64,
-    /// Disk under the output folder; all there could be where the system does not say.
+    /// Disk under the output folder; the largest number where the system does not report it.
     pub disk: u64,
 }
 
 impl Capacity {
-    /// What there is for a run that writes into `folder`, which need not exist yet.
+    /// Memory and disk for a run that writes into `folder`, which need not exist.
     pub fn on_this_machine(folder: &Path) -> Self {
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let space = folder.ancestors().find_map(|folder| fs4::statvfs(folder).ok());
-        // What is no disk has no room at all.
+        // Virtual file systems report no size.
         let disk = space.filter(|space| space.total_space() > 0).map_or(u64::MAX, |space| space.available_space());
         Self { memory: available_memory(), disk }
     }
 }
 
-/// Bytes that this process may still take without being killed or swapped out: the least of what is free, what its
-/// control groups allow and what its address space may still grow. Where none of them can be read, 64 GiB.
+/// Memory that this process can take without being killed or swapped out, bytes: the least of free memory, the limits of its
+/// control groups and that of its address space; 64 GiB where none of them can be read.
 pub fn available_memory() -> u64 {
     let limits = [free(), groups(), address_space()];
     limits.into_iter().flatten().min().unwrap_or(UNKNOWN)
 }
 
-/// `MemAvailable` of Linux.
+/// `MemAvailable` of Linux, bytes.
 fn free() -> Option<u64> {
     kibibytes(&fs::read_to_string("/proc/meminfo").ok()?, "MemAvailable:")
 }
 
-/// What the address space may still grow under `ulimit -v`, less what threads reserve of it.
+/// Free address space under `ulimit -v`, without the reserves of threads, bytes.
 fn address_space() -> Option<u64> {
     let limits = fs::read_to_string("/proc/self/limits").ok()?;
     let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
     let limit: u64 = line.split_whitespace().next()?.parse().ok()?;
     let used = kibibytes(&fs::read_to_string("/proc/self/status").ok()?, "VmSize:")?;
-    // That of the process beside those that work.
+    // The main thread and the working ones.
     let threads = Threads::used() as u64 + 1;
     Some(limit.saturating_sub(used + threads * RESERVED))
 }
 
-/// What the control groups of this process, and those they stand in, have left (versions 1 and 2).
+/// Memory left in the control groups of this process and their parents (versions 1 and 2), bytes.
 fn groups() -> Option<u64> {
     let own = fs::read_to_string("/proc/self/cgroup").ok()?;
     let folders = own.lines().filter_map(|line| {
@@ -71,7 +71,7 @@ fn groups() -> Option<u64> {
     });
     let mut least = None;
     for (root, path) in folders {
-        // In a container the path may be that of its host: then only the root is there.
+        // In a container the path may be that of the host: then only the root exists.
         for folder in root.join(path).ancestors().take_while(|folder| folder.starts_with(&root)) {
             least = least.into_iter().chain(left_in(folder)).min();
         }
@@ -79,7 +79,7 @@ fn groups() -> Option<u64> {
     least
 }
 
-/// What is left in one control group: its limit without what is used, caches of files not counted.
+/// Memory left in one control group, bytes: its limit less the used memory, file caches not counted.
 fn left_in(folder: &Path) -> Option<u64> {
     let number = |name: &str| fs::read_to_string(folder.join(name)).ok()?.trim().parse::<u64>().ok();
     let (limit, used) = number("memory.max")
@@ -100,7 +100,7 @@ fn kibibytes(text: &str, name: &str) -> Option<u64> {
     Some(line.split_whitespace().next()?.parse::<u64>().ok()? << 10)
 }
 
-/// A size for a person: "132 MiB", "1.5 GiB".
+/// A size in words: "132 MiB", "1.5 GiB".
 pub fn bytes(size: u64) -> String {
     let mebibytes = size as f64 / MEBIBYTE;
     match mebibytes {
@@ -146,7 +146,7 @@ mod tests {
         let (there, not_yet) = (Capacity::on_this_machine(folder.path()), folder.path().join("a/b/c"));
         let below = Capacity::on_this_machine(&not_yet);
         assert!(below.disk > 0 && below.disk < u64::MAX && !not_yet.exists());
-        // Others write meanwhile.
+        // Other processes write meanwhile.
         assert!((below.disk as f64 / there.disk as f64 - 1.0).abs() < 0.5);
     }
 

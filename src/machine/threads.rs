@@ -1,34 +1,34 @@
-//! How many threads the machine has use for.
+//! The number of threads of the process.
 
 use std::env;
 use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// Variable of the environment that says how many threads are used where nothing else does.
+/// Environment variable with the default number of threads.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
-/// Threads of one core up to which they do no harm.
+/// Most threads on one core.
 const PER_CORE: usize = 4;
 
-/// Threads that this process has said to work with; 0: not yet.
+/// Number of threads of this process; 0 before it is set.
 static USED: AtomicUsize = AtomicUsize::new(0);
 
-/// A number of threads that is no more than four a core.
+/// A number of threads, at most four a core.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Threads {
-    /// How many, at least 1.
+    /// The number, at least 1.
     pub count: usize,
-    /// Why they are fewer than wanted; `None` where they are not.
+    /// Why the number is smaller than the wanted one, a sentence; `None` where it is not.
     pub lowered: Option<String>,
 }
 
 impl Threads {
-    /// The number `asked` by the option named `source`; without it that of `RAYON_NUM_THREADS`, else one thread a core.
+    /// The number `wanted` of the option named `source`; without it that of `RAYON_NUM_THREADS`, else one thread a core.
     ///
     /// # Errors
-    /// A sentence when the environment says what is no number.
-    pub fn new(source: &str, asked: Option<usize>) -> Result<Self, String> {
-        match asked {
+    /// A sentence when the variable is not a number.
+    pub fn new(source: &str, wanted: Option<usize>) -> Result<Self, String> {
+        match wanted {
             Some(wanted) => Ok(Self::on(cores(), source, Some(wanted))),
             None => Ok(Self::on(
                 cores(),
@@ -38,7 +38,7 @@ impl Threads {
         }
     }
 
-    /// So many of the `wanted` ones as do no harm on so many cores.
+    /// The `wanted` number, lowered to four on each of `cores`.
     fn on(cores: usize, source: &str, wanted: Option<usize>) -> Self {
         let count = wanted.unwrap_or(cores).clamp(1, PER_CORE * cores);
         let lowered = wanted.filter(|&wanted| wanted > count).map(|wanted| {
@@ -47,17 +47,17 @@ impl Threads {
         Self { count, lowered }
     }
 
-    /// From now on these are the threads of the process.
+    /// Sets the number of threads of the process.
     pub fn are_used(&self) {
         USED.store(self.count, Ordering::Relaxed);
     }
 
-    /// Most threads that do no harm.
+    /// Most threads of the process: four a core.
     pub fn most() -> usize {
         PER_CORE * cores()
     }
 
-    /// Threads that this process works with, as far as it is known.
+    /// Number of threads of the process.
     pub(super) fn used() -> usize {
         match USED.load(Ordering::Relaxed) {
             0 => Self::new("", None).map_or_else(|_| cores(), |threads| threads.count),
@@ -70,7 +70,7 @@ fn cores() -> usize {
     thread::available_parallelism().map_or(1, NonZero::get)
 }
 
-/// The number that the variable has; `None` for as many as there are cores.
+/// The number in the variable; `None` for one thread a core.
 fn of_variable(value: Option<String>) -> Result<Option<usize>, String> {
     let Some(value) = value.filter(|value| !value.is_empty()) else { return Ok(None) };
     let digits = value.trim();
@@ -80,7 +80,7 @@ fn of_variable(value: Option<String>) -> Result<Option<usize>, String> {
              how many threads are to be used"
         ));
     }
-    // Digits that are no number are those of too large a one.
+    // A number of digits that overflows is too large.
     Ok(Some(digits.parse().unwrap_or(usize::MAX)).filter(|&count| count > 0))
 }
 

@@ -42,11 +42,11 @@ impl<const K: usize, const L: usize> Totals<K, L> {
 /// The division of the rows of fields into blocks, which does not depend on the number of threads: a block is the work of one
 /// thread, row after row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Parts {
+pub struct RowBlocks {
     points: [usize; 2],
 }
 
-impl Parts {
+impl RowBlocks {
     /// Division of fields of `points` = [rows, columns].
     pub fn new(points: [usize; 2]) -> Self {
         Self { points }
@@ -100,7 +100,7 @@ pub fn next<I: Iterator>(rows: &mut I) -> I::Item {
 }
 
 /// Totals over fields with a number of `columns`: calls `row(i, rows of the fields)` for each row i.
-pub fn sweep<const K: usize, const L: usize, R>(
+pub fn row_totals<const K: usize, const L: usize, R>(
     columns: usize,
     rows: R,
     row: impl Fn(usize, R::Item) -> Totals<K, L> + Sync + Send,
@@ -113,7 +113,7 @@ where
 }
 
 /// Calls `row(i, rows of the fields)` for each row i of fields with a number of `columns`.
-pub fn each<R>(columns: usize, rows: R, row: impl Fn(usize, R::Item) + Sync + Send)
+pub fn each_row<R>(columns: usize, rows: R, row: impl Fn(usize, R::Item) + Sync + Send)
 where
     R: IntoParallelIterator<Iter: IndexedParallelIterator>,
 {

@@ -1,7 +1,7 @@
-//! How numbers and places stand in the records that are written as JSON, for the `with` attributes of serde.
+//! JSON forms of numbers and places in records, for the `with` attributes of serde.
 //!
-//! JSON has no number that is not finite: it is null there. It comes back as infinite where the record says `singular`, elsewhere
-//! as no number. A key that follows from another one (`singular` from a value) is written beside it and not read.
+//! A number that is not finite is null in JSON. It is read back as infinite where the record is `singular`, elsewhere as not a
+//! number. A key that follows from another one (`singular` from a value) is written beside it and not read.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

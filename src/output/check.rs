@@ -1,4 +1,4 @@
-//! What a case means, as `percoat check` tells it: nothing is solved but the first touches.
+//! The result of `percoat check`: problem, grid, memory and disk, first touches and warnings of a case.
 
 use super::described;
 use super::number::number;
@@ -17,64 +17,63 @@ use std::convert::Infallible;
 use std::fmt;
 use std::sync::Arc;
 
-/// Points along the shorter cell vector on which the first touches are looked for.
+/// Points along the shorter cell vector of the grid for first touches.
 const POINTS: usize = 192;
 
-/// What a case means.
+/// Summary of a case before it is solved.
 #[derive(Debug, Clone)]
 pub struct Check {
     /// Its title, or its name where it has none.
     pub title: String,
     /// Counterbody and half-space in words.
     pub problem: [String; 2],
-    /// What numbers are measured in.
+    /// Units of all numbers.
     pub units: Units,
-    /// Of each layer the number of its sublayers, and the error that they make of the surface compliance; `None` where no
-    /// layer is graded.
+    /// Number of sublayers of each layer, and their relative error of the surface compliance; `None` where no layer is graded.
     pub sublayers: Option<(Vec<usize>, f64)>,
     /// The finest grid, points along a₁ and a₂.
     pub points: [usize; 2],
-    /// The accuracy that is asked for instead of a grid.
+    /// The prescribed accuracy; `None` where the grid is prescribed.
     pub accuracy: Option<f64>,
     /// The grid in words.
     pub grid: String,
-    /// What solving takes at most, with pictures.
+    /// Memory and disk that solving takes at most, with pictures.
     pub needs: Needs,
     /// Memory without pictures, bytes.
     pub without_pictures: u64,
-    /// What there is.
+    /// Memory and disk of the machine.
     pub room: Capacity,
     /// `mean_pressure` or `penetration`.
     pub quantity: &'static str,
     /// Its values, one a load step.
     pub loads: Vec<f64>,
-    /// When the levels first touch; nothing of a topography.
+    /// First touches of the levels; `None` for a topography.
     pub touches: Option<Touches>,
-    /// What a topography is like.
+    /// Roughness of a topography; `None` for indenters.
     pub surface: Option<Roughness>,
-    /// What is doubtful, a sentence each.
+    /// Warnings, a sentence each.
     pub warnings: Vec<String>,
 }
 
-/// When the levels first touch.
+/// First touches of the levels.
 #[derive(Debug, Clone)]
 pub struct Touches {
-    /// The grid on which that is so, points along a₁ and a₂.
+    /// The grid on which they were found, points along a₁ and a₂.
     pub points: [usize; 2],
-    /// Of each level; `None` of one that is hidden behind the others.
+    /// First touch of each level; `None` for a level hidden behind the others.
     pub levels: Vec<Option<FirstTouch>>,
 }
 
-/// What a topography is like.
+/// Roughness of a topography.
 #[derive(Debug, Clone)]
 pub struct Roughness {
     /// Samples along a₁ and a₂.
     pub points: [usize; 2],
-    /// Of its heights.
+    /// Statistics of its heights.
     pub statistics: Statistics,
-    /// √⟨|∇h|²⟩.
+    /// Rms slope √⟨|∇h|²⟩.
     pub rms_slope: f64,
-    /// Distance of samples along a₁ and a₂, lengths.
+    /// Spacing of samples along a₁ and a₂, lengths.
     pub spacing: [f64; 2],
     /// Whether its heights are those of a file.
     pub from_file: bool,
@@ -85,16 +84,16 @@ pub struct Roughness {
 /// Why a case cannot be solved.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
-    /// There is no such run.
+    /// The run is refused.
     #[error(transparent)]
     Run(#[from] RunError<Infallible>),
-    /// There is no such grid.
+    /// The grid is refused.
     #[error(transparent)]
     Grid(#[from] LatticeError),
 }
 
 impl Check {
-    /// Of a case with this `name`, where there is `room`.
+    /// Checks a case; `name` replaces an empty title, `room` is the memory and disk of the machine.
     ///
     /// # Errors
     /// [`CheckError`].
@@ -137,7 +136,7 @@ impl Check {
         })
     }
 
-    /// The same by names: lengths, pressures and bytes.
+    /// The check as a JSON object: lengths, pressures and bytes under names.
     pub fn json(&self) -> Value {
         let Self { title, points, accuracy, needs, room, quantity, loads, warnings, .. } = self;
         json!({
@@ -159,12 +158,12 @@ impl Check {
 }
 
 impl Touches {
-    /// Mean pressures, level by level.
+    /// Mean pressure at first touch, level by level.
     fn pressures(&self) -> Vec<Option<f64>> {
         self.levels.iter().map(|touch| touch.map(|touch| touch.mean_pressure)).collect()
     }
 
-    /// Their errors.
+    /// Errors of the mean pressures, level by level.
     fn errors(&self) -> Vec<Option<f64>> {
         self.levels.iter().map(|touch| touch.and_then(|touch| touch.error)).collect()
     }
@@ -195,20 +194,19 @@ impl Roughness {
     }
 }
 
-/// The mean pressures at which the levels first touch, and on which grid; `first` is the coarsest of the case, for which
-/// there is room.
+/// First touches of the levels; `first` is the coarsest grid of the case, for which there is memory.
 fn touches(case: &Case, first: [usize; 2]) -> Result<Option<Touches>, LatticeError> {
     if case.counterbody().indenters().is_none() {
         return Ok(None);
     }
     let [n1, n2] = balanced_points(&case.counterbody().cell(), POINTS);
-    // Along a long cell they would be many.
+    // A long cell would have many points.
     let points = if n1 * n2 <= 4 * POINTS * POINTS { [n1, n2] } else { first };
     let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver)?;
     Ok(Some(Touches { points, levels: first_touches(&mut solver) }))
 }
 
-/// What all numbers are measured in, where units have names.
+/// The names of the units in a line; empty where they have none.
 fn named(units: &Units) -> String {
     let named = |of: &str, unit: &Unit| unit.name().map(|name| format!("{of} in {name}"));
     let names =
@@ -240,7 +238,7 @@ impl fmt::Display for Check {
         )?;
         writeln!(f, "disk: about {most}{}, {} while it runs{free}", bytes(disk), bytes(disk_while_running))?;
         let unit = if self.quantity == "penetration" { self.units.length() } else { self.units.pressure() };
-        let [first, last] = [self.loads[0], self.loads[self.loads.len() - 1]].map(|load| unit.told(load, number));
+        let [first, last] = [self.loads[0], self.loads[self.loads.len() - 1]].map(|load| unit.with_unit(load, number));
         match self.loads.len() {
             1 => writeln!(f, "load: {} {first}", self.quantity)?,
             count => writeln!(f, "load: {} {first} … {last}, {count} steps", self.quantity)?,
@@ -261,7 +259,7 @@ impl fmt::Display for Check {
     }
 }
 
-/// Which materials the layers are, and how well the graded ones are laid out.
+/// Writes the material numbers of each layer, and the error by the sublayers.
 fn write_sublayers(f: &mut fmt::Formatter<'_>, sublayers: &[usize], error: f64) -> fmt::Result {
     let mut material = 1;
     for (number, &count) in (1..).zip(sublayers) {

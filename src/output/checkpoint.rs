@@ -1,12 +1,12 @@
 //! `checkpoint.npz`: the state of the solver after the last saved load of an unfinished run, and the position in the run.
 //!
-//! It is replaced by the next one at once, and is written before the readings of its step. Writing checkpoints takes a small
-//! part of the time of a run with several loads; what is solved between two is solved again by the run that goes on.
+//! The next checkpoint replaces it in one move. It is written before its step is read. Checkpoints take a small part of the time
+//! of a run; loads solved since the last one are solved again when the run is resumed.
 
 use super::npy::vector;
 use super::npz::Archive;
 use super::{OutputError, disk, write_file};
-use crate::run::Last;
+use crate::run::LastLoad;
 use crate::spectral::{Certificate, Checkpoint, Report, Route, Stop, Unknowns};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -30,11 +30,11 @@ pub(super) struct RunPosition {
     pub(super) fingerprint: String,
     /// The grid.
     pub(super) points: [usize; 2],
-    /// Whether all steps are done on a coarser one.
+    /// Whether all steps are solved on a coarser one.
     pub(super) refined: bool,
     /// Number of loads solved on it.
     pub(super) steps: usize,
-    /// The report of the last one, if there is one.
+    /// How the last of them was solved; `None` where there is none.
     solved: Option<SolvedLoad>,
 }
 
@@ -45,8 +45,9 @@ struct SolvedLoad {
     route: Route,
     iterations: usize,
     outer: usize,
-    /// Number of coarser grids that the step keeps, and of all in the file.
+    /// Number of coarser grids that the step keeps.
     coarser: usize,
+    /// Number of all grids in the file.
     grids: usize,
 }
 
@@ -60,17 +61,17 @@ pub(super) struct Checkpoints {
     pub(super) changes: Vec<f64>,
     /// When the run began.
     began: Instant,
-    /// When the last one was written, and how long that took.
+    /// When the last checkpoint was written, and how long that took.
     written: Option<(Instant, Duration)>,
 }
 
 impl Checkpoints {
-    /// Of a run with so many loads.
+    /// Checkpoints of a run with `loads` loads.
     pub(super) fn new(fingerprint: String, loads: usize) -> Self {
         Self { fingerprint, loads, changes: Vec::new(), began: Instant::now(), written: None }
     }
 
-    /// Saves that a finer grid begins.
+    /// Saves the position at the beginning of a finer grid.
     pub(super) fn begin_finer(&mut self, folder: &Path, points: [usize; 2]) -> Result<(), OutputError> {
         self.write(folder, RunPosition { points, refined: true, steps: 0, ..self.place() }, None)?;
         // A log without a checkpoint of its grid is that of the grid before: the first step is saved before it is logged.
@@ -78,9 +79,8 @@ impl Checkpoints {
         Ok(())
     }
 
-    /// Saves the state of the solver after the step of this number, from 1, unless the last checkpoint is recent; `refined`:
-    /// whether there is a coarser grid. The first and the last step on a grid are always saved, but for a run of one
-    /// load that has just begun.
+    /// Saves the state of the solver after a step (number from 1), unless the last checkpoint is recent; `refined`: whether there
+    /// is a coarser grid. The first and the last step on a grid are always saved, except in a short run of one load on one grid.
     pub(super) fn save(
         &mut self,
         folder: &Path,
@@ -90,7 +90,7 @@ impl Checkpoints {
         (last, seconds): (&Checkpoint, f64),
     ) -> Result<(), OutputError> {
         let soon = |(when, took): (Instant, Duration)| when.elapsed() < SHARE * took;
-        // What is gathered at the end needs the last step of several; of one load alone nothing has to be kept.
+        // A run killed while its archives are gathered is resumed from the last of several steps.
         let skipped = match self.written {
             Some(written) => steps < self.loads && soon(written),
             None => self.loads == 1 && !refined && soon((self.began, foreseen(last))),
@@ -102,7 +102,7 @@ impl Checkpoints {
         self.write(folder, place, Some((last, seconds)))
     }
 
-    /// Before anything is solved.
+    /// The position before the first load.
     fn place(&self) -> RunPosition {
         let fingerprint = self.fingerprint.clone();
         RunPosition { fingerprint, points: [0; 2], refined: false, steps: 0, solved: None }
@@ -136,7 +136,7 @@ impl SolvedLoad {
     }
 }
 
-/// Adds the numbers and fields of a checkpoint whose load took so many seconds.
+/// Adds the numbers and fields of a checkpoint; `seconds` is the wall time of its load.
 fn add<W: Write + Seek>(archive: &mut Archive<W>, checkpoint: &Checkpoint, seconds: f64) -> io::Result<()> {
     archive.array("numbers", &[3], [checkpoint.convolutions, checkpoint.report.residual, seconds])?;
     for (index, Unknowns { pressure, gap, penetration, certificate }) in checkpoint.grids.iter().enumerate() {
@@ -148,7 +148,7 @@ fn add<W: Write + Seek>(archive: &mut Archive<W>, checkpoint: &Checkpoint, secon
     Ok(())
 }
 
-/// Writes a checkpoint alone, which can be kept anywhere; [`Solver::restore`](crate::Solver::restore) makes its step of it.
+/// Writes a checkpoint as an `.npz` archive; [`Solver::restore`](crate::Solver::restore) returns its step.
 ///
 /// # Errors
 /// Those of the writer.
@@ -160,20 +160,20 @@ pub fn write_checkpoint(writer: impl Write + Seek, checkpoint: &Checkpoint) -> i
     archive.finish()
 }
 
-/// Reads a checkpoint that [`write_checkpoint`] has written.
+/// Reads a checkpoint written by [`write_checkpoint`].
 ///
 /// # Errors
-/// Those of the reader, and what is no such checkpoint.
+/// Those of the reader, and [`io::ErrorKind::InvalidData`] for anything but a checkpoint.
 pub fn read_checkpoint(reader: impl Read + Seek) -> io::Result<Checkpoint> {
-    let mut saved = Saved::new(reader)?;
+    let mut saved = CheckpointReader::new(reader)?;
     let solved: SolvedLoad = saved.place()?;
     saved.has_only(1, Some(&solved))?;
     Ok(saved.last(&solved)?.checkpoint)
 }
 
 /// The checkpoint of a run: its position, the changes from grid to grid, and the last load.
-pub(super) fn read(path: &Path) -> io::Result<(RunPosition, Vec<f64>, Option<Last>)> {
-    let mut saved = Saved::new(BufReader::new(disk::open(path)?))?;
+pub(super) fn read(path: &Path) -> io::Result<(RunPosition, Vec<f64>, Option<LastLoad>)> {
+    let mut saved = CheckpointReader::new(BufReader::new(disk::open(path)?))?;
     let place: RunPosition = saved.place()?;
     saved.has_only(2, place.solved.as_ref())?;
     let changes = saved.array("changes", true)?;
@@ -181,21 +181,21 @@ pub(super) fn read(path: &Path) -> io::Result<(RunPosition, Vec<f64>, Option<Las
     Ok((place, changes, last))
 }
 
-/// Time that writing takes on a disk of ordinary speed.
+/// Estimated time of writing a checkpoint on a disk of ordinary speed.
 fn foreseen(last: &Checkpoint) -> Duration {
     const BYTES_PER_SECOND: f64 = 1e9;
     let samples: usize = last.grids.iter().map(|own| own.pressure.len()).sum();
     Duration::from_secs_f64(16.0 * samples as f64 / BYTES_PER_SECOND)
 }
 
-/// A checkpoint that is read back: every entry to its end, where `zip` compares its checksum.
-struct Saved<R> {
+/// Reader of a checkpoint; every entry is read to its end, where `zip` compares its checksum.
+struct CheckpointReader<R> {
     zip: ZipArchive<R>,
     /// Length of the file, bytes: no entry is longer.
     bytes: u64,
 }
 
-impl<R: Read + Seek> Saved<R> {
+impl<R: Read + Seek> CheckpointReader<R> {
     fn new(mut reader: R) -> io::Result<Self> {
         let bytes = reader.seek(SeekFrom::End(0))?;
         reader.rewind()?;
@@ -206,7 +206,7 @@ impl<R: Read + Seek> Saved<R> {
         Ok(Self { zip, bytes })
     }
 
-    /// Refuses more entries than so many and those of a solved load; fewer are missed where they are read.
+    /// Refuses an archive whose number of entries is not `others` beside those of a solved load.
     fn has_only(&self, others: usize, solved: Option<&SolvedLoad>) -> io::Result<()> {
         const OF_A_GRID: usize = 3;
         let of = |solved: &SolvedLoad| solved.grids.saturating_mul(OF_A_GRID).saturating_add(1);
@@ -219,7 +219,7 @@ impl<R: Read + Seek> Saved<R> {
         let entry = self.zip.by_name(name).map_err(|error| unlike(format!("its entry `{name}`: {error}")))?;
         let bytes = entry.size();
         if bytes > most || entry.compressed_size() != bytes {
-            return Err(unlike(format!("its entry `{name}` is said to have {bytes} bytes")));
+            return Err(unlike(format!("its entry `{name}` has a wrong length of {bytes} bytes")));
         }
         Ok((bytes, entry))
     }
@@ -231,7 +231,7 @@ impl<R: Read + Seek> Saved<R> {
         Ok(serde_json::from_str(&text)?)
     }
 
-    /// The numbers of an array, which are `finite` where a load was solved: only an iteration that ended otherwise leaves others.
+    /// The numbers of an array; `finite`: whether to refuse infinite ones, which only an iteration that was not solved leaves.
     fn array(&mut self, name: &str, finite: bool) -> io::Result<Vec<f64>> {
         let (bytes, entry) = self.entry(&format!("{name}.npy"))?;
         let values = vector(entry, bytes).map_err(|error| unlike(format!("its entry `{name}.npy`: {error}")))?;
@@ -245,7 +245,7 @@ impl<R: Read + Seek> Saved<R> {
         self.array(name, finite)?.try_into().map_err(|_| unlike(format!("its entry `{name}.npy` has another length")))
     }
 
-    fn last(&mut self, solved: &SolvedLoad) -> io::Result<Last> {
+    fn last(&mut self, solved: &SolvedLoad) -> io::Result<LastLoad> {
         let SolvedLoad { stop, route, .. } = *solved;
         let finite = stop.solved();
         let [convolutions, residual, seconds] = self.numbers("numbers", finite)?;
@@ -255,7 +255,7 @@ impl<R: Read + Seek> Saved<R> {
         }
         let grids = (0..solved.grids).map(|index| self.unknowns(index, finite)).collect::<io::Result<_>>()?;
         let checkpoint = Checkpoint { report, convolutions, coarser: solved.coarser, grids };
-        Ok(Last { checkpoint, seconds })
+        Ok(LastLoad { checkpoint, seconds })
     }
 
     fn unknowns(&mut self, index: usize, finite: bool) -> io::Result<Unknowns> {

@@ -1,5 +1,5 @@
-//! Length and checksum of what is written or read: FNV-1a over words of eight bytes, the upper half of each product folded
-//! down. Enough to notice a change, and as fast as the disk.
+//! Length and checksum of files: FNV-1a over words of eight bytes, the upper half of each product folded down. It detects
+//! changes by accident, at the speed of the disk.
 
 use std::io::{self, Read, Write};
 
@@ -8,7 +8,7 @@ use std::io::{self, Read, Write};
 pub(super) struct Checksum {
     length: u64,
     hash: u64,
-    /// The last bytes, which are no whole word yet: as many as the length is beyond one.
+    /// The bytes behind the last whole word.
     rest: [u8; WORD],
 }
 
@@ -38,12 +38,12 @@ impl Checksum {
         self.rest[..rest.len()].copy_from_slice(rest);
     }
 
-    /// A writer that passes bytes on to `writer`, and adds those that it takes.
+    /// A writer that passes bytes on to `writer` and adds them to the checksum.
     pub(super) fn through<W: Write>(&mut self, writer: W) -> Added<'_, W> {
         Added { sum: self, writer }
     }
 
-    /// The length and the checksum of all that was added; a last word that is not whole is filled with zeros.
+    /// Length and checksum of all bytes; the last word is padded with zeros.
     pub(super) fn finish(mut self) -> (u64, u64) {
         let filled = (self.length % WORD as u64) as usize;
         if filled > 0 {
@@ -78,7 +78,7 @@ impl<W: Write> Write for Added<'_, W> {
     }
 }
 
-/// Length and checksum of all that a reader gives, bytes.
+/// Length in bytes and checksum of all that a reader returns.
 ///
 /// # Errors
 /// When the file cannot be read.

@@ -1,9 +1,9 @@
-//! Where the time of a run goes.
+//! Wall times of the phases of a run.
 
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
-/// What a run is busy with.
+/// A phase of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
     /// The case, the surface on the grids, kernel tables, plans of the transforms.
@@ -16,37 +16,37 @@ pub enum Phase {
     Output,
 }
 
-/// Wall time of a run by what it was busy with, seconds. The phases follow one another: their sum is the whole.
+/// Wall time of a run by phases, seconds. The phases follow one another: their sum is the whole.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
-    /// See [`Phase::Setup`].
+    /// Time of [`Phase::Setup`].
     pub setup: f64,
-    /// See [`Phase::Solve`].
+    /// Time of [`Phase::Solve`].
     pub solve: f64,
-    /// See [`Phase::Stress`].
+    /// Time of [`Phase::Stress`].
     pub stress: f64,
-    /// See [`Phase::Output`].
+    /// Time of [`Phase::Output`].
     pub output: f64,
 }
 
-/// A clock that is told what a run turns to.
+/// A clock that adds up the wall time of each phase.
 #[derive(Debug)]
 pub struct Clock {
     began: Instant,
     phase: Phase,
     since: Instant,
-    /// By [`Phase`], without the present one since it began.
+    /// Time by [`Phase`], without the present one since it began.
     spent: [Duration; 4],
 }
 
 impl Clock {
-    /// A run begins, with its [setup](Phase::Setup).
+    /// Starts the clock in the phase [setup](Phase::Setup).
     pub fn start() -> Self {
         let now = Instant::now();
         Self { began: now, phase: Phase::Setup, since: now, spent: [Duration::ZERO; 4] }
     }
 
-    /// The run turns to `phase`.
+    /// Ends the present phase and begins `phase`.
     pub fn turn(&mut self, phase: Phase) {
         let now = Instant::now();
         self.spent[self.phase as usize] += now - self.since;

@@ -4,11 +4,11 @@
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
 
-/// A row: its cells, each with the name of its column; a cell is a scalar of JSON, null where there is no value.
+/// The cells of a row, each with the name of its column; a cell is a scalar of JSON, null where there is no value.
 pub type Cells = Vec<(String, Value)>;
 
-/// The scalars of a value under names joined by underscores (`levels_1_load`), items of lists counted from 1; texts of a list
-/// stand in one cell, with semicolons between them.
+/// The scalars of a value under names joined by underscores (`levels_1_load`), items of lists counted from 1; texts of a list are
+/// one cell, with semicolons between them.
 pub fn scalars(value: &Value) -> Cells {
     let mut cells = Vec::new();
     flatten("", value, &mut cells);
@@ -37,8 +37,8 @@ pub fn plain(text: &str) -> String {
     words.join(" ").replace(',', ";").replace(['#', '"'], "'")
 }
 
-/// The names of the columns of rows, in the order in which they first come; one that comes late stands behind what comes before
-/// it in its row.
+/// The names of the columns of rows in their order of appearance; a name that first appears in a later row is inserted behind
+/// its predecessor in that row.
 pub fn names(rows: impl Iterator<Item = Cells>) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let mut known: HashSet<String> = HashSet::new();
@@ -59,7 +59,7 @@ pub fn names(rows: impl Iterator<Item = Cells>) -> Vec<String> {
     names
 }
 
-/// Rows under one head. They are made twice and not kept: of many they take far more than their text.
+/// Rows under one head as CSV. `rows` is called twice, so that the cells of all rows are never in memory at once.
 pub fn csv<I: Iterator<Item = Cells>>(rows: impl Fn() -> I) -> String {
     let names = names(rows());
     let mut text = names.join(",") + "\n";

@@ -11,7 +11,7 @@ use crate::stress::StressState;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-/// A comparison of a load step of a case, as `compare.json` has it. What is infinite is null.
+/// The content of `compare.json`: a load step of a case by both methods. Infinite numbers are null.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ComparisonFile {
     /// The version that wrote it.
@@ -26,7 +26,7 @@ pub struct ComparisonFile {
     pub step: usize,
     /// The spectral solution.
     pub spectral: StepRecord,
-    /// Change of the spectral solution from half the points.
+    /// Change of the spectral solution from the grid of half the points.
     pub spectral_error: Deviation,
     /// Rule for the radius of the circles.
     pub rule: CircleRadius,
@@ -35,13 +35,13 @@ pub struct ComparisonFile {
     /// Elements across the largest contact.
     pub elements: usize,
     /// The circles under the rule.
-    pub localized: Vec<Circle>,
+    pub localized: Vec<CircleRecord>,
     /// The same circles under the other rule; `None` where they have none.
     pub other_rule: Option<OtherRule>,
     /// The first circle with the lattice sum of the indenters outside.
-    pub lattice_sum: Option<Circle>,
+    pub lattice_sum: Option<CircleRecord>,
     /// Stresses of both methods, with the last circle under the rule.
-    pub stresses: Vec<Stresses>,
+    pub stresses: Vec<PointStresses>,
 }
 
 /// Circles under the rule that the case does not prescribe.
@@ -50,13 +50,13 @@ pub struct OtherRule {
     /// The rule.
     pub rule: CircleRadius,
     /// The circles.
-    pub localized: Vec<Circle>,
+    pub localized: Vec<CircleRecord>,
 }
 
 /// A circle of the localized method.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Circle {
-    /// Indenters inside.
+pub struct CircleRecord {
+    /// Number of indenters inside.
     pub indenters: usize,
     /// Its radius, level by level, a length; `None` where it is infinite.
     pub radius: Vec<Option<f64>>,
@@ -68,7 +68,7 @@ pub struct Circle {
     pub penetration: f64,
     /// Additional displacement w_a of Eq. (8), a length.
     pub additional_displacement: f64,
-    /// From the highest level down.
+    /// Readings of the levels, from the highest down.
     pub levels: Vec<LevelReading>,
     /// Deviation from the spectral solution.
     pub difference: Deviation,
@@ -78,26 +78,26 @@ pub struct Circle {
 
 /// Stresses of both methods at a point.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Stresses {
-    /// Place from the axis of the indenter, a length.
+pub struct PointStresses {
+    /// Distance from the axis of the indenter along x, a length.
     pub x: f64,
-    /// Place from the axis of the indenter, a length.
+    /// Distance from the axis of the indenter along y, a length.
     pub y: f64,
     /// Depth, a length.
     pub z: f64,
-    /// Material, from 1.
+    /// Number of the material, from 1.
     pub side: usize,
-    /// Of the spectral solution.
+    /// Stresses of the spectral solution.
     pub spectral: StressState,
-    /// Of the localized solution.
+    /// Stresses of the localized solution.
     pub localized: StressState,
 }
 
 impl ComparisonFile {
-    /// Of a comparison of the load step `step` (from 1) of a case.
+    /// The record of a comparison of load step `step` (from 1) of a case.
     pub fn new(comparison: &Comparison, case: &Case, step: usize) -> Self {
         let task = &comparison.task;
-        let circles = |circles: &[CircleComparison]| circles.iter().map(Circle::from).collect::<Vec<_>>();
+        let circles = |circles: &[CircleComparison]| circles.iter().map(CircleRecord::from).collect::<Vec<_>>();
         let other = OtherRule { rule: task.rule.other(), localized: circles(&comparison.other_rule) };
         Self {
             percoat: env!("CARGO_PKG_VERSION").to_owned(),
@@ -112,12 +112,12 @@ impl ComparisonFile {
             elements: task.elements,
             localized: circles(&comparison.circles),
             other_rule: Some(other).filter(|other| !other.localized.is_empty()),
-            lattice_sum: comparison.lattice_sum.as_ref().map(Circle::from),
-            stresses: comparison.stresses.iter().map(Stresses::from).collect(),
+            lattice_sum: comparison.lattice_sum.as_ref().map(CircleRecord::from),
+            stresses: comparison.stresses.iter().map(PointStresses::from).collect(),
         }
     }
 
-    /// Reads the comparison back that a file holds.
+    /// Reads the content of `compare.json`.
     ///
     /// # Errors
     /// [`Unreadable`] with the key that is not as this version writes it.
@@ -127,13 +127,13 @@ impl ComparisonFile {
         Ok(own)
     }
 
-    /// The file.
+    /// The content of `compare.json`.
     pub fn to_json(&self) -> String {
         indented(self)
     }
 }
 
-impl From<&CircleComparison> for Circle {
+impl From<&CircleComparison> for CircleRecord {
     fn from(circle: &CircleComparison) -> Self {
         Self {
             indenters: circle.indenters,
@@ -149,7 +149,7 @@ impl From<&CircleComparison> for Circle {
     }
 }
 
-impl From<&StressPair> for Stresses {
+impl From<&StressPair> for PointStresses {
     fn from(pair: &StressPair) -> Self {
         let ([x, y], z, side) = (pair.place, pair.depth.z, pair.depth.material);
         Self { x, y, z, side, spectral: pair.spectral, localized: pair.localized }

@@ -8,21 +8,20 @@ use crate::units::{Unit, Units};
 
 /// A length with its unit, five digits.
 pub(super) fn length(units: &Units, x: f64) -> String {
-    units.length().told(x, number)
+    units.length().with_unit(x, number)
 }
 
 /// A pressure with its unit, five digits.
 pub(super) fn pressure(units: &Units, x: f64) -> String {
-    units.pressure().told(x, number)
+    units.pressure().with_unit(x, number)
 }
 
-/// A pressure and its error with their unit.
 pub(super) fn pressure_with_error(units: &Units, x: f64, error: Option<f64>) -> String {
     let prefixed = units.pressure().prefixed(x);
     prefixed.behind(&with_error(prefixed.shown(x), error.map(|error| prefixed.shown(error))))
 }
 
-/// A number in a unit that is made of others, without a prefix of its own; `of` makes it of their names.
+/// A number in a compound unit without a prefix; `of` joins the names of `units`.
 fn compound(x: f64, units: &[&Unit], of: impl Fn(&[String]) -> String) -> String {
     match units.iter().map(|unit| unit.name()).collect::<Option<Vec<String>>>() {
         Some(names) => format!("{}\u{a0}{}", number(x), of(&names)),
@@ -56,7 +55,7 @@ fn shape(units: &Units, shape: Shape) -> String {
     format!("{}, {sizes}", shape.name())
 }
 
-/// What is pressed into the body, one line a level.
+/// The counterbody in words, one line a level.
 pub(super) fn counterbody(units: &Units, counterbody: &Counterbody) -> String {
     let own = cell(units, counterbody.cell());
     let Some(indenters) = counterbody.indenters() else {
@@ -74,7 +73,7 @@ pub(super) fn counterbody(units: &Units, counterbody: &Counterbody) -> String {
 fn material(units: &Units, material: Material) -> String {
     let [young, shear, contact] =
         [material.young(), material.shear(), material.contact_modulus()].map(|x| pressure(units, x));
-    // As it was given, without what rounding has left between the ends of a graded layer.
+    // Without the rounding of Poisson's ratios within a graded layer.
     let poisson = (1e9 * material.poisson()).round() / 1e9;
     format!("E {young}, ν {poisson}, G {shear}, E* {contact}")
 }
@@ -107,7 +106,7 @@ pub(super) fn half_space(units: &Units, half_space: &HalfSpace) -> String {
     layers.collect::<String>() + &substrate
 }
 
-/// Its points, and how far they stand apart.
+/// Points of the grid and their spacing.
 pub(super) fn grid(units: &Units, grid: &Grid) -> String {
     let [n1, n2] = grid.points();
     format!(

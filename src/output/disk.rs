@@ -1,14 +1,13 @@
-//! The file system, as percoat uses it where results stand: what is not percoat's is neither read, written nor removed.
+//! File operations in output folders. Files that are not percoat's are neither read, written nor removed.
 //!
-//! Only a file itself is opened: no link in its place is followed, and a pipe, a socket or a device in its place is refused
-//! before it can block ([`open`]). What is to be new is created new ([`create`]); a finished file takes the place of a file
-//! or of nothing, never that of a link or a folder ([`replace`]). Nothing is removed but files and empty folders, by their
-//! names. Folders that lead to an output folder are the user's, and may be links.
+//! Only regular files are opened: links are not followed, and a pipe, a socket or a device is refused before it can block
+//! ([`open`]). A new file must not exist before ([`create`]); a finished file replaces a file or nothing, never a link or a
+//! folder ([`replace`]). Only files and empty folders are removed, by their names. The parents of an output folder may be links.
 //!
 //! # Power cuts
 //!
-//! Whatever names something as finished, a line of a log or a list, is written after what it names has come to the disk:
-//! content by [`sync`], names by [`sync_folder`]. File systems that refuse to do the latter are trusted.
+//! A log line or list that names a file as finished is written after that file is on the disk: its content by [`sync`], its
+//! name by [`sync_folder`]. A file system that does not support the latter is not an error.
 
 use crate::plain;
 use std::fs::{self, File, Metadata, OpenOptions};
@@ -18,7 +17,7 @@ use std::path::{Path, PathBuf};
 #[cfg(test)]
 use super::journal::{Change, note};
 
-/// Metadata of what stands at a path itself, if anything does; a link is not followed.
+/// Metadata of a path, links not followed; `None` where nothing exists.
 pub(crate) fn found(path: &Path) -> io::Result<Option<Metadata>> {
     match fs::symlink_metadata(path) {
         Ok(found) => Ok(Some(found)),
@@ -27,17 +26,17 @@ pub(crate) fn found(path: &Path) -> io::Result<Option<Metadata>> {
     }
 }
 
-/// Whether a file stands there itself, no link to one.
+/// Whether a path is a regular file, not a link to one.
 pub(crate) fn is_file(path: &Path) -> bool {
     found(path).is_ok_and(|found| found.is_some_and(|own| own.is_file()))
 }
 
-/// Whether a folder stands there itself, no link to one.
+/// Whether a path is a folder, not a link to one.
 pub(crate) fn is_folder(path: &Path) -> bool {
     found(path).is_ok_and(|found| found.is_some_and(|own| own.is_dir()))
 }
 
-/// The kind of a file, in words.
+/// The kind of a path, in words.
 pub(crate) fn kind(own: &Metadata) -> &'static str {
     match own.file_type() {
         kind if kind.is_symlink() => "a link",
@@ -47,10 +46,10 @@ pub(crate) fn kind(own: &Metadata) -> &'static str {
     }
 }
 
-/// Opens a file to read it.
+/// Opens a regular file to read it.
 ///
 /// # Errors
-/// Those of the system, and anything but a file in its place.
+/// Those of the system, and a path that is not a regular file.
 pub(crate) fn open(path: &Path) -> io::Result<File> {
     open_as(path, OpenOptions::new().read(true))
 }
@@ -58,7 +57,7 @@ pub(crate) fn open(path: &Path) -> io::Result<File> {
 /// The bytes of a file.
 ///
 /// # Errors
-/// As those of [`open`].
+/// Those of [`open`].
 pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     open(path)?.read_to_end(&mut bytes)?;
@@ -68,17 +67,17 @@ pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// The text of a file.
 ///
 /// # Errors
-/// As those of [`open`], and bytes that are not UTF-8.
+/// Those of [`open`], and bytes that are not UTF-8.
 pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     let mut text = String::new();
     open(path)?.read_to_string(&mut text)?;
     Ok(text)
 }
 
-/// A file that was not there before, to write and read it.
+/// Creates a file that must not exist, to write and read it.
 ///
 /// # Errors
-/// Those of the system; [`io::ErrorKind::AlreadyExists`] where anything has its name, a link without a target too.
+/// Those of the system; [`io::ErrorKind::AlreadyExists`] where anything has the name, even a link without a target.
 pub(crate) fn create(path: &Path) -> io::Result<File> {
     let file = OpenOptions::new().read(true).write(true).create_new(true).open(path)?;
     #[cfg(test)]
@@ -86,15 +85,15 @@ pub(crate) fn create(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
-/// Opens a file that is there to write into it; what it holds stays.
+/// Opens an existing file for writing; its content stays.
 ///
 /// # Errors
-/// As those of [`open`].
+/// Those of [`open`].
 pub(crate) fn open_to_change(path: &Path) -> io::Result<File> {
     open_as(path, OpenOptions::new().read(true).write(true))
 }
 
-/// A log to which lines are added.
+/// A file to which bytes are appended.
 #[derive(Debug)]
 pub(crate) struct Appended {
     file: File,
@@ -103,15 +102,15 @@ pub(crate) struct Appended {
 }
 
 impl Appended {
-    /// Of a file that percoat has just written.
+    /// Opens a file that percoat has just written.
     ///
     /// # Errors
-    /// As those of [`open`].
+    /// Those of [`open`].
     pub(crate) fn open(path: &Path) -> io::Result<Self> {
         Ok(Self { file: open_as(path, OpenOptions::new().append(true))?, path: path.to_owned() })
     }
 
-    /// Adds some bytes, which have come to the disk when this returns.
+    /// Appends bytes and syncs them to the disk.
     ///
     /// # Errors
     /// Those of the system.
@@ -123,7 +122,7 @@ impl Appended {
     }
 }
 
-/// Returns when what has been written into a file at `path` has come to the disk.
+/// Syncs the content of a file at `path` to the disk.
 ///
 /// # Errors
 /// Those of the system.
@@ -131,11 +130,11 @@ impl Appended {
 pub(crate) fn sync(file: &File, path: &Path) -> io::Result<()> {
     #[cfg(test)]
     note(Change::Synced(path));
-    // In unit tests the journal says what a power cut would leave.
+    // Unit tests simulate power cuts by the journal.
     if cfg!(test) { Ok(()) } else { unless_refused(file.sync_data()) }
 }
 
-/// Returns when the names in a folder have come to the disk: what was made, moved and removed there.
+/// Syncs the names in a folder to the disk: files created, moved and removed there.
 ///
 /// # Errors
 /// Those of the system.
@@ -155,7 +154,7 @@ pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// Success where a file system brings nothing to the disk on demand.
+/// Success where the file system does not support syncing.
 fn unless_refused(synced: io::Result<()>) -> io::Result<()> {
     match synced {
         Err(error) if [io::ErrorKind::Unsupported, io::ErrorKind::InvalidInput].contains(&error.kind()) => Ok(()),
@@ -163,10 +162,10 @@ fn unless_refused(synced: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Moves a file into the place of another one, or of nothing.
+/// Moves a file to a path where a file stands or nothing.
 ///
 /// # Errors
-/// Those of the system, and anything but a file in that place.
+/// Those of the system, and anything but a regular file at `to`.
 pub(crate) fn replace(from: &Path, to: &Path) -> io::Result<()> {
     if let Some(own) = found(to)?.filter(|own| !own.is_file()) {
         return Err(not_a_file(&own));
@@ -177,10 +176,10 @@ pub(crate) fn replace(from: &Path, to: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Moves a file or a folder to where nothing stands.
+/// Moves a file or a folder to a free path.
 ///
 /// # Errors
-/// Those of the system, and anything in that place.
+/// Those of the system, and anything at `to`.
 pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
     if found(to)?.is_some() {
         return Err(io::ErrorKind::AlreadyExists.into());
@@ -191,10 +190,10 @@ pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Gives a file a second name.
+/// Gives a file a second name (hard link).
 ///
 /// # Errors
-/// Those of the system, also where a file cannot have two; [`io::ErrorKind::AlreadyExists`] where anything has that name.
+/// Those of the system, also without support of hard links; [`io::ErrorKind::AlreadyExists`] where anything has that name.
 pub(crate) fn link(file: &Path, second: &Path) -> io::Result<()> {
     #[cfg(test)]
     if super::journal::refuses_links(second) {
@@ -209,7 +208,7 @@ pub(crate) fn link(file: &Path, second: &Path) -> io::Result<()> {
 /// Removes the name of a file.
 ///
 /// # Errors
-/// Those of the system, and anything but a file in its place.
+/// Those of the system, and a path that is not a regular file.
 pub(crate) fn remove(path: &Path) -> io::Result<()> {
     if let Some(own) = found(path)?.filter(|own| !own.is_file()) {
         return Err(not_a_file(&own));
@@ -220,10 +219,10 @@ pub(crate) fn remove(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Removes a folder in which nothing stands.
+/// Removes an empty folder.
 ///
 /// # Errors
-/// Those of the system; [`io::ErrorKind::DirectoryNotEmpty`] where something does.
+/// Those of the system; [`io::ErrorKind::DirectoryNotEmpty`] for a folder that is not empty.
 pub(crate) fn remove_folder(path: &Path) -> io::Result<()> {
     fs::remove_dir(path)?;
     #[cfg(test)]
@@ -231,10 +230,10 @@ pub(crate) fn remove_folder(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// A folder that was not there before.
+/// Creates a folder that must not exist.
 ///
 /// # Errors
-/// Those of the system; [`io::ErrorKind::AlreadyExists`] where anything has its name.
+/// Those of the system; [`io::ErrorKind::AlreadyExists`] where anything has the name.
 pub(crate) fn create_folder(path: &Path) -> io::Result<()> {
     fs::create_dir(path)?;
     #[cfg(test)]
@@ -242,7 +241,7 @@ pub(crate) fn create_folder(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Makes a folder and what leads to it; in which folders one was made, the innermost first.
+/// Creates a folder and its parents. Returns the folders in which one was created, innermost first.
 ///
 /// # Errors
 /// Those of the system.
@@ -263,7 +262,7 @@ pub(crate) fn make_folder(path: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 fn open_as(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
-    // Even opening a device or a pipe can do something.
+    // Opening a device or a pipe can have side effects.
     if let Some(own) = found(path)?.filter(|own| !own.is_file()) {
         return Err(not_a_file(&own));
     }

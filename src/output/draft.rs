@@ -1,4 +1,4 @@
-//! A file that is written under a temporary name and gets its own when it is whole.
+//! Files that are written under a temporary name and renamed when they are complete.
 
 use super::error::At;
 use super::{OutputError, disk};
@@ -6,8 +6,8 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a file under a temporary name in its folder, then renames it: it is there whole or not at all, also after a power
-/// cut. Its name is brought to the disk later, with the folder's other names, before anything lists it as finished.
+/// Writes a file under a temporary name in its folder, then renames it: it is complete or absent, also after a power cut. Its
+/// name is synced later, with the folder's other names, before a log or list names it as finished.
 ///
 /// # Errors
 /// [`OutputError`] with the path; nothing is left behind.
@@ -20,19 +20,19 @@ pub fn write_file(
     file.keep()
 }
 
-/// A file under a temporary name in its folder, which gets its own when it is kept. Dropped, it leaves nothing behind.
+/// A file under a temporary name in its folder; [`Draft::keep`] renames it, dropping removes it.
 #[derive(Debug)]
 pub(super) struct Draft {
     path: PathBuf,
     temporary: PathBuf,
-    /// None once it is whole.
+    /// None once it is complete.
     writer: Option<BufWriter<fs::File>>,
 }
 
 impl Draft {
-    /// An empty one for a file at `path`.
+    /// An empty draft of a file at `path`.
     pub(super) fn new(path: &Path) -> Result<Self, OutputError> {
-        /// Temporary names that may be taken, by a process of the same number that was killed.
+        /// Most temporary names that killed processes of the same number may have left.
         const TAKEN: usize = 100;
         let (name, process) = (path.file_name().unwrap_or_default().to_string_lossy(), std::process::id());
         let mut number = 1;
@@ -47,7 +47,7 @@ impl Draft {
         }
     }
 
-    /// Adds to its content.
+    /// Appends to its content.
     pub(super) fn write(
         &mut self,
         content: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<()>,
@@ -55,7 +55,7 @@ impl Draft {
         self.writer.as_mut().map_or(Ok(()), content).at(&self.path)
     }
 
-    /// Gives it its name; its content comes to the disk before.
+    /// Syncs its content to the disk and renames it.
     pub(super) fn keep(mut self) -> Result<(), OutputError> {
         let temporary = self.temporary.clone();
         self.write(|writer| {
@@ -76,7 +76,7 @@ impl Drop for Draft {
     }
 }
 
-/// Removes a file that failed; that it cannot be removed changes nothing about the first error.
+/// Removes a file that failed; an error of the removal is ignored in favour of the first one.
 fn remove(temporary: &Path) {
     let _ = disk::remove(temporary);
 }
@@ -112,7 +112,7 @@ mod tests {
         );
         assert!(["mine"].iter().all(|name| fs::read_to_string(path(name)).unwrap() == "mine"));
         assert_eq!(fs::read_to_string(taken(".3")).unwrap(), "mine");
-        // What has its own name and is no file stays too.
+        // A link or a folder of the file's name stays too.
         for name in ["link", "folder"] {
             if name == "link" { symlink(path("mine"), path(name)) } else { fs::create_dir(path(name)) }.unwrap();
             assert!(write_text(&path(name), "new").unwrap_err().to_string().contains(&format!("it is a {name}")));

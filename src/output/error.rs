@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why an output could not be written: which path, and what the system says.
+/// A path that could not be written, and the error of the system.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {}: {source}", path.display())]
 pub struct OutputError {
@@ -17,7 +17,7 @@ impl OutputError {
     }
 }
 
-/// Names the path at which the system failed.
+/// Adds the path to an error of the system.
 pub(crate) trait At<T> {
     fn at(self, path: &Path) -> Result<T, OutputError>;
 }

@@ -8,26 +8,26 @@ use ndarray::Array2;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Fields of the load steps solved so far, kept on disk.
+/// `contact.npz` under construction: the fields of the load steps so far, on disk.
 #[derive(Debug)]
-pub(super) struct Fields {
+pub(super) struct ContactArchive {
     arrays: StepArrays,
     /// The undeformed counterbody on the grid of the steps.
     surface: Arc<Surface>,
 }
 
-impl Fields {
-    /// No steps yet on the grid of `surface`; `folder` is the staging folder. Refused when there are fields already.
+impl ContactArchive {
+    /// An archive without steps on the grid of `surface` in the staging folder `folder`; an error where it already has fields.
     pub(super) fn new(folder: &Path, surface: Arc<Surface>) -> Result<Self, OutputError> {
         Ok(Self { arrays: StepArrays::new(folder, "contact")?, surface })
     }
 
-    /// The fields of the first `steps` load steps, as an interrupted run has left them, see [`StepArrays::go_on`].
+    /// The archive of an interrupted run with its first `steps` steps, see [`StepArrays::go_on`].
     pub(super) fn go_on(folder: &Path, surface: Arc<Surface>, steps: usize) -> Result<Self, OutputError> {
         Ok(Self { arrays: StepArrays::go_on(folder, "contact", steps)?, surface })
     }
 
-    /// Writes the fields of the next step, whose mean pressure is `mean_pressure`. Returns the files that it has left.
+    /// Writes the fields of the next step. Returns its files.
     pub(super) fn add(&mut self, step: &Step, mean_pressure: f64) -> Result<Files, OutputError> {
         self.arrays.next_step();
         self.arrays.add("mean_pressure", &[], [mean_pressure])?;
@@ -40,12 +40,12 @@ impl Fields {
         Ok(self.arrays.left())
     }
 
-    /// Brings the names of the step's fields to the disk.
+    /// Syncs the names of the step's files to the disk.
     pub(super) fn sync(&self) -> Result<(), OutputError> {
         self.arrays.sync()
     }
 
-    /// Gathers all steps in `contact.npz`, with position and level of each sample; the waiting files stay if that fails.
+    /// Gathers all steps in `contact.npz`, with position and level of each sample; on failure their files stay.
     pub(super) fn finish(self) -> Result<(), OutputError> {
         let surface = &self.surface;
         let grid = surface.grid();

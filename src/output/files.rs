@@ -1,7 +1,7 @@
-//! Files that belong together, each with its length and checksum: what a step or a combination has left, or a whole result.
+//! Lists of files with lengths and checksums: those of a step, a combination or a whole result.
 //!
-//! A file is percoat's as long as its length and checksum are those listed. Everything else is a user's: a file that is
-//! not listed, one that was changed since, and a folder or a link in its place.
+//! A file is percoat's while its length and checksum are those listed. Any other is a user's: a file that is not listed, one
+//! that was changed since, and a folder or a link in its place.
 
 use super::checksum::{Checksum, checksum};
 use super::disk::{self, found};
@@ -16,7 +16,7 @@ use std::path::{Component, Path};
 #[serde(transparent)]
 pub struct Files(BTreeMap<String, FileRecord>);
 
-/// A file as it was written: by which command, how many bytes, and their checksum.
+/// A file as it was written: the command, its length in bytes and its checksum.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct FileRecord {
     by: Writer,
@@ -24,10 +24,10 @@ pub(super) struct FileRecord {
     checksum: String,
 }
 
-/// Whose a name in a folder is, by a list of files.
+/// Owner of a name in a folder, by a list of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ownership {
-    /// Nothing has that name.
+    /// There is no file.
     Absent,
     /// The file is as percoat wrote it.
     AsWritten,
@@ -49,7 +49,7 @@ impl FileRecord {
 }
 
 impl Ownership {
-    /// Why the name cannot be given to a new file, if it is a user's.
+    /// Why a new file cannot take the name; `None` where it can.
     pub(super) fn refusal(self) -> Option<&'static str> {
         match self {
             Self::Absent | Self::AsWritten => None,
@@ -60,45 +60,45 @@ impl Ownership {
 }
 
 impl Files {
-    /// Adds a file of a step whose bytes have been added to a checksum.
+    /// Adds a file of a step by the checksum of its bytes.
     pub(super) fn add(&mut self, name: String, sum: Checksum) {
         self.0.insert(name, FileRecord::new(sum.finish(), Writer::Solve));
     }
 
-    /// Adds a file, in the place of one of its name.
+    /// Adds a file, or replaces the one of its name.
     pub(super) fn insert(&mut self, name: &str, file: FileRecord) {
         self.0.insert(name.to_owned(), file);
     }
 
-    /// Adds those of another list.
+    /// Adds the files of another list.
     pub(super) fn append(&mut self, mut other: Self) {
         self.0.append(&mut other.0);
     }
 
-    /// Those whose name and writer fulfil a condition.
+    /// The files whose name and writer fulfil a condition.
     pub(super) fn filtered(mut self, condition: impl Fn(&str, Writer) -> bool) -> Self {
         self.0.retain(|name, file| condition(name, file.by));
         self
     }
 
-    /// Whether there are none.
+    /// Whether the list has no file.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Whether there is one of this name.
+    /// Whether the list has a file of this name.
     pub fn has(&self, name: &str) -> bool {
         self.0.contains_key(name)
     }
 
-    /// Their names, sorted.
+    /// Names of the files, sorted.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.0.keys().map(String::as_str)
     }
 
-    /// Whose the name is in `folder`.
+    /// Owner of the name in `folder`.
     pub(super) fn ownership(&self, folder: &Path, name: &str) -> io::Result<Ownership> {
-        // A link or a file in the place of a folder that leads to the name is a user's.
+        // A link or a file in the place of a parent folder is a user's.
         for part in parents(name) {
             if found(&folder.join(part))?.is_some_and(|there| !there.is_dir()) {
                 return Ok(Ownership::Foreign);
@@ -115,8 +115,7 @@ impl Files {
         })
     }
 
-    /// What is the matter with a file that does not stand in the folder as it was written; one that the disk no longer gives
-    /// is damaged too.
+    /// What is wrong with a file that was changed since it was written, is missing or cannot be read; `None` for one as written.
     pub(super) fn damage(&self, folder: &Path, name: &str) -> Option<String> {
         match self.ownership(folder, name) {
             Ok(Ownership::AsWritten) => None,
@@ -128,18 +127,18 @@ impl Files {
         }
     }
 
-    /// The first one that is not in the folder as it was written, and what is the matter with it.
+    /// The first file that is not in `folder` as it was written, and what is wrong with it.
     pub fn damaged(&self, folder: &Path) -> Option<(&str, String)> {
         self.names().find_map(|name| Some((name, self.damage(folder, name)?)))
     }
 }
 
-/// The folders that lead to a name, innermost first, relative to the folder in which it stands.
+/// The parent folders of a name, innermost first, relative to the folder of the list.
 pub(super) fn parents(name: &str) -> impl Iterator<Item = &Path> {
     Path::new(name).ancestors().skip(1).filter(|part| !part.as_os_str().is_empty())
 }
 
-/// Whether a name leads to a place in its folder, or in one below it.
+/// Whether a name is a relative path that stays within its folder.
 pub(super) fn is_inside(name: &str) -> bool {
     !name.is_empty() && Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
 }

@@ -4,7 +4,8 @@ use super::checksum;
 use crate::case::Case;
 use std::io::Read;
 
-/// Length and checksum of a whole case with its surface, of the task, and of this version of percoat.
+/// Fingerprint of a run, equal for two runs with equal results: length and checksum of the whole case with its surface, of the task,
+/// and of this version of percoat.
 pub fn fingerprint(case: &Case, task: &str) -> String {
     let heights = case.counterbody().topography().map(|own| own.heights());
     let points = heights.as_ref().map(|own| own.dim());

@@ -1,4 +1,4 @@
-//! An output folder that a run has for itself, see the [module's head](super) for its life.
+//! An output folder locked for one run; its life is described in the [module's head](super).
 
 use super::error::At;
 use super::files::{FileRecord, Files};
@@ -16,7 +16,7 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// An output folder of this run alone, until it is dropped or the process ends in whatever way.
+/// An output folder locked for this run until it is dropped or the process ends.
 #[derive(Debug)]
 pub struct RunFolder {
     folder: PathBuf,
@@ -27,11 +27,11 @@ pub struct RunFolder {
 }
 
 impl RunFolder {
-    /// Makes the folder if need be, locks it for this run and makes an empty staging folder. What an interrupted run has left is
-    /// put in order first: a publication that was decided is completed, finished steps are [set aside](Self::set_aside).
+    /// Creates the folder where there is none, locks it and creates an empty staging folder. An interrupted run there is dealt with
+    /// first: a publication that was decided is completed, finished steps are resumed or [set aside](Self::set_aside).
     ///
     /// # Errors
-    /// [`FolderError`]; nothing in the folder has been replaced or removed.
+    /// [`FolderError`]; no file of the folder is then replaced or removed.
     pub fn claim(folder: &Path, plan: Plan) -> Result<Self, FolderError> {
         refuse_in_own_places(folder, plan.writer)?;
         let own = folder.join(OWN);
@@ -55,7 +55,7 @@ impl RunFolder {
         let staging = claimed.staging();
         let refusal = refuse_in_staging(&staging);
         claimed.resumed = claimed.plan.resumes && is_staging(&staging) && has_begun(&staging);
-        // A staging folder with something foreign in the place of percoat's own is set aside as it is.
+        // A staging folder with foreign files under percoat's names is set aside as it is.
         if claimed.resumed || refusal.is_ok() {
             refusal?;
             settle(&staging)?;
@@ -74,7 +74,7 @@ impl RunFolder {
         staging(&self.folder, self.plan.writer)
     }
 
-    /// Whether the staging folder holds what an earlier run has finished, and this one goes on with it.
+    /// Whether this run resumes the interrupted run in the staging folder.
     pub fn resumes(&self) -> bool {
         self.resumed
     }
@@ -87,7 +87,7 @@ impl RunFolder {
         discard(&self.staging(), &self.folder)
     }
 
-    /// Begins anew although this run was to go on. Returns where the steps are now that an earlier one finished.
+    /// Starts a new run in place of resuming the interrupted one. Returns the folder to which its finished steps were moved.
     ///
     /// # Errors
     /// [`OutputError`] with the path that cannot be moved.
@@ -105,8 +105,7 @@ impl RunFolder {
         Ok(aside)
     }
 
-    /// Begins anew because what an earlier run has finished is damaged. Nothing of it is removed; returns where all of it is
-    /// now.
+    /// Starts a new run because the interrupted one is damaged. Nothing is removed; returns the folder to which all of it was moved.
     ///
     /// # Errors
     /// [`OutputError`] with the path that cannot be moved.
@@ -115,18 +114,18 @@ impl RunFolder {
         Ok(self.begin_anew()?.or(Some(aside)))
     }
 
-    /// Keeps the writer's earlier files whose names begin like this.
+    /// Keeps the writer's earlier files whose names have this beginning.
     pub fn keep(&mut self, beginning: String) {
         self.plan.scope.except.push(beginning);
     }
 
-    /// The folder in which finished steps of an interrupted run are now, or files that a user has put beside them.
+    /// The folder to which finished steps of an interrupted run were moved, or foreign files beside them; `None` where none were.
     pub fn set_aside(&self) -> Option<&Path> {
         self.set_aside.as_deref()
     }
 
-    /// Begins again on a finer grid: the steps of the coarser one stand in `coarser/` until the result is published. Returns
-    /// where files of a user are now that were in the way.
+    /// Begins a finer grid: the steps of the coarser one stay in `coarser/` until the result is published. Returns the folder to
+    /// which foreign files in the way were moved.
     ///
     /// # Errors
     /// [`OutputError`] with the path that cannot be moved.
@@ -134,18 +133,18 @@ impl RunFolder {
         let staging = self.staging();
         match has_steps(&staging) {
             true => move_to_coarser(&staging, &self.folder),
-            // An interrupted run may have begun here, without coming to the end of a step.
+            // An interrupted run may have left fields of an unfinished step.
             false if self.resumed => remove_fields(&staging, &self.folder),
             false => Ok(None),
         }
     }
 
-    /// Puts the result in the place of the one before, and gives up the folder. Returns where files are now that a user has put
-    /// into the staging folder.
+    /// Replaces the earlier result by the new one, and unlocks the folder. Returns the folder to which foreign files of the staging
+    /// folder were moved.
     ///
     /// # Errors
-    /// [`OutputError`], also when a user's file has come into the way since the folder was claimed; the result then stays in
-    /// the staging folder.
+    /// [`OutputError`], also where a foreign file has appeared in the way since the folder was claimed; the result then stays in the
+    /// staging folder.
     pub fn publish(self) -> Result<Option<PathBuf>, OutputError> {
         let published = publication::decide(&self.folder, &self.plan);
         let published = published.and_then(|()| publication::complete(&self.folder, self.plan.writer));

@@ -3,7 +3,7 @@
 use super::OutputError;
 use std::path::PathBuf;
 
-/// Why a run cannot have an output folder.
+/// Why a run cannot claim an output folder.
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     /// A user's file or folder would be replaced.
@@ -11,17 +11,17 @@ pub enum FolderError {
     Foreign {
         /// The file or folder.
         path: PathBuf,
-        /// Whose it is.
+        /// Why it is a user's, in words.
         reason: &'static str,
     },
-    /// A link, a pipe, or a folder in the place of a file (or the reverse), where percoat keeps something of its own.
+    /// A path of percoat's own is a link, a pipe, or a folder in the place of a file (or the reverse).
     #[error("{} is {found}, where percoat keeps {expected} of its own: move it away, or choose another folder with -o", path.display())]
     WrongKind {
         /// Its path.
         path: PathBuf,
-        /// What stands there, in words.
+        /// Its kind, in words.
         found: &'static str,
-        /// What percoat keeps there, in words.
+        /// The kind that percoat needs, in words.
         expected: &'static str,
     },
     /// Another run writes into the folder.
@@ -29,7 +29,7 @@ pub enum FolderError {
     Busy {
         /// The folder.
         folder: PathBuf,
-        /// The other run's process, as its lock says.
+        /// Process of the other run, from its lock.
         owner: String,
     },
     /// The folder cannot be read or written.

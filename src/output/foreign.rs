@@ -1,5 +1,5 @@
-//! Files and folders of users in the places of percoat's own: a link, a folder in the place of a file, a pipe, a result that was
-//! edited. They are refused before anything is written.
+//! Foreign files under percoat's names: a link, a folder in the place of a file, a pipe, a result that was edited. They are
+//! refused before anything is written.
 
 use super::disk::{self, found, kind};
 use super::error::At;
@@ -13,10 +13,10 @@ use super::{lock, manifest};
 use std::fs::Metadata;
 use std::path::Path;
 
-/// Why percoat does not take what stands in the place of its own.
+/// Reason of a refusal.
 const NOT_OWN: &str = "is not of percoat";
 
-/// Refuses what stands in the places that percoat keeps for itself, whatever the run is going to write.
+/// Refuses foreign files at the paths that percoat keeps for itself, for any plan.
 pub(super) fn refuse_in_own_places(folder: &Path, writer: Writer) -> Result<(), FolderError> {
     let [list, lock] = [LIST, lock::NAME].map(|name| folder.join(name));
     let folders = [folder.join(OWN), folder.join(RETIRED), staging(folder, writer)];
@@ -35,8 +35,8 @@ pub(super) fn refuse_in_own_places(folder: &Path, writer: Writer) -> Result<(), 
     Ok(())
 }
 
-/// Refuses what has the name of an item of percoat in a staging folder and is of another kind, before a run goes on there.
-/// What has another name stays, whatever it is.
+/// Refuses paths in a staging folder that have the name of an item of percoat and are of another kind, before a run is resumed
+/// there. Files of other names stay.
 pub(super) fn refuse_in_staging(staging: &Path) -> Result<(), FolderError> {
     for Entry { path, there, item } in entries(staging)? {
         if let Some(item) = item {
@@ -46,7 +46,8 @@ pub(super) fn refuse_in_staging(staging: &Path) -> Result<(), FolderError> {
     Ok(())
 }
 
-/// Refuses what the plan, or the removal of the writer's earlier files, would take from its owner. `listed` are percoat's.
+/// Refuses foreign files that the plan would replace, or the removal of the writer's earlier files would remove. `listed` are
+/// percoat's.
 pub(super) fn refuse_planned(folder: &Path, listed: &Files, plan: &Plan) -> Result<(), FolderError> {
     let own = listed.clone().filtered(|name, by| by == plan.writer && plan.scope.contains(name));
     let earlier = own.names().filter(|name| !plan.names.iter().any(|planned| planned == name));
@@ -65,7 +66,7 @@ pub(super) fn refuse_planned(folder: &Path, listed: &Files, plan: &Plan) -> Resu
     Ok(())
 }
 
-/// Refuses anything but a folder, or a file.
+/// Refuses anything but a folder (`is_folder`) or a regular file.
 fn expect(path: &Path, there: &Metadata, is_folder: bool) -> Result<(), FolderError> {
     if if is_folder { there.is_dir() } else { there.is_file() } {
         return Ok(());

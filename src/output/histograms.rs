@@ -3,9 +3,9 @@
 use crate::run::StepRecord;
 use std::fmt::Write;
 
-/// One row an interval: step, quantity, its ends, the count in it and the density, part of the whole per unit of the
-/// quantity. Samples are counted, of pressure those in contact and of gap the others, the whole being all; of areas spots.
-/// `None` for indenters.
+/// The content of `histograms.csv`, one row an interval: step, quantity, ends, count, and density: part of the whole per unit of it.
+/// Pressures are counted over the samples in contact and gaps over the others, relative to all samples; areas over spots. `None`
+/// for indenters.
 pub fn histograms(steps: &[StepRecord]) -> Option<String> {
     let mut text = "step,quantity,from,to,count,density\n".to_owned();
     for (number, step) in (1..).zip(steps) {

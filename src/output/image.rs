@@ -1,10 +1,10 @@
-//! The content of a folder in memory, for the tests: what a kill or a power cut leaves.
+//! The content of a folder in memory, for tests of kills and power cuts.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A folder as it may stand on the disk: files with their content by their names, folders without.
+/// Files with their content and folders without, by their paths.
 pub(crate) type Image = BTreeMap<PathBuf, Option<Vec<u8>>>;
 
 /// The image of a folder.

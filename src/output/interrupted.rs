@@ -1,4 +1,4 @@
-//! An interrupted run: what a kill or a power cut has left in its staging folder, and the steps that a finer grid leaves behind.
+//! The staging folder of an interrupted run, and the steps on a coarser grid.
 
 use super::error::At;
 use super::layout::{COARSER, MARK, SWEEP_LOG, is_staging, staging};
@@ -8,43 +8,43 @@ use super::writer::Writer;
 use super::{OutputError, checkpoint, disk, steps_log};
 use std::path::{Path, PathBuf};
 
-/// Whether anything is saved in a staging folder, on any grid, be it a load of which nothing is read off yet.
+/// Whether a staging folder has a finished step or a checkpoint, on any grid.
 pub fn has_begun(staging: &Path) -> bool {
     has_finished(staging) || disk::is_file(&staging.join(checkpoint::NAME))
 }
 
-/// Whether an interrupted `solve` into a folder has saved the solution of a load and finished no step: nothing that could be set
-/// aside, and something with which a run of the same case can go on.
+/// Whether an interrupted `solve` into a folder has a checkpoint and no finished step: nothing to set aside, but a run of this
+/// case can be resumed.
 pub fn has_solved_alone(folder: &Path) -> bool {
     let staging = staging(folder, Writer::Solve);
     disk::is_folder(&staging) && is_staging(&staging) && has_begun(&staging) && !has_finished(&staging)
 }
 
-/// Size of what an interrupted `solve` has left in its staging folder, bytes.
+/// Size of the staging folder of an interrupted `solve`, bytes.
 pub fn staged_bytes(folder: &Path) -> u64 {
     let entries = entries(&staging(folder, Writer::Solve)).unwrap_or_default();
     entries.iter().filter(|entry| entry.there.is_file()).map(|entry| entry.there.len()).sum()
 }
 
-/// The folder of the steps on a coarser grid in a staging folder, if there is one.
+/// The folder of the steps on a coarser grid in a staging folder; `None` where there is none.
 pub fn coarser(staging: &Path) -> Option<PathBuf> {
     Some(staging.join(COARSER)).filter(|path| disk::is_folder(path))
 }
 
-/// Whether a step or a combination has been finished, on the present grid or a coarser one.
+/// Whether a step or a combination is finished, on the present grid or a coarser one.
 pub(super) fn has_finished(staging: &Path) -> bool {
     has_steps(staging) || coarser(staging).is_some_and(|coarser| has_steps(&coarser))
 }
 
-/// Whether steps have been finished on one grid: its log has a whole line. A summary counts too: earlier versions of percoat
-/// wrote it after every step, and no log.
+/// Whether a step is finished on the grid of a folder: its log has a whole line, or there is a summary, which earlier versions
+/// wrote after every step in place of a log.
 pub(super) fn has_steps(folder: &Path) -> bool {
     [steps_log::NAME, SWEEP_LOG].iter().any(|name| has_whole_line(&folder.join(name)))
         || disk::is_file(&folder.join("summary.json"))
 }
 
-/// Puts a staging folder in order: temporary files go, logs end with their last whole line, and steps of a coarser grid that
-/// were on the way to `coarser/` come there. No item of percoat may be of a wrong kind there.
+/// Repairs a staging folder: removes temporary files, cuts logs after their last whole line, and completes an interrupted move
+/// to `coarser/`. Every item of percoat must be of the right kind.
 pub(super) fn settle(staging: &Path) -> Result<(), OutputError> {
     let [log, coarser_log] = [staging, &staging.join(COARSER)].map(|folder| folder.join(steps_log::NAME));
     if coarser(staging).is_some() && !disk::is_file(&coarser_log) && disk::is_file(&log) {
@@ -57,7 +57,7 @@ pub(super) fn settle(staging: &Path) -> Result<(), OutputError> {
     [log, coarser_log, staging.join(SWEEP_LOG)].iter().try_for_each(|log| cut(log))
 }
 
-/// Removes the fields of a grid on which no step was finished. Returns where files of a user are now that stood there.
+/// Removes the fields of a grid without a finished step. Returns the folder to which foreign files there were moved.
 pub(super) fn remove_fields(staging: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
     let mut aside = None;
     for name in ["contact.partial", "stress.partial"] {
@@ -66,13 +66,13 @@ pub(super) fn remove_fields(staging: &Path, output: &Path) -> Result<Option<Path
     Ok(aside)
 }
 
-/// Moves finished steps to `coarser/`, in the place of those of the grid before. Returns where files of a user are now that
-/// stood there.
+/// Moves finished steps to `coarser/`, where they replace those of the grid before. Returns the folder to which foreign files
+/// there were moved.
 pub(super) fn move_to_coarser(staging: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
-    // That the finer grid has begun is on the disk before.
+    // The checkpoint that begins the finer grid is on the disk before.
     disk::sync_folder(staging).at(staging)?;
     let coarser = staging.join(COARSER);
-    // A folder without a log is one on its way, see `settle`.
+    // A folder without a log is an interrupted move, see `settle`.
     let log = coarser.join(steps_log::NAME);
     if disk::is_file(&log) {
         disk::remove(&log).and_then(|()| disk::sync_folder(&coarser)).at(&log)?;
@@ -83,7 +83,7 @@ pub(super) fn move_to_coarser(staging: &Path, output: &Path) -> Result<Option<Pa
     Ok(aside)
 }
 
-/// Moves the steps of a grid to `coarser/`, the log as the last: what it lists is there when it comes.
+/// Moves the steps of a grid to `coarser/`, the log last, after the files that it lists.
 fn move_steps(staging: &Path) -> Result<(), OutputError> {
     let coarser = staging.join(COARSER);
     let settled = || disk::sync_folder(&coarser).and_then(|()| disk::sync_folder(staging)).at(&coarser);
@@ -97,7 +97,7 @@ fn move_steps(staging: &Path) -> Result<(), OutputError> {
         if there.is_file() {
             disk::replace(&path, &to).at(&path)?;
         } else {
-            // The rest of the grid before.
+            // Remaining files of the grid before.
             remove_own(staging, &format!("{COARSER}/{}", name.display()))?;
             disk::move_to(&path, &to).at(&path)?;
         }

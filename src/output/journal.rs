@@ -1,8 +1,8 @@
-//! What a power cut leaves of a folder: a journal of the changes that percoat makes there, for the tests.
+//! A journal of the changes in a folder, from which tests compute the states that a power cut may leave.
 //!
-//! Content is lost until it is synced: such a file is empty, or as long as it was and full of zeros. Each change of names
-//! happens at once; those whose folder is not synced are there or not, each by itself, but those of one name one after the
-//! other. [`Journal::images`] has what may stand there, after every change.
+//! Content that is not synced is lost: the file is empty, or of its length and full of zeros. Each change of a name is atomic;
+//! changes whose folder is not synced are present or absent independently, those of one name in order. [`Journal::images`]
+//! returns all states that are possible, after every change.
 
 use super::image::{self, Image};
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,7 +15,7 @@ use std::sync::{Arc, Mutex};
 pub(super) enum Change<'a> {
     Created(&'a Path),
     CreatedFolder(&'a Path),
-    /// From where, and to where.
+    /// Old path, new path.
     Moved(&'a Path, &'a Path),
     /// The file, and its second name.
     Linked(&'a Path, &'a Path),
@@ -35,17 +35,17 @@ pub(crate) struct Journal {
     things: Vec<Thing>,
     /// Names as the running system has them.
     seen: BTreeMap<Name, usize>,
-    /// Names that have come to the disk.
+    /// Names that are on the disk.
     durable: BTreeMap<Name, usize>,
-    /// Changes of names that have not, each with all names it changes.
+    /// Changes of names that are not, each with all names it changes.
     pending: Vec<Vec<(Name, Option<usize>)>>,
     pub(crate) images: Vec<Image>,
     known: BTreeSet<Image>,
-    /// What has been noted, in words.
-    pub(super) told: Vec<String>,
+    /// The changes noted so far, in words.
+    pub(super) notes: Vec<String>,
     /// Whether syncing does nothing.
     pub(super) ignores_syncs: bool,
-    /// What a kill would leave after each change, where that is wanted.
+    /// The state that a kill would leave after each change; `None` where it is not recorded.
     pub(super) kills: Option<Vec<Image>>,
     /// Whether files can have two names.
     pub(super) has_links: bool,
@@ -54,14 +54,14 @@ pub(crate) struct Journal {
 #[derive(Debug, Clone)]
 enum Thing {
     Folder,
-    /// What has come to the disk of its content, if any of it has; and what was added since.
+    /// Synced content, if any, and content added since.
     File {
         durable: Option<Vec<u8>>,
         added: Vec<u8>,
     },
 }
 
-/// What stands where content has not come to the disk.
+/// State of content that is not synced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Lost {
     Nothing,
@@ -91,14 +91,14 @@ pub(super) fn note(change: Change<'_>) {
     }
 }
 
-/// Whether the file system of a path, as its journal says, gives a file one name alone.
+/// Whether the journal of a path simulates a file system without hard links.
 pub(super) fn refuses_links(path: &Path) -> bool {
     let journals = JOURNALS.lock().unwrap().clone();
     journals.iter().map(|journal| journal.lock().unwrap()).any(|own| path.starts_with(&own.root) && !own.has_links)
 }
 
 impl Journal {
-    /// Begins one of an empty folder that is on the disk; it ends when this is dropped by all but the list.
+    /// Begins the journal of an empty folder that is on the disk; it ends when the returned handle is dropped.
     pub(crate) fn begin(root: &Path) -> Arc<Mutex<Self>> {
         let journal = Arc::new(Mutex::new(Self {
             root: root.to_owned(),
@@ -108,7 +108,7 @@ impl Journal {
             pending: Vec::new(),
             images: Vec::new(),
             known: BTreeSet::new(),
-            told: Vec::new(),
+            notes: Vec::new(),
             ignores_syncs: false,
             kills: None,
             has_links: true,
@@ -117,12 +117,12 @@ impl Journal {
         journal
     }
 
-    /// Ends it: further changes are not noted.
+    /// Ends a journal: further changes are not noted.
     pub(crate) fn end(journal: &Arc<Mutex<Self>>) {
         JOURNALS.lock().unwrap().retain(|own| !Arc::ptr_eq(own, journal));
     }
 
-    /// Everything so far has come to the disk, and what could have stood there before is forgotten.
+    /// Makes the present state durable and drops the states before it.
     pub(super) fn settle(&mut self) {
         self.durable = self.seen.clone();
         self.pending.clear();
@@ -132,7 +132,7 @@ impl Journal {
 
     fn note(&mut self, change: Change<'_>) {
         let short = |path: &Path| path.strip_prefix(&self.root).unwrap_or(path).display().to_string();
-        self.told.push(match change {
+        self.notes.push(match change {
             Change::Created(path) => format!("create {}", short(path)),
             Change::CreatedFolder(path) => format!("folder {}", short(path)),
             Change::Moved(from, to) => format!("move {} {}", short(from), short(to)),
@@ -194,7 +194,7 @@ impl Journal {
         (self.folder(path.parent().unwrap()), path.file_name().unwrap().to_str().unwrap().to_owned())
     }
 
-    /// Brings the changes in a folder to the disk, and those before of the same names.
+    /// Makes the changes in a folder durable, and earlier changes of their names.
     fn sync_folder(&mut self, folder: usize) {
         let mut names: BTreeSet<Name> = BTreeSet::new();
         let mut needed = vec![false; self.pending.len()];
@@ -219,7 +219,7 @@ impl Journal {
         if let Some(kills) = &mut self.kills {
             kills.push(image::read(&self.root));
         }
-        let mut seed = 2_463_534_242 + self.told.len() as u64;
+        let mut seed = 2_463_534_242 + self.notes.len() as u64;
         let mut coin = || {
             seed ^= seed << 13;
             seed ^= seed >> 7;
@@ -240,7 +240,7 @@ impl Journal {
         }
     }
 
-    /// What may stand there, where `comes` says of each change on its way whether it has come.
+    /// A possible state of the folder; `comes` decides of each pending change whether it is on the disk.
     fn image(&self, comes: &mut dyn FnMut() -> bool, lost: Lost) -> Image {
         let (mut names, mut held) = (self.durable.clone(), BTreeSet::new());
         for change in &self.pending {
@@ -270,7 +270,7 @@ impl Journal {
     }
 }
 
-/// What is left of content.
+/// Content after a power cut.
 fn left(durable: Option<&[u8]>, added: &[u8], lost: Lost) -> Vec<u8> {
     let mut content = durable.unwrap_or_default().to_vec();
     match (durable, lost) {

@@ -1,20 +1,20 @@
-//! Records as JSON, and read back with the place of what is not as this version writes it.
+//! Records written as JSON and read back; errors name the key.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-/// Why a result cannot be read back: what is missing, or of another kind, or unknown.
+/// Why a result cannot be read back: a key that is missing, unknown or of another kind.
 #[derive(Debug, thiserror::Error)]
 #[error("{place}: {reason}")]
 pub struct Unreadable {
-    /// Where in the file, such as `steps[0].levels[1]`.
+    /// Path of the key, such as `steps[0].levels[1]`.
     pub(super) place: String,
-    /// What is the matter there.
+    /// What is wrong with it.
     pub(super) reason: String,
 }
 
-/// The record that a value holds.
+/// Reads a record from a JSON value.
 pub(super) fn read_back<T: DeserializeOwned>(value: &Value) -> Result<T, Unreadable> {
     serde_path_to_error::deserialize(value).map_err(|error| Unreadable {
         place: match error.path().iter().next() {

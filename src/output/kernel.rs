@@ -1,9 +1,9 @@
-//! The layered half-space's response to a harmonic traction, as `percoat kernel` tells it.
+//! The layered half-space's response to a harmonic traction, as `percoat kernel` prints it.
 
 use crate::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, LayeredResponse};
 use serde_json::{Value, json};
 
-/// What acts on the surface.
+/// Direction of the traction on the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
 pub enum Traction {
     /// A pressure
@@ -15,9 +15,9 @@ pub enum Traction {
     Across,
 }
 
-/// The response at a `wavenumber` q > 0, 1/length: the displacement in the direction of the traction, per unit of it, the
-/// same over that of a half-space of the surface's material, and amplitudes at `depths` z ≥ 0, one row each, or on an
-/// interface one for each side.
+/// The response at a `wavenumber` q > 0, 1/length, as text: the displacement in the direction of the traction per unit of it,
+/// its ratio to that of a half-space of the surface material, and amplitudes at `depths` z ≥ 0, one row each, on an interface one
+/// for each side.
 pub fn kernel(
     transfer: &LayeredResponse,
     half_space: &HalfSpace,

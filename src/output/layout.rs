@@ -1,4 +1,4 @@
-//! What stands where in an output folder.
+//! Names of files and folders in an output folder.
 
 use super::error::At;
 use super::writer::Writer;
@@ -7,7 +7,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What percoat keeps for itself in an output folder.
+/// The folder of percoat's own files in an output folder.
 pub(super) const OWN: &str = ".percoat";
 /// The list of the published files.
 pub(super) const LIST: &str = ".percoat/written.json";
@@ -24,7 +24,7 @@ pub const COMBINATIONS: &str = "combinations";
 /// The steps of the coarser grid while a finer one is solved.
 pub(super) const COARSER: &str = "coarser";
 
-/// The staging folder of a writer. Only those of long runs are worth a look before all is there.
+/// The staging folder of a writer; visible for long runs, within `.percoat` for others.
 pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
     folder.join(match writer {
         Writer::Solve => "unfinished",
@@ -37,12 +37,12 @@ pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
     })
 }
 
-/// Whether a folder is a staging folder, or was one when its run was killed, wherever it has been moved since.
+/// Whether a folder is a staging folder, also one that was moved after its run was killed.
 pub fn is_staging(folder: &Path) -> bool {
     disk::is_file(&folder.join(MARK))
 }
 
-/// Names of what is in a folder, sorted.
+/// Names in a folder, sorted.
 pub(super) fn names(folder: &Path) -> Result<Vec<String>, OutputError> {
     let name = |entry: io::Result<fs::DirEntry>| Ok(entry?.file_name().to_string_lossy().into_owned());
     let mut names: Vec<String> = fs::read_dir(folder).and_then(|entries| entries.map(name).collect()).at(folder)?;

@@ -8,7 +8,7 @@ use crate::run::{Limit, Limits, StepRecord};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-/// The limit loads of a case, as `limit.json` has them.
+/// The content of `limit.json`: the limit loads of a case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LimitFile {
     /// The version that wrote it.
@@ -20,7 +20,7 @@ pub struct LimitFile {
     /// Names of the units of all numbers.
     #[serde(default)]
     pub units: UnitNames,
-    /// What a reader should know before trusting the numbers.
+    /// Warnings, a sentence each.
     pub warnings: Vec<String>,
     /// The limit that is reached first; `None` where none is.
     pub first: Option<FirstLimit>,
@@ -48,7 +48,7 @@ pub struct FirstLimit {
 }
 
 impl LimitFile {
-    /// Of the limits of a case.
+    /// The record of the limits of a case.
     pub fn new(limits: &Limits, case: &Case, warnings: &[String]) -> Self {
         let pressure = |step: &StepRecord| step.reading.mean_pressure;
         let ends = limits.steps.first().zip(limits.steps.last());
@@ -67,7 +67,7 @@ impl LimitFile {
         }
     }
 
-    /// Reads the limits back that a file holds.
+    /// Reads the content of `limit.json`.
     ///
     /// # Errors
     /// [`Unreadable`] with the key that is not as this version writes it.
@@ -77,12 +77,12 @@ impl LimitFile {
         Ok(own)
     }
 
-    /// The file.
+    /// The content of `limit.json`.
     pub fn to_json(&self) -> String {
         indented(self)
     }
 
-    /// The limits, without the step that a picture shows and the end of a refinement, which are not kept.
+    /// The limits, without the step of the picture and the end of the refinement, which the file does not keep.
     pub fn limits(&self) -> Limits {
         Limits {
             limits: self.limits.clone(),

@@ -1,8 +1,8 @@
-//! `.percoat/lock`: the file that a run locks so that no other one writes into its output folder. It holds the number of the
-//! process.
+//! `.percoat/lock`: the file that a run locks so that no other run writes into its output folder. Its content is the number of
+//! the process.
 //!
-//! Only a file that nothing but percoat can have written is written into: one that it has just created, or one with the
-//! number of a process, or the beginning of one, that has no second name.
+//! percoat writes only into a lock file that it has just created, or that contains the number of a process, or the beginning of
+//! one, and has no second name.
 
 use super::OutputError;
 use super::disk;
@@ -18,7 +18,7 @@ const BEFORE: &str = "process ";
 /// Bytes of the longest content.
 const LONGEST: u64 = 40;
 
-/// Locks a folder for this process as long as the file is open; the system ends that however the process ends.
+/// Locks a folder for this process as long as the file is open; the system releases the lock when the process ends.
 ///
 /// # Errors
 /// [`FolderError`], also where the file is a user's.
@@ -37,7 +37,7 @@ pub(super) fn lock(folder: &Path) -> Result<File, FolderError> {
             let owner = owner.map(|own| String::from_utf8_lossy(&own).trim().to_owned()).unwrap_or_default();
             return Err(FolderError::Busy { folder: folder.to_owned(), owner });
         }
-        // Some network file systems have no locks: there two runs can meet in a folder.
+        // Some network file systems have no locks: there a second run is not refused.
         Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
         Err(TryLockError::Error(error)) => return Err(failed(error).into()),
     }
@@ -49,13 +49,13 @@ pub(super) fn lock(folder: &Path) -> Result<File, FolderError> {
     Ok(file)
 }
 
-/// Whether a file in the place of the lock is a user's: by its content, or because it has another name elsewhere.
+/// Whether the lock file is a user's: by its content, or because it has a second name.
 pub(super) fn is_foreign(path: &Path) -> bool {
     let Ok(file) = disk::open(path) else { return false };
     has_other_name(&file) || !content(&file).is_ok_and(|content| is_own(&content))
 }
 
-/// The content of a lock, and the beginning of any other file.
+/// The content of a lock; of another file its beginning.
 fn content(mut file: &File) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     file.rewind()?;
@@ -63,7 +63,7 @@ fn content(mut file: &File) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Whether a content is the number of a process, or what a kill or a power cut leaves of it.
+/// Whether the content is the number of a process, also one cut off by a kill or a power cut.
 fn is_own(content: &[u8]) -> bool {
     let whole = content.len() < LONGEST as usize;
     let Ok(text) = str::from_utf8(content) else { return false };

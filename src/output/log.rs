@@ -1,8 +1,8 @@
 //! A log of lines, `steps.jsonl` or `sweep.jsonl`: an object of JSON a line, with its [checksum](super::trailer), appended when
 //! its step or combination is done.
 //!
-//! The first lines and the name of the file come at once, and each later line is on the disk when it has been added. Whatever ends
-//! the program, the lines that end are whole; the beginning of one more is cut off before the log is used again.
+//! The first lines and the name of the file appear in one move; each later line is on the disk when `add` returns. After a kill
+//! every terminated line is whole; an unterminated one is cut off before the log is used again.
 
 use super::disk::{self, Appended};
 use super::error::At;
@@ -14,19 +14,19 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub(crate) struct LineLog {
     path: PathBuf,
-    /// Lines with which the file begins; none: the file must not be there.
+    /// First lines of the file; none: the file must not exist.
     known: Option<String>,
     /// Open from the first line on.
     file: Option<Appended>,
 }
 
 impl LineLog {
-    /// A log that begins. Its first line is refused when a file is there already.
+    /// A new log; adding its first line is an error where the file exists.
     pub(crate) fn new(path: PathBuf) -> Self {
         Self { path, known: None, file: None }
     }
 
-    /// A log that goes on after some whole lines; they and the next one replace the file.
+    /// A log that continues after the `known` lines; they and the next one replace the file.
     pub(crate) fn after(path: PathBuf, known: String) -> Self {
         Self { path, known: Some(known), file: None }
     }
@@ -48,7 +48,7 @@ impl LineLog {
     }
 }
 
-/// Whether a log is there and has a whole line.
+/// Whether a log exists and has a whole line.
 pub(super) fn has_whole_line(path: &Path) -> bool {
     let line = disk::open(path).and_then(|file| {
         let mut line = Vec::new();
@@ -58,7 +58,7 @@ pub(super) fn has_whole_line(path: &Path) -> bool {
     line.is_ok_and(|line| line.ends_with(b"\n"))
 }
 
-/// Cuts off what a kill or a full disk has left of one more line than are whole; a log without a whole line is removed.
+/// Cuts off an unterminated line, which a kill or a full disk leaves; removes a log without a whole line.
 pub(super) fn cut(path: &Path) -> Result<(), OutputError> {
     if !disk::is_file(path) {
         return Ok(());
@@ -66,14 +66,14 @@ pub(super) fn cut(path: &Path) -> Result<(), OutputError> {
     let bytes = disk::read(path).at(path)?;
     match bytes.iter().rposition(|byte| *byte == b'\n') {
         None => disk::remove(path).at(path),
-        // The file may have another name elsewhere, whose content is not percoat's to cut.
+        // The file may have a second name elsewhere, whose content must stay.
         Some(end) if end + 1 < bytes.len() => write_file(path, |writer| writer.write_all(&bytes[..=end])),
         Some(_) => Ok(()),
     }
 }
 
-/// The whole lines of a log, without what a kill or a full disk has left of one more. Bytes that are not UTF-8 become U+FFFD, so
-/// that the checksum of their line no longer fits.
+/// The whole lines of a log, without an unterminated one. Bytes that are not UTF-8 become U+FFFD, so that the checksum of their
+/// line no longer fits.
 ///
 /// # Errors
 /// When it cannot be read.

@@ -1,4 +1,4 @@
-//! `.percoat/written.json`: what percoat wrote into an output folder as finished results.
+//! `.percoat/written.json`: the list of the files of finished results in an output folder.
 
 use super::files::{Files, Ownership, is_inside};
 use super::layout::LIST;
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::io;
 use std::path::Path;
 
-/// The list as it stands on the disk.
+/// The content of the list.
 #[derive(Serialize, Deserialize)]
 struct Manifest {
     /// The version that wrote it.
@@ -16,7 +16,7 @@ struct Manifest {
     files: Files,
 }
 
-/// The files of a list, if there is one that can be read. Names that lead outside the folder are left out, whoever wrote them.
+/// The files of a list; `None` where it cannot be read. Names that lead outside the folder are left out.
 pub(super) fn read(path: &Path) -> Option<Files> {
     let list: Manifest = serde_json::from_str(&disk::read_text(path).ok()?).ok()?;
     Some(list.files.filtered(|name, _| is_inside(name)))
@@ -29,14 +29,12 @@ pub(super) fn write(path: &Path, files: Files) -> Result<(), OutputError> {
     write_text(path, &(text + "\n"))
 }
 
-/// What percoat has published in an output folder; nothing where its list cannot be read, so that in doubt no file is
-/// percoat's.
+/// The published files of an output folder; none where its list cannot be read, so that in doubt no file is percoat's.
 pub(super) fn published(folder: &Path) -> Files {
     read(&folder.join(LIST)).unwrap_or_default()
 }
 
-/// Whether a file of a folder is as percoat wrote it there beside its `result`. Where no list has the result, as in a copy,
-/// every file is.
+/// Whether a file of a folder is as percoat wrote it with its `result`; always true where no list has the result, as in a copy.
 ///
 /// # Errors
 /// When the file cannot be read.
@@ -45,8 +43,8 @@ pub fn is_beside(result: &str, folder: &Path, name: &str) -> io::Result<bool> {
     Ok(!files.has(result) || files.ownership(folder, name)? == Ownership::AsWritten)
 }
 
-/// Files that percoat has published in the folder itself, not below it, and that do not stand there as it wrote them, each with
-/// what is the matter with it. Reports are left out.
+/// Published files of the folder itself, not of folders in it, that are missing or were changed, each with what is wrong with it.
+/// Reports are left out.
 pub fn damaged_results(folder: &Path) -> Vec<(String, String)> {
     let files = published(folder).filtered(|name, by| by != Writer::Report && !name.contains('/'));
     files.names().filter_map(|name| Some((name.to_owned(), files.damage(folder, name)?))).collect()

@@ -1,33 +1,31 @@
-//! The output folder: what a run leaves behind, and how it comes to be there.
+//! The output folder: the files of a run, and how they are written.
 //!
 //! # The life of a folder
 //!
-//! Nothing a user owns is destroyed. A run replaces only files that percoat itself wrote there as a finished result and
-//! that were not changed since, and only when the new result is complete. The output folder may be a link that its user has
-//! made; below it no link is followed, and anything but a file or a folder itself in the place of percoat's own is refused
-//! before it is opened. Only in a folder that percoat has marked are files percoat's by their names, and removed by those alone.
+//! No file of a user is destroyed. A run replaces only files that percoat wrote there as a finished result and that were not
+//! changed since, and only when the new result is complete. The output folder may be a symbolic link; below it no link is
+//! followed, and anything but a regular file or folder in the place of percoat's own is refused before it is opened. Files are
+//! recognised as percoat's by their names only in a folder that percoat has marked.
 //!
 //! 1. **Claim** ([`RunFolder::claim`]), before anything is solved. A name of the [`Plan`] that belongs to a user is refused; so
 //!    is a folder into which another run writes, which a lock on `.percoat/lock` shows: the system releases it however a
 //!    process ends.
 //! 2. **Gather** in a staging folder ([`RunFolder::staging`]). `solve` writes into `unfinished/`, every file under a temporary
-//!    name that is changed when it is complete. A [`Recording`] appends a line to `steps.jsonl` for each load step, with the
-//!    checksums of the files that the step has left and of the line itself; its fields stand as `.npy` files in
-//!    `contact.partial/` and `stress.partial/` until `contact.npz` and `stress.npz` are made of them. Where a finer grid
-//!    follows, the steps of the coarser one stand in `coarser/`. The result of an earlier run stays as it is all the while.
-//! 3. **Publish** ([`RunFolder::publish`]). A list of the files with their checksums beside them decides; then each takes
-//!    its place, files of the result before that have no successor are removed, the list becomes `.percoat/written.json`, and
-//!    `unfinished/` goes in one move. At every moment the old result or the whole new one stands in one folder, where files
-//!    can have two names (hard links); elsewhere the new one moves file by file. The states and their order stand at the head
-//!    of `publication.rs`.
+//!    name until it is complete. A [`Recording`] appends a line to `steps.jsonl` for each load step, with the checksums of the
+//!    files of the step and of the line itself; fields are `.npy` files in `contact.partial/` and `stress.partial/` until
+//!    `contact.npz` and `stress.npz` are made of them. While a finer grid is solved, the steps of the coarser one are in
+//!    `coarser/`. The earlier result stays unchanged.
+//! 3. **Publish** ([`RunFolder::publish`]). A list of the files with their checksums is written beside them; then each file is
+//!    placed, files of the earlier result without a successor are removed, the list becomes `.percoat/written.json`, and
+//!    `unfinished/` is removed in one move. At every moment the old result or the whole new one is in one folder, given hard
+//!    links; without them the new one is moved file by file. `publication.rs` describes the states and their order.
 //!
-//! A run that is killed leaves `unfinished/` with all steps it has finished, and in `checkpoint.npz` the state of the solver.
-//! The next run into the folder completes a publication that was decided. Otherwise it goes on from there if the plan
-//! [resumes](Plan::resumes) and all of it is [as it was written](finished()), or moves the folder to `interrupted-1/` or the
-//! next free number; a folder without a finished step is removed. Files in `unfinished/` that percoat did not write are neither
-//! published nor removed: the folder is moved aside like that of an interrupted run. What has the name of percoat's own there and
-//! is of another kind (a link, a pipe) is refused by a run that goes on. A power cut leaves what a kill leaves: content is on the
-//! disk before its name, and both before a line of a log, the list or `written.json` says that they are finished.
+//! A killed run leaves `unfinished/` with its finished steps, and in `checkpoint.npz` the state of the solver. The next run into
+//! the folder completes a publication that was decided. Otherwise it resumes the killed run if the plan [resumes](Plan::resumes)
+//! and every file is [undamaged](finished()), or moves the folder to `interrupted-1/` or the next free number; a folder without a
+//! finished step is removed. Foreign files in `unfinished/` are neither published nor removed: the folder is moved aside too. A
+//! link or a pipe under one of percoat's names there is refused by a run that resumes. A power cut leaves what a kill leaves:
+//! content is on the disk before its name, and both before a log line, the list or `written.json` lists them as finished.
 //!
 //! `compare` gathers in `.percoat/compare/` and `validate` in `.percoat/validate/`; each command replaces its own files alone,
 //! and a single study those of its own folder ([`Scope`]).

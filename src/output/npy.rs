@@ -1,13 +1,13 @@
-//! Arrays as `.npy` files: written, and read back as they were written.
+//! Arrays as `.npy` files.
 
 use bytemuck::Pod;
 use npyz::{AutoSerialize, WriterBuilder};
 use std::io::{self, Read, Write};
 
-/// Values that are written at a time.
+/// Number of values written at a time.
 const CHUNK: usize = 1 << 13;
 
-/// Writes one array as `.npy`, values in C order and in the byte order of the machine, which the header says.
+/// Writes one array as `.npy`, values in C order and in the byte order of the machine, as the header states.
 pub(super) fn npy<T: AutoSerialize + Pod>(
     mut writer: impl Write,
     shape: &[usize],
@@ -30,14 +30,14 @@ pub(super) fn npy<T: AutoSerialize + Pod>(
 /// The content of a `.npy` file of numbers, values in C order.
 ///
 /// # Errors
-/// When there are fewer or more values than the shape says.
+/// When the number of values is not that of the shape.
 pub fn npy_bytes(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     npy(&mut bytes, shape, values)?;
     Ok(bytes)
 }
 
-/// Writes the header of an array. `npyz` would write the values one by one too, which takes longer than the disk.
+/// Writes the header of an array. The values follow in bulk: writing them one by one with `npyz` is slower than the disk.
 pub(super) fn header<T: AutoSerialize>(writer: impl Write, shape: &[usize]) -> io::Result<()> {
     let sizes: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
     let header = npyz::WriteOptions::new_header_only().dtype(T::default_dtype()).shape(&sizes);
@@ -45,11 +45,11 @@ pub(super) fn header<T: AutoSerialize>(writer: impl Write, shape: &[usize]) -> i
     Ok(())
 }
 
-/// The values of an array of this shape as [`npy`] has written it, and nothing behind them. The header must be the one that
-/// such an array has, byte for byte: no length in it is trusted.
+/// Reads the values of an array of this shape written by [`npy`]. The header must be equal byte for byte, so that no length in
+/// the file is trusted.
 ///
 /// # Errors
-/// Another header, fewer or more values; those of the reader.
+/// Another header, fewer or more values, bytes behind them; those of the reader.
 pub(super) fn values(mut reader: impl Read, shape: &[usize]) -> io::Result<Vec<f64>> {
     let mut wanted = Vec::new();
     header::<f64>(&mut wanted, shape)?;
@@ -61,17 +61,17 @@ pub(super) fn values(mut reader: impl Read, shape: &[usize]) -> io::Result<Vec<f
     let mut values = vec![0.0; shape.iter().product()];
     reader.read_exact(bytemuck::cast_slice_mut(&mut values)).map_err(short)?;
     if reader.read(&mut [0])? > 0 {
-        return Err(unlike(format!("more stands behind its {} numbers", values.len())));
+        return Err(unlike(format!("it has more than its {} numbers", values.len())));
     }
     Ok(values)
 }
 
-/// The values of an array with one axis in a file of so many bytes.
+/// Reads the values of an array with one axis in a file of `bytes` bytes.
 ///
 /// # Errors
-/// As [`values`].
+/// Those of [`values`].
 pub(super) fn vector(mut reader: impl Read, bytes: u64) -> io::Result<Vec<f64>> {
-    // The format keeps the length of what follows in the ninth and tenth byte.
+    // The ninth and tenth byte of the format are the length of the header.
     let mut begin = [0; 10];
     reader.read_exact(&mut begin).map_err(short)?;
     let head = begin.len() as u64 + u64::from(u16::from_le_bytes([begin[8], begin[9]]));
@@ -79,10 +79,10 @@ pub(super) fn vector(mut reader: impl Read, bytes: u64) -> io::Result<Vec<f64>> 
     values((&begin[..]).chain(reader), &[usize::try_from(count).map_err(|_| unlike("it is too long".to_owned()))?])
 }
 
-/// The shape in the header of an array of numbers. The reader then stands behind the header.
+/// Reads the shape from the header of an array of numbers, up to the end of the header.
 ///
 /// # Errors
-/// When it is no header as [`header`] writes it; those of the reader.
+/// Another header than [`header`] writes; those of the reader.
 pub(super) fn shape(mut reader: impl Read) -> io::Result<Vec<usize>> {
     let mut found = vec![0; 10];
     reader.read_exact(&mut found).map_err(short)?;
@@ -96,7 +96,7 @@ pub(super) fn shape(mut reader: impl Read) -> io::Result<Vec<usize>> {
     });
     let mut wanted = Vec::new();
     let counted = |sizes: &Vec<usize>| sizes.iter().try_fold(1, |count: usize, &n| count.checked_mul(n)).is_some();
-    let sizes = sizes.filter(counted).ok_or_else(|| unlike("its header tells no shape".to_owned()))?;
+    let sizes = sizes.filter(counted).ok_or_else(|| unlike("its header has no shape".to_owned()))?;
     header::<f64>(&mut wanted, &sizes)?;
     if found == wanted { Ok(sizes) } else { Err(unlike("its header is not one of numbers".to_owned())) }
 }
@@ -109,7 +109,7 @@ fn short(error: io::Error) -> io::Error {
     if error.kind() == io::ErrorKind::UnexpectedEof { unlike("it ends too early".to_owned()) } else { error }
 }
 
-/// Whether an array has as many values as its shape says.
+/// An error where the number of values is not that of the shape.
 pub(super) fn complete(shape: &[usize], count: usize) -> io::Result<()> {
     if count == shape.iter().product::<usize>() {
         Ok(())

@@ -11,26 +11,26 @@ use zip::write::SimpleFileOptions;
 /// An `.npz` archive under construction.
 pub(super) struct Archive<W: Write + Seek> {
     zip: zip::ZipWriter<KeepsFirstError<W>>,
-    failure: Failure,
+    failure: FirstError,
 }
 
 /// The error of the first write that failed.
-type Failure = Rc<RefCell<Option<io::Error>>>;
+type FirstError = Rc<RefCell<Option<io::Error>>>;
 
-/// A file that keeps its first error and takes everything after it without a word: `zip` ends an archive even when it is
-/// dropped, and would print the error.
+/// A writer that keeps its first error and ignores later writes: `zip` ends an archive even when it is dropped, and would print
+/// the error.
 struct KeepsFirstError<W> {
     file: W,
     position: u64,
     end: u64,
     failed: bool,
-    failure: Failure,
+    failure: FirstError,
 }
 
 impl<W: Write + Seek> Archive<W> {
     /// An empty archive.
     pub(super) fn new(writer: W) -> Self {
-        let failure = Failure::default();
+        let failure = FirstError::default();
         let file = KeepsFirstError { file: writer, position: 0, end: 0, failed: false, failure: Rc::clone(&failure) };
         Self { zip: zip::ZipWriter::new(file), failure }
     }

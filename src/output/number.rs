@@ -2,12 +2,11 @@
 
 pub use crate::notation::number;
 
-/// Errors below this part of a number are those of its arithmetic.
+/// Relative errors below this are rounding.
 pub(super) const ROUNDING: f64 = 1e-12;
 
-/// A number with its error, both to the digit of the error, of which one counts: 0.4217 ± 0.0001. An error below the
-/// fifth digit is shown as one of it, one of rounding or none at all is left out; of a number below its error one digit
-/// more than of the error is shown at most.
+/// A number with its error, both to the first digit of the error: 0.4217 ± 0.0001. A smaller error than one of the fifth digit is
+/// shown as one of it; an error of rounding is left out; a number below its error has at most one digit more than the error.
 pub(crate) fn with_error(x: f64, error: Option<f64>) -> String {
     let Some(error) = error.filter(|error| error.is_finite() && *error > ROUNDING * x.abs() && x.is_finite()) else {
         return number(x);

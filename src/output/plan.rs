@@ -1,26 +1,26 @@
-//! What a run is going to write, and which earlier files its result replaces.
+//! The files that a run writes, and the earlier files that its result replaces.
 
 use super::writer::Writer;
 
-/// What a run is going to write.
+/// The files that a run may write.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// The command.
     pub writer: Writer,
     /// Names of all files that it may write, relative to the folder.
     pub names: Vec<String>,
-    /// Which of the writer's earlier files the result replaces.
+    /// The writer's earlier files that the result replaces.
     pub scope: Scope,
-    /// Names of files whose content shows that they are percoat's, whatever its list says.
+    /// Names of files whose content shows that they are percoat's, even where they are not listed.
     pub adopted: Vec<String>,
-    /// Whether the run goes on with finished steps or combinations of an interrupted one.
+    /// Whether the run resumes an interrupted one with finished steps or combinations.
     pub resumes: bool,
-    /// Content of `case.toml`, if it is among the names: a file of that content is no obstacle, and stays its owner's.
+    /// Content of `case.toml`, if it is among the names: a user's file of equal content is not refused, and stays the user's.
     pub case: Option<String>,
 }
 
 impl Plan {
-    /// A result without files that replaces the writer's earlier one.
+    /// A plan without files that replaces all earlier files of the writer.
     pub fn new(writer: Writer) -> Self {
         Self { writer, names: Vec::new(), scope: Scope::default(), adopted: Vec::new(), resumes: false, case: None }
     }

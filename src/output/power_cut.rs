@@ -1,12 +1,11 @@
-//! A power cut at any moment leaves what a kill leaves: whatever had come to the disk by then is laid out again, and the next
-//! run goes on with it.
+//! Tests of power cuts: every state of the disk that a journal allows is laid out, and the next run resumes from it.
 
 use super::image::{Image, lay};
 use super::journal::Journal;
 use super::layout::names;
 use super::*;
 use crate::case::{Case, Source};
-use crate::run::{Finished, Recorder, StepRecord};
+use crate::run::{EarlierRun, Recorder, StepRecord};
 use crate::spectral::{Checkpoint, Solver, Step};
 use crate::stress::StressField;
 use std::collections::BTreeMap;
@@ -71,7 +70,7 @@ fn a_power_cut_while_a_result_is_published_leaves_the_old_one_or_the_new_one_who
         let mut ends = [0; 2];
         for image in &images {
             let place = laid(image);
-            // Whoever comes next has the folder and one whole result.
+            // The next run can claim the folder and finds one whole result.
             let next = claim(place.path(), writer);
             let found = result(place.path());
             let end = wanted.iter().position(|own| *own == found);
@@ -94,7 +93,7 @@ fn were_nothing_brought_to_the_disk_results_would_be_lost() {
         let completed = publication::complete(place.path(), Writer::Solve);
         completed.is_err() || !wanted.contains(&result(place.path()))
     });
-    assert!(lost, "the journal sees what is not synced");
+    assert!(lost, "without syncing something is lost");
 }
 
 /// Three loads with volumes of stresses; two loads on grids that are refined.
@@ -143,7 +142,7 @@ struct Watched<'a> {
 impl Recorder for Watched<'_> {
     type Error = OutputError;
 
-    fn finished(&mut self) -> Option<Finished> {
+    fn finished(&mut self) -> Option<EarlierRun> {
         self.recording.finished()
     }
 
@@ -174,7 +173,7 @@ impl Recorder for Watched<'_> {
     }
 }
 
-/// Solves a case into a folder, going on with what stands there. After each step, how many images the journal has.
+/// Solves a case into a folder, resuming an interrupted run there. Returns the number of images of the journal after each step.
 fn solve(case: &Case, folder: &Path, journal: Option<&Mutex<Journal>>) -> Vec<usize> {
     let run = case.run();
     let plan = solved_plan(case, run.loads.len(), true);
@@ -217,11 +216,11 @@ fn a_run_that_a_power_cut_ends_at_any_moment_goes_on_and_ends_as_if_it_had_not_b
     let case = case(PLAIN);
     let (whole, images, steps) = cut(&case);
     assert!(whole.len() == 5 && images.len() > 150, "{:?}, {} images", whole.keys(), images.len());
-    // Of every moment two or three.
+    // Two or three images of every moment.
     for (index, image) in images.iter().enumerate().step_by(3) {
         let place = laid(image);
         let staging = place.path().join("unfinished");
-        // A step that was told as finished is.
+        // A step that was reported as finished is in the log.
         let told = steps.iter().filter(|images| **images <= index).count();
         let logged = whole_lines(&staging.join("steps.jsonl")).map_or(0, |lines| lines.len());
         let is_decided = disk::is_file(&staging.join(".publish.json")) || !disk::is_folder(&staging) && told > 0;

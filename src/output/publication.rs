@@ -1,4 +1,4 @@
-//! Publication: a complete result in a staging folder takes the place of the one before.
+//! Publication: a complete result in a staging folder replaces the earlier one.
 //!
 //! 1. *Gathered*: the staging folder has every file, `written.json` lists the old result. Nothing is decided.
 //! 2. *Decided*: `.publish.json` beside the files lists those of this command to come, kept and new ones. From here on any run
@@ -9,10 +9,9 @@
 //! 4. *Listed*: `written.json` has these files beside those of other commands.
 //! 5. *Retired*: the staging folder has gone to `.percoat/retired` in one move, and is removed there.
 //!
-//! Each step can be done again after a kill at any moment of it. Invariants: a user's file is looked for before the first
-//! change, and stops the publication. A file is placed by a second name (hard link), so that the whole new result stands in the
-//! staging folder until it is listed; where files have one name only, each moves and the rest stays. What a step needs is on
-//! the disk before the step begins.
+//! Each step can be repeated after a kill. Foreign files in the way are refused before the first change. A file is placed by a
+//! second name (hard link), so that the new result is complete in the staging folder until it is listed; without hard links
+//! the files are moved one by one. The disk is synced before each step.
 
 use super::error::At;
 use super::files::{FileRecord, Ownership, parents};
@@ -27,7 +26,7 @@ use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Decides that the staged files of the planned names are the new result. Nothing is decided if that fails.
+/// Writes the list of the new result, the staged files of the planned names. On failure nothing is decided.
 pub(super) fn decide(folder: &Path, plan: &Plan) -> Result<(), FolderError> {
     let (staging, writer, old) = (staging(folder, plan.writer), plan.writer, published(folder));
     let mut new = old.clone().filtered(|name, by| by == writer && !plan.scope.contains(name));
@@ -37,7 +36,7 @@ pub(super) fn decide(folder: &Path, plan: &Plan) -> Result<(), FolderError> {
         let file = FileRecord::of(&gathered, writer).at(&gathered)?;
         match old.ownership(folder, name).at(&path)?.refusal() {
             None => new.insert(name, file),
-            // The same file stays its owner's.
+            // A user's file of equal content stays the user's.
             Some(_) if FileRecord::of(&path, writer).is_ok_and(|there| there == file) => {}
             Some(reason) => return Err(FolderError::Foreign { path, reason }),
         }
@@ -47,8 +46,8 @@ pub(super) fn decide(folder: &Path, plan: &Plan) -> Result<(), FolderError> {
     Ok(disk::sync_folder(&staging).at(&staging)?)
 }
 
-/// Completes a publication that was decided. Returns where the staging folder is now if a user has put something into it.
-/// Where it fails, the next call goes on.
+/// Completes a publication that was decided; after a failure the next call continues. Returns the folder to which the staging
+/// folder was moved if it has foreign files.
 pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>, FolderError> {
     let staging = staging(folder, writer);
     let decided = manifest::read(&staging.join(DECIDED)).filter(|_| disk::is_folder(&staging) && is_staging(&staging));
@@ -75,31 +74,31 @@ pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>,
     }
     for name in old.names().filter(|name| !list.has(name)) {
         let path = folder.join(name);
-        // What its owner has changed in the meantime stays.
+        // A file changed in the meantime stays.
         if old.ownership(folder, name).at(&path)? == Ownership::AsWritten {
             disk::remove(&path).at(&path)?;
         }
     }
-    // What is in its place stays there, and what has gone does not come back.
+    // New names and removals are on the disk before the list.
     sync_folders(folder, old.names().chain(new.names()))?;
     manifest::write(&folder.join(LIST), list)?;
     disk::sync_folder(&folder.join(OWN)).at(folder)?;
     Ok(discard(&staging, folder)?)
 }
 
-/// Gives a staged file its place, in which nothing stands or a file of percoat.
+/// Places a staged file at a path where nothing stands or a file of percoat.
 fn place(staged: &Path, path: &Path, before: Ownership) -> io::Result<()> {
     if before == Ownership::AsWritten {
         disk::remove(path)?;
     }
     match disk::link(staged, path) {
-        // Where a file cannot have two names it leaves the staging folder.
+        // Without hard links the file is moved.
         Err(error) if error.kind() != io::ErrorKind::AlreadyExists => disk::move_to(staged, path),
         linked => linked,
     }
 }
 
-/// Brings to the disk what has happened in a folder, and in those below it that lead to some names.
+/// Syncs the names in a folder, and in the parent folders of `names` below it.
 fn sync_folders<'a>(folder: &Path, names: impl Iterator<Item = &'a str>) -> Result<(), OutputError> {
     let below: BTreeSet<PathBuf> = names.flat_map(parents).map(|part| folder.join(part)).collect();
     let there = below.iter().map(PathBuf::as_path).filter(|folder| disk::is_folder(folder));
@@ -153,7 +152,7 @@ mod tests {
         names.filter_map(|name| Some((name.clone(), fs::read_to_string(folder.join(name)).ok()?))).collect()
     }
 
-    /// What a kill may leave after each change of a publication that replaces files of the `old` names by those of the `new` ones.
+    /// States that a kill may leave of a publication that replaces files of the `old` names by those of the `new` ones.
     fn killed(writer: Writer, old: &[&str], new: &[&str], has_links: bool) -> Vec<Image> {
         let place = tempfile::tempdir().unwrap();
         let journal = Journal::begin(place.path());
@@ -193,7 +192,7 @@ mod tests {
                     assert!(whole[0] == old || moved, "{what}: {whole:?}");
                 }
 
-                // The next run ends it, whatever its command.
+                // The next run completes it, with any command.
                 let other = Writer::ALL[moment % Writer::ALL.len()];
                 for next in [other, writer] {
                     let next = claim_for(folder, next).unwrap();
@@ -256,7 +255,7 @@ mod tests {
         assert_eq!(files(folder)["stress.npz"], "stress.npz: old");
         assert_eq!(files(&folder.join("unfinished")).len(), 3);
 
-        // The next run is refused too, and takes nothing.
+        // The next run is refused too, and changes nothing.
         assert!(matches!(claim(folder), Err(FolderError::Foreign { .. })));
         assert_eq!(files(&folder.join("unfinished")).len(), 3);
         fs::remove_file(folder.join("case.toml")).unwrap();

@@ -1,20 +1,20 @@
-//! What a run leaves on disk while it goes on: its case, every finished step with its fields, and stresses.
+//! The recorder of a run on disk: its case, every finished step with its fields, and stresses.
 
 use super::checkpoint::Checkpoints;
 use super::clock::{Clock, Phase};
-use super::fields::Fields;
+use super::fields::ContactArchive;
 use super::steps_log::StepsLog;
-use super::stress::Stresses;
+use super::stress::StressArchive;
 use super::{Files, OutputError, RunFolder, disk, write_text};
 use crate::case::feasibility::Allowed;
 use crate::load::Load;
-use crate::run::{Finished, Recorder, Run, StepRecord, StressRequest};
+use crate::run::{EarlierRun, Recorder, Run, StepRecord, StressRequest};
 use crate::spectral::{Checkpoint, Solver, Step};
 use crate::stress::{StressField, VerticalSection};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Records a run where its result is gathered.
+/// Recorder of a run into its staging folder.
 #[derive(Debug)]
 pub struct Recording<'a> {
     claim: &'a RunFolder,
@@ -30,11 +30,11 @@ pub struct Recording<'a> {
     clock: Clock,
     /// When the present load began, by the clock.
     load_began: f64,
-    /// None where no later run is to go on from this one.
+    /// None where the run cannot be resumed.
     checkpoints: Option<Checkpoints>,
-    /// What an earlier run has finished, until this one asks for it.
-    earlier: Option<Finished>,
-    /// Number of steps that stand there already when the first grid begins; `None` where it begins anew.
+    /// The steps of the interrupted run that is resumed, until the run takes them.
+    earlier: Option<EarlierRun>,
+    /// Number of steps on disk when the first grid begins; `None` for a run that is not resumed.
     standing: Option<usize>,
     /// Whether all steps are done on a coarser grid.
     refined: bool,
@@ -47,9 +47,9 @@ pub struct Recording<'a> {
 #[derive(Debug)]
 struct OnGrid {
     /// None where fields are not kept.
-    fields: Option<Fields>,
-    /// None where fields are not kept, or no stresses wanted.
-    stresses: Option<Stresses>,
+    fields: Option<ContactArchive>,
+    /// None where fields are not kept, or the case has no stresses.
+    stresses: Option<StressArchive>,
     /// The section of the last step, where stresses are not kept.
     section: Option<VerticalSection>,
     log: StepsLog,
@@ -60,7 +60,7 @@ struct OnGrid {
 }
 
 impl<'a> Recording<'a> {
-    /// Of a run into the folder it has claimed; `case` is the case as `case.toml` shows it. The clock goes on.
+    /// Recorder of `run` into the folder that it has claimed; `case` is the content of `case.toml`. The clock keeps its times.
     pub fn new(claim: &'a RunFolder, run: &Run, case: String, clock: Clock) -> Self {
         Self {
             claim,
@@ -80,9 +80,9 @@ impl<'a> Recording<'a> {
         }
     }
 
-    /// The same so that a later run with this [fingerprint](super::fingerprint) can go on from it, itself going on with
-    /// what an `earlier` one has [finished](super::finished()) in the folder.
-    pub fn resumable(self, fingerprint: String, earlier: Option<Finished>) -> Self {
+    /// With checkpoints, from which a run of this [fingerprint](super::fingerprint) can be resumed; this run itself resumes the
+    /// `earlier` one.
+    pub fn resumable(self, fingerprint: String, earlier: Option<EarlierRun>) -> Self {
         let mut checkpoints = Checkpoints::new(fingerprint, self.loads);
         if let Some(earlier) = &earlier {
             checkpoints.changes.clone_from(&earlier.changes);
@@ -92,7 +92,7 @@ impl<'a> Recording<'a> {
         Self { checkpoints: Some(checkpoints), earlier, standing, refined, ..self }
     }
 
-    /// The same without `contact.npz`, `stress.npz` and volumes: scalars, and what pictures show of the last step.
+    /// Without `contact.npz`, `stress.npz` and volumes: scalars, and the section of the last step for its picture.
     pub fn without_fields(self) -> Self {
         Self { fields: false, ..self }
     }
@@ -102,7 +102,7 @@ impl<'a> Recording<'a> {
         Self { allowed: Some(allowed), ..self }
     }
 
-    /// The files of the steps on the grid of a solver, of which an earlier run has left so many.
+    /// The files of the steps on the grid of a solver, of which an interrupted run has finished `standing`.
     fn open(&self, solver: &Solver, standing: Option<usize>) -> Result<OnGrid, OutputError> {
         let folder = self.claim.staging();
         let half_space = solver.problem().half_space().clone();
@@ -111,13 +111,13 @@ impl<'a> Recording<'a> {
         let run = self.checkpoints.as_ref().map(|checkpoints| checkpoints.fingerprint.clone());
         let (fields, stresses, log) = match standing {
             None => (
-                surface.map(|surface| Fields::new(&folder, surface)).transpose()?,
-                request.map(|request| Stresses::new(&folder, request, half_space)).transpose()?,
+                surface.map(|surface| ContactArchive::new(&folder, surface)).transpose()?,
+                request.map(|request| StressArchive::new(&folder, request, half_space)).transpose()?,
                 StepsLog::new(&folder, run),
             ),
             Some(steps) => (
-                surface.map(|surface| Fields::go_on(&folder, surface, steps)).transpose()?,
-                request.map(|request| Stresses::go_on(&folder, request, half_space, steps)).transpose()?,
+                surface.map(|surface| ContactArchive::go_on(&folder, surface, steps)).transpose()?,
+                request.map(|request| StressArchive::go_on(&folder, request, half_space, steps)).transpose()?,
                 StepsLog::go_on(&folder, run, steps)?,
             ),
         };
@@ -131,17 +131,17 @@ impl<'a> Recording<'a> {
         })
     }
 
-    /// Number of load steps that are finished on the present grid.
+    /// Number of finished load steps on the present grid.
     pub fn steps(&self) -> usize {
         self.files.as_ref().map_or(0, |files| files.steps)
     }
 
-    /// Where files of somebody else stand now that were in the way of the present grid.
+    /// Folder to which foreign files were moved that were in the way of the present grid.
     pub fn set_aside(&self) -> Option<&Path> {
         self.set_aside.as_deref()
     }
 
-    /// Gathers the fields of all steps; what the section shows of the last one, and the clock, busy with
+    /// Gathers the fields of all steps in their archives. Returns the section of the last step, and the clock in the phase
     /// [output](Phase::Output).
     ///
     /// # Errors
@@ -152,8 +152,8 @@ impl<'a> Recording<'a> {
     pub fn finish(mut self) -> Result<(Option<VerticalSection>, Clock), OutputError> {
         self.clock.turn(Phase::Output);
         let OnGrid { fields, stresses, section, .. } = self.files.expect(BEGUN);
-        fields.map_or(Ok(()), Fields::finish)?;
-        let written = stresses.map_or(Ok(None), Stresses::finish)?;
+        fields.map_or(Ok(()), ContactArchive::finish)?;
+        let written = stresses.map_or(Ok(None), StressArchive::finish)?;
         Ok((written.or(section), self.clock))
     }
 }
@@ -186,7 +186,7 @@ impl Recorder for Recording<'_> {
         Ok(())
     }
 
-    fn finished(&mut self) -> Option<Finished> {
+    fn finished(&mut self) -> Option<EarlierRun> {
         self.earlier.take()
     }
 
@@ -234,9 +234,9 @@ impl Recorder for Recording<'_> {
             }
             _ => {}
         }
-        // What the line names is on the disk before it.
-        files.fields.as_ref().map_or(Ok(()), Fields::sync)?;
-        files.stresses.as_ref().map_or(Ok(()), Stresses::sync)?;
+        // The files that the line names are on the disk before it.
+        files.fields.as_ref().map_or(Ok(()), ContactArchive::sync)?;
+        files.stresses.as_ref().map_or(Ok(()), StressArchive::sync)?;
         let folder = self.claim.staging();
         disk::sync_folder(&folder).map_err(|error| OutputError::new(&folder, error))?;
         files.log.add(step.load, record, left)?;

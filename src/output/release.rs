@@ -1,5 +1,5 @@
-//! A solved folder that becomes part of another result, as those of a sweep's combinations do: it gives up what percoat keeps for
-//! itself there.
+//! Release of a solved folder that becomes part of another result, as those of the combinations of a sweep: percoat's own files
+//! in it are removed.
 
 use super::error::At;
 use super::files::Files;
@@ -10,7 +10,7 @@ use super::{OutputError, disk, lock};
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Gives up a solved folder, and returns the files of its result. What percoat has not put into `.percoat` stays there.
+/// Releases a solved folder, and returns the files of its result. Foreign files in `.percoat` stay.
 ///
 /// # Errors
 /// [`OutputError`] with the path.
@@ -26,7 +26,7 @@ pub fn release(folder: &Path) -> Result<Files, OutputError> {
     }
 }
 
-/// Whether a folder was [released](release), or half so when its run was killed: it holds a result and no list.
+/// Whether a folder was [released](release), also by a run killed halfway: it has a result and no list.
 pub fn is_released(folder: &Path) -> bool {
     let is_result = |name: &String| *name != OWN && folder.join(name) != staging(folder, Writer::Solve);
     !disk::is_file(&folder.join(LIST)) && names(folder).is_ok_and(|names| names.iter().any(is_result))

@@ -1,4 +1,4 @@
-//! What a solved case leaves beside its pictures.
+//! Files of a solved case, without its pictures.
 
 use super::histograms::histograms;
 use super::plan::Plan;
@@ -9,7 +9,7 @@ use crate::case::Case;
 use crate::run::Outcome;
 use std::path::Path;
 
-/// The files of a case with so many load steps, with their fields or without; pictures come besides.
+/// The plan of a solved case with `steps` load steps; `fields`: whether fields are kept. Pictures are not included.
 pub fn solved_plan(case: &Case, steps: usize, fields: bool) -> Plan {
     let mut names = vec!["case.toml".to_owned()];
     if case.surface.is_some() {
@@ -28,7 +28,7 @@ pub fn solved_plan(case: &Case, steps: usize, fields: bool) -> Plan {
     Plan { names, case: Some(case.to_toml()), ..Plan::new(Writer::Solve) }
 }
 
-/// Writes every scalar of a solved case into the folder where its result is gathered.
+/// Writes every scalar of a solved case into its staging folder.
 ///
 /// # Errors
 /// [`OutputError`] with the path.

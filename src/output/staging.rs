@@ -1,9 +1,9 @@
-//! The staging folder, in which a run gathers its result: which names percoat itself uses there. What has another name is a
-//! user's, and is neither published nor removed.
+//! The staging folder, in which a run gathers its result, and the names that percoat uses there. Files of other names are foreign:
+//! they are neither published nor removed.
 //!
-//! A staging folder has a [mark](MARK) from its beginning to its end, with the names that the run may write. Only in a marked
-//! folder are files percoat's by their names. A folder that goes is moved to `.percoat/retired` at once and removed there; what
-//! a user has put into it, and finished steps, are kept in `interrupted-1/` or the next free number.
+//! A staging folder always has a [mark](MARK) with the names that the run may write. Files are recognised as percoat's by their
+//! names only in a marked folder. A folder that is given up is moved to `.percoat/retired` and removed there; finished steps and
+//! foreign files are kept in `interrupted-1/` or the next free number.
 
 use super::disk::{self, found};
 use super::error::At;
@@ -16,14 +16,14 @@ use std::fs::{self, Metadata};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// What percoat keeps under a name in a staging folder.
+/// Kind of an item of percoat in a staging folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Item {
     File,
     Folder,
 }
 
-/// What percoat keeps under a path relative to a staging folder, by the parts of the path; `None`: nothing, the path is a user's.
+/// The item of percoat at a path relative to a staging folder, by the parts of the path; `None` where the path is foreign.
 fn item(parts: &[&str]) -> Option<Item> {
     match *parts {
         // A combination is solved in an output folder of its own.
@@ -66,31 +66,31 @@ fn is_temporary(name: &str) -> bool {
 pub(super) struct Entry {
     /// Its path relative to the staging folder.
     pub(super) path: PathBuf,
-    /// What stands there, links not followed.
+    /// Its metadata, links not followed.
     pub(super) there: Metadata,
-    /// What percoat keeps under that path.
+    /// The item of percoat at that path; `None` where it is foreign.
     pub(super) item: Option<Item>,
 }
 
 impl Entry {
-    /// Whether it is a file that was being written.
+    /// Whether it is the temporary file of an interrupted write.
     pub(super) fn is_temporary(&self) -> bool {
         self.is_own() && self.path.file_name().and_then(OsStr::to_str).is_some_and(is_temporary)
     }
 
-    /// Whether it is percoat's: a file or a folder itself, where percoat keeps one.
+    /// Whether it is percoat's: a regular file or folder where percoat keeps one.
     pub(super) fn is_own(&self) -> bool {
         self.item.is_some_and(|item| if item == Item::Folder { self.there.is_dir() } else { self.there.is_file() })
     }
 }
 
-/// Makes a staging folder for files of the `planned` names.
+/// Creates a staging folder for files of the `planned` names.
 pub(super) fn create(staging: &Path, planned: &[String]) -> Result<(), OutputError> {
     disk::create_folder(staging).at(staging)?;
     let mark = staging.join(MARK);
     let mut file = disk::create(&mark).at(&mark)?;
     file.write_all(marking(planned).as_bytes()).and_then(|()| disk::sync(&file, &mark)).at(&mark)?;
-    // The mark is on the disk before anything that it makes percoat's.
+    // The mark is on the disk before any other file.
     disk::sync_folder(staging).at(staging)?;
     staging.parent().map_or(Ok(()), disk::sync_folder).at(staging)
 }
@@ -116,8 +116,8 @@ fn planned(staging: &Path) -> Vec<String> {
     names.unwrap_or_default().into_iter().filter(|name| is_inside(name)).collect()
 }
 
-/// What stands in a staging folder, the content of a folder before itself; folders of users are not entered. In a folder
-/// without a mark nothing is percoat's.
+/// The entries of a staging folder, the content of a folder before the folder; foreign folders are not entered. In a folder
+/// without a mark every entry is foreign.
 pub(super) fn entries(staging: &Path) -> Result<Vec<Entry>, OutputError> {
     let (planned, is_marked) = (planned(staging), is_staging(staging));
     let planned = |path: &Path| {
@@ -148,8 +148,8 @@ fn walk(root: &Path, below: &Path, item: &dyn Fn(&Path) -> Option<Item>, entries
     Ok(())
 }
 
-/// Removes what percoat keeps in a staging folder at a path and below it (empty: all of it). Returns whether nothing of a
-/// user is left there, and the folder is gone.
+/// Removes percoat's items in a staging folder at the path `within` and below (empty: all of it). Returns whether nothing foreign
+/// is left, so that the folder is removed.
 pub(super) fn remove_own(staging: &Path, within: &str) -> Result<bool, OutputError> {
     let mut is_gone = true;
     let is_within = |entry: &&Entry| entry.path.starts_with(within) && entry.path != Path::new(MARK);
@@ -167,7 +167,7 @@ pub(super) fn remove_own(staging: &Path, within: &str) -> Result<bool, OutputErr
         }
     }
     if is_gone && within.is_empty() {
-        // The mark goes last, so that a folder that is removed halfway stays percoat's.
+        // The mark is removed last, so that a folder that is removed halfway is still recognised.
         if is_staging(staging) {
             disk::sync_folder(staging).and_then(|()| disk::remove(&staging.join(MARK))).at(staging)?;
         }
@@ -176,27 +176,27 @@ pub(super) fn remove_own(staging: &Path, within: &str) -> Result<bool, OutputErr
     Ok(is_gone)
 }
 
-/// Removes what percoat keeps in a staging folder at a path and below it. Returns where it is now if a user has put something
-/// into it.
+/// Removes percoat's items in a staging folder at the path `within` and below. Returns the folder to which it was moved if it has
+/// foreign files.
 pub(super) fn remove_or_set_aside(staging: &Path, within: &str, output: &Path) -> Result<Option<PathBuf>, OutputError> {
     if remove_own(staging, within)? { Ok(None) } else { set_aside(&staging.join(within), output).map(Some) }
 }
 
-/// Removes a staging folder, in one move. Returns where it is now if a user has put something into it.
+/// Removes a staging folder, in one move. Returns the folder to which it was moved if it has foreign files.
 pub(super) fn discard(staging: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
     disk::move_to(staging, &output.join(RETIRED)).at(staging)?;
-    // A decision that goes ahead of its folder would leave a result which seems undecided.
+    // The move is on the disk before `.publish.json` is removed: a power cut must not make the result seem undecided.
     disk::sync_folder(output).and_then(|()| disk::sync_folder(&output.join(OWN))).at(staging)?;
     remove_retired(output)
 }
 
-/// Ends the removal of a staging folder.
+/// Completes the removal of a staging folder.
 pub(super) fn remove_retired(output: &Path) -> Result<Option<PathBuf>, OutputError> {
     let retired = output.join(RETIRED);
     if disk::is_folder(&retired) { remove_or_set_aside(&retired, "", output) } else { Ok(None) }
 }
 
-/// Moves a folder to `interrupted-1/` in the output folder, or the next free number: where it is now.
+/// Moves a folder to `interrupted-1/` in the output folder, or the next free number, and returns its path.
 pub(super) fn set_aside(folder: &Path, output: &Path) -> Result<PathBuf, OutputError> {
     let mut paths = (1..).map(|number: usize| output.join(format!("interrupted-{number}")));
     let aside = paths.find(|path| fs::symlink_metadata(path).is_err()).expect("numbers are not used up");

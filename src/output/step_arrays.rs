@@ -1,6 +1,6 @@
 //! Arrays that grow by one entry a load step, gathered in an `.npz` archive at the end.
 //!
-//! Until then the entries stand as one `.npy` file a step in `<archive>.partial/`, where NumPy reads them too.
+//! Until then each entry is a `.npy` file in `<archive>.partial/`, readable by NumPy.
 
 use super::checksum::Checksum;
 use super::draft::Draft;
@@ -14,24 +14,24 @@ use std::fs;
 use std::io::{self, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Arrays of the load steps so far, one file an entry, and the archive that they become.
+/// Arrays of the load steps so far, one file an entry, and their archive.
 #[derive(Debug)]
 pub(super) struct StepArrays {
     folder: PathBuf,
     name: &'static str,
     arrays: Vec<StepArray>,
     steps: usize,
-    /// Files that the present step has left so far, by their names in the folder.
+    /// Files of the present step so far, by their names in the folder.
     left: Files,
 }
 
-/// An array, and what each step adds to it.
+/// An array, and the entry that each step adds to it.
 #[derive(Debug)]
 struct StepArray {
     array: String,
-    /// Shape of the entry without its parts.
+    /// Shape of an entry, or of each part of it.
     shape: Vec<usize>,
-    /// Number of equal parts it comes in, one after the other; none: it comes whole.
+    /// Number of equal parts of an entry, written one after the other; none: it is written whole.
     parts: Option<usize>,
 }
 
@@ -46,7 +46,7 @@ pub(super) struct GrowingEntry {
 }
 
 impl StepArrays {
-    /// No steps yet of the archive `<name>.npz` in the staging folder `folder`. Refused when `<name>.partial/` is there already.
+    /// The archive `<name>.npz` without steps in the staging folder `folder`; an error where `<name>.partial/` exists.
     pub(super) fn new(folder: &Path, name: &'static str) -> Result<Self, OutputError> {
         let arrays = Self::after(folder, name, 0);
         let partial = arrays.partial();
@@ -55,8 +55,7 @@ impl StepArrays {
         Ok(arrays)
     }
 
-    /// The arrays of the first `steps` load steps, as an interrupted run has left them, all of them
-    /// [whole](super::finished::finished).
+    /// The arrays of the first `steps` load steps of an interrupted run, [checked](super::finished::finished) before.
     pub(super) fn go_on(folder: &Path, name: &'static str, steps: usize) -> Result<Self, OutputError> {
         let arrays = Self::after(folder, name, steps);
         make_folder(&arrays.partial())?;
@@ -75,7 +74,7 @@ impl StepArrays {
         partial(&self.folder, self.name)
     }
 
-    /// The file of a step's entry of an array (steps from 1), or of a part of it (from 1).
+    /// The file of the entry of `step` (from 1) of an array, or of a part (from 1) of it.
     fn waiting(&self, array: &str, step: usize, part: Option<usize>) -> PathBuf {
         let part = part.map_or(String::new(), |part| format!(".{part:03}"));
         self.partial().join(format!("{array}.{step:04}{part}.npy"))
@@ -87,7 +86,7 @@ impl StepArrays {
         self.steps
     }
 
-    /// Writes the present step's entry of an array. Every step has the same arrays of the same shapes.
+    /// Writes the present step's entry of an array. Every step must have the same arrays with the same shapes.
     pub(super) fn add(
         &mut self,
         array: &str,
@@ -101,8 +100,8 @@ impl StepArrays {
         Ok(())
     }
 
-    /// Begins the next `part` (from 1) of the present step's entry of an array, its values to come piece by piece: parts
-    /// become its first axis.
+    /// Begins the next `part` (from 1) of the present step's entry of an array, whose values are added piece by piece; parts become
+    /// its first axis.
     pub(super) fn begin(&mut self, array: &str, part: usize, shape: &[usize]) -> Result<GrowingEntry, OutputError> {
         self.enter(array, Some(part), shape);
         let (path, mut sum) = (self.waiting(array, self.steps, Some(part)), Checksum::default());
@@ -111,7 +110,7 @@ impl StepArrays {
         Ok(GrowingEntry { file, path, sum, shape: shape.to_vec(), count: 0 })
     }
 
-    /// Ends an entry, all of whose values are there.
+    /// Ends an entry; an error where values are missing.
     pub(super) fn end(&mut self, entry: GrowingEntry) -> Result<(), OutputError> {
         let GrowingEntry { mut file, path, sum, shape, count } = entry;
         file.write(|_| complete(&shape, count))?;
@@ -125,7 +124,7 @@ impl StepArrays {
         self.left.add(format!("{}.partial/{name}", self.name), sum);
     }
 
-    /// Files that the present step has left, with their checksums.
+    /// Files of the present step, with their checksums.
     pub(super) fn left(&mut self) -> Files {
         std::mem::take(&mut self.left)
     }
@@ -137,13 +136,13 @@ impl StepArrays {
         }
     }
 
-    /// Brings the names of the present step's entries to the disk; their content is there.
+    /// Syncs the names of the present step's entries to the disk; their content is synced already.
     pub(super) fn sync(&self) -> Result<(), OutputError> {
         let partial = self.partial();
         disk::sync_folder(&partial).at(&partial)
     }
 
-    /// Gathers all steps in the archive, after the arrays that `constants` adds; the waiting files stay if that fails.
+    /// Gathers all steps in the archive, after the arrays that `constants` adds; on failure the files of the entries stay.
     pub(super) fn finish(
         self,
         constants: impl FnOnce(&mut Archive<&mut BufWriter<fs::File>>) -> io::Result<()>,
@@ -168,7 +167,7 @@ impl StepArrays {
             }
             archive.finish()
         })?;
-        // The archive has its name before what it is made of goes.
+        // The archive is on the disk before its entries are removed.
         disk::sync_folder(&self.folder).at(&self.folder)?;
         remove_own(&self.folder, &format!("{}.partial", self.name)).map(|_| ())
     }
@@ -183,12 +182,12 @@ impl GrowingEntry {
     }
 }
 
-/// The folder of the entries of an archive in a folder.
+/// The folder of the entries of the archive `name`.
 pub(super) fn partial(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.partial"))
 }
 
-/// The values of an entry of this shape; an error names its file.
+/// Reads the values of an entry of this shape; an error names its file.
 fn read(path: &Path, shape: &[usize]) -> io::Result<Vec<f64>> {
     let read = disk::open(path).and_then(|file| values(BufReader::new(file), shape));
     read.map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", plain::path(path))))

@@ -14,25 +14,25 @@ use std::path::{Path, PathBuf};
 /// Names of the stored components: σ_xx … σ_yz, displacements, and what is derived from the tensor.
 const COMPONENTS: [&str; 12] = ["xx", "yy", "zz", "xy", "xz", "yz", "ux", "uy", "uz", "tau1", "mises", "s1"];
 
-/// Stresses of the load steps so far, kept on disk.
+/// `stress.npz` under construction: the stresses of the load steps so far, on disk.
 #[derive(Debug)]
-pub(super) struct Stresses {
+pub(super) struct StressArchive {
     folder: PathBuf,
     arrays: StepArrays,
     request: StressRequest,
     half_space: HalfSpace,
-    /// What the last step shows of the section.
+    /// The section of the last step.
     section: Option<VerticalSection>,
 }
 
-impl Stresses {
-    /// No steps yet; `folder` is where the result is gathered. Refused when there are stresses already.
+impl StressArchive {
+    /// An archive without steps in the staging folder `folder`; an error where it already has stresses.
     pub(super) fn new(folder: &Path, request: StressRequest, half_space: HalfSpace) -> Result<Self, OutputError> {
         let arrays = StepArrays::new(folder, "stress")?;
         Ok(Self { folder: folder.to_owned(), arrays, request, half_space, section: None })
     }
 
-    /// The same where an earlier run has left those of so many `steps`, see [`StepArrays::go_on`].
+    /// The archive of an interrupted run with its first `steps` steps, see [`StepArrays::go_on`].
     pub(super) fn go_on(
         folder: &Path,
         request: StressRequest,
@@ -43,8 +43,8 @@ impl Stresses {
         Ok(Self { folder: folder.to_owned(), arrays, request, half_space, section: None })
     }
 
-    /// Puts the stresses of the next step on disk, one plane at a time; the clock is told what is computing and what is
-    /// writing, but for a volume, which is both at once. Returns what the step has left there.
+    /// Writes the stresses of the next step, one plane at a time; the clock separates computing from writing, except for a
+    /// volume, which does both at once. Returns the files of the step.
     pub(super) fn add(&mut self, field: &StressField, clock: &mut Clock) -> Result<Files, OutputError> {
         let Self { folder, arrays, request, half_space, .. } = self;
         let (step, mut volumes) = (arrays.next_step(), Files::default());
@@ -77,12 +77,12 @@ impl Stresses {
         Ok(volumes)
     }
 
-    /// Brings the names of the step's stresses to the disk, but for those of volumes, which stand beside the log.
+    /// Syncs the names of the step's files to the disk, except those of volumes, which are synced with the log.
     pub(super) fn sync(&self) -> Result<(), OutputError> {
         self.arrays.sync()
     }
 
-    /// Gathers all steps in `stress.npz`, what waits stays if that fails; what the section shows of the last one.
+    /// Gathers all steps in `stress.npz`; on failure their files stay. Returns the section of the last step.
     pub(super) fn finish(self) -> Result<Option<VerticalSection>, OutputError> {
         let Self { arrays, request, half_space, section, .. } = self;
         let materials = |depths: &[Depth]| depths.iter().map(|depth| depth.material as i32).collect::<Vec<_>>();
@@ -114,8 +114,8 @@ impl Stresses {
     }
 }
 
-/// Adds the components of a plane to the arrays `planes_<component>`, by some rows at a time: the stresses and what is
-/// derived from them, then the displacements.
+/// Adds the components of a plane to the arrays `planes_<component>`, some rows at a time: first stresses and derived
+/// quantities, then displacements.
 fn add_plane(
     arrays: &mut StepArrays,
     number: usize,
@@ -140,7 +140,7 @@ fn add_plane(
     entries.into_iter().try_for_each(|entry| arrays.end(entry))
 }
 
-/// Adds rows to the entries of their components, in the time of writing.
+/// Adds rows to the entries of their components, in the phase [output](Phase::Output).
 fn add_rows(entries: &mut [GrowingEntry], rows: ArrayView3<'_, f64>, clock: &mut Clock) -> Result<(), OutputError> {
     assert_eq!(entries.len(), rows.len_of(Axis(0)), "an entry for each component");
     clock.turn(Phase::Output);
@@ -164,7 +164,7 @@ fn add_states<'a>(
     })
 }
 
-/// A component by its place in [`COMPONENTS`].
+/// Component `c` in the order of [`COMPONENTS`].
 fn component(state: &StressState, c: usize) -> f64 {
     if c < 9 { state.components()[c] } else { state.derived()[c - 9] }
 }

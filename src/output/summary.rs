@@ -9,7 +9,7 @@ use crate::run::StepRecord;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-/// A whole run, as `summary.json` has it. Two runs of one case differ in `timing` and in the `seconds` of the steps alone.
+/// The content of `summary.json`: a whole run. Two runs of one case differ only in `timing` and in the `seconds` of the steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// The version that wrote it.
@@ -21,9 +21,9 @@ pub struct Summary {
     /// Names of the units of all numbers.
     #[serde(default)]
     pub units: UnitNames,
-    /// What a reader should know before trusting the numbers.
+    /// Warnings, a sentence each.
     pub warnings: Vec<String>,
-    /// Of the case and the version: with it a run recognises its own finished result.
+    /// Fingerprint of the case and the version, by which a run recognises its finished result.
     #[serde(default)]
     pub fingerprint: String,
     /// Change between the two finest grids, where an accuracy was prescribed.
@@ -31,7 +31,7 @@ pub struct Summary {
     pub accuracy: Option<f64>,
     /// The load steps.
     pub steps: Vec<StepRecord>,
-    /// Where the time went.
+    /// Wall times by phases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timing: Option<Timing>,
 }
@@ -39,14 +39,14 @@ pub struct Summary {
 /// Names of units, `None` where they have none.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct UnitNames {
-    /// Of lengths.
+    /// Name of the unit of lengths.
     pub length: Option<String>,
-    /// Of pressures.
+    /// Name of the unit of pressures.
     pub pressure: Option<String>,
 }
 
 impl UnitNames {
-    /// Those of a case.
+    /// The unit names of a case.
     pub(super) fn of(case: &Case) -> Self {
         let units = case.units();
         Self { length: units.length().name(), pressure: units.pressure().name() }
@@ -54,7 +54,7 @@ impl UnitNames {
 }
 
 impl Summary {
-    /// Of a run of a case; `accuracy`: the change between the two finest grids, where an accuracy was prescribed.
+    /// The record of a run of a case; `accuracy`: relative change between the two finest grids, where an accuracy was prescribed.
     pub fn new(case: &Case, warnings: &[String], accuracy: Option<f64>, steps: &[StepRecord], timing: Timing) -> Self {
         Self {
             percoat: env!("CARGO_PKG_VERSION").to_owned(),
@@ -69,7 +69,7 @@ impl Summary {
         }
     }
 
-    /// Reads the run back that a file holds.
+    /// Reads the content of `summary.json`.
     ///
     /// # Errors
     /// [`Unreadable`] with the key that is not as this version writes it.
@@ -79,20 +79,20 @@ impl Summary {
         Ok(summary)
     }
 
-    /// The file.
+    /// The content of `summary.json`.
     pub fn to_json(&self) -> String {
         indented(self)
     }
 }
 
-/// Refuses steps of which one is not as a run leaves it.
+/// Refuses steps that no run can have.
 pub(super) fn check(steps: &[StepRecord]) -> Result<(), Unreadable> {
     let refused = |number: usize, reason| Unreadable { place: format!("step {number}"), reason };
     (1..).zip(steps).try_for_each(|(number, step)| step.check().map_err(|reason| refused(number, reason)))
 }
 
-/// The steps as a CSV table: one row a step, one column a scalar, nested names joined by underscores (`levels_1_load`).
-/// A cell stays empty where a step does not have the scalar.
+/// The steps as a CSV table: one row a step, one column a scalar, nested names joined by underscores (`levels_1_load`). A cell is
+/// empty where a step does not have the scalar.
 pub fn curve(steps: &[StepRecord]) -> String {
     csv(|| steps.iter().map(|step| scalars(&json!(step))))
 }
@@ -104,7 +104,7 @@ mod tests {
     use crate::case::embedded;
     use crate::run::Outcome;
 
-    /// A record as a file keeps it: without what only the estimate of errors and pictures need.
+    /// A record without the values that only error estimates and pictures need.
     fn kept(mut step: StepRecord) -> StepRecord {
         let reading = &mut step.reading;
         (reading.contact_fraction_uncertainty, reading.peak_to_edge) = (0.0, 0.0);

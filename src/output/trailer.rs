@@ -1,24 +1,24 @@
-//! A checksum trailer: the end of a text holds the length and checksum of all before it. A bit that is flipped, a number that is
-//! edited and a text that is cut are noticed; the sums are no secret, and do not keep out a forger who computes them anew.
+//! A checksum trailer: the end of a text holds the length and checksum of all before it. Flipped bits, edited numbers and cut
+//! texts are detected; a deliberate forgery with a new checksum is not.
 //!
 //! A line of a log is an object of JSON whose last key is the trailer: `{"step":1,…}` is written as
 //! `{"step":1,…,"seal":"1234-0123456789abcdef"}`, which is JSON too.
 
 use super::checksum::checksum;
 
-/// The words around the length and checksum at the end of a text.
+/// The texts before and after the length and checksum.
 #[derive(Debug)]
 pub(crate) struct Trailer {
-    /// Before them.
+    /// Text before them.
     pub(crate) before: &'static str,
-    /// After them, to the end of the text.
+    /// Text after them, to the end.
     pub(crate) after: &'static str,
 }
 
 /// The trailer of a line of a log.
 const LINE: Trailer = Trailer { before: ",\"seal\":\"", after: "\"}" };
 
-/// Why a text is not taken for the one that was written.
+/// Why a text is not accepted as unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum TrailerError {
     /// It has no checksum.
@@ -35,10 +35,10 @@ impl Trailer {
         format!("{text}{}{}{}", self.before, digest(text), self.after)
     }
 
-    /// The text without its trailer.
+    /// Removes the trailer of a text.
     ///
     /// # Errors
-    /// [`TrailerError`] when it is not as it was written.
+    /// [`TrailerError`] where the text was changed since it was written.
     pub(crate) fn removed<'a>(&self, text: &'a str) -> Result<&'a str, TrailerError> {
         let (content, end) = text.rsplit_once(self.before).ok_or(TrailerError::Missing)?;
         let is_same = end.strip_suffix(self.after) == Some(&digest(content));
@@ -46,7 +46,7 @@ impl Trailer {
     }
 }
 
-/// Length and checksum of a text, as trailers hold them.
+/// Length and checksum of a text in the form of a trailer.
 pub fn digest(text: &str) -> String {
     let (length, sum) = checksum(&mut text.as_bytes()).expect("memory can be read");
     format!("{length}-{sum:016x}")
@@ -60,7 +60,7 @@ pub fn with_checksum(object: &str) -> String {
 /// The object of JSON to which a checksum was added.
 ///
 /// # Errors
-/// [`TrailerError`] when the line is not as it was written.
+/// [`TrailerError`] where the line was changed since it was written.
 pub fn without_checksum(line: &str) -> Result<String, TrailerError> {
     Ok(LINE.removed(line)?.to_owned() + "}")
 }

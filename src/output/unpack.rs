@@ -1,7 +1,7 @@
-//! An archive of arrays unpacked into the entries of its steps.
+//! Unpacking of an archive into the entries of its steps.
 //!
-//! A run that is killed after its fields were gathered, and before they were published, has left the archive alone. The next
-//! one goes on with the entries of the steps before the last, of which there are checksums.
+//! A run that is killed between gathering and publishing leaves only the archive. A run that resumes it needs the entries of the
+//! steps before the last, whose checksums are in the log.
 
 use super::npy::{header, shape};
 use super::step_arrays::partial;
@@ -11,14 +11,14 @@ use std::io::{self, BufReader, Read};
 use std::path::Path;
 use zip::ZipArchive;
 
-/// An entry by its step, and its part where it comes in several.
+/// Step of an entry, and its part where it has several.
 type Index = (usize, Option<usize>);
 
-/// Writes the entries of these names (`<archive>.partial/<array>.NNNN.npy`), as they stood before the archive was made of
-/// them; those of other archives are left out. The archive stays.
+/// Writes the entries of these names (`<archive>.partial/<array>.NNNN.npy`) from the archive, which stays; names of other
+/// archives are skipped.
 ///
 /// # Errors
-/// When it cannot be read, or has no such entries.
+/// When the archive cannot be read, or has no such entries.
 pub(super) fn unpack<'a>(folder: &Path, archive: &str, names: impl Iterator<Item = &'a str>) -> io::Result<()> {
     let mut arrays: BTreeMap<&str, BTreeMap<Index, &str>> = BTreeMap::new();
     for name in names {

@@ -1,7 +1,7 @@
 //! The stress field of one load step in three dimensions, for ParaView.
 //!
-//! A structured grid in VTK's XML format (`.vts`) with its numbers appended as raw bytes: some forty lines of ours,
-//! since the library at hand, vtkio 0.6, needs parsers that newer compilers reject and four times the file in memory.
+//! A structured grid in VTK's XML format (`.vts`) with its numbers appended as raw bytes, written here, since vtkio 0.6 depends on
+//! parsers that newer compilers reject and takes four times the file in memory.
 //! VTK itself reads what is written (`tests/library/volume.rs`). VTK's z axis points upwards out of the body, so that depth is
 //! drawn downwards. Everything in the file follows the drawn axes: coordinates are −z, displacements −u_z, and σ_xz, σ_yz
 //! have the opposite sign of [`StressState`]'s, whose z points into the body.
@@ -38,7 +38,7 @@ pub fn write_volume(path: &Path, field: &StressField, depths: &[Depth], points: 
     added_volume(path, field, depths, points).map(|_| ())
 }
 
-/// The same, with the checksum of the file.
+/// Writes the field as [`write_volume`] does, and returns the checksum of the file.
 pub(super) fn added_volume(
     path: &Path,
     field: &StressField,
@@ -83,7 +83,7 @@ fn closed_plane(field: &StressField, depth: Depth, points: [usize; 2]) -> Vec<St
     (0..=n2).flat_map(|j| (0..=n1).map(move |i| (i, j))).map(|(i, j)| plane.state([i % n1, j % n2])).collect()
 }
 
-/// What stands before the numbers: extents, and where the block of each array begins.
+/// Writes the XML before the numbers: extents, and the offset of each array's block.
 fn head(writer: &mut impl Write, [n1, n2, layers]: [usize; 3], points: usize) -> io::Result<()> {
     let extent = format!("0 {n1} 0 {n2} 0 {layers}");
     // Each block is preceded by its length, 8 bytes.
@@ -105,7 +105,7 @@ fn head(writer: &mut impl Write, [n1, n2, layers]: [usize; 3], points: usize) ->
     write!(writer, "</Piece>\n</StructuredGrid>\n<AppendedData encoding=\"raw\">\n_")
 }
 
-/// Length in bytes, then the numbers.
+/// Writes the block of an array: its length in bytes, then the numbers.
 fn block(writer: &mut impl Write, len: usize, values: impl Iterator<Item = f64>) -> io::Result<()> {
     writer.write_all(&(8 * len as u64).to_le_bytes())?;
     values.into_iter().try_for_each(|value| writer.write_all(&value.to_le_bytes()))

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A command that leaves a result in an output folder. Each replaces its own files alone, and the report that shows them.
+/// A command that writes a result into an output folder. Each replaces only its own files, and the report that shows them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Writer {
@@ -27,7 +27,7 @@ impl Writer {
     pub const ALL: [Self; 7] =
         [Self::Solve, Self::Check, Self::Compare, Self::Limit, Self::Validate, Self::Sweep, Self::Report];
 
-    /// Whether a new result makes the report beside it wrong, which shows the one before.
+    /// Whether a new result outdates the report in the folder.
     pub(super) fn outdates_report(self) -> bool {
         [Self::Solve, Self::Limit, Self::Sweep].contains(&self)
     }

@@ -29,7 +29,7 @@ impl Axis {
         Self { label: label.into(), scale: Scale::Log, range: None, marks: Vec::new() }
     }
 
-    /// The same axis from `first` to `last`.
+    /// The axis with a range from `first` to `last`.
     #[must_use]
     pub fn from_to(self, first: f64, last: f64) -> Self {
         Self { range: Some([first, last]), ..self }

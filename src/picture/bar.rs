@@ -83,7 +83,6 @@ impl Bar {
         }
     }
 
-    /// The colour of a value.
     pub(super) fn colour(&self, table: &[Colour], value: f64) -> Colour {
         let [low, high] = self.span;
         let part = match self.colours {

@@ -9,7 +9,6 @@ use crate::comparison::{CircleComparison, Comparison, Deviation};
 use crate::localized::CircleRadius;
 use crate::units::Units;
 
-/// A value of a deviation.
 type Value = fn(&Deviation) -> f64;
 
 /// The quantities that are drawn, with their names.

@@ -50,12 +50,10 @@ impl From<String> for Label {
 }
 
 impl Units {
-    /// Label of a length.
     pub(super) fn length_of(&self, words: &str, symbol: &str) -> Label {
         label(words, symbol, self.length(), "unit\u{a0}of\u{a0}length")
     }
 
-    /// Label of a pressure.
     pub(super) fn pressure_of(&self, words: &str, symbol: &str) -> Label {
         label(words, symbol, self.pressure(), "unit\u{a0}of\u{a0}E")
     }

@@ -27,8 +27,8 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
     if let Some((surface, density)) = random.and_then(|own| Some((own, own.density(topography.cell()).ok()?))) {
         let ends = [surface.longest, surface.shortest].map(|length| TAU / length);
         let at = |k: u32| ends[0] * (ends[1] / ends[0]).powf(f64::from(k) / 200.0);
-        let asked = (0..=200).map(|k| [at(k), density(at(k))]).collect();
-        curves.push(curve("asked for", asked, Style::Line, 2));
+        let prescribed = (0..=200).map(|k| [at(k), density(at(k))]).collect();
+        curves.push(curve("prescribed", prescribed, Style::Line, 2));
         let cuts =
             [("longest and shortest wave", &[surface.longest, surface.shortest][..]), ("roll-off", &[surface.rolloff])];
         for ((name, lengths), style) in cuts.into_iter().zip([Style::Dotted, Style::Dashed]) {
@@ -52,7 +52,7 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
         "{}{}, rms slope {}; {n1}\u{a0}×\u{a0}{n2} samples. C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the mean \
          square ⟨h²⟩ of the heights; SurfaceTopography's C is 4π² times this one.",
         if title.is_empty() { String::new() } else { format!("{title}. ") },
-        units.length().told(statistics.rms_height, |x| format!("Rms height {}", short(x))),
+        units.length().with_unit(statistics.rms_height, |x| format!("Rms height {}", short(x))),
         short(own.rms_slope())
     );
     Some(plots(&caption, &[chart]))

@@ -28,8 +28,10 @@ pub fn utilisations(title: &str, problem: &Problem, units: &Units, limits: &Limi
     let x = Axis::log(units.pressure_of("mean pressure", "p̄")).from_to(least / 1.1, most * 1.1);
     let chart = Chart { title: String::new(), x, y: utilisation_axis(&limits.steps), curves };
     let [n1, n2] = limits.steps[0].points;
-    let more =
-        [limits.in_words(|pressure| units.pressure().told(pressure, short)), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
+    let more = [
+        limits.in_words(|pressure| units.pressure().with_unit(pressure, short)),
+        format!("{n1}\u{a0}×\u{a0}{n2} samples"),
+    ];
     Some(plots(&format!("{} {BARS}", caption(title, problem, units, &more)), &[chart]))
 }
 

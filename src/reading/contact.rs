@@ -1,9 +1,9 @@
 //! The reading of a contact on one grid.
 
-use super::boundary::{Boundary, Scale};
+use super::boundary::{Boundary, ContactSamples};
 use super::contact_area::ContactArea;
 use super::counted::CountedArea;
-use super::edge::Edge;
+use super::edge::ContactEdge;
 use super::fractions::Fractions;
 use super::level_spots::LevelSpots;
 use super::{Errors, LevelReading, peak, spots, topography};
@@ -88,17 +88,17 @@ impl Reading {
     }
 
     /// Reading of a contact on one grid from the edge of its body; without `errors` those of the boundaries are left out.
-    pub(super) fn at_edge(contact: &Contact, edge: &Edge, errors: bool) -> Self {
+    pub(super) fn at_edge(contact: &Contact, edge: &ContactEdge, errors: bool) -> Self {
         let (grid, pressure) = (contact.grid(), contact.pressures());
         let components = contact.touching();
         let counts = contact.spots(Some(&components));
         let highest = highest(grid, pressure, &components);
         let mut spots = spots::spots(contact, &components);
-        let scale = scale(contact, edge, errors);
+        let samples = samples(contact, edge, errors);
         let topography = if contact.surface().owners().is_empty() {
-            topography::boundaries(contact, &components, &scale)
+            topography::boundaries(contact, &components, &samples)
         } else {
-            spots::locate(contact, &scale, &mut spots);
+            spots::locate(contact, &samples, &mut spots);
             Vec::new()
         };
         let area = ContactArea::of(contact, &components, &spots, &topography);
@@ -169,18 +169,18 @@ mod both_names {
 }
 
 /// The samples of a contact, with the edge of its body.
-fn scale<'a>(contact: &'a Contact, edge: &'a Edge, errors: bool) -> Scale<'a> {
+fn samples<'a>(contact: &'a Contact, edge: &'a ContactEdge, errors: bool) -> ContactSamples<'a> {
     let [sample_area, spacing] = [contact.grid().sample_area(), contact.grid().spacing()];
     let modulus = contact.problem().half_space().surface_material().contact_modulus();
-    Scale { sample_area, spacing, pressure: contact.pressures(), gap: contact.gaps(), modulus, edge, errors }
+    ContactSamples { sample_area, spacing, pressure: contact.pressures(), gap: contact.gaps(), modulus, edge, errors }
 }
 
 /// Pressure and gap at an edge on the body of some contacts, at all distances that the fits of their boundaries use.
-pub(super) fn edge(contacts: &[&Contact]) -> Edge {
-    let distances = contacts.iter().map(|contact| Scale::distances(contact.grid()));
+pub(super) fn edge(contacts: &[&Contact]) -> ContactEdge {
+    let distances = contacts.iter().map(|contact| ContactSamples::distances(contact.grid()));
     let [shortest, longest] = distances.fold([f64::INFINITY, 0.0], |[a, b], [c, d]| [f64::min(a, c), f64::max(b, d)]);
     let problem = contacts[0].problem();
-    Edge::new(problem.half_space().response(), problem.friction(), shortest, longest)
+    ContactEdge::new(problem.half_space().response(), problem.friction(), shortest, longest)
 }
 
 /// Flat index of the sample with the largest pressure, the first of several; `None` without contact.

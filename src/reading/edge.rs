@@ -28,7 +28,7 @@ use rayon::prelude::*;
 
 /// Pressure and gap near the edge, tabulated over the distance.
 #[derive(Debug, Clone)]
-pub struct Edge {
+pub struct ContactEdge {
     /// Shortest distance of the tables, a length.
     shortest: f64,
     /// φ/√x and γ/y^{3/2} at the distances `shortest`·e^{k LOG_STEP}.
@@ -60,7 +60,7 @@ const QUADRATURE_STEP: f64 = 0.05;
 /// Ratio of the largest and the smallest q to the inverse distances.
 const WAVENUMBER_REACH: f64 = 100.0;
 
-impl Edge {
+impl ContactEdge {
     /// The edge on a half-space, at distances from `shortest` to `longest` (lengths).
     pub fn new(transfer: &LayeredResponse, friction: Option<&Friction>, shortest: f64, longest: f64) -> Self {
         let first = (1.0 / (WAVENUMBER_REACH * longest)).ln();
@@ -163,7 +163,7 @@ mod tests {
     #[test]
     fn a_bare_edge_is_that_of_hertz() {
         let bare = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
-        let edge = Edge::new(bare.response(), None, 0.01, 1.0);
+        let edge = ContactEdge::new(bare.response(), None, 0.01, 1.0);
         for x in [0.01f64, 0.2, 0.9] {
             let ([phi, slope], [gamma, steepness]) = (edge.pressure(x, 0.0), edge.opening(x, 0.0));
             assert!((phi / x.sqrt() - 1.0).abs() < 1e-6 && (slope * x.sqrt() - 0.5).abs() < 1e-6, "{phi} {slope}");
@@ -179,7 +179,7 @@ mod tests {
         let material = Material::from_young(1.0, 0.1).unwrap();
         let friction = Friction::new(0.8, [3.0, 4.0]).unwrap();
         let bare = HalfSpace::new(vec![], material);
-        let edge = Edge::new(bare.response(), Some(&friction), 0.01, 1.0);
+        let edge = ContactEdge::new(bare.response(), Some(&friction), 0.01, 1.0);
         for (turned, tolerance) in [(0.0f64, 1e-5), (1.1, 2e-3), (0.5 * PI, 1e-5), (2.3, 2e-3), (PI, 1e-5)] {
             let along = edge.along(4.0f64.atan2(3.0) + turned);
             assert!((along - turned.cos()).abs() < 1e-12);
@@ -203,7 +203,7 @@ mod tests {
     #[test]
     fn a_coating_is_left_behind_far_from_the_edge_and_alone_close_to_it() {
         for young in [0.5, 4.0] {
-            let edge = Edge::new(coated(young, 1.0).response(), None, 1e-4, 1e4);
+            let edge = ContactEdge::new(coated(young, 1.0).response(), None, 1e-4, 1e4);
             let root = young.sqrt();
             let near = [edge.pressure(2e-4, 0.0)[0] / 2e-4f64.sqrt(), edge.opening(2e-4, 0.0)[0] / 2e-4f64.powf(1.5)];
             let far = [

@@ -1,4 +1,4 @@
-//! What is read of the indenters of one level.
+//! Reading of one level: loads, areas, radii and their errors.
 
 use super::LevelErrors;
 #[cfg(feature = "serde")]
@@ -52,14 +52,14 @@ pub struct LevelReading {
     /// Samples, or elements, along the contact radius: below [`FEW_SAMPLES`] the radii are rough.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub resolution: f64,
-    /// What the reading of the boundary says of its own errors; not kept in files.
+    /// Uncertainties of the reading of the boundary on one grid; not kept in files.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub uncertainty: Uncertainty,
-    /// Estimated discretisation errors, where coarser grids tell them.
+    /// Estimated discretisation errors, where there are coarser grids.
     pub errors: LevelErrors,
 }
 
-/// What the reading of a level's peak and boundaries on one grid says of its own errors.
+/// Uncertainties of the reading of a level's peak and boundaries on one grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Uncertainty {
     /// Samples between the peak pressure and the edge of contact, at most those along the contact radius.
@@ -83,7 +83,7 @@ impl LevelReading {
         least.zip(largest).map(|(least, largest)| (largest - least) / largest)
     }
 
-    /// The peak pressure and what the grid resolves of it, from what the grid shows and whether it stands under a tip.
+    /// The peak pressure, infinite under a tip, and the value `shown` by the grid there; `None` away from tips.
     pub(crate) fn peak_of(shown: f64, is_tip: bool) -> (f64, Option<f64>) {
         if is_tip && !shown.is_nan() { (f64::INFINITY, Some(shown)) } else { (shown, None) }
     }

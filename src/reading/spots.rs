@@ -1,6 +1,6 @@
 //! The contact spots under indenters: their loads and areas, whether they have merged, their holes and boundaries.
 
-use super::boundary::{Boundary, Sample, Scale, Spot};
+use super::boundary::{Boundary, ContactSamples, PolarSpot, Sample};
 use super::holes::Holes;
 use crate::lattice::components::Component;
 use crate::lattice::runs::SampleRun;
@@ -181,7 +181,7 @@ impl Part {
 }
 
 /// Locates the holes and the boundaries of the spots that have not merged.
-pub fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
+pub fn locate(contact: &Contact, samples: &ContactSamples<'_>, spots: &mut [SpotReading]) {
     let (grid, surface, pressure) = (contact.grid(), contact.surface(), contact.pressures());
     let owners = surface.owners();
     // Open samples between merged contacts lie outside each of them.
@@ -199,6 +199,6 @@ pub fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
             _ => Sample::Other,
         };
         let axis = grid.cell().point(surface.sites()[site as usize].place);
-        spot.boundary = Boundary::locate(&Spot::new(grid, axis, spot.farthest, &what), scale, spot.ring);
+        spot.boundary = Boundary::locate(&PolarSpot::new(grid, axis, spot.farthest, &what), samples, spot.ring);
     });
 }

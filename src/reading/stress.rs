@@ -21,10 +21,10 @@ pub struct StressReading {
     pub materials: Vec<Extremes>,
     /// On each face: the surface, then both sides of each interface.
     pub faces: Vec<Extremes>,
-    /// What each interface carries, from the surface down.
+    /// Largest stresses that each interface carries, from the surface down.
     pub interfaces: Vec<Carried>,
     /// Estimated relative error of the largest tension on the surface, see [`crate::stress::Crest::error`]; infinite where
-    /// the samples do not tell it.
+    /// the samples do not show it.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::infinite"))]
     pub surface_error: f64,
 }
@@ -35,7 +35,7 @@ impl StressReading {
         Self::of_while(step, reading, field, &|| true).expect("a search that nothing interrupts ends")
     }
 
-    /// The same, unless `goes_on`, called many times a second during the search, says no.
+    /// Stress reading of a step; `None` when `goes_on`, called many times a second during the search, returns false.
     pub fn of_while(step: &Step, reading: &Reading, field: &StressField, goes_on: &dyn Fn() -> bool) -> Option<Self> {
         let radii = contact_radii(step, reading);
         let coarser = step.coarser().first().map(|contact| field.of_other(contact));
@@ -121,8 +121,8 @@ fn friction(step: &Step) -> f64 {
     step.problem().friction().map_or(0.0, Friction::coefficient)
 }
 
-/// The same place of another cell, as near to an indenter of the first cell as there is one: behind an indenter x is less
-/// than where it stands, not a period more.
+/// The image of a position nearest to an indenter of the first cell: behind an indenter x is less than at its axis, not a period
+/// more.
 fn beside_site(step: &Step, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let cell = step.grid().cell();
     let ([s, t], reduced) = (cell.fractions([x, y]), cell.reduced());

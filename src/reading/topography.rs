@@ -1,7 +1,7 @@
 //! The boundaries of the largest contact spots of a topography; the other spots are read along the lines of samples.
 
 use super::boundary::constants::MIN_RESOLUTION;
-use super::boundary::{Boundary, Sample, Scale, Spot};
+use super::boundary::{Boundary, ContactSamples, PolarSpot, Sample};
 use super::holes::{Holes, NO_CONTACT};
 use crate::lattice::components::Component;
 use crate::spectral::Contact;
@@ -16,7 +16,7 @@ const LONGEST: f64 = 6.0;
 
 /// Boundaries of the contact spots around their own centres, one for each component; `None` for small and long spots, for those
 /// that reach around the cell, and for those without a simple boundary.
-pub fn boundaries(contact: &Contact, components: &[Component], scale: &Scale<'_>) -> Vec<Option<Boundary>> {
+pub fn boundaries(contact: &Contact, components: &[Component], samples: &ContactSamples<'_>) -> Vec<Option<Boundary>> {
     let (grid, pressure) = (contact.grid(), contact.pressures());
     let mut boundaries = vec![None; components.len()];
     let fitted = largest(components);
@@ -41,8 +41,8 @@ pub fn boundaries(contact: &Contact, components: &[Component], scale: &Scale<'_>
             None if label[index] == NO_CONTACT => Sample::Open,
             _ => Sample::Other,
         };
-        let spot = Spot::new(grid, centre, farthest, &what);
-        spot.stands_alone().then(|| Boundary::locate(&spot, scale, holes.has(own))).flatten()
+        let spot = PolarSpot::new(grid, centre, farthest, &what);
+        spot.stands_alone().then(|| Boundary::locate(&spot, samples, holes.has(own))).flatten()
     };
     let found: Vec<Option<Boundary>> = fitted.par_iter().map(boundary).collect();
     fitted.iter().zip(found).for_each(|(own, boundary)| boundaries[*own as usize] = boundary);

@@ -85,7 +85,7 @@ struct Bracket {
     least: f64,
     /// Mean pressure with contact of the level.
     most: f64,
-    /// The contact under the least pressure that is known to be enough.
+    /// The contact under the least pressure known to suffice.
     enough: Option<FirstContact>,
 }
 

@@ -2,26 +2,27 @@
 
 use super::markup::{Markup, numbers, tag, with};
 use super::table::pairs;
-use super::units::told;
+use super::units::with_unit;
 use crate::output::table::percent_with_error;
 use crate::output::with_error;
 use crate::reading::LevelReading;
 use crate::run::StepRecord;
 use crate::units::Units;
 
-/// What stands first on the page.
+/// The first section of a run: a sentence on the last load step with contact, and a table of its numbers.
 pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     let number = steps.iter().rposition(|step| step.reading.mean_pressure > 0.0).map_or(steps.len(), |index| index + 1);
     let Some(step) = number.checked_sub(1).and_then(|index| steps.get(index)) else {
-        return tag("p", "No load step has been asked for.");
+        return tag("p", "The case has no load step.");
     };
     let reading = &step.reading;
     let errors = &reading.errors;
-    let mean = told(units.pressure(), reading.mean_pressure, errors.mean_pressure);
-    let penetration = told(units.length(), reading.penetration, errors.penetration);
+    let mean = with_unit(units.pressure(), reading.mean_pressure, errors.mean_pressure);
+    let penetration = with_unit(units.length(), reading.penetration, errors.penetration);
     let fraction = percent_with_error(reading.contact_fraction, errors.contact_fraction);
-    let peak =
-        reading.finite_peak().map_or("singular".to_owned(), |peak| told(units.pressure(), peak, errors.max_pressure));
+    let peak = reading
+        .finite_peak()
+        .map_or("singular".to_owned(), |peak| with_unit(units.pressure(), peak, errors.max_pressure));
     let sentence = if reading.mean_pressure > 0.0 {
         let highest = highest(&reading.levels);
         let under = highest.map_or(String::new(), |level| format!(" under level {}", level.level));
@@ -38,7 +39,10 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
         ("penetration", numbers(&penetration)),
         ("part of the surface in contact", numbers(&fraction)),
         ("peak pressure", numbers(&peak)),
-        ("elastic energy of a cell", numbers(&told(&units.energy(), reading.elastic_energy, errors.elastic_energy))),
+        (
+            "elastic energy of a cell",
+            numbers(&with_unit(&units.energy(), reading.elastic_energy, errors.elastic_energy)),
+        ),
     ];
     let shares = reading.levels.iter().map(|level| {
         let share = percent_with_error(level.load_share, level.errors.load_share);
@@ -57,7 +61,7 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
             "contact spots in the cell, joined at edges and corners of samples",
             rough.spots.count.to_string().into(),
         ));
-        rows.push(("mean gap", numbers(&told(units.length(), rough.mean_gap, rough.mean_gap_error))));
+        rows.push(("mean gap", numbers(&with_unit(units.length(), rough.mean_gap, rough.mean_gap_error))));
         rows.extend(stiffness.map(|text| ("stiffness dp̄/dδ, a pressure per length", numbers(&text))));
     }
     let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());
@@ -70,7 +74,7 @@ fn highest(levels: &[LevelReading]) -> Option<&LevelReading> {
     loaded.max_by(|a, b| a.max_pressure.total_cmp(&b.max_pressure))
 }
 
-/// Says that not every step has converged; empty where all have.
+/// The load steps that have not converged, in a sentence; empty where all have.
 pub(super) fn doubts(steps: &[StepRecord]) -> Markup {
     let failed = (1..).zip(steps).filter(|(_, step)| !step.converged());
     let failed: Vec<String> = failed.map(|(number, step)| format!("{number} ({})", step.stop)).collect();

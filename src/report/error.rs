@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 /// Why there is no report of a folder.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// There is no such folder.
+    /// The path is no folder.
     #[error("{} is not a folder: give the output folder of percoat solve, sweep or limit", plain::path(.0))]
     NoFolder(PathBuf),
-    /// Nothing has been finished in it.
+    /// The folder has no finished result.
     #[error(
         "{} holds no finished result (no summary.json, limit.json or sweep.json){}", plain::path(folder),
         if *unfinished {
@@ -23,10 +23,10 @@ pub enum ReportError {
     Nothing {
         /// The folder.
         folder: PathBuf,
-        /// Whether a run has begun there.
+        /// Whether it has an unfinished run.
         unfinished: bool,
     },
-    /// A file is not as this version writes it.
+    /// A file is not in the form that this version writes.
     #[error(
         "{} cannot be read by percoat {}: {reason}; it was written by {}: report it with that version, or compute it again",
         plain::path(path), env!("CARGO_PKG_VERSION"),
@@ -35,17 +35,17 @@ pub enum ReportError {
     Version {
         /// The file.
         path: PathBuf,
-        /// The version it names.
+        /// The version that the file names; `None` where it names none.
         version: Option<String>,
-        /// What is missing or of another kind.
+        /// The key that is missing or of another kind.
         reason: String,
     },
-    /// A file is not as percoat wrote it there, although it can be read.
+    /// A file can be read, but was changed since percoat wrote it.
     #[error("{}{reason}; its numbers are not shown: put back what was written, or compute it again", plain::path(path))]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is the matter with it, as the words behind its name.
+        /// What is wrong with it, as the words behind its name.
         reason: String,
     },
     /// A file cannot be read.
@@ -53,7 +53,7 @@ pub enum ReportError {
     Input {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The error of the system.
         error: io::Error,
     },
 }
@@ -64,7 +64,7 @@ impl ReportError {
         move |error| Self::Input { path, error }
     }
 
-    /// Of a result of a version of percoat, for a reason.
+    /// The error for a result at `path` that `version` of percoat wrote.
     pub(super) fn version(path: &Path, version: &str, reason: impl Into<String>) -> Self {
         Self::Version { path: path.to_owned(), version: Some(version.to_owned()), reason: reason.into() }
     }

@@ -1,18 +1,18 @@
-//! Pictures of the page, embedded as they are in the folder: each in an image of its own, so that names within one do not
-//! meet those of another, and nothing in it runs.
+//! Pictures of the page, each embedded as an image, so that identifiers of one picture do not clash with those of another and
+//! no script in it runs.
 
 use super::ReportError;
-use super::finished::Finished;
 use super::markup::{Markup, tag, void, with};
+use super::results::Results;
 use crate::picture::vector::base64;
 
-/// What a picture is called, what it shows to those who do not see it, and what stands under it.
-pub(super) type Named = (&'static str, &'static str, &'static str);
+/// Name of a picture's file without its ending, alternative text, caption.
+pub(super) type PictureText = (&'static str, &'static str, &'static str);
 
-/// The pictures of these names that the folder has of a result; empty without any.
-pub(super) fn figures(finished: &Finished, result: &str, names: &[Named]) -> Result<Markup, ReportError> {
-    let figure = |&(name, alt, caption): &Named| {
-        let picture = finished.picture(result, name)?;
+/// The pictures of a result that the folder has, of those named; empty without any.
+pub(super) fn figures(results: &Results, result: &str, names: &[PictureText]) -> Result<Markup, ReportError> {
+    let figure = |&(name, alt, caption): &PictureText| {
+        let picture = results.picture(result, name)?;
         Ok(picture.map(|(kind, bytes)| {
             let source = format!("data:{kind};base64,{}", base64(&bytes));
             let image = void("img", &[("src", &source), ("alt", alt)]);

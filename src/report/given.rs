@@ -1,10 +1,10 @@
-//! What the keys of a sweep are given, as a reader wants it.
+//! Values of the keys of a sweep, shortened for the page.
 
 use crate::output::number;
 use crate::sweep::{Row, SweptKey};
 use std::collections::BTreeSet;
 
-/// Numbers of more letters are shortened.
+/// Most letters of a number that is not shortened.
 const LONG: usize = 8;
 
 /// The values of a key in a line.
@@ -13,25 +13,24 @@ pub(super) fn values(key: &SweptKey) -> String {
     listed(&key.values.iter().map(|text| shown(text, is_short)).collect::<Vec<_>>())
 }
 
-/// The value of a key in a row.
 pub(super) fn value(key: &SweptKey, row: &Row) -> Option<String> {
     let (_, text) = row.settings.iter().find(|(own, _)| *own == key.key)?;
     Some(shown(text, is_short(key)))
 }
 
-/// Whether the values of a key stay apart when they are shortened.
+/// Whether the values of a key still differ when they are shortened.
 fn is_short(key: &SweptKey) -> bool {
     let short: BTreeSet<String> = key.values.iter().map(|text| shown(text, true)).collect();
     short.len() == key.values.iter().collect::<BTreeSet<_>>().len()
 }
 
-/// What a row sets, in words.
+/// The settings of a row, `key = value` each.
 pub(super) fn settings(keys: &[SweptKey], row: &Row) -> String {
     let equal = |key: &SweptKey| Some(format!("{} = {}", key.key, value(key, row)?));
     keys.iter().filter_map(equal).collect::<Vec<_>>().join(", ")
 }
 
-/// A list; of a long one its ends.
+/// A list in one line; of more than twelve items the first two and the last.
 pub(super) fn listed(texts: &[String]) -> String {
     match texts {
         [first, second, .., last] if texts.len() > 12 => format!("{first}, {second}, … {last}"),
@@ -39,7 +38,7 @@ pub(super) fn listed(texts: &[String]) -> String {
     }
 }
 
-/// A value as it was given; of a long number five digits.
+/// A value as typed; of a long number five digits.
 fn shown(text: &str, is_short: bool) -> String {
     let long = Some(text).filter(|text| is_short && text.len() > LONG && text.contains(['.', 'e']));
     long.and_then(|text| text.parse().ok()).map_or_else(|| text.to_owned(), number)

@@ -1,21 +1,21 @@
-//! The part of a search for limit loads.
+//! Part of a report: a search for limit loads.
 
 use super::ReportError;
 use super::answer::doubts;
-use super::asked::asked;
 use super::certificate::certificate;
-use super::figures::{Named, figures};
-use super::finished::Finished;
+use super::figures::{PictureText, figures};
 use super::markup::{numbers, tag, with};
 use super::part::{Part, by, case_text, case_to_copy, mean_of, section, warnings};
+use super::problem::problem;
 use super::resolution::{resolution, upper};
+use super::results::Results;
 use super::table::table;
-use super::units::{case_of, measured_in, told, units_of};
+use super::units::{case_of, measured_in, units_of, with_unit};
 use crate::output::{LimitFile, table as tables};
 use crate::run::{At, Limits};
 use crate::units::Units;
 
-const PICTURES: [Named; 2] = [
+const PICTURES: [PictureText; 2] = [
     (
         "limit",
         "Curves of the utilisation of each criterion over the mean pressure",
@@ -29,12 +29,12 @@ const PICTURES: [Named; 2] = [
     ),
 ];
 
-/// The part of `limit.json`.
-pub(super) fn part(finished: &Finished, file: &LimitFile) -> Result<Part, ReportError> {
-    let path = finished.folder.join("limit.json");
+/// The part of the page for a search for limit loads, from `limit.json`.
+pub(super) fn part(results: &Results, file: &LimitFile) -> Result<Part, ReportError> {
+    let path = results.folder.join("limit.json");
     let (case, limits) = (&file.case, file.limits());
     let text = case_text(case).map_err(|reason| ReportError::version(&path, &file.percoat, reason))?;
-    let units = units_of(&file.units, case_of(&text, &finished.folder).as_ref());
+    let units = units_of(&file.units, case_of(&text, &results.folder).as_ref());
     let found = tables::limits(&limits, &units);
     let mut sections = vec![
         section(
@@ -52,8 +52,8 @@ pub(super) fn part(finished: &Finished, file: &LimitFile) -> Result<Part, Report
                 tag("p", upper(tables::RIGID)),
             ],
         ),
-        section("asked", "What was asked", vec![asked(case), tag("p", measured_in(&units))]),
-        section("pictures", "Pictures", vec![figures(finished, "limit.json", &PICTURES)?]),
+        section("problem", "Problem", vec![problem(case), tag("p", measured_in(&units))]),
+        section("pictures", "Pictures", vec![figures(results, "limit.json", &PICTURES)?]),
     ];
     if !limits.steps.is_empty() {
         let caption = "Loads that were solved in the search, by ascending mean pressure";
@@ -70,13 +70,13 @@ pub(super) fn part(finished: &Finished, file: &LimitFile) -> Result<Part, Report
     Ok(Part { name: "limit", kind: "Limit loads", title: file.title.clone(), sections })
 }
 
-/// What fails first with its error, where a load makes it and nothing else comes first within the errors.
+/// The criterion that fails first with its load, where no other one may be first within the errors.
 fn first(limits: &Limits, units: &Units) -> Option<String> {
     let first = limits.first()?;
     let At::Load { mean_pressure, error, .. } = first.at else { return None };
     if !first.is_sharp() || !limits.contenders().is_empty() {
         return None;
     }
-    let load = told(units.pressure(), mean_pressure, error);
+    let load = with_unit(units.pressure(), mean_pressure, error);
     Some(format!("First: {} at the mean pressure {load}.", first.criterion))
 }

@@ -7,12 +7,11 @@ use crate::plain;
 pub(super) struct Markup(String);
 
 impl Markup {
-    /// As it goes into a file.
     pub(super) fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// What is HTML already: percoat's own stylesheet, never a text of a result.
+    /// HTML that is not escaped: percoat's own stylesheet, never a text of a result.
     pub(super) fn own(text: &str) -> Self {
         Self(text.to_owned())
     }
@@ -79,7 +78,7 @@ const BLOCKS: [&str; 16] = [
     "ul", "pre",
 ];
 
-/// A text as it may stand between tags and within quotes, in which nothing is hidden.
+/// A text for use between tags and within quotes, control characters made visible.
 fn escaped(text: &str) -> String {
     let letter = |c: char| match c {
         '&' => "&amp;".to_owned(),

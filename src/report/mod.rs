@@ -1,10 +1,10 @@
-//! The report: what stands in an output folder as one HTML page, which needs nothing beside itself.
+//! The report: the results of an output folder as one HTML page without external files.
 //!
-//! A run, a sweep and a limit each have a part: the answer with its errors, what was asked, pictures, tables, resolution and
-//! warnings, the certificate in words, the case to copy. The page is read off the files of the folder alone: its numbers
-//! are written as the command line writes them, its pictures are those of the folder, its styles stand in it, it has no
-//! script and asks the network for nothing. A result that is not as percoat wrote it there, or in which a number that is due is
-//! none, is refused; pictures and fields that are missing or damaged are named.
+//! A run, a sweep and a limit each have a part: the answer with its errors, the problem, pictures, tables, resolution,
+//! warnings, the certificate in words and the case to copy. The page is made from the files of the folder alone: numbers are
+//! written as the command line writes them, pictures and styles are embedded, there is no script and no request to the
+//! network. A result that was changed since percoat wrote it, or that lacks a number, is refused; pictures and fields that are
+//! missing or damaged are named.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -16,18 +16,18 @@
 //! ```
 
 mod answer;
-mod asked;
 mod certificate;
 mod error;
 mod figures;
-mod finished;
 mod given;
 mod limit;
 mod markup;
 mod page;
 mod part;
+mod problem;
 mod ranges;
 mod resolution;
+mod results;
 mod run;
 mod sweep;
 mod table;

@@ -1,8 +1,8 @@
 //! The page: its head, and its parts one after the other.
 
-use super::finished::Finished;
 use super::markup::{Markup, tag, void, with};
 use super::part::Part;
+use super::results::Results;
 use super::trailer::with_trailer;
 use super::{ReportError, limit, run, sweep};
 use std::path::Path;
@@ -12,28 +12,28 @@ use std::path::Path;
 pub struct Page {
     /// A whole HTML file.
     pub html: String,
-    /// Files of the folder that are missing or not as percoat wrote them, and so not shown, each with what is the matter with it.
+    /// Files that are not shown because they are missing or were changed since percoat wrote them, a sentence each.
     pub missing: Vec<String>,
 }
 
 /// The report of an output folder.
 ///
 /// # Errors
-/// [`ReportError`] where there is no finished result, or none that this version can read, or one that is not as it was written.
+/// [`ReportError`] without a finished result that this version can read, or where one was changed since percoat wrote it.
 pub fn page(folder: &Path) -> Result<Page, ReportError> {
-    let finished = Finished::read(folder)?;
+    let results = Results::read(folder)?;
     let mut parts = Vec::new();
-    if let Some(swept) = &finished.sweep {
-        parts.push(sweep::part(&finished, swept)?);
+    if let Some(swept) = &results.sweep {
+        parts.push(sweep::part(&results, swept)?);
     }
-    if let Some(file) = &finished.limit {
-        parts.push(limit::part(&finished, file)?);
+    if let Some(file) = &results.limit {
+        parts.push(limit::part(&results, file)?);
     }
-    if let Some(file) = &finished.run {
-        parts.push(run::part(&finished, file)?);
+    if let Some(file) = &results.run {
+        parts.push(run::part(&results, file)?);
     }
-    finished.whole()?;
-    let missing = finished.doubts();
+    results.whole()?;
+    let missing = results.doubts();
     Ok(Page { html: with_trailer(&written(&parts, &missing)), missing })
 }
 
@@ -48,7 +48,7 @@ fn written(parts: &[Part], missing: &[String]) -> String {
         void("meta", &[("name", "viewport"), ("content", "width=device-width, initial-scale=1")]),
         void("meta", &[("name", "generator"), ("content", concat!("percoat ", env!("CARGO_PKG_VERSION")))]),
         void("meta", &[("name", "color-scheme"), ("content", "light dark")]),
-        // Nothing is loaded and nothing runs, whatever stands in a result.
+        // No text of a result can load or run anything.
         void(
             "meta",
             &[

@@ -7,11 +7,11 @@ use serde_json::Value;
 /// A result on the page.
 #[derive(Debug)]
 pub(super) struct Part {
-    /// What its anchors begin with.
+    /// Beginning of its anchors.
     pub name: &'static str,
-    /// What it is.
+    /// Kind of result, such as "Run".
     pub kind: &'static str,
-    /// The title of its case.
+    /// Title of its case.
     pub title: String,
     pub sections: Vec<Section>,
 }
@@ -19,13 +19,13 @@ pub(super) struct Part {
 /// A section of a part.
 #[derive(Debug)]
 pub(super) struct Section {
-    /// What its anchor ends with.
+    /// End of its anchor.
     pub name: &'static str,
     pub heading: &'static str,
     pub content: Markup,
 }
 
-/// A section; without content it is left out.
+/// A section; left out of the page where `content` is empty.
 pub(super) fn section(name: &'static str, heading: &'static str, content: Vec<Markup>) -> Section {
     Section { name, heading, content: content.into() }
 }
@@ -42,7 +42,7 @@ pub(super) fn warnings(list: &[String]) -> Markup {
 /// The case of a result as TOML.
 ///
 /// # Errors
-/// Where it is none.
+/// Where it is not a case.
 pub(super) fn case_text(case: &Value) -> Result<String, String> {
     if !case.is_object() {
         return Err("`case` is missing, or no table".to_owned());
@@ -61,12 +61,12 @@ pub(super) fn case_to_copy(text: &str, command: &str) -> Markup {
     vec![tag("p", hint), with("pre", &[("tabindex", "0"), ("aria-label", "The case")], tag("code", text))].into()
 }
 
-/// The version that has computed a result.
+/// The version that has computed a result, in a sentence.
 pub(super) fn by(version: &str) -> Markup {
     tag("p", format!("Computed by percoat {version}."))
 }
 
-/// The mean lateral stress in the stresses of a result, as its case says; the default where it says nothing.
+/// The mean lateral stress of a case; the default where the case has none.
 pub(super) fn mean_of(case: &Value) -> MeanStress {
     if case["stress"]["mean"] == "half-space" { MeanStress::HalfSpace } else { MeanStress::default() }
 }

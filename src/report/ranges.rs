@@ -1,9 +1,9 @@
-//! What a sweep comes to: which criterion comes first how often, and the least and the largest of every result.
+//! Summary of a sweep: how often each criterion is first, and the least and largest value of every result.
 
 use super::given::settings;
 use super::markup::{Markup, numbers, with};
 use super::table::table;
-use super::units::told;
+use super::units::with_unit;
 use crate::output::table::{Table, percent_with_error};
 use crate::output::with_error;
 use crate::reading::Criterion;
@@ -11,17 +11,17 @@ use crate::run::Limit;
 use crate::sweep::{Foremost, Kind, LimitValue, Row, SCALARS, Scalar, SweepResult, SweptKey};
 use crate::units::{Unit, Units};
 
-/// A result in its least and in its largest.
-struct Range {
+/// The least and the largest value of a result.
+struct ValueRange {
     name: String,
-    /// Each with the settings of its combination.
+    /// Least and largest value, each with the settings of its combination.
     ends: [(String, String); 2],
 }
 
 /// The answer of a sweep in sentences; nothing where no combination has results.
 pub(super) fn sentences(rows: &[Row], keys: &[SweptKey], units: &Units) -> Vec<Markup> {
     let sentence = |text: String| with("p", &[("class", "answer")], numbers(&text));
-    let between = |Range { name, ends: [least, most] }: Range| {
+    let between = |ValueRange { name, ends: [least, most] }: ValueRange| {
         if least.0 == most.0 {
             return format!("The {name} is {}", least.0);
         }
@@ -40,7 +40,7 @@ pub(super) fn sentences(rows: &[Row], keys: &[SweptKey], units: &Units) -> Vec<M
     });
     let below: Vec<f64> = below.collect();
     let below = below.iter().copied().reduce(f64::max).map(|most| {
-        let most = told(units.pressure(), most, None);
+        let most = with_unit(units.pressure(), most, None);
         format!("in {} the first limit is known only to lie below {most}", combinations(below.len()))
     });
     let parts: Vec<String> = first.map(between).into_iter().chain(below).collect();
@@ -58,10 +58,10 @@ pub(super) fn ranges(rows: &[Row], keys: &[SweptKey], units: &Units) -> Markup {
         let name = criterion.map_or("first limit".to_owned(), |criterion| criterion.to_string());
         limit_range(rows, keys, &name, criterion, units)
     });
-    // The mean pressure is what is given.
+    // The mean pressure is prescribed.
     let scalars = SCALARS.iter().filter(|scalar| scalar.name != "mean pressure");
     let scalars = scalars.map(|scalar| scalar_range(rows, keys, scalar, units));
-    let row = |Range { name, ends: [least, most] }: Range| vec![name, least.0, least.1, most.0, most.1];
+    let row = |ValueRange { name, ends: [least, most] }: ValueRange| vec![name, least.0, least.1, most.0, most.1];
     let all: Vec<Vec<String>> = limits.chain(scalars).flatten().map(row).collect();
     if all.is_empty() || rows.len() < 2 {
         return Markup::default();
@@ -79,7 +79,7 @@ fn last(rows: &[Row]) -> impl DoubleEndedIterator<Item = (&Row, &SweepResult)> {
     rows.iter().filter_map(|row| Some((row, row.results.last()?)))
 }
 
-/// Of which steps the results are, as the end of a sentence.
+/// The end of a sentence that names the load step of the results; empty where each combination has one.
 fn of_last(rows: &[Row]) -> &'static str {
     if rows.iter().any(|row| row.results.len() > 1) { " in the last load step of each combination" } else { "" }
 }
@@ -97,7 +97,7 @@ pub(super) fn are_limits(rows: &[Row]) -> bool {
 }
 
 /// The least and the largest of a scalar.
-fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units) -> Option<Range> {
+fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units) -> Option<ValueRange> {
     let unit = match scalar.kind {
         Kind::Pressure => Some(units.pressure()),
         Kind::Length => Some(units.length()),
@@ -107,7 +107,13 @@ fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units)
 }
 
 /// The least and the largest of the first limit, or of that of a criterion.
-fn limit_range(rows: &[Row], keys: &[SweptKey], name: &str, of: Option<Criterion>, units: &Units) -> Option<Range> {
+fn limit_range(
+    rows: &[Row],
+    keys: &[SweptKey],
+    name: &str,
+    of: Option<Criterion>,
+    units: &Units,
+) -> Option<ValueRange> {
     let value = |result: &SweepResult| match result.limit_value(of)? {
         LimitValue::At(load, error) => Some((load, error)),
         LimitValue::Below(_) | LimitValue::Above(_) | LimitValue::Undecided => None,
@@ -122,26 +128,26 @@ fn range(
     name: &str,
     value: impl Fn(&SweepResult) -> Option<(f64, Option<f64>)>,
     unit: Option<&Unit>,
-) -> Option<Range> {
+) -> Option<ValueRange> {
     let found = last(rows).filter_map(|(row, result)| value(result).map(|(x, error)| (x, error, row)));
     let found: Vec<(f64, Option<f64>, &Row)> = found.collect();
     let least = found.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
     let most = found.iter().rev().max_by(|a, b| a.0.total_cmp(&b.0))?;
-    // Both in one unit; what has none is a part.
+    // Both in one unit; a value without a unit is a part of a whole.
     let unit = unit.map(|unit| unit.prefixed(most.0));
-    let told = |x: f64, error: Option<f64>| match &unit {
+    let text = |x: f64, error: Option<f64>| match &unit {
         Some(unit) => unit.behind(&with_error(unit.shown(x), error.map(|error| unit.shown(error)))),
         None => percent_with_error(x, error),
     };
-    let end = |(x, error, row): &(f64, Option<f64>, &Row)| (told(*x, *error), settings(keys, row));
-    Some(Range { name: name.to_owned(), ends: [end(least), end(most)] })
+    let end = |(x, error, row): &(f64, Option<f64>, &Row)| (text(*x, *error), settings(keys, row));
+    Some(ValueRange { name: name.to_owned(), ends: [end(least), end(most)] })
 }
 
-/// Which criterion comes first in how many combinations.
+/// How often each criterion is first, in a sentence.
 fn firsts(rows: &[Row]) -> Option<String> {
     let counts = Foremost::counted(last(rows).map(|(_, result)| result));
     let all: usize = counts.iter().map(|(_, count)| count).sum();
-    let told = |(at, (first, count)): (usize, &(Foremost, usize))| {
+    let text = |(at, (first, count)): (usize, &(Foremost, usize))| {
         let name = if *first == Foremost::Nothing { "nothing".to_owned() } else { first.to_string() };
         match at {
             0 if *count == all => format!("{name} in all of them"),
@@ -149,13 +155,13 @@ fn firsts(rows: &[Row]) -> Option<String> {
             _ => format!("{name} in {count}"),
         }
     };
-    let told: Vec<String> = counts.iter().enumerate().map(told).collect();
+    let text: Vec<String> = counts.iter().enumerate().map(text).collect();
     let open = last(rows).filter(|(_, result)| !result.rivals().is_empty()).count();
     let open = match open {
         0 => String::new(),
         _ => format!("; in {} the errors leave open which", combinations(open)),
     };
-    (!told.is_empty()).then(|| format!("What fails first: {}{open}.", told.join(", ")))
+    (!text.is_empty()).then(|| format!("What fails first: {}{open}.", text.join(", ")))
 }
 
 fn combinations(count: usize) -> String {
@@ -204,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_errors_leave_open_is_told() {
+    fn undecided_combinations_are_counted() {
         let limits = |crack: f64| {
             vec![SweepResult::Limits(vec![reached(YIELDS, 20.0, 2.0), reached(CRACKS, crack, 0.1 * crack)])]
         };

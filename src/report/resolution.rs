@@ -7,7 +7,7 @@ use crate::output::table::{largest_errors, solved};
 use crate::reading::FEW_SAMPLES;
 use crate::run::StepRecord;
 
-/// Grid, samples along a contact radius and estimated errors; `change`: from the next coarser grid.
+/// Grid, samples along a contact radius and estimated errors; `change`: relative change from the next coarser grid.
 pub(super) fn resolution(steps: &[StepRecord], change: Option<f64>) -> Markup {
     let mut rows: Vec<(&str, Markup)> = Vec::new();
     if let Some(step) = steps.last() {
@@ -44,7 +44,7 @@ pub(super) fn resolution(steps: &[StepRecord], change: Option<f64>) -> Markup {
     parts.into()
 }
 
-/// As a sentence.
+/// A text as a sentence: capital letter, full stop.
 pub(super) fn upper(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();

@@ -1,20 +1,20 @@
-//! The part of a run.
+//! Part of a report: a run.
 
 use super::ReportError;
 use super::answer::{answer, doubts};
-use super::asked::asked;
 use super::certificate::certificate;
-use super::figures::{Named, figures};
-use super::finished::Finished;
+use super::figures::{PictureText, figures};
 use super::markup::{tag, with};
 use super::part::{Part, by, case_text, case_to_copy, mean_of, section, warnings};
+use super::problem::problem;
 use super::resolution::{resolution, upper};
+use super::results::Results;
 use super::table::table;
 use super::units::{case_of, measured_in, units_of};
 use crate::case::Case;
 use crate::output::{Summary, table as tables};
 
-const PICTURES: [Named; 6] = [
+const PICTURES: [PictureText; 6] = [
     (
         "pressure",
         "Map of the contact pressure over several cells",
@@ -48,14 +48,14 @@ const PICTURES: [Named; 6] = [
     ),
 ];
 
-/// The part of `summary.json`.
-pub(super) fn part(finished: &Finished, summary: &Summary) -> Result<Part, ReportError> {
-    let path = finished.folder.join("summary.json");
+/// The part of the page for a run, from `summary.json`.
+pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportError> {
+    let path = results.folder.join("summary.json");
     let Summary { case, steps, .. } = summary;
     let refused = |reason: String| ReportError::version(&path, &summary.percoat, reason);
     let text = case_text(case).map_err(refused)?;
     // Without it the body is not known beyond its tables.
-    let read = case_of(&text, &finished.folder);
+    let read = case_of(&text, &results.folder);
     if let Some(loads) = read.as_ref().map(|case| case.load.values().len()).filter(|loads| *loads != steps.len()) {
         return Err(refused(format!("it has {} steps, and its case {loads} loads", steps.len())));
     }
@@ -65,8 +65,8 @@ pub(super) fn part(finished: &Finished, summary: &Summary) -> Result<Part, Repor
     let mean = tables::mean_stress(mean_of(case));
     let mut sections = vec![
         section("answer", "Answer", vec![doubts(steps), fails.unwrap_or_default(), answer(steps, &units)]),
-        section("asked", "What was asked", vec![asked(case), tag("p", measured_in(&units))]),
-        section("pictures", "Pictures", vec![figures(finished, "summary.json", &PICTURES)?]),
+        section("problem", "Problem", vec![problem(case), tag("p", measured_in(&units))]),
+        section("pictures", "Pictures", vec![figures(results, "summary.json", &PICTURES)?]),
         section(
             "steps",
             "Load steps",

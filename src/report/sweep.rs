@@ -1,13 +1,13 @@
-//! The part of a sweep.
+//! Part of a report: a sweep.
 
 use super::ReportError;
-use super::asked::asked;
-use super::figures::{Named, figures};
-use super::finished::{Finished, Swept};
+use super::figures::{PictureText, figures};
 use super::given::{listed, value, values};
 use super::markup::{Markup, tag, with};
 use super::part::{Part, by, case_to_copy, section, warnings};
+use super::problem::problem;
 use super::ranges::{are_limits, criteria, ranges, sentences};
+use super::results::{Results, Swept};
 use super::table::table;
 use super::units::{case_of, measured_in, units_of};
 use crate::output::UnitNames;
@@ -18,16 +18,16 @@ use crate::sweep::{Description, Kind, LimitValue, Row, SCALARS, Scalar, Status, 
 use serde_json::json;
 use std::collections::BTreeMap;
 
-const PICTURES: [Named; 1] =
+const PICTURES: [PictureText; 1] =
     [("sweep", "Curves of the results over the values of the sweep", "The results over the values of the sweep.")];
-/// Rows of the table that are shown.
+/// Most rows of the table.
 const ROWS: usize = 300;
 
-/// The part of `sweep.json` and `sweep.jsonl`.
-pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportError> {
+/// The part of the page for a sweep, from `sweep.json` and `sweep.jsonl`.
+pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError> {
     let Swept { description, rows } = swept;
     let Description { keys, case: text, title, .. } = description;
-    let read = case_of(text, &finished.folder);
+    let read = case_of(text, &results.folder);
     let units = units_of(&UnitNames::default(), read.as_ref());
     let given = keys.iter().map(|key| vec![key.key.clone(), key.values.len().to_string(), values(key)]);
     let head = ["key", "values", "which"].map(str::to_owned).to_vec();
@@ -43,15 +43,15 @@ pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportErr
     ];
     let mut sections = vec![
         section("answer", "Answer", answer),
-        section("pictures", "Pictures", vec![figures(finished, "sweep.json", &PICTURES)?]),
+        section("pictures", "Pictures", vec![figures(results, "sweep.json", &PICTURES)?]),
         section("rows", "Combinations", vec![shown(rows, keys)]),
         section("warnings", "Warnings", vec![warnings(&description.warnings)]),
     ];
-    // The keys of a case that cannot be read stand in the order of the alphabet.
+    // The keys of a case that cannot be read are sorted alphabetically.
     if let Some(case) = read.as_ref().map(|case| json!(case)).or_else(|| toml::from_str(text).ok()) {
         let words = tag("p", "The case of which the sweep changes the keys above:");
-        let asked = vec![words, asked(&case), tag("p", measured_in(&units))];
-        sections.insert(1, section("asked", "What was asked", asked));
+        let content = vec![words, problem(&case), tag("p", measured_in(&units))];
+        sections.insert(1, section("problem", "Problem", content));
     }
     let time = tag("p", format!("{:.2} s.", description.timing.wall));
     sections.push(section("time", "Time and version", vec![time, by(&description.percoat)]));
@@ -99,7 +99,7 @@ struct Shown<'a> {
 /// The content of a cell of a column; `None` where the row has none.
 type Cell<'a> = Box<dyn Fn(Shown<'_>) -> Option<String> + 'a>;
 
-/// The first rows with the keys and the main scalars, and what is left out.
+/// The first rows with the keys and the main scalars, and a sentence on what is left out.
 fn shown(rows: &[Row], keys: &[SweptKey]) -> Markup {
     let all = rows.iter().flat_map(|row| {
         let none = row.results.is_empty().then_some(None);
@@ -118,7 +118,7 @@ fn shown(rows: &[Row], keys: &[SweptKey]) -> Markup {
     let shown = table(caption, &Table::new(&head, all.iter().take(ROWS).map(cells).collect(), 0));
     let more = all.len().saturating_sub(ROWS);
     let more = if more > 0 { format!("{more} further rows and all") } else { "All".to_owned() };
-    vec![shown, tag("p", format!("{more} columns stand in sweep.csv."))].into()
+    vec![shown, tag("p", format!("{more} columns are in sweep.csv."))].into()
 }
 
 fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey]) -> Vec<(String, Cell<'a>)> {
@@ -147,7 +147,7 @@ fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey]) -> Vec<(String, Cell<'a>)>
         add(name, Box::new(limit));
     }
     for scalar in SCALARS.iter().filter(|scalar| steps().any(|step| (scalar.of)(step).is_some())) {
-        add(scalar.name.to_owned(), Box::new(|own| told(scalar, own)));
+        add(scalar.name.to_owned(), Box::new(|own| scalar_text(scalar, own)));
     }
     let levels = steps().map(|step| step.reading.levels.len()).max().unwrap_or(0);
     for index in 0..levels {
@@ -161,7 +161,7 @@ fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey]) -> Vec<(String, Cell<'a>)>
 }
 
 /// A scalar of a step with its error.
-fn told(scalar: &Scalar, own: Shown<'_>) -> Option<String> {
+fn scalar_text(scalar: &Scalar, own: Shown<'_>) -> Option<String> {
     let (x, error) = (scalar.of)(own.result?.step()?)?;
     Some(if scalar.kind == Kind::Part { percent_with_error(x, error) } else { with_error(x, error) })
 }

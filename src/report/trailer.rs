@@ -1,4 +1,4 @@
-//! The last line of a report, by which percoat recognises the file later as its own: unchanged since it was written.
+//! The last line of a report, a checksum by which percoat recognises its own unchanged reports.
 
 use crate::output::{Trailer, disk};
 use std::io;
@@ -11,7 +11,7 @@ pub(super) fn with_trailer(page: &str) -> String {
     TRAILER.added(page)
 }
 
-/// Whether the file is a report of percoat that has not been changed.
+/// Whether a file is a report of percoat, unchanged since it was written.
 ///
 /// # Errors
 /// When it cannot be read.

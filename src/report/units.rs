@@ -1,17 +1,17 @@
-//! What the numbers of a result are measured in, in words.
+//! Units of the numbers of a result.
 
 use crate::case::{Case, Source};
 use crate::output::{UnitNames, with_error};
 use crate::units::{Unit, Units};
 use std::path::Path;
 
-/// Those of a case, or where it cannot be read any more, those that a result names.
+/// The units of a case, or of `names` where the case cannot be read.
 pub(super) fn units_of(names: &UnitNames, case: Option<&Case>) -> Units {
     let UnitNames { length, pressure } = names;
     case.map_or_else(|| Units::unknown().named(length.as_deref(), pressure.as_deref()), Case::units)
 }
 
-/// A case as it stands in a result. A topography that has moved away cannot be read.
+/// The case in a result; `None` where it cannot be read, as when the file of its topography has moved.
 pub(super) fn case_of(text: &str, folder: &Path) -> Option<Case> {
     let source =
         Source { name: "case.toml".to_owned(), text: text.to_owned(), folder: folder.to_owned(), ..Source::default() };
@@ -19,12 +19,12 @@ pub(super) fn case_of(text: &str, folder: &Path) -> Option<Case> {
 }
 
 /// A number with its error and its unit: "0.5 ± 0.1 µm".
-pub(super) fn told(unit: &Unit, x: f64, error: Option<f64>) -> String {
+pub(super) fn with_unit(unit: &Unit, x: f64, error: Option<f64>) -> String {
     let prefixed = unit.prefixed(x);
     prefixed.behind(&with_error(prefixed.shown(x), error.map(|error| prefixed.shown(error))))
 }
 
-/// What the tables are in.
+/// The units of the tables, in a sentence.
 pub(super) fn measured_in(units: &Units) -> String {
     let name = |unit: &Unit, unknown: &str| match unit {
         Unit::Relative(symbol) => format!("parts of {symbol}"),
@@ -34,7 +34,7 @@ pub(super) fn measured_in(units: &Units) -> String {
     let pressure = name(units.pressure(), "the unit of E");
     let force = name(&units.force(), "a pressure times an area of these units");
     format!(
-        "Where nothing else is said, lengths are in {length}, pressures, stresses and moduli in {pressure}; the load on one \
+        "Unless stated otherwise, lengths are in {length}, pressures, stresses and moduli in {pressure}; the load on one \
          indenter is a force, in {force}, an energy a pressure times a cubed length. z points into the body; stresses are positive in tension, pressures in compression."
     )
 }

@@ -44,8 +44,8 @@ pub struct TooOblong(f64);
 pub enum RefinementEnd {
     /// The last change is below the accuracy.
     Reached,
-    /// The changes **stagnate**: if they go on falling as fast as in the better of the last two refinements, no grid in reach gets
-    /// below the accuracy.
+    /// The changes **stagnate**: extrapolated with the better of the last two rates, they fall below the accuracy on no grid in
+    /// reach.
     Stagnates,
     /// The next grid would have more than 4096 points along a side.
     Finest,
@@ -68,7 +68,7 @@ impl fmt::Display for RefinementEnd {
 #[derive(Debug, Clone)]
 pub struct Refinement {
     accuracy: f64,
-    /// See [`Refinement::grids`].
+    /// All [grids](Refinement::grids) in reach.
     grids: Vec<[usize; 2]>,
     /// Index of the present grid.
     at: usize,
@@ -100,7 +100,7 @@ impl Refinement {
         Ok(grids.take_while(|points| points.iter().all(|&n| n <= MOST_POINTS)).collect())
     }
 
-    /// Goes on from the grid of `points` of another refinement, with the changes that the grids before had brought.
+    /// Resumes another refinement on the grid of `points`, with the changes between the grids before it.
     ///
     /// # Errors
     /// [`OtherGrids`] when there is no such grid, or another number of changes before it.
@@ -124,8 +124,8 @@ impl Refinement {
         self.grids[self.at]
     }
 
-    /// Goes on to the next grid, after the change that the present one brought (`None` on the first), and gives the reason where it
-    /// ends instead. `fits` says whether memory and disk suffice for a grid.
+    /// Moves to the next grid, after the `change` on the present one (`None` on the first), or returns the reason of the end. `fits`:
+    /// whether memory and disk suffice for a grid.
     pub fn refine(&mut self, change: Option<f64>, fits: impl Fn([usize; 2]) -> bool) -> Option<RefinementEnd> {
         self.changes.extend(change);
         let finer = self.grids.get(self.at + 1);
@@ -156,7 +156,7 @@ impl Refinement {
 /// Largest relative change of the contact.
 fn step_change(coarse: &Reading, fine: &Reading) -> f64 {
     if fine.grid_peak() <= 0.0 {
-        // A contact that vanishes is no small change.
+        // A contact that vanishes is an infinite change.
         return if coarse.grid_peak() <= 0.0 { 0.0 } else { f64::INFINITY };
     }
     let peak = if fine.singular() { 0.0 } else { (fine.grid_peak() - coarse.grid_peak()).abs() };

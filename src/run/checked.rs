@@ -1,16 +1,16 @@
-//! Which numbers a record of a load step must have when it is read back.
+//! Validation of the record of a load step that is read back.
 
 use super::StepRecord;
 use crate::reading::{Governing, Utilisation};
 use crate::spectral::{Certificate, Stop};
 
-/// What a record that is read back must have: a number that is null was not finite, which only a step with [`Stop::NotANumber`]
-/// may have; elsewhere a null, or a pressure below zero, is a file that was damaged or edited.
+/// A number that is null was not finite, which is allowed only in a step with [`Stop::NotANumber`]; elsewhere a null, or a pressure
+/// below zero, shows that the file was damaged or edited.
 impl StepRecord {
-    /// Refuses a record of which a number is missing, or is what it cannot be.
+    /// Refuses a record with a number that is missing or out of range.
     ///
     /// # Errors
-    /// The key, and what stands there.
+    /// The key and its value.
     pub fn check(&self) -> Result<(), String> {
         if self.stop == Stop::NotANumber {
             return Ok(());
@@ -21,7 +21,7 @@ impl StepRecord {
         finite("penetration", reading.penetration)?;
         at_least_zero("contact_fraction", reading.contact_fraction)?;
         peak("max_pressure", reading.max_pressure)?;
-        // An iteration that could not begin has none.
+        // An iteration that could not begin has no certificate.
         if self.stop.solved() {
             finite("residual", self.residual)?;
         }
@@ -66,7 +66,7 @@ fn refused(name: &str, value: f64) -> String {
     if value.is_nan() { format!("`{name}` is null where a number is due") } else { format!("`{name}` is {value}") }
 }
 
-/// Infinite at most.
+/// A number, which may be infinite.
 fn number(name: &str, value: f64) -> Result<(), String> {
     if value.is_nan() { Err(refused(name, value)) } else { Ok(()) }
 }

@@ -1,8 +1,7 @@
 //! The engine of a run: load path, refinement to an accuracy, stresses, warnings.
 //!
-//! A [`Run`] is what is solved. A [`Recorder`] is called with every step as it is done: that of the command line writes files, that
-//! of a study reads numbers, `()` keeps nothing. The result is an [`Outcome`]. A recorder with the [`Finished`] part of an earlier
-//! run makes this one go on from there.
+//! A [`Run`] is solved with a [`Recorder`], which is called with every finished step: that of the command line writes files, that
+//! of a study reads numbers, `()` records nothing. The result is an [`Outcome`]. A recorder may give an [`EarlierRun`] to resume.
 //!
 //! ```
 //! use percoat::run::{Run, Sampling};
@@ -21,7 +20,7 @@
 mod accuracy;
 #[cfg(feature = "serde")]
 mod checked;
-mod finished;
+mod earlier_run;
 mod limit;
 mod outcome;
 pub(crate) mod places;
@@ -34,7 +33,7 @@ pub(crate) mod touches;
 pub(crate) mod warnings;
 
 pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change};
-pub use finished::{Finished, Last};
+pub use earlier_run::{EarlierRun, LastLoad};
 pub use limit::{At, Limit, LimitStep, Limits, first, rivals};
 pub use outcome::{BeyondFullContact, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
@@ -178,11 +177,11 @@ impl Run {
         self.stress.as_ref().map(|request| request.mean).or_else(|| has_strengths().then(MeanStress::default))
     }
 
-    /// Solves all loads on one grid, after those that an earlier run has `finished`.
+    /// Solves all loads on one grid, after those of the earlier run `finished`.
     fn on_grid<R: Recorder>(
         &self,
         points: [usize; 2],
-        finished: Option<Finished>,
+        finished: Option<EarlierRun>,
         recorder: &mut R,
     ) -> Result<Solved, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&self.problem), points, self.settings)?;
@@ -208,7 +207,7 @@ impl Run {
         solver: &mut Solver,
         tables: &Arc<Tables>,
         load: Load,
-        saved: Option<Last>,
+        saved: Option<LastLoad>,
         recorder: &mut R,
     ) -> Result<(StepRecord, Step), RunError<R::Error>> {
         recorder.load(load);

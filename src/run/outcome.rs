@@ -1,4 +1,4 @@
-//! How a run ends: what it has found, or why it has not come to its end.
+//! The outcome of a run, and its errors.
 
 use super::StepRecord;
 use super::accuracy::{RefinementEnd, TooOblong};
@@ -7,7 +7,7 @@ use crate::notation::number;
 use crate::spectral::{OtherGrids, Step};
 use std::error::Error;
 
-/// What a run has found.
+/// The result of a run.
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// The load steps on the last grid.
@@ -16,16 +16,16 @@ pub struct Outcome {
     pub last: Option<Step>,
     /// Points of the last grid along a₁ and a₂.
     pub points: [usize; 2],
-    /// Change against the next coarser grid, where an accuracy was asked for.
+    /// Relative change against the next coarser grid, where an accuracy was prescribed.
     pub change: Option<f64>,
-    /// Why the refinement ended, where there was one.
+    /// Reason of the end of the refinement; `None` without one.
     pub end: Option<RefinementEnd>,
-    /// What a reader should know before trusting the numbers.
+    /// Warnings, a sentence each.
     pub warnings: Vec<String>,
 }
 
 impl Outcome {
-    /// Whether the accuracy, if one was asked for, is reached.
+    /// Whether the prescribed accuracy is reached; true without one.
     pub fn is_accurate(&self) -> bool {
         self.end.is_none_or(|end| end == RefinementEnd::Reached)
     }
@@ -44,14 +44,14 @@ impl Outcome {
     number(*.complete)
 )]
 pub struct BeyondFullContact {
-    /// What is prescribed, a length.
+    /// Prescribed penetration, a length.
     pub penetration: f64,
-    /// Where contact becomes complete, a length.
+    /// Penetration at which contact becomes complete, a length.
     pub complete: f64,
 }
 
 impl<E: Error + 'static> RunError<E> {
-    /// Why, in one sentence: where it cannot be recorded, the recorder's own words.
+    /// The reason in one sentence; of an error of the recorder its own message.
     pub fn told(&self) -> String {
         match self {
             Self::Recorder(error) => error.to_string(),
@@ -60,19 +60,19 @@ impl<E: Error + 'static> RunError<E> {
     }
 }
 
-/// Why a run has not come to its end; `E` is the recorder's reason.
+/// Why a run has ended without a result; `E` is the error of the recorder.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError<E: Error + 'static> {
-    /// There is nothing to solve.
+    /// There are no loads.
     #[error("a run needs a load at least")]
     NoLoads,
-    /// Limits are looked for, and nothing has a strength.
+    /// Limits are searched without any strength.
     #[error(
         "limits need strengths: give materials a yield_strength or a tensile_strength, or layers an interface_strength"
     )]
     NoStrengths,
-    /// There is no such grid.
+    /// The grid is refused.
     #[error(transparent)]
     Grid(#[from] LatticeError),
     /// The cell is too oblong to be refined.
@@ -81,10 +81,10 @@ pub enum RunError<E: Error + 'static> {
     /// A penetration is beyond complete contact.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
-    /// What an earlier run has finished is not of this one.
+    /// The earlier run has other grids than this one.
     #[error(transparent)]
     OtherGrids(#[from] OtherGrids),
-    /// The recorder cannot go on.
+    /// The recorder has failed.
     #[error("the run cannot be recorded")]
     Recorder(#[source] E),
 }

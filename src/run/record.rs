@@ -1,4 +1,4 @@
-//! The record of a load step: every scalar of it, as it stands in `summary.json` and is read back from there.
+//! The record of a load step: every scalar of it, written to `summary.json` and read back.
 
 use super::Tapered;
 use crate::body::HalfSpace;
@@ -19,7 +19,7 @@ pub struct StepRecord {
     /// Why the iteration ended.
     #[cfg_attr(feature = "serde", serde(flatten, with = "with_verdict"))]
     pub stop: Stop,
-    /// Which way led to the solution.
+    /// Route of the iteration to the solution.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub route: Route,
     /// Iterations of all methods and trials on the finest grid.
@@ -42,7 +42,7 @@ pub struct StepRecord {
     /// How contact and traction were solved together; `None` without friction.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub friction: Option<Sliding>,
-    /// Largest stresses; `None` where they are not asked for, and without contact.
+    /// Largest stresses; `None` where they are not computed, and without contact.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub stress: Option<StressReading>,
     /// Utilisation of each criterion with a strength; empty without contact.
@@ -91,7 +91,7 @@ mod with_verdict {
 }
 
 impl StepRecord {
-    /// Of a step and what is read off it, without stresses and time.
+    /// The record of a step and its reading, without stresses and time.
     pub fn new(step: &Step, reading: Reading) -> Self {
         let Step { report, certificate, convolutions, .. } = *step;
         let rough = step.rough_reading(&reading);
@@ -116,9 +116,9 @@ impl StepRecord {
         record.judged()
     }
 
-    /// Adds to the steps of a path on a topography what only all of them tell: its stiffness.
+    /// Adds the stiffness dp̄/dδ, which depends on all steps of a path on a topography.
     pub(super) fn add_stiffness(steps: &mut [Self]) {
-        // What has not converged has no place on the path.
+        // Steps that have not converged are left out.
         let place = |step: &Self| match step.converged() {
             true => [step.reading.mean_pressure, step.reading.penetration],
             false => [f64::NAN; 2],
@@ -145,12 +145,12 @@ impl StepRecord {
         self.strength.iter().find(|own| own.criterion == criterion)
     }
 
-    /// What comes nearest to failure in words, with numbers and their errors as `told` writes them: "yield of material 2 takes
-    /// up 0.93 ± 0.02, or cracking of material 1 within the errors"; `None` without contact or strengths.
-    pub fn governing_in_words(&self, told: impl Fn(f64, Option<f64>) -> String) -> Option<String> {
+    /// The governing criterion in words, numbers and errors formatted by `format`: "yield of material 2 takes up 0.93 ± 0.02, or
+    /// cracking of material 1 within the errors"; `None` without contact or strengths.
+    pub fn governing_in_words(&self, format: impl Fn(f64, Option<f64>) -> String) -> Option<String> {
         let Governing { criterion, rivals, .. } = self.governing.as_ref()?;
         let Utilisation { value, error, .. } = *self.utilisation(*criterion)?;
-        let taken = if value.is_infinite() { "infinitely much".to_owned() } else { told(value, error) };
+        let taken = if value.is_infinite() { "infinitely much".to_owned() } else { format(value, error) };
         Some(format!("{criterion} takes up {taken}{}", within_the_errors(rivals)))
     }
 
@@ -175,7 +175,7 @@ impl StepRecord {
 
     fn is_finite(&self) -> bool {
         let Reading { mean_pressure, penetration, .. } = self.reading;
-        // Under a tip the pressure is infinite, whatever a grid says.
+        // Under a tip the pressure is infinite, also where that of the grid is finite.
         let scalars = [mean_pressure, penetration, self.reading.grid_peak(), self.certificate.energy_gap];
         // Stresses are infinite under a tip.
         let stresses = self.stress.iter().flat_map(|stress| {

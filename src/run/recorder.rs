@@ -1,6 +1,6 @@
-//! The recorder of a run: it is called while the run goes on, and decides whether it does.
+//! The recorder of a run, which is called during the run and may end it.
 
-use super::{Finished, StepRecord};
+use super::{EarlierRun, StepRecord};
 use crate::load::Load;
 use crate::spectral::{Checkpoint, Progress, Solver, Step};
 use crate::stress::StressField;
@@ -12,8 +12,8 @@ pub trait Recorder: Send {
     /// Reason for which the run ends early.
     type Error: Error + Send + Sync + 'static;
 
-    /// The finished part of an earlier run, from which this one goes on. Called once, before the first load.
-    fn finished(&mut self) -> Option<Finished> {
+    /// The earlier run to resume, if any. Called once, before the first load.
+    fn finished(&mut self) -> Option<EarlierRun> {
         None
     }
 

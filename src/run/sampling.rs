@@ -14,7 +14,7 @@ pub enum Sampling {
 }
 
 impl Sampling {
-    /// The grids of a run on a cell, the coarsest first: the given one, or [those of a refinement](Refinement::grids).
+    /// The grids of a run on a cell, the coarsest first: the prescribed one, or [those of a refinement](Refinement::grids).
     ///
     /// # Errors
     /// [`TooOblong`] when a refinement has no grid.

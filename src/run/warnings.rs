@@ -23,7 +23,7 @@ const TAPERED_PART: f64 = 0.02;
 /// Relative error of the stresses on the surface from which on there is a warning.
 const SURFACE_ERROR: f64 = 0.02;
 
-/// Warnings about the steps of a run, about the `end` of its refinement and the last `change`.
+/// Warnings about the steps of a run, and about its refinement by its `end` and last `change`.
 pub(super) fn warnings(
     problem: &Problem,
     steps: &[StepRecord],

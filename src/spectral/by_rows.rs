@@ -1,13 +1,13 @@
 //! Fields that pass through an operator row by row.
 //!
-//! A source fills row after row of a part of the grid for the first pass of a convolution, a sink receives row after row of
+//! A source fills row after row of a block of the grid for the first pass of a convolution, a sink receives row after row of
 //! the result from its last pass: loops before and after a convolution share its way through memory.
 
 use crate::numeric::lanes::Real;
-use crate::numeric::rows::{Parts, next};
+use crate::numeric::rows::{RowBlocks, next};
 use rayon::prelude::*;
 
-/// One function for each [part](Parts) of the rows, called with row after row of it: to fill them (a source) or to use them
+/// One function for each [block](RowBlocks) of the rows, called with row after row of it: to fill them (a source) or to use them
 /// (a sink).
 pub trait ByRows<T>: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator> {}
 
@@ -18,7 +18,7 @@ pub trait ResultRows<T>: Sized {
     /// Passes all rows to the sinks, which may overwrite them.
     ///
     /// # Panics
-    /// When there are not as many sinks as parts.
+    /// When there are not as many sinks as blocks.
     fn rows(self, sinks: impl ByRows<T>) {
         self.some_rows(|_| true, sinks);
     }
@@ -26,16 +26,16 @@ pub trait ResultRows<T>: Sized {
     /// Passes all rows to the sinks, those that are not `needed` possibly as zeros.
     ///
     /// # Panics
-    /// When there are not as many sinks as parts.
+    /// When there are not as many sinks as blocks.
     fn some_rows(self, needed: impl Fn(usize) -> bool + Sync, sinks: impl ByRows<T>);
 }
 
 /// Sources that copy the rows of a field.
-pub fn rows_of<T: Real>(parts: Parts, field: &[T]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
-    parts.of(field).map(|mut rows| move |to: &mut [T]| to.copy_from_slice(next(&mut rows)))
+pub fn rows_of<T: Real>(blocks: RowBlocks, field: &[T]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
+    blocks.of(field).map(|mut rows| move |to: &mut [T]| to.copy_from_slice(next(&mut rows)))
 }
 
 /// Sinks that copy rows to those of a field.
-pub fn rows_to<T: Real>(parts: Parts, field: &mut [T]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
-    parts.of_mut(field).map(|mut rows| move |from: &mut [T]| next(&mut rows).copy_from_slice(from))
+pub fn rows_to<T: Real>(blocks: RowBlocks, field: &mut [T]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
+    blocks.of_mut(field).map(|mut rows| move |from: &mut [T]| next(&mut rows).copy_from_slice(from))
 }

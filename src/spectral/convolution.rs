@@ -6,17 +6,17 @@
 //!
 //! Rows of a group and columns of a tile are as many as take 64 bytes: eight in double, sixteen in single precision. Between
 //! rows and columns the components lie in tiles, [tile][row][real parts, imaginary parts], where columns are transformed
-//! in place. A part of the rows has a run of lines in every tile; only the thread that transforms these rows writes there. Work is split into fixed
-//! parts: neither the number of threads nor their order reaches the result, and nothing of the size of a field is allocated.
+//! in place. A block of the rows has a run of lines in every tile; only the thread that transforms these rows writes there. Work is split into fixed
+//! blocks: neither the number of threads nor their order reaches the result, and nothing of the size of a field is allocated.
 //! Groups of rows whose samples are all zero, and groups whose result is not used ([`ResultRows::some_rows`]), are not transformed.
-//! Rows come from a source and go to a sink, one after the other in each part (`by_rows`).
+//! Rows come from a source and go to a sink, one after the other in each block (`by_rows`).
 //! The factor 1/(N₁N₂) of the inverse transform is applied in one place: [`Convolution::multiplier`] puts it into K.
 
 use super::by_rows::{ByRows, ResultRows};
 use super::multiplier::{Action, Multiplier, SkewRatio};
 use crate::numeric::fourier::{Columns, Rows, line};
 use crate::numeric::lanes::{LANES, Real};
-use crate::numeric::rows::Parts;
+use crate::numeric::rows::RowBlocks;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::fmt;
@@ -25,7 +25,7 @@ use std::ops::Range;
 /// Plans for the transforms of N₁ × N₂ real samples of one precision.
 #[derive(Clone)]
 pub struct Convolution<T: Real> {
-    parts: Parts,
+    blocks: RowBlocks,
     rows: Rows<T>,
     columns: Columns<T>,
     /// k₁ at each place of a column between forward and inverse.
@@ -43,16 +43,16 @@ impl<T: Real> Convolution<T> {
     /// Plans for `points` = [N₁, N₂].
     pub fn new(points: [usize; 2]) -> Self {
         let ([n1, n2], columns) = (points, Columns::new(points[0]));
-        Self { parts: Parts::new(points), rows: Rows::new(n2), order: columns.order(n1), columns }
+        Self { blocks: RowBlocks::new(points), rows: Rows::new(n2), order: columns.order(n1), columns }
     }
 
-    /// The parts of the rows that sources and sinks are for.
-    pub fn parts(&self) -> Parts {
-        self.parts
+    /// The blocks of the rows that sources and sinks are for.
+    pub fn blocks(&self) -> RowBlocks {
+        self.blocks
     }
 
     fn points(&self) -> [usize; 2] {
-        self.parts.points()
+        self.blocks.points()
     }
 
     /// Components of a row, N₂/2 + 1.
@@ -134,11 +134,11 @@ impl<T: Real> Convolution<T> {
     }
 
     /// F⁻¹[cK · F u] or F⁻¹[c F u / K] of a field u, still to be fetched. There is one of the `sources` for each
-    /// [part](Self::parts) of the rows; it puts row after row of u into what it is given. The [`memory`](Self::memory) is what the
+    /// [block](Self::blocks) of the rows; it puts row after row of u into what it is given. The [`memory`](Self::memory) is what the
     /// convolution works in.
     ///
     /// # Panics
-    /// When the multiplier belongs to other `points`, the memory is too small, or there are not as many sources as parts.
+    /// When the multiplier belongs to other `points`, the memory is too small, or there are not as many sources as blocks.
     pub fn convolve<'a>(
         &'a self,
         action: Action<'_>,
@@ -157,14 +157,15 @@ impl<T: Real> Convolution<T> {
     where
         S: IndexedParallelIterator<Item: FnMut(&mut [T])>,
     {
-        let mut parts: Vec<Vec<&mut [T]>> = (0..self.parts.count()).map(|_| Vec::with_capacity(self.tiles())).collect();
+        let mut blocks: Vec<Vec<&mut [T]>> =
+            (0..self.blocks.count()).map(|_| Vec::with_capacity(self.tiles())).collect();
         for tile in spectrum.chunks_exact_mut(self.tile()) {
-            let runs = tile.chunks_mut(self.parts.rows() * line::<T>());
-            runs.zip(&mut parts).for_each(|(run, part)| part.push(run));
+            let runs = tile.chunks_mut(self.blocks.rows() * line::<T>());
+            runs.zip(&mut blocks).for_each(|(run, block)| block.push(run));
         }
-        assert_eq!(sources.len(), parts.len(), "sources of a convolution");
-        let parts = parts.into_par_iter().zip(sources);
-        parts.for_each_init(
+        assert_eq!(sources.len(), blocks.len(), "sources of a convolution");
+        let blocks = blocks.into_par_iter().zip(sources);
+        blocks.for_each_init(
             || self.rows.buffers(),
             |buffers, (mut runs, mut source)| {
                 for lines in self.groups(runs[0].len()) {
@@ -193,12 +194,12 @@ impl<T: Real> Convolution<T> {
 impl<T: Real> ResultRows<T> for Convolved<'_, T> {
     fn some_rows(self, needed: impl Fn(usize) -> bool + Sync, sinks: impl ByRows<T>) {
         let (Self { convolution, spectrum }, sinks) = (self, sinks.into_par_iter());
-        let (parts, [n1, _]) = (convolution.parts, convolution.points());
-        assert_eq!(sinks.len(), parts.count(), "sinks of a convolution");
+        let (blocks, [n1, _]) = (convolution.blocks, convolution.points());
+        assert_eq!(sinks.len(), blocks.count(), "sinks of a convolution");
         sinks.enumerate().for_each_init(
             || convolution.rows.buffers(),
-            |buffers, (part, mut sink)| {
-                let (first, last) = (part * parts.rows(), n1.min((part + 1) * parts.rows()));
+            |buffers, (block, mut sink)| {
+                let (first, last) = (block * blocks.rows(), n1.min((block + 1) * blocks.rows()));
                 let run = first * line::<T>()..last * line::<T>();
                 for lines in convolution.groups(run.len()) {
                     let (count, before) = (lines.len() / line::<T>(), first + lines.start / line::<T>());
@@ -267,8 +268,9 @@ mod tests {
         };
         let scale = 3.0;
         let mut convolve = |action, field: &mut [T]| {
-            let convolved = convolution.convolve(action, &multiplier, &mut memory, rows_of(convolution.parts(), field));
-            convolved.rows(rows_to(convolution.parts(), field));
+            let convolved =
+                convolution.convolve(action, &multiplier, &mut memory, rows_of(convolution.blocks(), field));
+            convolved.rows(rows_to(convolution.blocks(), field));
         };
         convolve(Action::Multiply(scale), &mut field);
         let there: f64 =
@@ -285,7 +287,7 @@ mod tests {
     fn rows_that_are_left_out_change_no_other() {
         let [n1, n2] = [150, 36];
         let convolution = Convolution::<f32>::new([n1, n2]);
-        let parts = convolution.parts();
+        let blocks = convolution.blocks();
         let multiplier = convolution.multiplier(false, |[k1, k2], values| {
             values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = 1.0 / (1 + k1.min(n1 - k1) + k2) as f64);
         });
@@ -300,8 +302,8 @@ mod tests {
         let mut memory = vec![0.0; convolution.memory()];
         let mut convolve = |field: &[f32], is_used: &(dyn Fn(usize) -> bool + Sync)| {
             let mut result = vec![0.0; n1 * n2];
-            let convolved = convolution.convolve(Action::Divide(1.0), &multiplier, &mut memory, rows_of(parts, field));
-            convolved.some_rows(is_used, rows_to(parts, &mut result));
+            let convolved = convolution.convolve(Action::Divide(1.0), &multiplier, &mut memory, rows_of(blocks, field));
+            convolved.some_rows(is_used, rows_to(blocks, &mut result));
             result
         };
         let (some, all) = (convolve(&padded(0.0), &is_used), convolve(&padded(1e-30), &|_| true));

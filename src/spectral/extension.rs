@@ -10,7 +10,7 @@
 //! and how far out. S is symmetric, so that Eᵀ = P_I + P_I S W (1 − P_I), and M is symmetric and positive.
 
 use crate::numeric::lanes::{LANES, own_group, vectorised};
-use crate::numeric::rows::{Parts, next};
+use crate::numeric::rows::{RowBlocks, next};
 use fearless_simd::{f32x8, prelude::*};
 use rayon::prelude::*;
 
@@ -26,16 +26,16 @@ const REACH: usize = WIDTH - 1;
 /// Sources of E (r − mean) for a residual r on I (exactly 0 outside); `weight` becomes W outside and 0 on I, `reached` true for
 /// the rows in which either is not zero.
 pub(super) fn extended<'a>(
-    parts: Parts,
+    blocks: RowBlocks,
     residual: &'a [f32],
     mean: f32,
     weight: &'a mut [f32],
     reached: &'a mut [bool],
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
-    let [_, columns] = parts.points();
-    let fields = parts.of(residual).zip(parts.of_mut(weight)).zip(reached.par_chunks_mut(parts.rows()));
-    fields.enumerate().map(move |(part, ((own, weight), reached))| {
-        let mut sums = Triangles::new(parts, part, residual, Centred { mean });
+    let [_, columns] = blocks.points();
+    let fields = blocks.of(residual).zip(blocks.of_mut(weight)).zip(reached.par_chunks_mut(blocks.rows()));
+    fields.enumerate().map(move |(block, ((own, weight), reached))| {
+        let mut sums = Triangles::new(blocks, block, residual, Centred { mean });
         let [mut near, mut share] = [(); 2].map(|()| PeriodicRow::new(columns));
         let mut rows = own.zip(weight).zip(reached);
         move |row: &mut [f32]| {
@@ -55,12 +55,12 @@ pub(super) fn extended<'a>(
 
 /// Sinks that put the rows of a field y into `image`; `weight` becomes W y, smoothed along a₂.
 pub(super) fn gathered<'a>(
-    parts: Parts,
+    blocks: RowBlocks,
     image: &'a mut [f32],
     weight: &'a mut [f32],
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
-    let [_, columns] = parts.points();
-    parts.of_mut(image).zip(parts.of_mut(weight)).map(move |(image, weight)| {
+    let [_, columns] = blocks.points();
+    blocks.of_mut(image).zip(blocks.of_mut(weight)).map(move |(image, weight)| {
         let mut line = PeriodicRow::new(columns);
         let mut rows = image.zip(weight);
         move |row: &mut [f32]| {
@@ -74,9 +74,9 @@ pub(super) fn gathered<'a>(
     })
 }
 
-/// S W y on row after row of a part, which Eᵀ adds to y on I, from the `weight` that [`gathered`] has set.
-pub(super) fn gathering(parts: Parts, part: usize, weight: &[f32]) -> Triangles<'_, 1, Value> {
-    Triangles::new(parts, part, weight, Value)
+/// S W y on row after row of a block, which Eᵀ adds to y on I, from the `weight` that [`gathered`] has set.
+pub(super) fn gathering(blocks: RowBlocks, block: usize, weight: &[f32]) -> Triangles<'_, 1, Value> {
+    Triangles::new(blocks, block, weight, Value)
 }
 
 /// Terms of each sample of a field that are summed.
@@ -111,7 +111,7 @@ impl Terms<1> for Value {
 }
 
 /// Means over `WIDTH` rows of means over `WIDTH` rows, times `WIDTH`², on row after row of a periodic field: running sums. Those of χ are whole numbers, and exact; others err by some 1e-7 of the largest sample
-/// that has passed in this part.
+/// that has passed in this block.
 #[derive(Debug)]
 pub(super) struct Triangles<'a, const F: usize, T> {
     rows: usize,
@@ -128,8 +128,8 @@ pub(super) struct Triangles<'a, const F: usize, T> {
 }
 
 impl<'a, const F: usize, T: Terms<F>> Triangles<'a, F, T> {
-    fn new(parts: Parts, part: usize, field: &'a [f32], terms: T) -> Self {
-        let ([rows, columns], first) = (parts.points(), part * parts.rows());
+    fn new(blocks: RowBlocks, block: usize, field: &'a [f32], terms: T) -> Self {
+        let ([rows, columns], first) = (blocks.points(), block * blocks.rows());
         let padded = columns.next_multiple_of(LANES);
         let sums = |rows: usize| std::array::from_fn(|_| vec![0.0; rows * padded]);
         let (once, past, twice) = (sums(1), sums(WIDTH), sums(1));
@@ -256,7 +256,7 @@ fn continued<S: Simd>(
 mod tests {
     use super::*;
 
-    /// ⟨E r, y⟩ = ⟨r, Eᵀ y⟩, on grids smaller than the reach and of several parts.
+    /// ⟨E r, y⟩ = ⟨r, Eᵀ y⟩, on grids smaller than the reach and of several blocks.
     #[test]
     fn gathering_is_the_adjoint_of_the_extension() {
         for [n1, n2] in [[4, 7], [90, 24], [131, 300]] {
@@ -266,21 +266,21 @@ mod tests {
             let residual: Vec<f32> = (0..size).map(|k| if inside(k) { noise(k) + 2.0 } else { 0.0 }).collect();
             let other: Vec<f32> = (0..size).map(|k| noise(k + 77)).collect();
             let [mut extension, mut weight, mut image] = [(); 3].map(|()| vec![0.0; size]);
-            let parts = Parts::new([n1, n2]);
-            extended(parts, &residual, mean, &mut weight, &mut vec![false; n1])
-                .zip(extension.par_chunks_mut(parts.rows() * n2))
+            let blocks = RowBlocks::new([n1, n2]);
+            extended(blocks, &residual, mean, &mut weight, &mut vec![false; n1])
+                .zip(extension.par_chunks_mut(blocks.rows() * n2))
                 .for_each(|(mut source, rows)| rows.chunks_mut(n2).for_each(&mut source));
             let outside = (0..size).filter(|&k| !inside(k) && extension[k] != 0.0).count();
             assert!(outside > size / 2, "{outside} of {size} samples continued");
             let mut rows = other.clone();
-            gathered(parts, &mut image, &mut weight)
-                .zip(rows.par_chunks_mut(parts.rows() * n2))
+            gathered(blocks, &mut image, &mut weight)
+                .zip(rows.par_chunks_mut(blocks.rows() * n2))
                 .for_each(|(mut sink, rows)| rows.chunks_mut(n2).for_each(&mut sink));
             assert_eq!(image, other);
             let mut gathered = Vec::new();
-            for part in 0..parts.count() {
-                let mut rows = gathering(parts, part, &weight);
-                let own = parts.rows().min(n1 - part * parts.rows());
+            for block in 0..blocks.count() {
+                let mut rows = gathering(blocks, block, &weight);
+                let own = blocks.rows().min(n1 - block * blocks.rows());
                 (0..own).for_each(|_| gathered.extend_from_slice(&rows.next()[0][..n2]));
             }
             let dot = |a: f32, b: f32| f64::from(a) * f64::from(b);

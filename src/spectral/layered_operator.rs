@@ -11,12 +11,12 @@
 use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
 use super::convolution::{Convolution, Convolved};
 use super::multiplier::{Action, Multiplier, SkewRatio};
-use super::operator::{ElasticOperator, Traction, Workspace};
+use super::operator::{ElasticOperator, TractionUpdate, Workspace};
 use crate::body::{Compliances, HalfSpace};
 use crate::friction::Friction;
 use crate::lattice::Grid;
 use crate::numeric::lanes::Real;
-use crate::numeric::rows::Parts;
+use crate::numeric::rows::RowBlocks;
 
 /// Displacement operator of a layered half-space on a grid, with its inverse.
 #[derive(Debug)]
@@ -111,8 +111,8 @@ impl LayeredOperator {
 impl ElasticOperator for LayeredOperator {
     type Rows<'a, T: Real> = Convolved<'a, T>;
 
-    fn parts(&self) -> Parts {
-        self.double.parts()
+    fn blocks(&self) -> RowBlocks {
+        self.double.blocks()
     }
 
     fn unit(&self) -> f64 {
@@ -128,7 +128,7 @@ impl ElasticOperator for LayeredOperator {
     }
 
     fn split<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
-        let [n1, n2] = self.parts().points();
+        let [n1, n2] = self.blocks().points();
         // Of few columns a tile in single precision has as many bytes as those in double precision.
         let single = self.single.memory();
         let size = self.double.memory().max(single + (n1 * n2).div_ceil(2));
@@ -144,15 +144,15 @@ impl ElasticOperator for LayeredOperator {
 
     fn displaced_single<'a>(
         &'a mut self,
-        traction: Traction,
+        traction: TractionUpdate,
         memory: &'a mut [f64],
         pressure: impl ByRows<f32>,
     ) -> Convolved<'a, f32> {
         self.convolutions += 0.5;
         let factor = 1.0 / self.unit;
         let action = match traction {
-            Traction::Updated => self.multiplied(factor),
-            Traction::Lagged => Action::Multiply(factor),
+            TractionUpdate::Updated => self.multiplied(factor),
+            TractionUpdate::Lagged => Action::Multiply(factor),
         };
         self.single.convolve(action, &self.compliance, memory, pressure)
     }
@@ -180,9 +180,9 @@ fn in_place<T: Real>(
     field: &mut [T],
     workspace: &mut Workspace,
 ) {
-    let (parts, memory) = (convolution.parts(), workspace.of(convolution.memory()));
+    let (blocks, memory) = (convolution.blocks(), workspace.of(convolution.memory()));
     rayon::scope(|_| {
-        let convolved = convolution.convolve(action, compliance, memory, rows_of(parts, field));
-        convolved.rows(rows_to(parts, field));
+        let convolved = convolution.convolve(action, compliance, memory, rows_of(blocks, field));
+        convolved.rows(rows_to(blocks, field));
     });
 }

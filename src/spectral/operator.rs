@@ -6,7 +6,7 @@
 use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
 use crate::numeric::aligned::Aligned;
 use crate::numeric::lanes::Real;
-use crate::numeric::rows::Parts;
+use crate::numeric::rows::RowBlocks;
 
 /// Memory that convolutions work in, for any number of grids in turn.
 #[derive(Debug, Default)]
@@ -26,7 +26,7 @@ impl Workspace {
 
 /// Which pressure the traction of coupled friction belongs to while the pressure changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Traction {
+pub enum TractionUpdate {
     /// The present one: the traction is updated in every step.
     Updated,
     /// The last one in double precision: the traction lags behind.
@@ -44,8 +44,8 @@ pub trait ElasticOperator {
     where
         Self: 'a;
 
-    /// The parts of the rows that sources and sinks belong to.
-    fn parts(&self) -> Parts;
+    /// The blocks of the rows that sources and sinks belong to.
+    fn blocks(&self) -> RowBlocks;
 
     /// C at the least wavenumber, a length per pressure: the unit of single precision.
     fn unit(&self) -> f64;
@@ -66,7 +66,7 @@ pub trait ElasticOperator {
     /// Changes of p → changes of w, in single precision: by A with an updated traction, by C with a lagged one.
     fn displaced_single<'a>(
         &'a mut self,
-        traction: Traction,
+        traction: TractionUpdate,
         memory: &'a mut [f64],
         pressure: impl ByRows<f32>,
     ) -> Self::Rows<'a, f32>;
@@ -79,8 +79,8 @@ pub trait ElasticOperator {
 
     /// p → w = A p in place.
     fn displace(&mut self, field: &mut [f64], workspace: &mut Workspace) {
-        let parts = self.parts();
-        self.displaced(workspace, rows_of(parts, field)).rows(rows_to(parts, field));
+        let blocks = self.blocks();
+        self.displaced(workspace, rows_of(blocks, field)).rows(rows_to(blocks, field));
     }
 }
 
@@ -100,7 +100,7 @@ mod tests {
 
     /// A body given by the matrices of A = C and C⁻¹.
     struct Dense {
-        parts: Parts,
+        blocks: RowBlocks,
         unit: f64,
         compliance: Vec<f64>,
         stiffness: Vec<f64>,
@@ -108,14 +108,14 @@ mod tests {
     }
 
     struct Product<T> {
-        parts: Parts,
+        blocks: RowBlocks,
         field: Vec<T>,
     }
 
     impl<T: Real> ResultRows<T> for Product<T> {
         fn some_rows(mut self, _: impl Fn(usize) -> bool + Sync, sinks: impl ByRows<T>) {
-            let parts = self.parts.of_mut(&mut self.field).zip(sinks.into_par_iter());
-            parts.for_each(|(rows, mut sink)| rows.for_each(&mut sink));
+            let blocks = self.blocks.of_mut(&mut self.field).zip(sinks.into_par_iter());
+            blocks.for_each(|(rows, mut sink)| rows.for_each(&mut sink));
         }
     }
 
@@ -134,28 +134,28 @@ mod tests {
             };
             let compliance = columns(&mut |operator, field, workspace| operator.displacement(field, workspace));
             let stiffness = columns(&mut |operator, field, workspace| operator.pressure(field, workspace));
-            Self { parts: operator.parts(), unit: operator.unit(), compliance, stiffness, products: 0.0 }
+            Self { blocks: operator.blocks(), unit: operator.unit(), compliance, stiffness, products: 0.0 }
         }
 
         fn product<T: Real>(&self, matrix: &[f64], factor: f64, sources: impl ByRows<T>) -> Product<T> {
-            let [n1, n2] = self.parts.points();
+            let [n1, n2] = self.blocks.points();
             let mut field = vec![T::zero(); n1 * n2];
-            let parts = self.parts.of_mut(&mut field).zip(sources.into_par_iter());
-            parts.for_each(|(rows, mut source)| rows.for_each(&mut source));
+            let blocks = self.blocks.of_mut(&mut field).zip(sources.into_par_iter());
+            blocks.for_each(|(rows, mut source)| rows.for_each(&mut source));
             let mut sums = vec![0.0; field.len()];
             for (value, column) in field.iter().zip(matrix.chunks_exact(n1 * n2)) {
                 let value = factor * value.double();
                 sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += value * entry);
             }
-            Product { parts: self.parts, field: sums.into_iter().map(T::rounded).collect() }
+            Product { blocks: self.blocks, field: sums.into_iter().map(T::rounded).collect() }
         }
     }
 
     impl ElasticOperator for Dense {
         type Rows<'a, T: Real> = Product<T>;
 
-        fn parts(&self) -> Parts {
-            self.parts
+        fn blocks(&self) -> RowBlocks {
+            self.blocks
         }
 
         fn unit(&self) -> f64 {
@@ -171,7 +171,7 @@ mod tests {
         }
 
         fn split<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
-            let [n1, n2] = self.parts.points();
+            let [n1, n2] = self.blocks.points();
             (&mut [], &mut bytemuck::cast_slice_mut(workspace.of((n1 * n2).div_ceil(2)))[..n1 * n2])
         }
 
@@ -182,7 +182,7 @@ mod tests {
 
         fn displaced_single<'a>(
             &'a mut self,
-            _: Traction,
+            _: TractionUpdate,
             _: &'a mut [f64],
             pressure: impl ByRows<f32>,
         ) -> Product<f32> {
@@ -197,8 +197,8 @@ mod tests {
 
         fn symmetric_pressure(&mut self, field: &mut [f64], _: &mut Workspace) {
             self.products += 1.0;
-            let pressure = self.product(&self.stiffness, 1.0, rows_of(self.parts, field));
-            pressure.rows(rows_to(self.parts, field));
+            let pressure = self.product(&self.stiffness, 1.0, rows_of(self.blocks, field));
+            pressure.rows(rows_to(self.blocks, field));
         }
     }
 

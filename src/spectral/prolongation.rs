@@ -37,7 +37,7 @@ fn smooth_square(grid: &Grid, pressure: &[f64], gap: &[f64], modulus: f64) -> Ve
             .or_else(|| mean(&mut grid.neighbours(i).filter(|k| !adjacent.contains(k)), 2f64.sqrt() * apart))
     };
     let mut s = vec![0.0; pressure.len()];
-    rows::each(n2, s.par_chunks_mut(n2), |row, s| {
+    rows::each_row(n2, s.par_chunks_mut(n2), |row, s| {
         let [above, here, below] = [row + n1 - 1, row, row + 1].map(|row| &pressure[row % n1 * n2..][..n2]);
         let near = |column: usize| above[column].max(here[column]).max(below[column]) > 0.0;
         let (mut before, mut at) = (near(n2 - 1), near(0));

@@ -218,12 +218,10 @@ impl StressField {
         }
     }
 
-    /// The state at a candidate.
     fn state_at(&self, candidate: &Candidate) -> StressState {
         self.stresses_at(&self.depth_response(candidate.depth, SEARCH_REACH), &[candidate.place])[0]
     }
 
-    /// The contender at a candidate with its state.
     fn contender(&self, candidate: &Candidate, state: StressState) -> Contender {
         let Candidate { value, depth, place: [x, y], .. } = *candidate;
         let peak = Peak {

@@ -14,7 +14,7 @@ pub struct Axis {
     pub values: Vec<String>,
 }
 
-/// Why a text is no axis.
+/// Why a text is not an axis.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "--set {text}: {reason}; write KEY=V1,V2,…, KEY=A:B:N or KEY=A:B:N:log, for example layers.0.thickness=0.1:1:5:log"
@@ -64,7 +64,7 @@ impl fmt::Display for Axis {
     }
 }
 
-/// The values of `A:B:N` or `A:B:N:log`; `None` for a text that is neither.
+/// The values of `A:B:N` or `A:B:N:log`; `None` for any other text.
 fn range(text: &str) -> Option<Result<Vec<String>, String>> {
     let parts: Vec<&str> = text.split(':').map(str::trim).collect();
     let (from, to, count, spacing) = match parts[..] {
@@ -112,7 +112,7 @@ fn plain(value: f64) -> String {
     if value != 0.0 && !(1e-4..1e15).contains(&size) { format!("{value:e}") } else { value.to_string() }
 }
 
-/// Parts between commas that stand outside brackets and quotes.
+/// Parts between commas outside brackets and quotes.
 fn listed(text: &str) -> Vec<&str> {
     let (mut parts, mut start, mut depth, mut quote) = (Vec::new(), 0, 0_usize, None);
     for (at, c) in text.char_indices() {

@@ -28,7 +28,7 @@ pub struct Combinations {
 /// Why keys and values make no sweep.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CombinationsError {
-    /// Nothing is varied.
+    /// No key has several values.
     #[error(
         "a sweep needs a key with several values, for example --set layers.0.thickness=0.1,0.2,0.5, or a table of them"
     )]
@@ -99,7 +99,7 @@ impl Group {
     /// # Errors
     /// [`CombinationsError::Table`] with the line, `TooMany`.
     pub fn table(text: &str) -> Result<Self, CombinationsError> {
-        // Lines are counted before one is read.
+        // Lines are counted before they are read.
         let count = text.bytes().filter(|byte| *byte == b'\n').count();
         if count > 2 * MOST {
             return Err(CombinationsError::TooMany(count.to_string()));

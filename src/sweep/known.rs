@@ -46,7 +46,7 @@ impl Study<'_> {
             let combination = planned.combination;
             let Some(row) = by_print.get(&planned.fingerprint) else { continue };
             if self.keeps_fields {
-                // A row without files is one of a sweep that has kept none.
+                // A row without files is of a sweep without fields.
                 if row.combination != combination.number || row.files.is_empty() {
                     continue;
                 }

@@ -16,7 +16,7 @@ use std::path::Path;
 #[derive(Debug)]
 pub struct Log {
     lines: LineLog,
-    /// See [`Description::identity`](super::Description::identity).
+    /// [Identity](super::Description::identity) of the sweep.
     sweep: String,
 }
 
@@ -28,7 +28,7 @@ struct Line<R> {
     row: R,
 }
 
-/// A row that is as it was written.
+/// An undamaged row of a log.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Logged {
     /// Number of its line, from 1.
@@ -153,7 +153,7 @@ mod tests {
         let mut file = std::fs::File::options().append(true).open(&path).unwrap();
         file.write_all(&"{\"combination\": 3, \"µ".as_bytes()[..21]).unwrap();
         assert_eq!(rows(&path), [row(1), row(2)]);
-        // Going on cuts it off.
+        // Resuming cuts it off.
         let mut log = Log::begin(folder.path(), "1-2", &rows(&path)).unwrap();
         log.add(&row(3)).unwrap();
         assert_eq!(rows(&path), [row(1), row(2), row(3)]);
@@ -190,7 +190,7 @@ mod tests {
                 }
             }
         }
-        // What is no text is no row either.
+        // Bytes that are not UTF-8 are not a row.
         let mut bytes = whole.clone().into_bytes();
         bytes[lines[0].len() + 20] = 0xff;
         std::fs::write(&path, bytes).unwrap();

@@ -22,7 +22,7 @@ pub enum PartError {
         /// The error of the system.
         error: io::Error,
     },
-    /// A file is not as the sweep has written it.
+    /// A file was changed since the sweep wrote it.
     #[error("{}{reason}; {advice}", plain::path(path), advice = advice(path))]
     Damaged {
         /// The file.

@@ -22,11 +22,11 @@ pub enum SweepResult {
 /// The first criterion that is reached in a search for limit loads, or the governing one under a load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Foremost {
-    /// This criterion.
+    /// A criterion.
     Criterion(Criterion),
     /// No criterion is reached, and some may be within the errors.
     Undecided,
-    /// Nothing fails.
+    /// No criterion is reached.
     Nothing,
 }
 
@@ -49,7 +49,7 @@ pub type Measured = (f64, Option<f64>);
 /// A scalar of a load step with its error.
 #[derive(Debug, Clone, Copy)]
 pub struct Scalar {
-    /// Its name in tables.
+    /// Name in tables.
     pub name: &'static str,
     /// The kind of its unit.
     pub kind: Kind,
@@ -90,17 +90,17 @@ fn finite(peak: &crate::stress::Peak) -> Option<Measured> {
 }
 
 impl SweepResult {
-    /// The load step; `None` of limits.
+    /// The load step; `None` for limits.
     pub fn step(&self) -> Option<&StepRecord> {
         if let Self::Step(step) = self { Some(step) } else { None }
     }
 
-    /// The limit of each criterion; `None` of a load step.
+    /// The limit of each criterion; `None` for a load step.
     pub fn limits(&self) -> Option<&[Limit]> {
         if let Self::Limits(limits) = self { Some(limits) } else { None }
     }
 
-    /// The first limit, or that of a criterion; `None` of a load step, and where none is reached first.
+    /// The first limit, or that of a criterion; `None` for a load step, and where none is reached first.
     pub fn limit(&self, of: Option<Criterion>) -> Option<&Limit> {
         let limits = self.limits()?;
         match of {
@@ -130,7 +130,7 @@ impl SweepResult {
         }
     }
 
-    /// The criteria that may come first within the errors instead.
+    /// The criteria that may be foremost within the errors instead.
     pub fn rivals(&self) -> Vec<Criterion> {
         match self {
             Self::Step(step) => step.governing.as_ref().map_or(Vec::new(), |governing| governing.rivals.clone()),
@@ -138,7 +138,7 @@ impl SweepResult {
         }
     }
 
-    /// The criterion that comes first with its rivals in words; `None` where there is none.
+    /// The foremost criterion with its rivals in words; `None` for a load step without strengths.
     pub fn foremost_in_words(&self) -> Option<String> {
         let Foremost::Criterion(criterion) = self.foremost()? else { return None };
         Some(format!("{criterion}{}", within_the_errors(&self.rivals())))

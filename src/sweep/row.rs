@@ -32,7 +32,7 @@ impl Status {
     }
 }
 
-/// A combination that is done: a line of `sweep.jsonl`.
+/// A finished combination: a line of `sweep.jsonl`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Its number in the sweep, from 1.
@@ -51,7 +51,7 @@ pub struct Row {
     pub results: Vec<SweepResult>,
     /// Wall time, seconds.
     pub seconds: f64,
-    /// Where fields are kept, its files by their names in its folder.
+    /// Its files by their names in its folder, where fields are kept.
     #[serde(default, skip_serializing_if = "Files::is_empty")]
     pub files: Files,
 }

@@ -155,7 +155,7 @@ impl<'a> Study<'a> {
         Self { stop, ..self }
     }
 
-    /// The files of all combinations, relative to the folder of the result; none where fields are not kept.
+    /// Names of the files of all combinations, relative to the output folder; empty where fields are not kept.
     pub fn files(&self) -> Vec<String> {
         let kept = self.planned.iter().filter(|_| self.keeps_fields);
         kept.flat_map(|planned| {

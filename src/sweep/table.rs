@@ -47,11 +47,11 @@ pub struct Description {
     pub of: usize,
     /// Number of combinations here.
     pub combinations: usize,
-    /// Number of those that are done.
+    /// Number of finished combinations.
     pub done: usize,
-    /// Number of those in which something did not converge.
+    /// Number of combinations that did not converge.
     pub not_converged: usize,
-    /// Number of those without results.
+    /// Number of combinations without results.
     pub failed: usize,
     /// Each warning of any combination.
     pub warnings: Vec<String>,

@@ -13,7 +13,7 @@ pub enum Task {
 }
 
 impl Task {
-    /// Its code in files.
+    /// Code in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Solve => "solve",

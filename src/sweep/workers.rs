@@ -1,4 +1,4 @@
-//! Independent pieces of work, several at once.
+//! Independent items, several solved at once.
 //!
 //! Each worker has one thread of its own, so that none waits for another, and memory is that of one solution for each worker.
 //! Results are the same for any number of workers and threads, bit for bit.

@@ -178,7 +178,7 @@ fn files_that_hold_something_else_are_refused_or_told() {
             "zeros where nothing was measured",
             "a.txt",
             matrix([16, 16], " ", |i, j| if i == j { "0".to_owned() } else { format!("{:.4}", 80.0 + height(i, j)) }),
-            Told(&["the same height stands at 16 of 256"]),
+            Told(&["the same height occurs at 16 of 256"]),
         ),
         (
             "a spike",
@@ -189,7 +189,7 @@ fn files_that_hold_something_else_are_refused_or_told() {
         ("points with holes", "a.txt", gaps, Refused(&["6 of 16 × 16 points are missing"])),
         ("points with a quality", "a.txt", four, Refused(&["16 × 16 grid", "keep x, y and z"])),
         ("points anywhere", "a.txt", scattered.clone(), Told(&["200 lines of three numbers", "points x y z?"])),
-        ("points anywhere, said", "a.xyz", scattered, Refused(&["stands on no grid"])),
+        ("points anywhere, said", "a.xyz", scattered, Refused(&["is on no grid"])),
         (
             "two images by headers",
             "a.txt",

@@ -2,7 +2,7 @@
 
 use percoat::case::{Case, Source};
 use percoat::output::{self, Clock, OutputError, Recording, RunFolder, solved_plan, write_scalars};
-use percoat::run::{Finished, Outcome, Recorder, RunError, StepRecord};
+use percoat::run::{EarlierRun, Outcome, Recorder, RunError, StepRecord};
 use percoat::spectral::Checkpoint;
 use percoat::{Solver, Step, StressField};
 use std::fmt;
@@ -45,7 +45,7 @@ impl Mortal<'_> {
 impl Recorder for Mortal<'_> {
     type Error = Death;
 
-    fn finished(&mut self) -> Option<Finished> {
+    fn finished(&mut self) -> Option<EarlierRun> {
         self.recording.finished()
     }
 

@@ -118,8 +118,8 @@ fn the_page_of_a_limit_says_first_what_fails_first() {
     assert_eq!(answer.code, 0, "{}", answer.err);
     let page = words(&report(&desk, "out"));
     let sentence = "First: delamination of interface 1 at the mean pressure 0.06";
-    let (answer_at, asked_at) = (page.find(sentence).expect("the limit"), page.find("What was asked</h2>").unwrap());
-    assert!(answer_at < asked_at && page[answer_at..asked_at].contains(" ± "));
+    let (answer_at, problem_at) = (page.find(sentence).expect("the limit"), page.find("Problem</h2>").unwrap());
+    assert!(answer_at < problem_at && page[answer_at..problem_at].contains(" ± "));
     let (table, _) = answer.out.split_once("\n\n").map(|(_, rest)| rest).unwrap().split_once("stresses with").unwrap();
     let (first, table) = table.split_once("criterion").unwrap();
     assert!(first.contains("first: delamination of interface 1"));
@@ -171,7 +171,7 @@ fn the_page_of_a_sweep_counts_what_is_solved_and_says_why_the_rest_is_not() {
         "mind the gap",
         ">layers.0.thickness<",
         "the &lt;penetration&gt; is too small",
-        "All columns stand in sweep.csv.",
+        "All columns are in sweep.csv.",
         "shear_ratio = 2.0",
     ] {
         assert!(page.contains(words), "no {words}");
@@ -182,7 +182,7 @@ fn the_page_of_a_sweep_counts_what_is_solved_and_says_why_the_rest_is_not() {
     write(&rows);
     let page = report(&desk, "sweep");
     assert!(page.contains("<figure id=\"sweep\" class=\"wide\">"));
-    assert!(page.contains("199 further rows and all columns stand in sweep.csv."));
+    assert!(page.contains("199 further rows and all columns are in sweep.csv."));
 }
 
 #[test]

@@ -17,24 +17,24 @@ pub struct Allowed<'a> {
 }
 
 impl<'a> Allowed<'a> {
-    /// A job that writes into `folder`; one that does not fit is refused before it takes anything.
+    /// Checks a job that writes into `folder` before it starts.
     ///
     /// # Errors
-    /// A sentence with what it takes, what there is, and what would fit.
+    /// A sentence with the memory or disk needed and available, and what would fit.
     pub fn new(case: &'a Case, folder: &Path, job: Job) -> Result<Self, String> {
         Self::within(case, Capacity::on_this_machine(folder), job)
     }
 
-    /// A job with the memory and disk of `room`.
+    /// Checks a job against the memory and disk of `room`.
     ///
     /// # Errors
-    /// As those of [`Allowed::new`].
+    /// Those of [`Allowed::new`].
     pub fn within(case: &'a Case, room: Capacity, job: Job) -> Result<Self, String> {
         refusal(case, room, job).map_or(Ok(Self { case, job, room }), Err)
     }
 }
 
-/// Keeps nothing of a run; grids that do not fit are not solved.
+/// Records nothing; ends a refinement at the first grid that does not fit.
 impl Recorder for Allowed<'_> {
     type Error = Infallible;
 

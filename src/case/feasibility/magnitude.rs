@@ -1,7 +1,7 @@
-//! What double precision cannot carry, refused with the reason.
+//! Limits of double precision: refusal of numbers whose ratios are too large.
 //!
-//! Each number alone is one that [`CARRIED`] says; the ratios below are those at which one of two numbers no longer
-//! counts beside the other, far beyond any body that could be made.
+//! Each number alone is within [`CARRIED`]. Beyond the ratios below one of two numbers is lost in rounding beside the other, far
+//! beyond those of any real body.
 
 use std::ops::RangeInclusive;
 
@@ -15,9 +15,9 @@ use crate::plain::float;
 use crate::run::Sampling;
 use crate::units::CARRIED;
 
-/// Ratios of moduli, of thicknesses to the cell, and of springs to what they hold, that still count.
+/// Allowed ratios of moduli, of thicknesses to the cell, and of springs to the layers above them.
 const RATIO: RangeInclusive<f64> = 1e-12..=1e12;
-/// How much denser samples may stand along one cell vector than along the other.
+/// Largest ratio of the spacings of samples along the two cell vectors.
 const DENSER: f64 = 1000.0;
 
 /// A direction [x, y] along the surface, of any length.
@@ -29,14 +29,14 @@ pub(in crate::case) fn direction(value: &ValueAt<'_>) -> Result<[f64; 2], Refusa
     Ok(direction)
 }
 
-/// Layers and their interfaces beside the cell and the substrate.
+/// Refuses layers and interfaces whose ratios to cell and substrate are not [allowed](RATIO).
 pub(in crate::case) fn layers(half_space: &HalfSpace, sections: &[&TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
     let side = cell.reduced().longer_side();
     let substrate = half_space.substrate().shear();
     for (layer, section) in half_space.layers().iter().zip(sections) {
         let refuse = |key: &str, what: String, help: &str| {
-            let place = section.optional(key).map_or(section.place, |value| value.node.place);
-            Refusal::new(place, format!("`{}`: {what}", section.path(key)), "beyond double precision").help(help)
+            let span = section.optional(key).map_or(section.span, |value| value.node.span);
+            Refusal::new(span, format!("`{}`: {what}", section.path(key)), "beyond double precision").help(help)
         };
         let shear = layer.material().shear();
         if !RATIO.contains(&(shear / substrate)) {
@@ -80,7 +80,7 @@ pub(in crate::case) fn layers(half_space: &HalfSpace, sections: &[&TableAt<'_>],
     Ok(())
 }
 
-/// Profiles of the levels within the cell.
+/// Refuses profiles that rise too much or too little within the cell.
 pub(in crate::case) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
     let reach = cell.reduced().longer_side();
     for (level, section) in levels.iter().zip(sections) {
@@ -88,14 +88,14 @@ pub(in crate::case) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell
         if !CARRIED.contains(&rise) {
             let what =
                 format!("at the distance {} of the cell's side the profile rises by {}", float(reach), float(rise));
-            return Err(Refusal::new(section.place, format!("`{}`: {what}", section.path("shape")), "this level")
+            return Err(Refusal::new(section.span, format!("`{}`: {what}", section.path("shape")), "this level")
                 .help("between 1e-60 and 1e60 is carried by double precision; choose other units"));
         }
     }
     Ok(())
 }
 
-/// Samples as dense along one vector as along the other, to a factor; for a refinement a grid that is.
+/// Refuses grids whose spacings along the cell vectors differ by more than a factor [`DENSER`], and a refinement without a grid.
 pub(in crate::case) fn grid(
     grid: Sampling,
     file: Option<[usize; 2]>,
@@ -104,7 +104,7 @@ pub(in crate::case) fn grid(
     cell: Cell,
 ) -> Result<(), Refusal> {
     let Sampling::Points([n1, n2]) = grid else {
-        let refuse = |error| Refusal::new(lattice.place, format!("`grid.accuracy`: {error}"), "this cell");
+        let refuse = |error| Refusal::new(lattice.span, format!("`grid.accuracy`: {error}"), "this cell");
         return grid.grids(&cell).map(drop).map_err(refuse);
     };
     let [a1, a2] = cell.vectors().map(|[x, y]| x.hypot(y));
@@ -113,13 +113,13 @@ pub(in crate::case) fn grid(
         return Ok(());
     }
     let points = section.optional("points");
-    let place = points.map_or(lattice.place, |value| value.node.place);
+    let span = points.map_or(lattice.span, |value| value.node.span);
     let what = format!("samples stand {} apart along a₁ and {} along a₂", short(first), short(second));
     let advice = match file {
         Some(_) => "give each vector its own points = [n1, n2], others than the file's",
         None => "give each vector its own points = [n1, n2]",
     };
-    Err(Refusal::new(place, format!("`grid.points`: {what}"), format!("{n1} × {n2} points"))
+    Err(Refusal::new(span, format!("`grid.points`: {what}"), format!("{n1} × {n2} points"))
         .help(format!("at most a factor of 1000 is allowed between them: {advice}")))
 }
 

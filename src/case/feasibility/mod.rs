@@ -1,9 +1,8 @@
-//! Whether a case can be solved on this machine, and whether it means what it says.
+//! Whether a case can be solved on this machine, and warnings about implausible numbers.
 //!
-//! `magnitude` refuses what double precision cannot carry, while the case is read. [`resources`] estimates memory and disk of a run
-//! and refuses what does not fit, an [`Allowed`] job fits. [`plausibility`] warns of what looks mixed up, with `si_sizes` of numbers that no material has in
-//! its SI units and `sublayers` of graded layers that are laid out too coarsely. `single_contact` estimates steep flanks and
-//! coarse grids before anything is solved.
+//! `magnitude` refuses ratios beyond double precision while the case is read. [`resources`] estimates memory and disk of a run; an
+//! [`Allowed`] job fits into them. [`plausibility`] warns of units mixed up, `si_sizes` of values that no material has in SI units,
+//! `sublayers` of graded layers with too few sublayers, `single_contact` of steep flanks and coarse grids.
 
 mod allowed;
 pub(super) mod magnitude;

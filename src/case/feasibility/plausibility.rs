@@ -1,4 +1,4 @@
-//! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
+//! Warnings about a case that can be solved but is implausible: units mixed up, strains that are not small.
 
 use super::{si_sizes, sublayers};
 use crate::body::{Interface, Layer, Material, MeanStress};
@@ -9,16 +9,16 @@ use crate::notation::number;
 use crate::run::warnings::{HIGH, STEEP, ratio};
 use std::iter::repeat_n;
 
-/// Lengths of one case that differ by more than this are hardly in one unit, nor are moduli that differ by so much.
+/// Ratio of two lengths, or two moduli, beyond which they are probably not in one unit.
 const APART: f64 = 1e4;
 const MODULI_APART: f64 = 1e3;
-/// Coefficients of friction beyond this are hardly ones.
+/// Coefficient of friction beyond which it is implausible.
 const ROUGH: f64 = 2.0;
 
 /// What it is called.
 const SUBSTRATE: &str = "the substrate";
 
-/// What the case alone makes doubtful, one sentence each.
+/// Warnings about a case before it is solved, a sentence each.
 pub fn of_case(case: &Case) -> Vec<String> {
     let (counterbody, cell) = (case.counterbody(), case.counterbody().cell());
     let mut doubts: Vec<String> = pressures(case).into_iter().collect();
@@ -41,7 +41,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
     doubts
 }
 
-/// The layers of the half-space as the case has them: `layers[0]`, or one of its sublayers.
+/// Names of the layers of the half-space in the case: `layers[0]`, or one of its sublayers.
 fn names(layers: &[LayerSection]) -> impl Iterator<Item = String> {
     layers.iter().enumerate().flat_map(|(number, layer)| {
         let (of, graded) = (layer.sublayers(), layer.graded.is_some());
@@ -76,7 +76,7 @@ fn materials(case: &Case) -> impl Iterator<Item = (Material, String)> {
     case.half_space().materials().zip(names(&case.layers).chain([SUBSTRATE.to_owned()]))
 }
 
-/// The stiffest and the most compliant material, where no coating is so much stiffer than what it lies on.
+/// Young's moduli whose largest ratio is implausible.
 fn moduli(case: &Case) -> Option<String> {
     let by_young = |a: &(Material, String), b: &(Material, String)| a.0.young().total_cmp(&b.0.young());
     let (stiff, stiff_name) = materials(case).max_by(by_young)?;
@@ -93,7 +93,7 @@ fn moduli(case: &Case) -> Option<String> {
     })
 }
 
-/// Strengths and residual stresses that no material bears.
+/// Strengths and residual stresses that are implausibly large beside Young's modulus.
 fn strengths(case: &Case) -> Vec<String> {
     let half_space = case.half_space();
     let stresses = half_space.residual_stresses().map(f64::abs);
@@ -121,7 +121,7 @@ fn friction(case: &Case) -> Option<String> {
     })
 }
 
-/// Radii and thicknesses that the cell dwarfs, or that dwarf it.
+/// Radii and thicknesses that are implausibly small or large beside the cell.
 fn lengths(case: &Case, cell: Cell) -> Vec<String> {
     let [side, other] = cell.vectors().map(|[x, y]| x.hypot(y));
     let side = side.min(other);
@@ -131,7 +131,7 @@ fn lengths(case: &Case, cell: Cell) -> Vec<String> {
             Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
                 all.push((format!("levels[{number}].radius"), radius));
             }
-            // As of a paraboloid, whose radius this is.
+            // The radius of the paraboloid with the slope of the profile there.
             Shape::Power { coefficient, exponent } if exponent > 1.0 => {
                 let slope = coefficient * exponent * side.powf(exponent - 1.0);
                 all.push((
@@ -159,7 +159,7 @@ fn lengths(case: &Case, cell: Cell) -> Vec<String> {
     .collect()
 }
 
-/// Heights whose differences are lost among their digits, or are larger than the cell.
+/// Heights whose differences are lost in rounding, or are larger than the cell.
 fn heights(levels: &[Level], cell: Cell) -> Option<String> {
     let largest = levels.iter().map(|level| level.height().abs()).fold(0.0, f64::max);
     let side = cell.reduced().longer_side();
@@ -186,7 +186,7 @@ fn steep_cone(index: usize, level: &Level) -> Option<String> {
     })
 }
 
-/// A topography whose mean slope is no surface's.
+/// A topography with an implausible rms slope.
 fn topography(topography: &Topography) -> Option<String> {
     let ([n1, n2], heights) = (topography.points(), topography.heights());
     let [step1, step2] = [(0, n1), (1, n2)].map(|(axis, n)| {
@@ -207,7 +207,7 @@ fn topography(topography: &Topography) -> Option<String> {
     Some(format!("surface.heights: the mean slope is {}, {told}: are heights and the cell in one unit?", number(slope)))
 }
 
-/// Springs that give way under the mean friction: what lies above them drifts by μp̄/k_t against what lies below.
+/// Springs that shear under the mean friction: the layers above them drift by μp̄/k_t against those below.
 fn drifting(case: &Case, cell: Cell) -> Vec<String> {
     let (Some(friction), Some(loads)) = (case.problem().friction(), case.load.mean_pressures()) else {
         return Vec::new();
@@ -263,7 +263,7 @@ mod tests {
     fn doubts(name: &str, overrides: &[&str]) -> Vec<String> {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let case = Case::read(&embedded::source(name).unwrap(), &overrides).unwrap_or_else(|error| panic!("{error}"));
-        // That a grid is coarse at the lowest load says nothing of the case's sense.
+        // A grid that is coarse at the lowest load is not implausible.
         let foreseen = crate::case::foreseen(&case, &[]).into_iter().filter(|doubt| !doubt.contains("grid.points"));
         of_case(&case).into_iter().chain(foreseen).collect()
     }

@@ -1,4 +1,4 @@
-//! Memory and disk that a case takes, and the largest grid that fits.
+//! Estimates of memory and disk of a case, and the largest grid that fits.
 //!
 //! The figures are peaks of the resident memory, measured from 64 to 1024 points with and without stresses, volumes and
 //! pictures (`tests/command_line/refusals.rs` measures two of them again). An estimate lies above the peak by some tenth:
@@ -18,26 +18,25 @@ use crate::spectral::Memory;
 use std::f64::consts::PI;
 
 const MEBIBYTE: u64 = 1 << 20;
-/// What the program takes before it solves anything: its code as it is mapped, for the most part.
+/// The program before it solves anything, mostly its mapped code.
 const PROGRAM: u64 = 15 * MEBIBYTE;
-/// Per sample: reading a step, when what solving it took is free again.
+/// Per sample: reading a step, after the memory of solving it is freed.
 const READING: u64 = 20;
-/// Per sample, in its place: waves, their coefficients and what a search for maxima takes; and what a plane that is written
-/// takes more.
+/// Per sample, in place of [`READING`]: waves, their coefficients and the search for maxima, and the plane that is written.
 const STRESS: u64 = 92;
 const PLANE: u64 = 24;
-/// The same: what the allocator holds of the stresses of steps before, in a path and in a search for a limit; and coefficients
-/// where no two waves share theirs, of the pressure and of the traction each.
+/// Per sample: memory of the stresses of earlier steps that the allocator keeps, in a path and in a search for a limit; and
+/// coefficients of pressure and traction where no two waves share theirs.
 const AGAIN: u64 = 72;
 const SEARCH: u64 = 120;
 const SHELLS: u64 = 50;
-/// Waves of one wavenumber on the cells of a square or a hexagon, conjugates left out, at least on the average.
+/// Mean number of waves of one wavenumber on square and hexagonal cells, conjugates not counted, at least.
 const SYMMETRIC: f64 = 4.5;
-/// Per sample: a stress field that is asked at single points only.
+/// Per sample: a stress field that is evaluated at single points only.
 const FIELD: u64 = 18;
-/// Fields that the localized method keeps of each spot.
+/// Fields of each spot that the localized method keeps.
 const SPOT_FIELDS: u64 = 24;
-/// Per sample: what stays of a solved problem while pictures are drawn.
+/// Per sample: the solved problem while pictures are drawn.
 const KEPT: u64 = 64;
 /// Per point of a volume: the states of all its planes, kept until they are written.
 const STATE: u64 = 72;
@@ -51,17 +50,16 @@ const CURVES: u64 = 8 * MEBIBYTE;
 const COMPARED: u64 = 13 * MEBIBYTE;
 /// `compare.json` with many levels and circles.
 const COMPARISON: u64 = MEBIBYTE;
-/// Per sample: what is kept for a run that goes on, pressure and gap of all nested grids, twice while one takes the place of
-/// another.
+/// Per sample: checkpoints, pressure and gap of all nested grids, twice while one replaces another.
 const CHECKPOINTS: u64 = 43;
 /// Per sample: a step that stays in memory, pressure and gap of all nested grids and the displacement.
 const STEP: u64 = 31;
-/// Per sample: where it is, and whose.
+/// Per sample: its position and level.
 const PLACES: u64 = 20;
 /// A picture on disk, in both formats.
 const PICTURE: u64 = 3 * MEBIBYTE / 10;
 
-/// What is done with a case.
+/// A computation on a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Job {
     /// `percoat solve`, with its pictures and fields or without.
@@ -71,45 +69,45 @@ pub enum Job {
         /// Whether fields are kept.
         fields: bool,
     },
-    /// Solving into memory: every step keeps its fields, and what its stresses are read from.
+    /// Solving into memory: every step keeps its fields and the data for its stresses.
     Keep,
     /// `percoat limit`, with its pictures or without.
     Limit {
-        /// Whether they are drawn.
+        /// Whether pictures are drawn.
         pictures: bool,
     },
     /// `percoat compare`, with its picture or without.
     Compare {
-        /// Whether it is drawn.
+        /// Whether the picture is drawn.
         pictures: bool,
     },
 }
 
-/// What a run takes at most.
+/// Memory and disk that a job takes at most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Needs {
-    /// Peak of the memory, bytes.
+    /// Peak of memory, bytes.
     pub memory: u64,
     /// Files of the finished result, bytes.
     pub disk: u64,
-    /// The most that its files take while it runs: what every step left is gathered into archives, one after the other.
+    /// Files while it runs, bytes at most: the entries of the steps and the archive that is made of them.
     pub disk_while_running: u64,
 }
 
 impl Needs {
-    /// Whether there is room for it.
+    /// Whether memory and disk suffice.
     pub fn fit(&self, room: Capacity) -> bool {
         self.memory <= room.memory && self.disk_while_running <= room.disk
     }
 }
 
-/// What a job on `case` takes on a grid of `points`.
+/// Estimate for a job on `case` on a grid of `points`.
 pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let samples = points[0] as u64 * points[1] as u64;
     let heights = of_heights(case, samples);
     let coupled = case.problem().friction().is_some_and(Friction::couples);
     let Memory { kept, working } = Memory::of(points, case.solver.method, coupled);
-    // A fall-back to the baseline takes more, and less than reading.
+    // The baseline takes more memory, but less than reading a step.
     let (grids, working) = (kept as u64, working as u64);
     let needs = match job {
         Job::Solve { pictures, fields } => of_solving(case, samples, [grids, working, heights], pictures, fields),
@@ -131,7 +129,7 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
     let steps = case.load.values().len() as u64;
     let (stress, written, volume) =
         case.stress.as_ref().map_or((0, 0, 0), |stress| of_stress(stress, case.half_space(), samples));
-    // Strengths are held against the largest stresses, asked for or not.
+    // Strengths need the largest stresses, also where the case has no [stress].
     let stress = if Criterion::all(case.half_space()).is_empty() { stress } else { stress.max(STRESS * samples) };
     let again = if stress > 0 && steps > 1 { AGAIN * samples } else { 0 };
     let stress = if stress > 0 { stress + again + of_shells(case, samples) } else { 0 };
@@ -142,14 +140,14 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
         if fields { (steps * 24 * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
     let pages = if pictures { PICTURE * (3 + 2 * u64::from(has_cut(case)) + u64::from(steps > 1)) } else { 0 };
     let disk = fields + steps * (written + volume) + summary + pages;
-    // A refinement keeps the steps of the last grid, a quarter, until those of the next are all there.
+    // A refinement keeps the steps of the last grid, a quarter, until those of the next are complete.
     let coarser = if matches!(case.grid, Sampling::Accuracy(_)) { disk / 4 } else { 0 };
     let disk_while_running = disk + fields.max(steps * written) + coarser + CHECKPOINTS * samples;
     let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
     Needs { memory: solving.max(drawing), disk, disk_while_running }
 }
 
-/// Steps that stay in memory: no file holds anything.
+/// Steps that stay in memory, without files.
 fn of_keeping(case: &Case, samples: u64, grids: [u64; 3]) -> Needs {
     let solving = of_solving(case, samples, grids, false, false).memory;
     let kept = case.load.values().len() as u64 * STEP + PLACES;
@@ -193,12 +191,12 @@ fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u
     (memory, 8 * COMPONENTS * stored, 8 * VTK_NUMBERS * volume)
 }
 
-/// What stays of the amplitudes inside the body, from load to load, and what the coefficients of a stress field take where few
-/// waves have the same wavenumber: on cells without the symmetry of a square or a hexagon.
+/// Amplitudes inside the body, kept from load to load, and coefficients of a stress field where few waves have the same
+/// wavenumber: on cells without the symmetry of a square or a hexagon.
 fn of_shells(case: &Case, samples: u64) -> u64 {
     let (slides, area) = (case.problem().friction().is_some(), case.problem().cell().area());
     let kept = |together: f64| {
-        // On the grid, and on the coarser one that tells the errors; a wave and its conjugate are one.
+        // On the grid, and on the coarser one of the error estimate; a wave and its conjugate count once.
         let of_grid = |samples: u64| {
             let count = |most: f64| (0.5 * samples as f64).min(area * most * most / (8.0 * PI)) / together;
             InteriorTable::bytes(case.half_space(), slides, |most| count(most) as usize) as u64
@@ -223,7 +221,7 @@ fn has_cut(case: &Case) -> bool {
     case.stress.as_ref().is_some_and(|stress| stress.section.is_some())
 }
 
-/// The largest grid of `case`, shaped like `points`, on which a job finds room; `None` if none does.
+/// The largest grid of the shape of `points` on which a job fits; `None` if none does.
 pub fn largest_points(case: &Case, points: [usize; 2], room: Capacity, job: Job) -> Option<[usize; 2]> {
     let most = points[0].max(points[1]);
     let shaped =
@@ -241,8 +239,8 @@ pub fn largest_points(case: &Case, points: [usize; 2], room: Capacity, job: Job)
     Some(shaped(low))
 }
 
-/// Why there is no room for a job on `case`, and what would fit; `None` if there is. A refinement is held to its first
-/// grid: its later ones are judged as they come ([`Needs::fit`]).
+/// Why a job on `case` does not fit, and what would; `None` if it fits. Of a refinement the first grid is checked here, later ones
+/// by [`Needs::fit`] when they are reached.
 pub fn refusal(case: &Case, room: Capacity, job: Job) -> Option<String> {
     let key = if matches!(case.grid, Sampling::Accuracy(_)) { "grid.accuracy" } else { "grid.points" };
     let points = match case.grid.grids(&case.counterbody().cell()) {
@@ -261,12 +259,12 @@ pub fn refusal(case: &Case, room: Capacity, job: Job) -> Option<String> {
     let [n1, n2] = points;
     let advice = match largest_points(case, points, room, job) {
         Some([m1, m2]) if m1 * m2 < n1 * n2 => format!("the largest grid that fits is grid.points = [{m1}, {m2}]"),
-        _ if matches!(job, Job::Compare { .. }) => "no grid fits: ask for fewer localized.elements".to_owned(),
+        _ if matches!(job, Job::Compare { .. }) => "no grid fits: choose fewer localized.elements".to_owned(),
         _ if case.stress.as_ref().is_some_and(|stress| stress.volume.is_some()) => {
-            "no grid fits: ask for fewer rows or points in stress.volume".to_owned()
+            "no grid fits: choose fewer rows or points in stress.volume".to_owned()
         }
         _ if needs.memory > room.memory => "no grid fits".to_owned(),
-        _ => "no grid fits: ask for fewer load steps, or for another folder with -o".to_owned(),
+        _ => "no grid fits: choose fewer load steps, or another folder with -o".to_owned(),
     };
     Some(format!("{key}: {n1} × {n2} samples take {what}; {advice}"))
 }

@@ -1,4 +1,4 @@
-//! Numbers that no material and no body has in the units that the case names: nearly always a slip of 10³ⁿ.
+//! Warnings about values that no material and no body has in the units of the case, mostly errors by 10³ⁿ.
 //!
 //! Where `[units]` names SI units, moduli lie between 1 kPa (a gel) and 1.3 TPa (diamond), lengths between 0.1 nm (an atom) and
 //! 1 m. Interfaces bear no more than a third of the modulus beside them, whatever the unit.
@@ -11,12 +11,12 @@ use crate::notation::number;
 use crate::run::warnings::{HIGH, ratio};
 use crate::units::{Unit, is_force, is_length, is_pressure};
 
-/// Moduli of all materials, Pa.
+/// Smallest and largest modulus of materials, Pa.
 const MODULI: [f64; 2] = [1e3, 1.3e12];
-/// Lengths of contacts, m.
+/// Smallest and largest length of a contact, m.
 const LENGTHS: [f64; 2] = [1e-10, 1.0];
 
-/// What is doubtful, a sentence each.
+/// Warnings, a sentence each.
 pub(super) fn doubts(case: &Case, materials: &[(Material, String)]) -> Vec<String> {
     let units = case.units();
     let mut doubts = names(case);
@@ -38,7 +38,7 @@ fn exponent(unit: &Unit) -> Option<i32> {
     }
 }
 
-/// Names of units that are those of another quantity, or nearly those of SI.
+/// Warnings about units of another quantity, and misspelt SI units.
 fn names(case: &Case) -> Vec<String> {
     let Some(own) = &case.units else { return Vec::new() };
     let [length, pressure] = [&own.length, &own.pressure].map(|name| name.as_deref().unwrap_or_default());
@@ -61,7 +61,7 @@ fn names(case: &Case) -> Vec<String> {
     ] {
         let near = meant.iter().find(|own| own.to_lowercase() == name.to_lowercase());
         if let Some(near) = near.filter(|_| !is_known(name)) {
-            doubts.push(format!("units.{key} = \"{name}\" is no unit that is known: is it \"{near}\"?"));
+            doubts.push(format!("units.{key} = \"{name}\" is not a known unit: is it \"{near}\"?"));
         }
     }
     doubts
@@ -74,7 +74,7 @@ fn modulus(young: f64, name: &str, exponent: i32) -> Option<String> {
             "Young's modulus {} of {name} is {} by [units], and those of all materials lie between 1 kPa and 1.3 TPa: is it in the \
              unit of units.pressure?",
             number(young),
-            Unit::Si { base: "Pa", exponent }.told(young, number)
+            Unit::Si { base: "Pa", exponent }.with_unit(young, number)
         )
     })
 }
@@ -85,7 +85,7 @@ fn length(x: f64, name: &str, exponent: i32) -> Option<String> {
         format!(
             "{name} = {} is {} by [units], not between 0.1 nm and 1 m: is it in the unit of units.length?",
             number(x),
-            Unit::Si { base: "m", exponent }.told(x, number)
+            Unit::Si { base: "m", exponent }.with_unit(x, number)
         )
     })
 }
@@ -104,7 +104,7 @@ fn lengths(case: &Case) -> Vec<(String, f64)> {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some((format!("levels[{number}].radius"), radius)),
         Shape::Cone { .. } | Shape::Power { .. } => None,
     }));
-    // Levels may protrude by less than an atom, and be given from anywhere.
+    // Single heights are not checked: their reference is arbitrary, and they may differ by less than an atom.
     let heights = counterbody.levels().iter().map(Level::height);
     let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], h| [low.min(h), high.max(h)]);
     if high - low > LENGTHS[0].max(sides[0]) {
@@ -120,7 +120,7 @@ fn range(topography: &Topography) -> f64 {
     Statistics::of(topography.own_heights().view()).range
 }
 
-/// Strengths of interfaces that no material beside them bears.
+/// Warnings about interface strengths that are implausible beside the softer material.
 fn interfaces(case: &Case, materials: &[(Material, String)]) -> Vec<String> {
     let layers = case.half_space().layers().iter().zip(materials.windows(2));
     let strengths = layers.flat_map(|(layer, beside): (&Layer, _)| {
@@ -171,7 +171,7 @@ mod tests {
                 &["units.pressure=µm", "units.length=GPa"],
                 &["units.length = \"GPa\" is a unit of pressure", "exchanged"],
             ),
-            (&["units.pressure=Mpa"], &["units.pressure = \"Mpa\" is no unit that is known: is it \"MPa\"?"]),
+            (&["units.pressure=Mpa"], &["units.pressure = \"Mpa\" is not a known unit: is it \"MPa\"?"]),
             (&["units.pressure=Pa"], &["of the substrate is 210.00\u{a0}Pa"]),
             (&["units.pressure=mPa"], &["of layers[0] is"]),
             (

@@ -1,4 +1,4 @@
-//! What estimates by the formulas of single contacts foresee of a case, for those who have not solved it.
+//! Warnings about a case before it is solved, by the formulas of single contacts.
 
 use crate::body::HalfSpace;
 use crate::case::Case;
@@ -10,13 +10,13 @@ use crate::run::Sampling;
 use crate::run::warnings::{STEEP, flank};
 use std::f64::consts::FRAC_PI_2;
 
-/// Doubts: steep flanks at the highest load, few samples at the lowest. `touches` are the mean pressures at which the
-/// levels first touch, where they are known.
+/// Warnings about steep flanks at the highest load and few samples at the lowest. `touches` are the mean pressures of first touch
+/// of the levels, where known.
 pub fn foreseen(case: &Case, touches: &[Option<f64>]) -> Vec<String> {
     steep_flank(case).into_iter().chain(few_samples(case, touches)).collect()
 }
 
-/// A flank that is steep at the highest load, beside cones, whose flank is their own.
+/// A flank that is steep at the highest load; cones are not checked.
 fn steep_flank(case: &Case) -> Option<String> {
     let (Some(indenters), Some(loads)) = (case.counterbody().indenters(), case.load.mean_pressures()) else {
         return None;
@@ -34,8 +34,7 @@ fn steep_flank(case: &Case) -> Option<String> {
     Some(flank("by the formulas of a single contact", number, shape, radius))
 }
 
-/// Few samples along the contact radius of the highest level at the lowest load on the grid of the case. The load lies on
-/// the levels that touch.
+/// Few samples along the contact radius of the highest level at the lowest load, which the levels that touch carry.
 fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
     let (Some(indenters), Sampling::Points(points)) = (case.counterbody().indenters(), &case.grid) else {
         return None;

@@ -1,8 +1,8 @@
-//! Whether graded layers have sublayers enough: the surface compliance is compared with that of twice as many.
+//! Error by the sublayers of graded layers: the surface compliance is compared with that of twice as many.
 //!
-//! At second order in 1/n a change by d from n to 2n sublayers is ¾ of the error at n. It is looked at from the longest wave
-//! of the cell to one of a sixteenth of its shorter side, about what a contact spot is made of; where a wave is shorter than a
-//! sublayer only the uppermost one would count.
+//! At second order in 1/n a change by d from n to 2n sublayers is ¾ of the error at n. Compared are wavelengths from the longest of
+//! the cell to a sixteenth of its shorter side, about the size of a contact spot; a wave shorter than a sublayer would depend on
+//! the uppermost one alone.
 
 use crate::body::HalfSpace;
 use crate::case::{Case, layers};
@@ -11,12 +11,12 @@ use crate::numeric::search::largest;
 use crate::reading::FEW_SAMPLES;
 use std::f64::consts::TAU;
 
-/// Shortest wave that is looked at, so many to the cell's shorter side.
+/// Number of the shortest waves along the cell's shorter side.
 const WAVES: f64 = 16.0;
-/// Wavenumbers that are looked at.
+/// Number of wavenumbers compared.
 const COUNT: usize = 24;
-/// A larger error is worth a warning: it is that of the peak pressure of a contact with as few samples as are not rough,
-/// 0.1 n⁻², see [`crate::reading::Errors`].
+/// Relative error above which there is a warning: that of the peak pressure of a contact of [`FEW_SAMPLES`] samples, 0.1 n⁻², see
+/// [`crate::reading::Errors`].
 const WORTH_SAYING: f64 = 0.1 / (FEW_SAMPLES * FEW_SAMPLES);
 
 /// Estimated largest relative error of the surface compliance by the sublayers of graded layers; `None` without any.
@@ -36,7 +36,7 @@ fn difference(half_space: &HalfSpace, other: &HalfSpace, [least, most]: [f64; 2]
     largest(wavenumbers.map(|q| (own.compliance(q) / other.compliance(q) - 1.0).abs()))
 }
 
-/// That the sublayers are too few.
+/// A warning where the sublayers are too few.
 pub(super) fn doubt(case: &Case) -> Option<String> {
     let error = sublayer_error(case).filter(|&error| error > WORTH_SAYING)?;
     Some(format!(

@@ -1,4 +1,4 @@
-//! What a key is, for those who ask: `percoat explain layers.poisson`.
+//! Explanations of keys: `percoat explain layers.poisson`.
 
 use serde::Serialize;
 
@@ -6,118 +6,122 @@ use super::super::suggestions::{alternatives, nearest};
 use super::key::{Absent, Form, Key, Keys};
 use crate::case::model::CASE;
 
-/// All that is to be said of a key. It prints itself, in lines of at most 80 letters.
+/// The explanation of a key. Displayed in lines of at most 80 letters.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Explanation {
     /// Its path in a case, such as `layers.poisson`.
     pub path: String,
-    /// What it is.
+    /// Meaning, a few words.
     pub what: String,
-    /// What kind of value it has, with its bounds, in a few words: "length > 0".
+    /// Kind and bounds of its value in a few words: "length > 0".
     pub value: String,
-    /// Which forms its value may have: "integer or [n1, n2]".
+    /// Forms of its value: "integer or [n1, n2]".
     pub forms: String,
-    /// Bounds of its numbers, and how long its lists may be.
+    /// Bounds of its numbers and of the length of its lists.
     pub range: Option<String>,
-    /// What its numbers are measured in; none: it has no numbers.
+    /// Unit of its numbers; none: it has no numbers.
     pub unit: Option<String>,
-    /// What holds where it is not given: a value in TOML or a sentence; none: it must be given.
+    /// Value in TOML, or a sentence, where it is not given; none: it must be given.
     pub default: Option<String>,
-    /// What bounds alone do not say.
+    /// Rules beyond its bounds.
     pub rule: Option<String>,
-    /// Kinds of table that have it, by the text of the table's first key; empty: all.
+    /// Kinds of table that have it, by the value of the table's first key; empty: all.
     pub kinds: Vec<String>,
-    /// Keys that may stand in its place.
+    /// Alternative keys.
     pub instead: Vec<String>,
-    /// Keys that cannot stand beside it.
+    /// Keys that it excludes.
     pub excludes: Vec<String>,
-    /// Lines of a case that have it.
+    /// Example lines of a case.
     pub example: String,
-    /// The same as an override `KEY=VALUE`; none for a section.
+    /// Example as an override `KEY=VALUE`; none for a section.
     pub set: Option<String>,
-    /// The keys of the table that it is or may be.
+    /// Keys of its table; empty for other values.
     pub keys: Vec<Explanation>,
 }
 
-/// There is no such key.
+/// The error for a key that no case has.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("there is no key `{asked}`{}", if .near.is_empty() {
+#[error("there is no key `{path}`{}", if .near.is_empty() {
     "; `percoat explain` lists the sections".to_owned()
 } else {
     format!("; did you mean {}?", alternatives(.near, '`'))
 })]
 pub struct UnknownKey {
-    /// What was asked for.
-    pub asked: String,
-    /// Paths that are like it.
+    /// The unknown key.
+    pub path: String,
+    /// Similar paths.
     pub near: Vec<String>,
 }
 
-/// Every key whose path ends so: `layers.poisson`, `layers.0.poisson` or `layers[0].poisson`; `points` is several.
+/// Every key whose path ends with `path`, such as `layers.poisson`, `layers.0.poisson` or `layers[0].poisson`; `points` are
+/// several.
 ///
 /// # Errors
-/// [`UnknownKey`], with the keys that may be meant.
-pub fn explain(asked: &str) -> Result<Vec<Explanation>, UnknownKey> {
-    let parts = parts(asked);
+/// [`UnknownKey`] with similar paths.
+pub fn explain(path: &str) -> Result<Vec<Explanation>, UnknownKey> {
+    let parts = parts(path);
     let all = all();
-    let ends = |path: &str| path.split('.').collect::<Vec<_>>().ends_with(&parts);
-    let found: Vec<_> = all.iter().filter(|at| !parts.is_empty() && ends(&at.path)).map(At::explanation).collect();
-    if found.is_empty() { Err(unknown(asked, &parts, &all)) } else { Ok(found) }
+    let ends = |whole: &str| whole.split('.').collect::<Vec<_>>().ends_with(&parts);
+    let found: Vec<_> =
+        all.iter().filter(|at| !parts.is_empty() && ends(&at.path)).map(PlacedKey::explanation).collect();
+    if found.is_empty() { Err(unknown(path, &parts, &all)) } else { Ok(found) }
 }
 
 /// Every key and section of the case itself.
 pub(super) fn sections() -> Vec<Explanation> {
-    all().iter().filter(|at| !at.path.contains('.')).map(At::explanation).collect()
+    all().iter().filter(|at| !at.path.contains('.')).map(PlacedKey::explanation).collect()
 }
 
 /// The names of a path, without the numbers of items.
-fn parts(asked: &str) -> Vec<&str> {
-    let parts = asked.split(['.', '[']).map(|part| part.trim_end_matches(']').trim());
+fn parts(path: &str) -> Vec<&str> {
+    let parts = path.split(['.', '[']).map(|part| part.trim_end_matches(']').trim());
     parts.filter(|part| !part.is_empty() && part.parse::<usize>().is_err()).collect()
 }
 
-fn unknown(asked: &str, parts: &[&str], all: &[At]) -> UnknownKey {
+fn unknown(path: &str, parts: &[&str], all: &[PlacedKey]) -> UnknownKey {
     let word = parts.last().copied().unwrap_or_default();
     let within = &parts[..parts.len().saturating_sub(1)];
-    let home = |at: &&At| at.path.split('.').collect::<Vec<_>>().split_last().is_some_and(|(_, of)| of == within);
+    let home =
+        |at: &&PlacedKey| at.path.split('.').collect::<Vec<_>>().split_last().is_some_and(|(_, of)| of == within);
     let inside: Vec<&str> = all.iter().filter(home).map(|at| at.key.name).collect();
     let names: Vec<&str> = all.iter().map(|at| at.key.name).collect();
     let of = |name: &str| all.iter().filter(|at| at.key.name == name).map(|at| at.path.clone()).collect();
-    // Where the section is known, the key is misspelt, else either of both.
+    // In a known section the key is misspelt, else either of both.
     let near = match nearest(word, &inside).filter(|_| !within.is_empty()) {
         Some((name, _)) => vec![format!("{}.{name}", within.join("."))],
         None => nearest(word, &names).map_or(Vec::new(), |(name, _)| of(name)),
     };
-    UnknownKey { asked: asked.to_owned(), near }
+    UnknownKey { path: path.to_owned(), near }
 }
 
-/// A key at its place.
-struct At {
+/// A key with its path and table.
+struct PlacedKey {
     path: String,
     key: &'static Key,
     table: &'static Keys,
 }
 
-/// Every key of a case, a table before what it holds.
-fn all() -> Vec<At> {
-    fn below(table: &'static Keys, path: &str) -> Vec<At> {
+/// Every key of a case, a table before its keys.
+fn all() -> Vec<PlacedKey> {
+    fn below(table: &'static Keys, path: &str) -> Vec<PlacedKey> {
         let at = |key: &'static Key| {
             let path = format!("{path}.{}", key.name).trim_start_matches('.').to_owned();
             let inside = below(key.holds(), &path);
-            std::iter::once(At { path, key, table }).chain(inside)
+            std::iter::once(PlacedKey { path, key, table }).chain(inside)
         };
         table.all.iter().flat_map(at).collect()
     }
     below(&CASE, "")
 }
 
-impl At {
+impl PlacedKey {
     fn explanation(&self) -> Explanation {
         let Self { path, key, table } = self;
         let own = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect();
-        let inside =
-            |key: &'static Key| At { path: format!("{path}.{}", key.name), key, table: self.key.holds() }.explanation();
+        let inside = |key: &'static Key| {
+            PlacedKey { path: format!("{path}.{}", key.name), key, table: self.key.holds() }.explanation()
+        };
         Explanation {
             path: path.clone(),
             what: key.what.to_owned(),
@@ -171,7 +175,7 @@ impl At {
     }
 }
 
-/// Whether a section of the case may stand several times.
+/// Whether a section of the case may be repeated.
 fn is_list(section: &str) -> bool {
     CASE.get(section).is_some_and(|key| matches!(key.forms, [Form::Sections(..)]))
 }

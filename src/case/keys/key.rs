@@ -6,58 +6,56 @@ use super::unit::Unit;
 /// The keys of a table: of the whole case, of a section, or of a table inside one.
 #[derive(Debug)]
 pub(in crate::case) struct Keys {
-    /// Every key, in the order in which they are told.
+    /// Every key, in the order of the output.
     pub(in crate::case) all: &'static [Key],
-    /// Keys that one may look for here, and why they have no place.
+    /// Keys of other tables that are often written here by mistake, with the reason.
     pub(in crate::case) misplaced: &'static [(&'static str, &'static str)],
 }
 
 /// A key of a table.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::case) struct Key {
-    /// Its name.
     pub(in crate::case) name: &'static str,
-    /// What it is.
+    /// Meaning, a few words.
     pub(in crate::case) what: &'static str,
-    /// The forms in which its value may be written.
+    /// Allowed forms of its value.
     pub(in crate::case) forms: &'static [Form],
-    /// What its numbers are measured in.
+    /// Unit of its numbers.
     pub(in crate::case) unit: Unit,
-    /// What holds where it is not given.
+    /// Meaning of its absence.
     pub(in crate::case) absent: Absent,
-    /// A value that it may have, in TOML.
+    /// An example of its value, in TOML.
     pub(in crate::case) example: &'static str,
-    /// What bounds alone do not say: relations to other keys, and others.
+    /// Rules beyond its bounds, such as relations to other keys.
     pub(in crate::case) rule: Option<&'static str>,
-    /// Kinds of table that have it, by the text of the table's first key; empty: all. Keys of other kinds exclude it.
+    /// Kinds of table that have it, by the value of the table's first key; empty: all. Keys of other kinds exclude it.
     pub(in crate::case) kinds: &'static [&'static str],
-    /// The other key in whose place it stands.
+    /// The key to which it is an alternative.
     pub(in crate::case) instead_of: Option<&'static str>,
     /// Further keys that it excludes.
     pub(in crate::case) and_of: &'static [&'static str],
-    /// Whether it stands in a case that is written.
     pub(in crate::case) written: Written,
 }
 
-/// Whether a key stands in a case that is written with its defaults.
+/// Whether a case that is written with its defaults has a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::case) enum Written {
     /// Unless it is absent.
     WhereGiven,
     /// Unless it is absent, 0 or an empty list.
     UnlessNothing,
-    /// Other keys take its place when the case is read.
+    /// Never: the case is written with other keys of the same meaning.
     Never,
 }
 
-/// What holds where a key is not given.
+/// Meaning of the absence of a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::case) enum Absent {
-    /// The table is refused, unless another key stands in its place or its kind does without.
+    /// The table is refused, unless it has an alternative key or is of a kind without this key.
     Refused,
-    /// This value, in TOML.
+    /// A default value, in TOML.
     Value(&'static str),
-    /// What is said.
+    /// A sentence.
     Means(&'static str),
 }
 
@@ -66,19 +64,18 @@ pub(in crate::case) enum Absent {
 pub(in crate::case) enum Form {
     /// A number; integers count as numbers.
     Number(Range),
-    /// An integer between two, both of them included.
+    /// An integer between two bounds, both included.
     Integer(usize, usize),
     /// True or false.
     Boolean,
     /// One of a few words.
     Word(&'static [&'static str]),
-    /// Any text; what it is, such as "the path of a file".
+    /// Any text, with its description, such as "the path of a file".
     Text(&'static str),
-    /// A name; what it is, and of how many letters at most.
+    /// A name, with its description and its largest number of letters.
     Name(&'static str, usize),
-    /// So many items in brackets, which is called such as "a vector [x, y]".
+    /// A fixed number of items in brackets, with a description such as "a vector [x, y]".
     Tuple(&'static str, &'static [Form]),
-    /// A list.
     List {
         /// The form of each item.
         of: &'static Form,
@@ -87,7 +84,7 @@ pub(in crate::case) enum Form {
     },
     /// A table with these keys.
     Table(&'static Keys),
-    /// Sections of one name, at most so many, each with these keys.
+    /// Sections of one name with these keys, and their largest number.
     Sections(&'static Keys, usize),
 }
 
@@ -102,8 +99,7 @@ impl Form {
 }
 
 impl Key {
-    /// A key that must be given, by the forms of its value and an example in TOML. Its name and what it is are those of the
-    /// field that it is declared for.
+    /// A key that must be given, by the forms of its value and an example in TOML. Its name and meaning are taken from its field.
     pub(in crate::case) const fn new(forms: &'static [Form], example: &'static str) -> Self {
         Self {
             name: "",
@@ -134,12 +130,12 @@ impl Key {
         Self { unit, ..self }
     }
 
-    /// The value that it has where it is not given.
+    /// Sets the default value, in TOML.
     pub(in crate::case) const fn default(self, value: &'static str) -> Self {
         Self { absent: Absent::Value(value), ..self }
     }
 
-    /// What holds where it is not given.
+    /// Sets the meaning of its absence, a sentence.
     pub(in crate::case) const fn otherwise(self, means: &'static str) -> Self {
         Self { absent: Absent::Means(means), ..self }
     }
@@ -160,7 +156,7 @@ impl Key {
         Self { and_of: others, ..self }
     }
 
-    /// Keys of the table, or of each table of the list, that it holds or may hold.
+    /// Keys of its table, or of each table of its list; empty for other values.
     pub(in crate::case) fn holds(&self) -> &'static Keys {
         self.forms.iter().find_map(Form::keys).unwrap_or(&Keys::NONE)
     }
@@ -172,7 +168,7 @@ impl Key {
     }
 }
 
-/// Keys with their numbers in a unit.
+/// `keys` with their numbers in `unit`.
 pub(in crate::case) const fn measured_in<const N: usize>(keys: &[Key], unit: Unit) -> [Key; N] {
     let mut own = [keys[0]; N];
     let mut index = 0;
@@ -196,23 +192,22 @@ impl Keys {
         tables.filter(|(_, keys)| keys.get(name).is_some()).map(|(path, _)| path).collect()
     }
 
-    /// A key by its name.
     pub(in crate::case) fn get(&self, name: &str) -> Option<&'static Key> {
         self.all.iter().find(|key| key.name == name)
     }
 
-    /// The keys of the tables inside one of its keys; none for a key it does not know.
+    /// The keys of the tables inside one of its keys; none for an unknown key.
     pub(in crate::case) fn within(&self, name: &str) -> &'static Self {
         self.get(name).map_or(&Self::NONE, Key::holds)
     }
 
-    /// Keys that cannot stand beside this one in the table.
+    /// Keys that the key `name` excludes.
     pub(in crate::case) fn excluded(&self, name: &str) -> Vec<&'static str> {
         let Some(key) = self.get(name) else { return Vec::new() };
         self.all.iter().filter(|other| key.excludes(other)).map(|other| other.name).collect()
     }
 
-    /// Keys one of which stands in the place of this one; where none of them does, it is needed.
+    /// Alternatives to the key `name`; without any of them it is required.
     pub(in crate::case) fn instead(&self, name: &str) -> Vec<&'static str> {
         let root = |mut key: &'static Key| {
             while let Some(other) = key.instead_of.and_then(|other| self.get(other)) {
@@ -226,7 +221,7 @@ impl Keys {
         self.all.iter().filter(is).filter(stands).map(|other| other.name).collect()
     }
 
-    /// The keys that a table needs, where one of several is needed the first; all of a table that needs none.
+    /// The required keys, of alternatives the first; all keys where none is required.
     pub(in crate::case) fn shown(&self) -> impl Iterator<Item = &'static Key> {
         let needs = self.all.iter().any(|key| key.absent == Absent::Refused);
         let mut shown: Vec<&'static Key> = Vec::new();

@@ -1,9 +1,8 @@
-//! The keys of a case: every table of the file, and what each of its keys is.
+//! The keys of a case: every table of the file, with meaning, forms and defaults of each key.
 //!
-//! The tables are declared with the sections ([`super::section`]). The reader takes from them which values a key admits
-//! (`key`, `range`), what holds where it is absent and where a misplaced one belongs; an override, what it drives out; the
-//! README, its table of sections; `percoat explain`, all its text (`explanation`, `page`, in the words of
-//! `wording`); an editor, its `schema`.
+//! The tables are declared with the sections ([`super::section`]). From them follow the values that the reader admits (`key`,
+//! `range`), defaults, advice on misplaced keys, the keys that an override replaces, the README's table of sections, the text of
+//! `percoat explain` (`explanation`, `page`, `wording`) and the JSON `schema`.
 
 mod explanation;
 mod key;
@@ -22,4 +21,4 @@ pub use schema::schema;
 pub(super) use key::{Absent, Form, Key, Keys, Written, measured_in};
 pub(super) use range::Range;
 pub(super) use unit::Unit;
-pub(super) use wording::told;
+pub(super) use wording::requirement;

@@ -8,7 +8,7 @@ use super::explanation::{Explanation, sections};
 /// Letters of a line.
 const WIDTH: usize = 80;
 
-/// The sections of a case with a sentence each, and how to go on.
+/// The sections of a case with a sentence each, and a hint at `percoat explain`.
 pub fn overview() -> String {
     let mut text = "A case is a TOML file with these keys and sections:\n\n".to_owned();
     for section in sections() {
@@ -75,7 +75,7 @@ impl Explanation {
         self.path.rsplit('.').next().unwrap_or_default()
     }
 
-    /// What holds without it, as a sentence.
+    /// The meaning of its absence, as a sentence.
     fn when_absent(&self) -> String {
         match &self.default {
             Some(default) => default.clone(),
@@ -84,7 +84,7 @@ impl Explanation {
         }
     }
 
-    /// The same in a few words.
+    /// The meaning of its absence in a few words.
     fn in_short(&self) -> String {
         match &self.default {
             Some(default) => format!("default: {default}"),
@@ -95,15 +95,14 @@ impl Explanation {
     }
 }
 
-/// A name, and beside it from a column on a text.
 fn entry(name: &str, column: usize, text: &str) -> String {
     let text = wrapped(text, column);
     let gap = if name.chars().count() < column { column - name.chars().count() } else { 1 };
-    // The first line is as long as if the name were blank.
+    // The text is wrapped with blanks in place of the name.
     format!("{name}{}{}", " ".repeat(gap), text.trim_start())
 }
 
-/// A text in lines, from the second on indented, the first as if.
+/// A text in lines, each as long as if indented; the first is not.
 fn wrapped(text: &str, indent: usize) -> String {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {

@@ -1,34 +1,34 @@
-//! Which numbers a key takes.
+//! Ranges of the numbers of a key.
 
 use std::ops::{Bound, RangeBounds};
 
 use crate::plain::float;
 use crate::units::CARRIED;
 
-/// Help of the refusal of a number that double precision does not carry.
+/// Advice for a number beyond double precision.
 const WHY: &str = "double precision carries the products of five such numbers, no others; choose other units";
 
-/// The numbers that a key takes, all of them finite.
+/// The numbers that a key admits, all of them finite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::case) enum Range {
-    /// A length, a modulus or a pressure greater than 0 that double precision carries.
+    /// A length, a modulus or a pressure greater than 0, within [`CARRIED`].
     Size,
-    /// The same, or 0.
+    /// 0, or a length, a modulus or a pressure greater than 0, within [`CARRIED`].
     SizeOrZero,
-    /// A place along an axis, a component of a vector: any number that double precision carries.
-    Place,
-    /// Any number but 0 that double precision carries, as does its inverse.
+    /// A coordinate or a component of a vector, of at most the largest size of [`CARRIED`].
+    Coordinate,
+    /// A positive or negative number whose size is within [`CARRIED`].
     Factor,
     /// Between two bounds.
     Within(Bound<f64>, Bound<f64>),
 }
 
-/// Why a number is none that a key takes.
+/// Why a number is not admitted.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::case) struct Beyond {
-    /// What it must be.
+    /// Admitted numbers, in words.
     pub(in crate::case) wanted: String,
-    /// What to do about it, where the bound alone does not say it.
+    /// Advice, where the bound alone does not suffice.
     pub(in crate::case) help: Option<&'static str>,
 }
 
@@ -36,56 +36,56 @@ impl Range {
     /// Numbers greater than 0, however large.
     pub(in crate::case) const POSITIVE: Self = Self::Within(Bound::Excluded(0.0), Bound::Unbounded);
 
-    /// From one number to another, both of them included.
+    /// From one number to another, both included.
     pub(in crate::case) const fn between(low: f64, high: f64) -> Self {
         Self::Within(Bound::Included(low), Bound::Included(high))
     }
 
-    /// Whether it is one of the numbers.
+    /// The number, or the reason why it is not admitted.
     pub(in crate::case) fn admit(self, x: f64) -> Result<f64, Beyond> {
         if !x.is_finite() || !self.bounds().contains(&x) {
-            return Err(Beyond { wanted: self.told(), help: None });
+            return Err(Beyond { wanted: self.requirement(), help: None });
         }
         let carried = match self {
             Self::Size => CARRIED.contains(&x),
             Self::SizeOrZero => x == 0.0 || CARRIED.contains(&x),
-            Self::Place => x.abs() <= *CARRIED.end(),
+            Self::Coordinate => x.abs() <= *CARRIED.end(),
             Self::Factor => CARRIED.contains(&x.abs()),
             Self::Within(..) => true,
         };
         let wanted = match self {
-            Self::Place => "a number between -1e60 and 1e60",
+            Self::Coordinate => "a number between -1e60 and 1e60",
             Self::Factor => "a number other than 0, between 1e-60 and 1e60 or the negative of one",
             _ => "a number between 1e-60 and 1e60",
         };
-        // 0 is none in any unit.
+        // No other unit helps for 0.
         let help = (x != 0.0).then_some(WHY);
         if carried { Ok(x) } else { Err(Beyond { wanted: wanted.to_owned(), help }) }
     }
 
-    /// Its bounds before double precision is asked.
+    /// Its bounds without those of double precision.
     fn bounds(self) -> (Bound<f64>, Bound<f64>) {
         match self {
             Self::Size => (Bound::Excluded(0.0), Bound::Unbounded),
             Self::SizeOrZero => (Bound::Included(0.0), Bound::Unbounded),
-            Self::Place | Self::Factor => (Bound::Unbounded, Bound::Unbounded),
+            Self::Coordinate | Self::Factor => (Bound::Unbounded, Bound::Unbounded),
             Self::Within(low, high) => (low, high),
         }
     }
 
-    /// Bounds that every number keeps, for those who know only bounds; a few that they let through are refused.
+    /// Bounds for the schema, which admit every number of the range and a few more.
     pub(super) fn outer(self) -> (Bound<f64>, Bound<f64>) {
         let most = *CARRIED.end();
         match self {
             Self::Size => (Bound::Included(*CARRIED.start()), Bound::Included(most)),
             Self::SizeOrZero => (Bound::Included(0.0), Bound::Included(most)),
-            Self::Place | Self::Factor => (Bound::Included(-most), Bound::Included(most)),
+            Self::Coordinate | Self::Factor => (Bound::Included(-most), Bound::Included(most)),
             Self::Within(low, high) => (low, high),
         }
     }
 
-    /// "a number greater than 0 and at most 0.1".
-    pub(in crate::case) fn told(self) -> String {
+    /// The admitted numbers, as in "a number greater than 0 and at most 0.1".
+    pub(in crate::case) fn requirement(self) -> String {
         match self.bounds() {
             (Bound::Included(low), Bound::Included(high)) => {
                 format!("a number between {} and {}", float(low), float(high))
@@ -99,18 +99,18 @@ impl Range {
         }
     }
 
-    /// The same with what double precision carries.
+    /// The admitted numbers, with the limits of double precision.
     pub(super) fn full(self) -> String {
         match self {
             Self::Size => "greater than 0 (1e-60 to 1e60)".to_owned(),
             Self::SizeOrZero => "0 or greater (to 1e60)".to_owned(),
-            Self::Place => "any (-1e60 to 1e60)".to_owned(),
+            Self::Coordinate => "any (-1e60 to 1e60)".to_owned(),
             Self::Factor => "any but 0 (1e-60 to 1e60, or negative)".to_owned(),
             Self::Within(..) => self.short(),
         }
     }
 
-    /// "> 0", "0 to 0.5", "> 0, ≤ 0.1"; empty where every number is one.
+    /// The bounds, as in "> 0", "0 to 0.5", "> 0, ≤ 0.1"; empty without bounds.
     pub(super) fn short(self) -> String {
         let bound = |bound, included, excluded| match bound {
             Bound::Included(x) => Some(format!("{included} {}", float(x))),
@@ -153,11 +153,11 @@ mod tests {
         for (range, told, short) in [
             (Range::Size, "a finite number greater than 0", "> 0"),
             (Range::SizeOrZero, "a finite number of at least 0", "≥ 0"),
-            (Range::Place, "a finite number", ""),
+            (Range::Coordinate, "a finite number", ""),
             (Range::between(0.0, 0.5), "a number between 0 and 0.5", "0 to 0.5"),
             (accuracy, "a number greater than 0 and at most 0.1", "> 0, ≤ 0.1"),
         ] {
-            assert_eq!((&range.told()[..], &range.short()[..]), (told, short));
+            assert_eq!((&range.requirement()[..], &range.short()[..]), (told, short));
         }
     }
 
@@ -166,9 +166,9 @@ mod tests {
         let refused = |range: Range, x| range.admit(x).unwrap_err();
         assert_eq!(refused(Range::Size, 0.0).help, None);
         assert_eq!(refused(Range::SizeOrZero, 1e-70).wanted, "a number between 1e-60 and 1e60");
-        assert!(refused(Range::Place, -1e61).help.is_some() && Range::Place.admit(1e-70).is_ok());
+        assert!(refused(Range::Coordinate, -1e61).help.is_some() && Range::Coordinate.admit(1e-70).is_ok());
         assert!(refused(Range::Factor, 0.0).wanted.contains("other than 0") && Range::Factor.admit(-2.0).is_ok());
-        for range in [Range::Size, Range::SizeOrZero, Range::Place, Range::Factor, Range::between(0.0, 1.0)] {
+        for range in [Range::Size, Range::SizeOrZero, Range::Coordinate, Range::Factor, Range::between(0.0, 1.0)] {
             assert!([f64::NAN, f64::INFINITY].iter().all(|x| range.admit(*x).is_err()));
         }
     }

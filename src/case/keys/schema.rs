@@ -1,7 +1,7 @@
-//! The table of keys as a JSON schema (draft 7), which editors of TOML know: completion, hints and faults as one types.
+//! The keys as a JSON schema (draft 7), for completion, hints and checks in TOML editors.
 //!
-//! What needs words, a relation between keys or a file, is left to the reader; nothing that the reader takes is refused,
-//! with one exception: JSON does not tell 8.0 from the integer 8.
+//! Rules between keys and files are checked by the reader alone. The schema refuses no valid case, with one exception: JSON does not
+//! distinguish 8.0 from the integer 8.
 
 use std::ops::Bound;
 
@@ -54,7 +54,7 @@ fn property(key: &'static Key) -> Value {
     property
 }
 
-/// What it is and of which kind, in one line.
+/// Meaning and kind of a key, in one line.
 fn description(key: &Key) -> String {
     let rule = key.rule.map_or(String::new(), |rule| format!("; {rule}"));
     let kinds = if key.kinds.is_empty() { String::new() } else { format!("{}: ", key.kinds.join(", ")) };
@@ -102,7 +102,7 @@ fn number(range: Range) -> Value {
     number
 }
 
-/// Of keys that exclude each other not both, and one where it is needed.
+/// Rules for keys that exclude each other: not both, and one of them where it is required.
 fn exclusions(keys: &'static Keys) -> Vec<Value> {
     let mut rules = Vec::new();
     for (index, key) in keys.all.iter().enumerate() {
@@ -118,7 +118,7 @@ fn exclusions(keys: &'static Keys) -> Vec<Value> {
     rules
 }
 
-/// What a table of each kind has and what it lacks.
+/// Required and excluded keys of a table of each kind.
 fn kinds(keys: &'static Keys) -> Vec<Value> {
     let Some(Form::Word(words)) = keys.all.first().and_then(|key| key.forms.first()) else { return Vec::new() };
     let name = keys.all[0].name;
@@ -135,12 +135,12 @@ fn kinds(keys: &'static Keys) -> Vec<Value> {
     if keys.all.iter().all(|key| key.kinds.is_empty()) { Vec::new() } else { words.iter().map(rule).collect() }
 }
 
-/// Whether every table needs it, or a rival.
+/// Whether every table needs the key or an alternative.
 fn is_required(key: &Key) -> bool {
     key.absent == Absent::Refused && key.kinds.is_empty()
 }
 
-/// A value of the table, in TOML, as JSON.
+/// A TOML value as JSON.
 fn value(text: &str) -> Value {
     let parsed = format!("value = {text}").parse::<toml::Table>().ok();
     parsed.and_then(|table| serde_json::to_value(&table["value"]).ok()).unwrap_or_default()

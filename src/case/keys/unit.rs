@@ -1,20 +1,19 @@
-//! What the numbers of a key are measured in.
+//! Units of the numbers of a key.
 
-/// What the numbers of a key are measured in. Any consistent units; `[units]` names them.
+/// Unit of the numbers of a key. Any consistent units; `[units]` names them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::case) enum Unit {
-    /// Nothing, or the key has no numbers.
+    /// A pure number, or a key without numbers.
     Pure,
     Length,
     Pressure,
-    /// Of springs.
+    /// Unit of stiffnesses of springs.
     PressurePerLength,
-    /// Of the coefficient of a power law.
+    /// Unit of the coefficient of a power law.
     LengthToOneMinusN,
 }
 
 impl Unit {
-    /// Its name.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Pure => "none",
@@ -25,7 +24,7 @@ impl Unit {
         }
     }
 
-    /// What is measured in it, in a word.
+    /// The quantity, in a word.
     pub(super) fn quantity(self) -> &'static str {
         match self {
             Self::Pure | Self::LengthToOneMinusN => "number",

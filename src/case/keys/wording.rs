@@ -1,13 +1,13 @@
-//! What keys and the forms of their values are called, in errors, in the README and by `percoat explain`.
+//! Descriptions of keys and of the forms of their values, in errors, in the README and by `percoat explain`.
 
 use super::super::suggestions::{alternatives, joined};
 use super::key::{Form, Key};
 
 impl Form {
-    /// What a value must be, for "must be …".
-    pub(in crate::case) fn told(&self) -> String {
+    /// The requirement on a value, as in "must be …".
+    pub(in crate::case) fn requirement(&self) -> String {
         match self {
-            Self::Number(range) => range.told(),
+            Self::Number(range) => range.requirement(),
             Self::Integer(low, usize::MAX) => format!("an integer of at least {low}"),
             Self::Integer(low, high) => format!("an integer between {low} and {high}"),
             Self::Boolean => "true or false".to_owned(),
@@ -25,7 +25,7 @@ impl Form {
         }
     }
 
-    /// What kind of value it is, in a few words: "list of lengths ≥ 0" for the quantity "length".
+    /// The kind of value in a few words: "list of lengths ≥ 0" for the quantity "length".
     pub(super) fn short(&self, quantity: &str) -> String {
         match self {
             Self::Number(range) => format!("{quantity} {}", range.short()).trim_end().to_owned(),
@@ -50,7 +50,7 @@ impl Form {
         }
     }
 
-    /// The same of items in brackets with what they are: "[upper, lower] of pressures > 0".
+    /// The kind of value, with the items of brackets: "[upper, lower] of pressures > 0".
     pub(super) fn with_items(&self, quantity: &str) -> String {
         let own = self.short(quantity);
         match self {
@@ -64,7 +64,7 @@ impl Form {
         }
     }
 
-    /// Which type it is.
+    /// Its type.
     pub(super) fn kind(&self) -> String {
         match self {
             Self::Number(_) | Self::Integer(..) => self.singular(),
@@ -75,7 +75,7 @@ impl Form {
         }
     }
 
-    /// Bounds of the numbers and lists in it.
+    /// Bounds of its numbers and lists.
     pub(super) fn ranges(&self) -> Vec<String> {
         match self {
             Self::Number(range) => vec![range.full()],
@@ -111,7 +111,7 @@ impl Form {
             Self::Number(_) => "number".to_owned(),
             Self::Integer(..) => "integer".to_owned(),
             Self::Tuple(called, _) => bare(called).to_owned(),
-            other => other.told(),
+            other => other.requirement(),
         }
     }
 
@@ -120,21 +120,21 @@ impl Form {
             Self::Number(_) => "numbers".to_owned(),
             Self::Integer(..) => "integers".to_owned(),
             Self::Tuple(called, _) => bracket(called).to_owned(),
-            other => other.told(),
+            other => other.requirement(),
         }
     }
 }
 
 impl Key {
-    /// What it is and what it must be.
-    pub(in crate::case) fn told(&self) -> String {
+    /// Meaning of the key and the requirement on its value.
+    pub(in crate::case) fn description(&self) -> String {
         match self.holds().all {
-            [] => format!("{}; {}", self.what, told(self.forms)),
+            [] => format!("{}; {}", self.what, requirement(self.forms)),
             _ => self.what.to_owned(),
         }
     }
 
-    /// As it may stand in a case: a section with its keys, or a line.
+    /// An example: a section with its keys, or a line.
     pub(in crate::case) fn example_lines(&self) -> String {
         let line = format!("{} = {}", self.name, self.example);
         let parsed = line.parse::<toml::Table>().ok().and_then(|mut table| table.remove(self.name));
@@ -152,7 +152,7 @@ impl Key {
         }
     }
 
-    /// Which forms its value may have: "integer or [n1, n2]".
+    /// Forms of its value: "integer or [n1, n2]".
     pub(super) fn kind_of_value(&self) -> String {
         forms_as(self.forms, Form::kind)
     }
@@ -168,12 +168,12 @@ impl Key {
         (!ranges.is_empty()).then(|| ranges.join("; "))
     }
 
-    /// Whether it has numbers, beside those in tables.
+    /// Whether its value has numbers, tables not counted.
     pub(super) fn has_numbers(&self) -> bool {
         self.forms.iter().any(Form::has_numbers)
     }
 
-    /// What kind of value it has, in a few words: "length > 0".
+    /// The kind of its value in a few words: "length > 0".
     pub(super) fn value(&self) -> String {
         let quantity = self.unit.quantity();
         if let [form @ Form::Tuple(..)] = self.forms {
@@ -183,17 +183,17 @@ impl Key {
     }
 }
 
-/// What a value of any of some forms must be.
-pub(in crate::case) fn told(forms: &[Form]) -> String {
-    forms_as(forms, Form::told)
+/// The requirement on a value that may have any of `forms`.
+pub(in crate::case) fn requirement(forms: &[Form]) -> String {
+    forms_as(forms, Form::requirement)
 }
 
-/// Some forms, the words among them one by one.
-pub(super) fn forms_as(forms: &[Form], told: impl Fn(&Form) -> String) -> String {
+/// `forms` in words, joined by "or", each word of a list by itself.
+pub(super) fn forms_as(forms: &[Form], words: impl Fn(&Form) -> String) -> String {
     let forms = forms.iter().flat_map(|form| match form {
         Form::Boolean => vec!["true".to_owned(), "false".to_owned()],
         Form::Word(words) => words.iter().map(|word| format!("\"{word}\"")).collect(),
-        form => vec![told(form)],
+        form => vec![words(form)],
     });
     joined(&forms.collect::<Vec<_>>(), "or")
 }
@@ -202,12 +202,12 @@ fn counted(count: usize) -> String {
     if count == 1 { "one".to_owned() } else { count.to_string() }
 }
 
-/// Without its article.
+/// The text without its article.
 fn bare(what: &str) -> &str {
     ["a ", "an ", "the "].iter().find_map(|article| what.strip_prefix(article)).unwrap_or(what)
 }
 
-/// What stands in brackets, with them.
+/// The part of the text in brackets, brackets included.
 pub(super) fn bracket(called: &str) -> &str {
     let end = called.find(']').map_or(called.len(), |end| end + 1);
     &called[called.find('[').unwrap_or(0)..end]

@@ -1,4 +1,4 @@
-//! `[surface]` from a file: which format it has, and its heights in the case's unit, made periodic.
+//! `[surface]` from a file: its heights in the unit of the case, made periodic.
 
 use std::path::{Path, PathBuf};
 
@@ -9,47 +9,47 @@ use super::super::value::ValueAt;
 use super::section::{SurfaceSection, Taper};
 use crate::counterbody::roughness::{MAX_BORDER_JUMP, RunOut, Window, border_jumps, levelled, tapered};
 use crate::heights::unit::{self, KNOWN};
-use crate::heights::{FORMATS, Fault, Format, Heights, HeightsUnit, Length, Stored};
+use crate::heights::{FORMATS, Fault, Heights, HeightsFormat, HeightsUnit, Length, Stored};
 use crate::notation::number;
 use crate::numeric::array::field;
 use ndarray::Array2;
 
-/// How a file's heights become those of the case.
+/// Conversion of the heights of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Treatment {
     /// Factor of the heights, that of their unit included.
     pub scale: f64,
     /// Factor of the coordinates of points.
     pub unit: f64,
-    /// Factor that the section gives, if it does.
+    /// Factor of the section, if any.
     pub own_scale: Option<f64>,
-    /// The unit that the section gives, or the file.
+    /// Unit of the section, or of the file.
     pub name: Option<String>,
-    /// Whether the mean plane is taken away.
+    /// Whether the mean plane is subtracted.
     pub level: bool,
     /// Taper, if any.
     pub window: Option<Window>,
 }
 
-/// What a file gives.
+/// A surface from a file.
 #[derive(Debug)]
 pub(super) struct FromFile {
     /// Heights, lengths of the case, axis 0 along a₁, axis 1 along a₂.
     pub heights: Array2<f64>,
-    /// How its border runs out, if it does.
+    /// Taper of its border, if any.
     pub run_out: Option<RunOut>,
     /// Its own period along a₁ and a₂, lengths of the case; none where the file has none.
     pub period: Option<[f64; 2]>,
-    /// How its heights became these.
+    /// Conversion of its heights.
     pub treatment: Treatment,
-    /// Whether it is a text whose lines run along a₁ because nothing in it says what they are.
+    /// Whether it is a text whose lines run along a₁ by default.
     pub lines_along_a1: bool,
-    /// What is doubtful about it.
+    /// Warnings, a sentence each.
     pub doubts: Vec<String>,
 }
 
 impl Treatment {
-    /// Of a section that stands in a `table`; `length` is the case's unit, where it names one.
+    /// The conversion of a section, read from its `table`; `length` is the unit of the case, if any.
     pub fn of(own: &SurfaceSection, table: &TableAt<'_>, length: Option<&str>) -> Result<Self, Refusal> {
         let unit = table.optional("unit").map_or(Ok(1.0), |value| unit_of(&value, length))?;
         Ok(Self {
@@ -62,7 +62,7 @@ impl Treatment {
         })
     }
 
-    /// The same of a file that says what its heights are in; `length` is the case's unit, where it names one.
+    /// The conversion with the unit `own` of a file; `length` is the unit of the case, if any.
     fn of_file(self, own: Option<&HeightsUnit>, length: Option<&str>) -> Result<Self, Fault> {
         let own = match (own, &self.name) {
             (None, _) => return Ok(self),
@@ -88,7 +88,7 @@ impl Treatment {
                 "add [units] with length = \"µm\" or another, or give surface.scale, the factor to the case's lengths",
             )),
             (Some(factor), None) => Ok(Self { scale: factor, unit: factor, name: Some(own.clone()), ..self }),
-            // The factor is that of the unit, or there is none to mistake it for.
+            // The factor of the section is that of the unit, or the unit has the factor 1.
             (Some(factor), Some(scale)) if factor == 1.0 || (scale.abs() / factor - 1.0).abs() < 1e-9 => Ok(self),
             (Some(factor), Some(_)) => Err(Fault::new(
                 format!("says that its heights are in {own}, which makes a factor of {factor:?}, not that of surface.scale"),
@@ -98,7 +98,7 @@ impl Treatment {
         }
     }
 
-    /// Sides of a file as lengths of the case; `None` where their unit cannot be converted.
+    /// Sides of a file in the unit of the case; `None` where their unit cannot be converted.
     fn sides(&self, sides: [Length; 2], length: Option<&str>) -> Option<[f64; 2]> {
         let of = |Length { value, unit: own }: &Length| match own {
             None => Some(value * self.unit),
@@ -112,19 +112,19 @@ fn unit_of(value: &ValueAt<'_>, length: Option<&str>) -> Result<f64, Refusal> {
     let name = value.text()?;
     let Some(length) = length else {
         let message = format!("`{}` needs the unit of the case's lengths to be converted to", value.path);
-        return Err(Refusal::new(value.node.place, message, "converted to what?")
+        return Err(Refusal::new(value.node.span, message, "converted to what?")
             .help("add [units] with length = \"µm\" or another, or give `scale` instead of `unit`"));
     };
-    // Which of both is not known.
+    // The error names the unit that is not known.
     unit::factor(name, name).map_err(|_| value.refuse(format!("a unit of length: {KNOWN}")))?;
     unit::factor(name, length).map_err(|error| {
         let message = format!("`{}` cannot be converted to `units.length`: {error}", value.path);
-        Refusal::new(value.node.place, message, "converted to what?")
+        Refusal::new(value.node.span, message, "converted to what?")
             .help(format!("known are {KNOWN}; or give `scale` instead of `unit`"))
     })
 }
 
-/// Read the file of `source` that `written` names; `length` is the case's unit, where it names one.
+/// Reads the file of `source` with the name `written`; `length` is the unit of the case, if any.
 pub(super) fn read(
     source: &Source,
     written: &ValueAt<'_>,
@@ -135,7 +135,7 @@ pub(super) fn read(
     let path = source.path(name).unwrap_or_else(|| PathBuf::from(name));
     let refuse = |fault: Fault| {
         let message = format!("`{}`: {} {}", written.path, path.display(), fault.what);
-        let refusal = Refusal::new(written.node.place, message, fault.label);
+        let refusal = Refusal::new(written.node.span, message, fault.label);
         fault.help.into_iter().fold(refusal, Refusal::help)
     };
     let Stored { heights: Heights { points, mut values }, sides, unit, lines_along_a1, mut doubts } =
@@ -157,27 +157,27 @@ pub(super) fn read(
     Ok(FromFile { heights, run_out, period, treatment, lines_along_a1, doubts })
 }
 
-/// What stands in a file; refused when there is no such file, or none of a format that is known.
+/// The heights in a file; a refusal where there is no such file, or its format is not known.
 fn stored(source: &Source, path: &Path, written: &ValueAt<'_>) -> Result<Result<Stored, Fault>, Refusal> {
     let shown = path.display();
     if let Some(array) = source.arrays.get(written.text()?) {
         return Ok(Stored::of(array));
     }
-    let format = Format::of(path);
+    let format = HeightsFormat::of(path);
     if format.is_none() && !source.is_pipe(written.text()?) {
         let message = format!("`{}`: {shown} has an ending by which no format is known", written.path);
-        return Err(Refusal::new(written.node.place, message, "which format?").help(format!("allowed: {FORMATS}")));
+        return Err(Refusal::new(written.node.span, message, "which format?").help(format!("allowed: {FORMATS}")));
     }
     let (reader, bytes) = source.open(written.text()?).map_err(|error| {
         let message = format!("`{}`: cannot read {shown}: {error}", written.path);
-        Refusal::new(written.node.place, message, "this file").help(
+        Refusal::new(written.node.span, message, "this file").help(
             "needed: one period of heights, float64 in a `.npy` file for example; a path is relative to the case file",
         )
     })?;
     Ok(Stored::read(reader, bytes, format))
 }
 
-/// That a surface jumps where it meets its next period.
+/// A warning where the surface jumps between two periods.
 fn not_periodic(heights: &Array2<f64>, treatment: &Treatment) -> Option<String> {
     let jumps = border_jumps(heights.view());
     let (axis, jump) = if jumps[0] >= jumps[1] { ("a₁", jumps[0]) } else { ("a₂", jumps[1]) };

@@ -1,7 +1,7 @@
 //! `[surface]`: one period of any topography, from a file or a seed.
 //!
-//! `file` brings heights of any format ([`crate::heights`]) into the case's unit, `random` has the keys of a generated surface.
-//! Which index runs where is drawn in [`ORIENTATION`].
+//! `file` converts heights of any format ([`crate::heights`]) to the unit of the case, `random` has the keys of a generated surface.
+//! [`ORIENTATION`] draws the directions of the indices.
 
 mod file;
 mod random;
@@ -28,24 +28,24 @@ pub use section::{Sides, SurfaceSection, Taper};
 
 pub(super) use section::SURFACE;
 
-/// Which index of `heights[i, j]` runs where.
+/// Directions of the indices of `heights[i, j]`, a drawing.
 pub const ORIENTATION: &str = "   a₂ ↑  [0, n₂−1]  …  [n₁−1, n₂−1]    heights[i, j], larger = nearer to the body
       │      ⋮               ⋮         i: along a₁; the lines of a text file
       │    [0, 0]   …    [n₁−1, 0]     j: along a₂; the numbers of a line
       └──────────────────────→ a₁      an image with its first row on top: image[::-1].T";
 
-/// What a topography is read with.
+/// The surroundings with which a topography is read.
 #[derive(Debug)]
 pub(super) struct Around<'a> {
-    /// Where the case comes from, and its files.
+    /// The source of the case, with its files.
     pub(super) source: &'a Source,
     pub(super) lattice: Option<TableAt<'a>>,
     pub(super) grid: TableAt<'a>,
-    /// `units.length`, if it is there.
+    /// `units.length`, if any.
     pub(super) length: Option<String>,
 }
 
-/// A topography of a case.
+/// A topography of a case, as read.
 #[derive(Debug)]
 pub(super) struct Read {
     pub(super) section: SurfaceSection,
@@ -55,10 +55,11 @@ pub(super) struct Read {
     pub(super) doubts: Vec<String>,
 }
 
-/// A larger loss of rms slope than this is worth a warning: under light loads the area of contact is lost with it.
+/// Relative loss of rms slope above which there is a warning: under light loads the area of contact is inversely proportional to
+/// it.
 const LOSS: f64 = 0.01;
 
-/// Read the section and its file, or generate its surface.
+/// Reads the section and its file, or generates its surface.
 pub(super) fn read(section: &TableAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
     section.only()?;
     match section.one_of(["heights", "random"])? {
@@ -106,7 +107,7 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     })
 }
 
-/// That samples stand unequally far apart along a₁ and a₂, and would stand equally far were lines and numbers exchanged.
+/// A warning where the spacings along a₁ and a₂ differ, and would be equal with lines and numbers exchanged.
 fn across([n1, n2]: [usize; 2], cell: Cell) -> Option<String> {
     let [side1, side2] = cell.vectors().map(|[x, y]| x.hypot(y));
     let is_one = |ratio: f64, near: f64| (ratio - 1.0).abs() < near;
@@ -122,7 +123,7 @@ fn across([n1, n2]: [usize; 2], cell: Cell) -> Option<String> {
     })
 }
 
-/// That the points of a file know of another period than the case says, by more than a hundredth.
+/// A warning where the sides of a file differ from the cell by more than a hundredth.
 fn squeezed(own: [f64; 2], cell: Cell) -> Option<String> {
     let sides = cell.vectors().map(|[x, y]| x.hypot(y));
     let differs = (0..2).any(|axis| (own[axis] / sides[axis] - 1.0).abs() > 0.01);
@@ -138,7 +139,7 @@ fn squeezed(own: [f64; 2], cell: Cell) -> Option<String> {
 fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
     if let Some(value) = ["scale", "unit", "pixel", "level", "window"].iter().find_map(|key| section.optional(key)) {
         let message = format!("`{}` has no place beside `surface.random`: it belongs to a file's heights", value.path);
-        return Err(Refusal::new(value.node.place, message, "not used here").help("remove it"));
+        return Err(Refusal::new(value.node.span, message, "not used here").help("remove it"));
     }
     let table = random.table_or("write it as a section, [surface.random]")?;
     let own_section = SurfaceSection::read_table(section)?;
@@ -146,7 +147,7 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
     let own = RandomSection::read_in(&table, cell)?;
     let surface = own.surface();
     let sampling = grid::read(&around.grid, None)?;
-    let refuse = |error: String| Refusal::new(table.place, format!("`surface.random`: {error}"), "no such surface");
+    let refuse = |error: String| Refusal::new(table.span, format!("`surface.random`: {error}"), "no such surface");
     let points = match sampling {
         Sampling::Points(points) => points,
         Sampling::Accuracy(_) => surface.resolving_points(cell).map_err(|error| refuse(error.to_string()))?,
@@ -166,7 +167,7 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
     })
 }
 
-/// The cell: `[lattice]`, or what the section or its file says of the period.
+/// The cell: `[lattice]`, or the period in the section or its file.
 fn cell(
     own: &SurfaceSection,
     section: &TableAt<'_>,
@@ -178,19 +179,19 @@ fn cell(
     if let Some(table) = &around.lattice {
         if let Some(value) = period.or(pixel) {
             let message = format!("`{}` and [lattice] exclude each other: both say how large the cell is", value.path);
-            return Err(Refusal::new(value.node.place, message, "the cell is known"));
+            return Err(Refusal::new(value.node.span, message, "the cell is known"));
         }
         let lattice = LatticeSection::read_table(table)?;
         return Ok((lattice, build_cell(&lattice, table)?));
     }
     let sides = match (own.period, own.pixel) {
         (Some(_), Some(_)) => {
-            return Err(section.both(["period", "pixel"], pixel.map_or(section.place, |pixel| pixel.node.place)));
+            return Err(section.both(["period", "pixel"], pixel.map_or(section.span, |pixel| pixel.node.span)));
         }
         (Some(Sides(sides)), None) => sides,
         (None, Some(Sides([d1, d2]))) => [d1 * points[0] as f64, d2 * points[1] as f64],
         (None, None) => of_file.ok_or_else(|| {
-            Refusal::new(section.place, "`surface.period` is missing, and so is [lattice]", "how large is the cell?").help(
+            Refusal::new(section.span, "`surface.period` is missing, and so is [lattice]", "how large is the cell?").help(
                 "add period = L or [L1, L2], the lengths of the whole file along a₁ and a₂; or pixel = d, the distance of \
                  its samples; or a section [lattice]",
             )
@@ -198,20 +199,20 @@ fn cell(
     };
     if let Some(side) = sides.iter().find(|side| !CARRIED.contains(*side)) {
         let message = format!("`surface`: a side of the cell is {side}; it must be between 1e-60 and 1e60");
-        return Err(Refusal::new(section.place, message, "no cell"));
+        return Err(Refusal::new(section.span, message, "no cell"));
     }
     let lattice = LatticeSection::rectangle(sides);
     Ok((lattice, build_cell(&lattice, section)?))
 }
 
-/// Heights of a file on another grid, and what of their slope that grid cannot hold.
+/// Heights of a file on another grid, and a warning about the slope that is lost.
 fn resampled(
     value: &ValueAt<'_>,
     cell: Cell,
     heights: Array2<f64>,
     points: [usize; 2],
 ) -> Result<(Array2<f64>, Option<String>), Refusal> {
-    let refuse = |what: String| Refusal::new(value.node.place, format!("`{}`: {what}", value.path), "resampled");
+    let refuse = |what: String| Refusal::new(value.node.span, format!("`{}`: {what}", value.path), "resampled");
     let needed = 24 * (heights.len() + points[0] * points[1]) as u64;
     fits(needed).map_err(|fault| refuse(format!("resampling {}", fault.what)).help("choose fewer grid.points"))?;
     let spectrum = Spectrum::of(cell, heights.view()).map_err(|error| refuse(error.to_string()))?;
@@ -225,16 +226,16 @@ fn resampled(
 fn room(section: &TableAt<'_>, [n1, n2]: [usize; 2]) -> Result<(), Refusal> {
     fits(24 * (n1 * n2) as u64).map_err(|fault| {
         let message = format!("`surface.random`: on {n1} × {n2} samples it {}", fault.what);
-        Refusal::new(section.place, message, fault.label()).help("choose fewer grid.points")
+        Refusal::new(section.span, message, fault.label()).help("choose fewer grid.points")
     })
 }
 
 fn topography(section: &TableAt<'_>, cell: Cell, heights: Array2<f64>) -> Result<Topography, Refusal> {
     Topography::new(cell, heights)
-        .map_err(|error| Refusal::new(section.place, format!("`surface`: {error}"), "no topography"))
+        .map_err(|error| Refusal::new(section.span, format!("`surface`: {error}"), "no topography"))
 }
 
-/// That a grid of `points` holds the first rms slope of the second.
+/// A warning where a grid of `points` keeps the rms slope `held` of `whole`.
 fn loss([held, whole]: [f64; 2], [n1, n2]: [usize; 2]) -> Option<String> {
     (held < (1.0 - LOSS) * whole).then(|| {
         format!(

@@ -26,7 +26,7 @@ section! {
         pub rms_slope: Option<f64> = Key::new(&[Form::Number(Range::POSITIVE)], "0.1"),
         /// root mean square of the heights
         pub rms_height: Option<f64> = Key::new(&[SIZE], "0.02").unit(Unit::Length).instead_of("rms_slope"),
-        /// which of all such surfaces
+        /// seed of the random numbers
         pub seed: usize = Key::new(&[Form::Integer(0, i64::MAX as usize)], "1").default("0"),
     }
 }
@@ -36,11 +36,11 @@ fn one_amplitude(_: &RandomSection, section: &TableAt<'_>) -> Result<(), Refusal
 }
 
 impl RandomSection {
-    /// Reads the section of a case with this cell, whose longest wave is the longest of the surface when not given.
+    /// Reads the section; `longest` defaults to the longest wave of `cell`.
     pub(super) fn read_in(section: &TableAt<'_>, cell: Cell) -> Result<Self, Refusal> {
         let own = Self::read_table(section)?;
         let [x, y] = cell.reduced().short();
-        // The wave along the lattice's densest lines, which lie farthest apart.
+        // The wave whose crests are the densest lines of the lattice, which are farthest apart.
         let of_cell = cell.area() / x.hypot(y);
         let longest = own.longest.unwrap_or(of_cell);
         let (rolloff, shortest) = (own.rolloff.unwrap_or(longest), own.shortest);
@@ -49,13 +49,13 @@ impl RandomSection {
                 "`{}` ≤ `rolloff` ≤ `longest` must hold of the wavelengths, not {shortest} ≤ {rolloff} ≤ {longest}",
                 section.path("shortest")
             );
-            return Err(Refusal::new(section.value("shortest")?.node.place, what, "no band of wavelengths")
+            return Err(Refusal::new(section.value("shortest")?.node.span, what, "no band of wavelengths")
                 .help("`rolloff` is `longest` when not given, and that is the longest wave of the cell"));
         }
         Ok(Self { longest: Some(longest), rolloff: Some(rolloff), ..own })
     }
 
-    /// What it says, for the core.
+    /// The section as a [`SelfAffine`].
     pub fn surface(&self) -> SelfAffine {
         let Self { hurst, longest, rolloff, shortest, rms_slope, rms_height, seed } = *self;
         let rms = rms_slope.map_or_else(|| Rms::Height(demanded(rms_height)), Rms::Slope);

@@ -14,18 +14,19 @@ use crate::plain;
 
 const SIZE: Form = Form::Number(Range::Size);
 
-/// What has nothing to act on beside `random`.
+/// Rule of keys that do not apply to `random`.
 const OF_A_FILE: &str = "of a file, not of a random surface";
 
 section! {
-    /// The section `[surface]`: complete, with an absolute path and its factor; its period stands in [`LatticeSection`](crate::case::LatticeSection).
+    /// The section `[surface]`, complete with an absolute path and its factor; its period is in
+    /// [`LatticeSection`](crate::case::LatticeSection).
     pub struct SurfaceSection = SURFACE {
         /// a file of heights, `.npy`, `.csv`, `.txt`, `.dat` or `.xyz`, relative to the case file
         pub heights: Option<String> = Key::new(&[Form::Text("the path of a file")], "\"surface.npy\""),
         /// factor of its heights, negative to turn them over
         pub scale: Option<f64> =
             Key::new(&[Form::Number(Range::Factor)], "1e-3").default("1").rule(OF_A_FILE),
-        /// what the heights of the file are in
+        /// unit of the heights of the file
         pub unit: Option<String> = Key::new(&[Form::Text("a unit of length")], "\"nm\"")
             .otherwise("the case's own")
             .rule("m, cm, mm, µm, nm, pm, Å, in or mil; needs `units.length`; of a file, not of a random surface"),
@@ -43,7 +44,7 @@ section! {
             .instead_of("period")
             .rule("in place of [lattice]; of a file, not of a random surface")
             .never_written(),
-        /// whether its mean plane is taken away
+        /// whether its mean plane is subtracted
         pub level: Option<bool> = Key::new(&[Form::Boolean], "true").default("false").rule(OF_A_FILE),
         /// taper of its border; true is "tukey"
         pub window: Option<Taper> =
@@ -54,7 +55,7 @@ section! {
                 .instead_of("heights"),
     }
     beside {
-        /// Whether its file is a text that does not say what its lines are, so that they were taken to run along a₁.
+        /// Whether its file is a text whose lines run along a₁ by default.
         pub lines_along_a1: bool,
     }
 }
@@ -82,7 +83,7 @@ impl KeyValue for Taper {
 pub struct Sides(pub [f64; 2]);
 
 impl KeyValue for Sides {
-    /// A length for both directions, or one for each.
+    /// Reads a length for both directions, or one for each.
     fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
         match &value.node.value {
             Value::List(_) => value.numbers(),
@@ -93,12 +94,12 @@ impl KeyValue for Sides {
 }
 
 impl SurfaceSection {
-    /// What a generated surface is; `None` of one from a file.
+    /// The keys of a generated surface; `None` for one from a file.
     pub fn random(&self) -> Option<&RandomSection> {
         self.random.as_ref()
     }
 
-    /// Which way the lines of its file were taken to run, a sentence, where the file does not say so.
+    /// The assumed direction of the lines of its file, a sentence; `None` where the file states it.
     pub fn lines(&self) -> Option<String> {
         let heights = self.heights.as_ref().filter(|_| self.lines_along_a1)?;
         Some(format!(

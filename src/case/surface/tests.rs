@@ -118,7 +118,7 @@ fn a_unit_becomes_part_of_the_scale() {
     let node = |text: &str| super::super::node::Table::parse(text).unwrap();
     let of = |text: &str, length: Option<&str>| {
         let table = node(text);
-        let end = super::super::place::Place::new(0, 0..0);
+        let end = super::super::span::Span::new(0, 0..0);
         let section = TableAt::root(&table, super::super::model::CASE.within("surface"), end);
         Treatment::of(&SurfaceSection::read_table(&section)?, &section, length)
             .map(|treatment| (treatment.scale, treatment.unit))

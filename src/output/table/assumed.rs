@@ -1,8 +1,8 @@
-//! What stands behind largest stresses and limit loads without being in their tables.
+//! Assumptions of largest stresses and limit loads, in sentences below their tables.
 
 use crate::body::MeanStress;
 
-/// Which mean lateral stress is in the largest stresses and limit loads, in a sentence.
+/// The mean lateral stress in the largest stresses and limit loads, in a sentence.
 pub fn mean_stress(mean: MeanStress) -> &'static str {
     match mean {
         MeanStress::HalfSpace => {
@@ -12,7 +12,7 @@ pub fn mean_stress(mean: MeanStress) -> &'static str {
     }
 }
 
-/// That strengths are held against stresses under rigid indenters, and what to do where they are elastic.
+/// The indenters are rigid in utilisations and limit loads, and the way to treat elastic ones.
 ///
 /// With 1/E\* = 1/E\*₁ + 1/E\*₂ the gap of two bare bodies is that of the body alone under heights times E\*/E\*₁: the same pressure,
 /// and the body's own part of the penetration.
@@ -21,7 +21,7 @@ pub const RIGID: &str = "the indenters are rigid: elastic ones press less sharpl
      1 + E*₁/E*₂ and multiply radii by it (like bodies: R → 2R, half the heights): pressures, spots and stresses without friction \
      are then those of the pair, the penetration is the body's part of it; under a coating this is only near to it";
 
-/// Which mean lateral stress there is, and beside strengths that the indenters are rigid, in lines no wider than `width`.
+/// The mean lateral stress, and beside strengths the assumption of rigid indenters, in lines of at most `width` letters.
 pub(super) fn assumed(mean: MeanStress, with_strength: bool, width: usize) -> String {
     let mut lines = wrapped(mean_stress(mean), width);
     if with_strength {

@@ -5,7 +5,7 @@ use crate::comparison::{Answer, CircleComparison, Comparison, Deviation};
 use crate::output::number;
 use crate::units::{Prefixed, Units};
 
-/// Both solutions level by level, one block for the spectral one and for each circle.
+/// Table of both solutions level by level, one block for the spectral one and for each circle.
 pub fn readings(comparison: &Comparison, units: &Units) -> Table {
     let spectral = Answer::from(&comparison.spectral.reading);
     let answers = || std::iter::once(&spectral).chain(comparison.circles.iter().map(|circle| &circle.answer));
@@ -53,12 +53,12 @@ pub fn readings(comparison: &Comparison, units: &Units) -> Table {
     Table::new(&header, rows, 0).keyed(&[0, 1, 3])
 }
 
-/// How many indenters a circle has, where they act on each other.
+/// Number of indenters in a circle, or "alone" without mutual effect.
 fn inside(comparison: &Comparison, circle: &CircleComparison) -> String {
     if comparison.task.mutual_effect { circle.indenters.to_string() } else { "alone".to_owned() }
 }
 
-/// Differences from the spectral solution circle by circle, for the rules, and what the meshes contribute.
+/// Table of the differences from the spectral solution for each circle and rule, and of the errors of the meshes.
 pub fn differences(comparison: &Comparison) -> Table {
     let header =
         ["largest difference", "inside", "penetration", "load on one", "share", "peak pressure", "contact radius"];
@@ -82,7 +82,7 @@ pub fn differences(comparison: &Comparison) -> Table {
     Table::new(&header, rows, 0).keyed(&[0, 1])
 }
 
-/// How far the stresses agree, in a line; `None` where none are compared.
+/// Largest difference of the stresses, in a line; `None` where none are compared.
 pub fn stresses(comparison: &Comparison, units: &Units) -> Option<String> {
     let worst = comparison.stresses.iter().max_by(|a, b| a.difference().total_cmp(&b.difference()))?;
     let largest = comparison.stresses.iter().flat_map(|pair| pair.spectral.components()[..6].to_vec());
@@ -91,7 +91,7 @@ pub fn stresses(comparison: &Comparison, units: &Units) -> Option<String> {
         "stresses at {} points under the highest level agree within {:.2} % of the largest, worst at z = {} in material {}",
         comparison.stresses.len(),
         100.0 * worst.difference() / largest,
-        units.length().told(worst.depth.z, number),
+        units.length().with_unit(worst.depth.z, number),
         worst.depth.material
     ))
 }

@@ -1,21 +1,21 @@
 //! The largest stresses of the load steps, by material and interface.
 
 use super::Table;
-use super::by_step::{Found, Row, by_step};
+use super::by_step::{Quantity, QuantityInStep, by_step};
 use crate::reading::StressReading;
 use crate::run::StepRecord;
 use crate::stress::Peak;
 use crate::units::Units;
 
-/// One row a quantity; `None` where no step has stresses.
+/// Table of the largest stresses, one row a quantity; `None` where no step has stresses.
 pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<Table> {
     let any = steps.iter().find_map(|step| step.stress.as_ref())?;
     let row = |name: String, peak: &dyn Fn(&StressReading) -> Option<Peak>| {
         let of = |step: &StepRecord| {
             let Peak { value, error, position, rival, .. } = peak(step.stress.as_ref()?)?;
-            Some(Found { value, error, position, rival: rival.map(|rival| rival.position) })
+            Some(QuantityInStep { value, error, position, rival: rival.map(|rival| rival.position) })
         };
-        Row { name, found: steps.iter().map(of).collect() }
+        Quantity { name, found: steps.iter().map(of).collect() }
     };
     let material = |index: usize| {
         let own = any.materials[index].tau1.material;
@@ -33,6 +33,6 @@ pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<Table> {
         ]
     };
     let materials = (0..any.materials.len()).flat_map(material);
-    let rows: Vec<Row> = materials.chain((0..any.interfaces.len()).flat_map(interface)).collect();
+    let rows: Vec<Quantity> = materials.chain((0..any.interfaces.len()).flat_map(interface)).collect();
     by_step("largest stress", units.pressure(), units, steps, &rows)
 }

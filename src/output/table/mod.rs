@@ -1,4 +1,4 @@
-//! The result table a person reads.
+//! Tables of results for the terminal and the report.
 
 mod assumed;
 mod by_step;
@@ -28,17 +28,17 @@ use crate::units::{Prefixed, Units};
 /// Relative errors up to this are rounding.
 const NOTHING: f64 = 1e-12;
 
-/// Up to this many steps every level gets a row of its own.
+/// Most load steps with a row for every level.
 pub const DETAILED: usize = 6;
 
-/// The load steps as a table: in detail for a few steps, one row a step for many.
+/// Table of the load steps: up to [`DETAILED`] with a row for every level, more with one row a step.
 pub fn steps(steps: &[StepRecord], units: &Units) -> Table {
     let levels = steps.first().map_or(0, |step| step.reading.levels.len());
     if steps.len() <= DETAILED && levels > 0 { detailed(steps, units) } else { compact(steps, levels, units) }
 }
 
-/// All that is said of the steps of a case: what is read off them, their largest stresses and what those take up, and how
-/// sure that is. `change`: that from the next coarser grid, where an accuracy was asked for.
+/// The text of `percoat solve`: tables of readings, largest stresses and utilisations, convergence and errors. `change`: relative
+/// change from the next coarser grid, where an accuracy was prescribed.
 pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: usize) -> String {
     let units = case.units();
     let mut text = heading(case);
@@ -64,14 +64,14 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     text
 }
 
-/// The title of a case as a line, and how the file of its surface was read where that had to be assumed.
+/// The title of a case as a line, and the assumed orientation of its surface file where the file does not state it.
 fn heading(case: &Case) -> String {
     let title = Some(plain::line(&case.title).to_string()).filter(|title| !title.is_empty());
     let lines = case.surface.as_ref().and_then(SurfaceSection::lines);
     title.into_iter().chain(lines).map(|line| line + "\n").collect()
 }
 
-/// All that is said of the limit loads of a case.
+/// The text of `percoat limit`: limit loads, the loads solved, convergence and errors.
 pub fn limited(case: &Case, found: &Limits, width: usize) -> String {
     let mut text = heading(case);
     if !text.is_empty() {
@@ -85,7 +85,7 @@ pub fn limited(case: &Case, found: &Limits, width: usize) -> String {
     text
 }
 
-/// All that is said of the comparison of both methods under the last load of a case.
+/// The text of `percoat compare`: both methods under the last load of a case.
 pub fn compared(case: &Case, comparison: &Comparison, width: usize) -> String {
     let (units, steps) = (case.units(), case.load.values().len());
     let mut text = heading(case);
@@ -134,7 +134,7 @@ fn detailed(steps: &[StepRecord], units: &Units) -> Table {
         for level in &step.reading.levels {
             let radius = match level.contact_radius {
                 _ if level.load == 0.0 => "–".to_owned(),
-                // The radius of the area says little of a ring.
+                // A ring has two radii.
                 Some(radius) if level.ring => match (level.radius_inner, level.radius_outer) {
                     (Some(inner), Some(outer)) => format!(
                         "ring {} to {}",
@@ -190,23 +190,23 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
     Table::new(&header, readings().map(row).collect(), 0)
 }
 
-/// Two decimals; what rounds to zero has no sign.
+/// Two decimals; no sign for zero.
 fn percent(x: f64) -> String {
     let text = format!("{:.2} %", 100.0 * x);
     text.strip_prefix('-').filter(|text| *text == "0.00 %").map_or(text.clone(), str::to_owned)
 }
 
-/// A number with its error, or that there is none because it is infinite.
+/// A number with its error, or "singular".
 fn finite(unit: &Prefixed, x: Option<f64>, error: Option<f64>) -> String {
     x.map_or("singular".to_owned(), |x| in_unit(unit, x, error))
 }
 
-/// A number of the case with its error, both in the unit of their column.
+/// A number with its error, both in the unit of their column.
 fn in_unit(unit: &Prefixed, x: f64, error: Option<f64>) -> String {
     with_error(unit.shown(x), error.map(|error| unit.shown(error)))
 }
 
-/// A part with its error in per cent: two digits behind the point, fewer where the error counts before them.
+/// A part with its error in per cent: at most two decimals, fewer where the error is larger.
 pub(crate) fn percent_with_error(x: f64, error: Option<f64>) -> String {
     match error.map(|error| 100.0 * error) {
         Some(error) if error > ROUNDING * 100.0 * x.abs() => {
@@ -216,7 +216,7 @@ pub(crate) fn percent_with_error(x: f64, error: Option<f64>) -> String {
     }
 }
 
-/// How far the load steps have been solved, in a line.
+/// Convergence of the load steps, in a line.
 pub fn solved(steps: &[StepRecord]) -> String {
     let [n1, n2] = steps.last().map_or([0, 0], |step| step.points);
     let most = steps.iter().map(|step| step.iterations).max().unwrap_or(0);
@@ -233,7 +233,7 @@ pub fn solved(steps: &[StepRecord]) -> String {
     )
 }
 
-/// The contact spots of a topography in the last step that has any, in a line; `None` without.
+/// Number of contact spots of a topography in the last step that has any, in a line; `None` for indenters.
 fn spots(steps: &[StepRecord]) -> Option<String> {
     let last = steps.iter().rposition(|step| step.rough.is_some())?;
     let count = steps[last].rough.as_ref()?.spots.count;
@@ -265,7 +265,7 @@ pub fn largest_errors(steps: &[StepRecord]) -> Option<String> {
     (!texts.is_empty()).then(|| format!("estimated relative discretisation errors, at most: {}", texts.join(", ")))
 }
 
-/// Where the time of a run went, in a few words.
+/// Wall times of a run by phases, in a line.
 pub fn timing(timing: &Timing) -> String {
     let Timing { setup, solve, stress, output } = timing;
     let stress = if *stress > 0.0 { format!(", stresses {stress:.2}") } else { String::new() };

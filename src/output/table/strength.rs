@@ -1,6 +1,6 @@
-//! What materials and interfaces bear: utilisations of the load steps, and limit loads.
+//! Tables of the utilisations of load steps, and of limit loads.
 
-use super::by_step::{Found, Row, by_step, place};
+use super::by_step::{Quantity, QuantityInStep, by_step, place};
 use super::{Table, Worded, in_unit};
 use crate::body::HalfSpace;
 use crate::output::number::{number, with_error};
@@ -8,8 +8,8 @@ use crate::reading::{Criterion, Utilisation, Verdict};
 use crate::run::{At, Limit, Limits, StepRecord};
 use crate::units::{Prefixed, Unit, Units};
 
-/// The utilisations of the load steps, one row a criterion, what governs the last one first; `None` without any. What
-/// residual stress alone breaks is told where the half-space is known.
+/// Table of the utilisations, one row a criterion, the one that governs the last step first; `None` without strengths. With a
+/// half-space the words name a criterion that residual stress alone reaches.
 pub fn utilisations(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units) -> Option<Worded> {
     let last = steps.iter().rev().find(|step| !step.strength.is_empty())?;
     let mut governing: Vec<&Utilisation> = last.strength.iter().collect();
@@ -17,30 +17,30 @@ pub fn utilisations(steps: &[StepRecord], half_space: Option<&HalfSpace>, units:
     let row = |&Utilisation { criterion, .. }: &Utilisation| {
         let of = |step: &StepRecord| {
             let &Utilisation { value, error, position, rival, .. } = step.utilisation(criterion)?;
-            Some(Found { value, error, position, rival })
+            Some(QuantityInStep { value, error, position, rival })
         };
-        Row { name: criterion.to_string(), found: steps.iter().map(of).collect() }
+        Quantity { name: criterion.to_string(), found: steps.iter().map(of).collect() }
     };
-    let rows: Vec<Row> = governing.into_iter().map(row).collect();
+    let rows: Vec<Quantity> = governing.into_iter().map(row).collect();
     let table = by_step("utilisation", &Unit::None, units, steps, &rows)?;
     Some(Worded { words: in_words(steps, half_space, units)?, table })
 }
 
-/// What fails first as far as the load steps and the errors tell, else what comes nearest at any. The load at which it does
-/// lies between the last step at which everything holds and the first at which something fails by more than its error; at or
-/// below the first step where nothing holds for sure before.
+/// The criterion that fails first, within the load steps and errors, else the one nearest to failing. Its load lies between the
+/// last step in which nothing fails for certain and the first in which one fails by more than its error; without the former,
+/// at or below the latter.
 fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units) -> Option<String> {
     let at_rest = |body| Criterion::all(body).into_iter().find(|own| own.at_rest(body) >= 1.0);
     if let Some(criterion) = half_space.and_then(at_rest) {
         return Some(format!("first: {criterion}, without load, by residual stress alone"));
     }
     let taken = || steps.iter().flat_map(|step| step.strength.iter().map(move |own| (step.reading.mean_pressure, own)));
-    let told = |pressure: f64| units.pressure().told(pressure, number);
+    let told = |pressure: f64| units.pressure().with_unit(pressure, number);
     let least = |loads: &mut dyn Iterator<Item = f64>| loads.min_by(f64::total_cmp);
     let fails = least(&mut taken().filter(|(_, own)| own.verdict == Verdict::Fails).map(|(load, _)| load));
     let Some(above) = fails else {
         let open = taken().any(|(_, own)| own.verdict == Verdict::Undecided);
-        // That in which something comes nearest.
+        // The step with the largest utilisation.
         let reach = |step: &&StepRecord| step.strength.iter().map(Utilisation::most).fold(0.0, f64::max);
         let with_strength = steps.iter().filter(|step| !step.strength.is_empty());
         let step = with_strength.max_by(|a, b| reach(a).total_cmp(&reach(b)))?;
@@ -48,8 +48,8 @@ fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units)
         let begins = if open { "undecided by the errors whether anything fails" } else { "nothing fails" };
         return Some(format!("{begins}: at p̄ = {} {words}", told(step.reading.mean_pressure)));
     };
-    // Every criterion that may fail up to there may be the first, also between the steps; the least load by its value,
-    // and at that load the largest, is named before the others.
+    // Every criterion that may fail up to there may be the first, also between the steps; the one of least load, and at that
+    // load of largest value, is named first.
     let may = |load: f64, own: &Utilisation| load <= above && own.verdict != Verdict::Holds;
     let mut first: Vec<(f64, &Utilisation)> = taken().filter(|(load, own)| may(*load, own)).collect();
     let open = least(&mut first.iter().map(|(load, _)| *load)).unwrap_or(above);
@@ -63,7 +63,7 @@ fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units)
         }
     }
     let undecided = if names.len() > 1 { ", undecided which," } else { "" };
-    // Every step of a lesser load holds.
+    // No step of a lesser load fails.
     let loads = steps.iter().map(|step| step.reading.mean_pressure);
     let below = loads.filter(|&load| 0.0 < load && load < open).max_by(f64::total_cmp);
     let first = format!("first: {}{undecided}", names.join(" or "));
@@ -73,7 +73,7 @@ fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units)
     })
 }
 
-/// The interval of a limit; an end that is not known is left open.
+/// The interval of a limit; open at an unknown end.
 fn range(pressure: &Prefixed, [from, to]: [f64; 2]) -> String {
     let shown = |load: f64| number(pressure.shown(load));
     match (from > 0.0, to.is_finite()) {
@@ -84,7 +84,7 @@ fn range(pressure: &Prefixed, [from, to]: [f64; 2]) -> String {
     }
 }
 
-/// The limit loads, the first of them first.
+/// Table of the limit loads, the first limit in the first row.
 pub fn limits(limits: &Limits, units: &Units) -> Worded {
     let pressures = limits.limits.iter().map(|limit| match limit.at {
         At::Never { up_to, .. } | At::Undecided { up_to, .. } => up_to,
@@ -95,7 +95,7 @@ pub fn limits(limits: &Limits, units: &Units) -> Worded {
     let place = |position: [f64; 3]| place(&length, position);
     let most = |utilisation: f64, error: Option<f64>, at: f64| {
         let utilisation = with_error(utilisation, error);
-        format!("takes up {utilisation} at p̄ = {}", units.pressure().told(at, number))
+        format!("takes up {utilisation} at p̄ = {}", units.pressure().with_unit(at, number))
     };
     let row = |limit: &&Limit| {
         let (pressure, place) = match limit.at {
@@ -122,6 +122,6 @@ pub fn limits(limits: &Limits, units: &Units) -> Worded {
     };
     let rows = limits.ordered().iter().map(row).collect();
     let header = ["criterion".to_owned(), pressure.headed("mean pressure"), length.headed("place (x, y, z)")];
-    let words = limits.in_words(|x| units.pressure().told(x, number));
+    let words = limits.in_words(|x| units.pressure().with_unit(x, number));
     Worded { words, table: Table::new(&header, rows, 1) }
 }

@@ -3,45 +3,45 @@
 use comfy_table::{CellAlignment, ContentArrangement, presets};
 use std::fmt;
 
-/// Blanks around a cell.
+/// Blanks between two columns.
 const BLANKS: usize = 2;
 
-/// Texts in rows under a head. It prints itself without a line break at its end.
+/// A table of texts under a head; displayed without a line break at its end.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
     /// Names of the columns.
     pub head: Vec<String>,
-    /// Cells, row by row. Leading cells that are empty say what those above them do.
+    /// Cells, row by row. An empty leading cell repeats the one above it.
     pub rows: Vec<Vec<String>>,
     /// Number of first columns that are words, aligned left; the others are aligned right.
     pub words: usize,
-    /// Columns that say what a row is about: they stand in every part of a table that is too wide to stand in one.
+    /// Columns that name a row: repeated in every part of a table that is split because of its width.
     pub keys: Vec<usize>,
 }
 
-/// A table, and in words what it comes to.
+/// A table, and its result in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Worded {
-    /// A line.
+    /// The result, in a line.
     pub words: String,
-    /// What it is read off.
+    /// The table.
     pub table: Table,
 }
 
 impl Table {
-    /// Texts in rows under a head, of which the first columns are words.
+    /// A table of `rows` under `head`, the first `words` columns aligned left.
     pub fn new(head: &[impl ToString], rows: Vec<Vec<String>>, words: usize) -> Self {
         Self { head: head.iter().map(ToString::to_string).collect(), rows, words, keys: vec![0] }
     }
 
-    /// With other columns that say what a row is about.
+    /// With other columns that name a row.
     pub(super) fn keyed(self, keys: &[usize]) -> Self {
         Self { keys: keys.to_vec(), ..self }
     }
 
-    /// With its first column, of sentences, broken into rows, so that all stands in so many columns of letters if it can.
+    /// With the sentences of the first column broken into rows, so that the table has at most `width` letters if possible.
     pub fn wrapped(self, width: usize) -> Self {
-        /// Letters that a line has at least.
+        /// Fewest letters of a broken line.
         const LEAST: usize = 32;
         let others: usize = (1..self.head.len()).map(|index| self.wide(index)).sum();
         let most = (width + 1).saturating_sub(others + BLANKS).max(LEAST);
@@ -64,16 +64,16 @@ impl Table {
         Self { rows, ..self }
     }
 
-    /// Letters that a column takes, with the blanks beside it.
+    /// Width of a column with its blanks, letters.
     fn wide(&self, index: usize) -> usize {
         let cells = self.rows.iter().map(|row| &row[index]).chain([&self.head[index]]);
         cells.map(|cell| cell.chars().count()).max().unwrap_or(0) + BLANKS
     }
 
-    /// As it prints itself, in as many parts one below the other as it takes to fit into so many columns of letters. A
-    /// part has one column beside the keys at least.
+    /// The table as text, split into parts one below the other of at most `width` letters. A part has at least one column beside
+    /// the keys.
     pub fn fitted(&self, width: usize) -> String {
-        // The last blank is not printed.
+        // Blanks at the end of a line are not printed.
         let fits = |columns: &[usize]| columns.iter().map(|&index| self.wide(index)).sum::<usize>() <= width + 1;
         let mut parts: Vec<Vec<usize>> = vec![self.keys.clone()];
         for index in (0..self.head.len()).filter(|index| !self.keys.contains(index)) {
@@ -90,7 +90,7 @@ impl Table {
         parts.iter().map(|columns| self.part(columns).to_string()).collect::<Vec<_>>().join("\n\n")
     }
 
-    /// Some of its columns; words come first.
+    /// A table of some of the columns, those of words first.
     fn part(&self, columns: &[usize]) -> Self {
         let pick = |row: &Vec<String>| columns.iter().map(|&index| row[index].clone()).collect();
         let words = columns.iter().take_while(|index| **index < self.words).count();
@@ -99,7 +99,7 @@ impl Table {
 }
 
 impl Worded {
-    /// The words, and the table as it [fits](Table::fitted).
+    /// The words, and the [fitted](Table::fitted) table.
     pub fn fitted(&self, width: usize) -> String {
         format!("{}\n\n{}", self.words, self.table.fitted(width))
     }
@@ -111,7 +111,6 @@ impl fmt::Display for Worded {
     }
 }
 
-/// Under a rule.
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut table = comfy_table::Table::new();

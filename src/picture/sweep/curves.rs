@@ -15,7 +15,7 @@ const CURVES: usize = 12;
 const COLOURS: usize = 6;
 
 /// A curve that is being gathered.
-struct Found {
+struct SweepCurve {
     label: String,
     /// The load of all its points, where it is one.
     load: Option<f64>,
@@ -23,11 +23,11 @@ struct Found {
 }
 
 impl Keys {
-    /// A curve for each set of the other keys, or for each load step where there are no others, in so far as they can be told
-    /// apart; and how many there are.
+    /// A curve for each set of the other keys, or for each load step where there are no others, as many as are distinguishable; and
+    /// the number of all.
     pub fn chart(&self, rows: &[Row], shown: &Number) -> (Chart, usize) {
         let (index, values) = &self.along;
-        let mut curves: BTreeMap<usize, Found> = BTreeMap::new();
+        let mut curves: BTreeMap<usize, SweepCurve> = BTreeMap::new();
         let mut order: HashMap<String, usize> = HashMap::new();
         for row in rows {
             let others = row.settings.iter().enumerate().filter(|(at, _)| at != index);
@@ -41,8 +41,8 @@ impl Keys {
             {
                 let load = result.step().map(|step| step.reading.mean_pressure).filter(|_| steps > 1);
                 let (own, label) = if steps > 1 { (step, format!("step {}", step + 1)) } else { (at, label.clone()) };
-                let curve = curves.entry(own).or_insert_with(|| Found { label, load, points: Vec::new() });
-                // A step whose load is not the same everywhere has a number only.
+                let curve = curves.entry(own).or_insert_with(|| SweepCurve { label, load, points: Vec::new() });
+                // A step whose load differs between rows is labelled by its number.
                 curve.load = curve.load.filter(|_| curve.load == load);
                 curve.points.push([x, shown.value(result).unwrap_or(f64::NAN)]);
             }
@@ -54,7 +54,7 @@ impl Keys {
             0..=COLOURS => Ink::Number(index + 1),
             _ => Ink::Depth(index as f64 / (count - 1) as f64),
         };
-        let curves = drawn.into_iter().enumerate().map(|(index, (_, Found { label, load, mut points }))| {
+        let curves = drawn.into_iter().enumerate().map(|(index, (_, SweepCurve { label, load, mut points }))| {
             let label = load.map_or(label, |load| format!("p̄ = {}", short(load)));
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };

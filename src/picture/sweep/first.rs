@@ -23,13 +23,13 @@ pub fn colour(first: Foremost, index: usize) -> Colour {
 }
 
 /// A map with the names of its colours.
-pub struct Named<'a> {
+pub struct NamedMap<'a> {
     pub map: Map<'a>,
     pub names: Vec<(Colour, String)>,
 }
 
-impl Named<'_> {
-    /// Where the samples stand relative to the corner of the names, and the height of all, at a width.
+impl NamedMap<'_> {
+    /// Positions of the samples relative to the corner of the names, and the height of all, at a width.
     fn places(&self, width: f64) -> (Vec<[f64; 2]>, f64) {
         let widths = self.names.iter().map(|(_, name)| SAMPLE + GAP + text::width(name, NUMBERS) + 3.0 * GAP);
         let pitch = widths.fold(1.0, f64::max);
@@ -40,7 +40,7 @@ impl Named<'_> {
     }
 }
 
-impl Panel for Named<'_> {
+impl Panel for NamedMap<'_> {
     fn title(&self) -> &str {
         self.map.title()
     }

@@ -7,7 +7,7 @@ use super::super::colour::Colour;
 use super::super::map::{Fill, Map, Over};
 use super::super::scale::Scale;
 use super::super::sheet::{Panel, sheet};
-use super::first::{Named, colour};
+use super::first::{NamedMap, colour};
 use super::keys::{Keys, number, scale};
 use super::numbers::{Bound, Number};
 use crate::sweep::{Foremost, Row, SweepResult};
@@ -17,10 +17,10 @@ use std::collections::BTreeMap;
 const WIDE: f64 = 20.0;
 
 /// A value of each cell, the first key fastest; `None` where a combination has none.
-type Field<T> = Vec<Option<T>>;
+type MapValues<T> = Vec<Option<T>>;
 
 /// Words over the cells of a map, with their colours.
-type Signs = Field<(&'static str, Colour)>;
+type Signs = MapValues<(&'static str, Colour)>;
 
 impl Keys {
     /// A map of what comes first where limits are searched for, and one for each number.
@@ -37,12 +37,12 @@ impl Keys {
         let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.step().is_some());
         let what = if of_loads { "what governs" } else { "what comes first" };
         let names = counted.iter().map(|(first, count)| (colours[first], format!("{first} ({count})")));
-        let first = (!counted.is_empty()).then(|| Named {
+        let first = (!counted.is_empty()).then(|| NamedMap {
             map: plane.map(format!("{what} (in how many combinations)"), Fill::Colours(&first), questions),
             names: names.collect(),
         });
         let finite = |shown: &Number| self.field(rows, |result| shown.value(result).filter(|value| value.is_finite()));
-        let fields: Vec<Field<f64>> = numbers.iter().map(finite).collect();
+        let fields: Vec<MapValues<f64>> = numbers.iter().map(finite).collect();
         let lookups: Vec<_> = fields.iter().map(|field| |place: [f64; 2]| field[plane.cell(place)]).collect();
         let maps = numbers.iter().zip(&fields).zip(&lookups).map(|((shown, field), value)| {
             let bar = bar(shown, &field.iter().copied().flatten().collect::<Vec<_>>());
@@ -72,7 +72,7 @@ impl Keys {
     }
 
     /// What the last results of the rows have, cell by cell: first the lowest row.
-    fn field<T: Copy>(&self, rows: &[Row], value: impl Fn(&SweepResult) -> Option<T>) -> Field<T> {
+    fn field<T: Copy>(&self, rows: &[Row], value: impl Fn(&SweepResult) -> Option<T>) -> MapValues<T> {
         let Some(up) = &self.pair else { return Vec::new() };
         let mut field = vec![None; self.along.1.len() * up.1.len()];
         for row in rows {
@@ -115,7 +115,7 @@ fn bar(shown: &Number, values: &[f64]) -> Bar {
 
 /// The cells over two keys.
 struct Plane<'a> {
-    axes: [Cells; 2],
+    axes: [AxisCells; 2],
     names: [&'a str; 2],
 }
 
@@ -123,7 +123,7 @@ impl<'a> Plane<'a> {
     fn new(keys: &'a Keys) -> Option<Self> {
         let both = [&keys.along, keys.pair.as_ref()?];
         Some(Self {
-            axes: both.map(|(_, values)| Cells::new(values)),
+            axes: both.map(|(_, values)| AxisCells::new(values)),
             names: both.map(|(index, _)| keys.names[*index].as_str()),
         })
     }
@@ -148,7 +148,7 @@ impl<'a> Plane<'a> {
 }
 
 /// The cells of an axis around its values.
-struct Cells {
+struct AxisCells {
     /// Their places.
     values: Vec<f64>,
     /// Borders, one more than values.
@@ -156,7 +156,7 @@ struct Cells {
     scale: Scale,
 }
 
-impl Cells {
+impl AxisCells {
     fn new(values: &[f64]) -> Self {
         let scale = scale(values);
         let is_log = scale == Scale::Log;
@@ -188,7 +188,7 @@ mod tests {
 
     #[test]
     fn a_map_over_a_logarithmic_key_has_cells_of_one_width() {
-        let cells = Cells::new(&[0.01, 0.1, 1.0, 10.0]);
+        let cells = AxisCells::new(&[0.01, 0.1, 1.0, 10.0]);
         let [low, high] = cells.axis("").range.unwrap();
         let quarter = |part: f64| cells.at(cells.scale.between(low, high, part));
         assert_eq!([0.01, 0.24, 0.26, 0.49, 0.51, 0.74, 0.76, 0.99].map(quarter), [0, 0, 1, 1, 2, 2, 3, 3]);
@@ -196,10 +196,10 @@ mod tests {
 
     #[test]
     fn cells_reach_half_way_to_their_neighbours() {
-        let cells = Cells::new(&[1.0, 10.0, 100.0]);
+        let cells = AxisCells::new(&[1.0, 10.0, 100.0]);
         assert_eq!(cells.scale, Scale::Log);
         assert_eq!([0.5, 2.0, 4.0, 30.0, 1e4].map(|x| cells.at(x)), [0, 0, 1, 1, 2]);
-        let cells = Cells::new(&[0.0, 1.0, 3.0]);
+        let cells = AxisCells::new(&[0.0, 1.0, 3.0]);
         assert_eq!([cells.at(0.4), cells.at(0.6), cells.at(1.9), cells.at(2.1)], [0, 1, 1, 2]);
     }
 }

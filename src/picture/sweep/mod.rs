@@ -80,7 +80,7 @@ fn unknown(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
     let mut words = Vec::new();
     if all().any(|own| value(own).is_none()) {
         let place = if is_map { "grey" } else { "a gap in a curve" };
-        words.push(format!("{place}: no number, the table tells why"));
+        words.push(format!("{place}: no number, see the table"));
     }
     for (bound, sign, meaning) in [
         (Bound::Below, "<", "it is reached below the smallest load that the grid resolves"),
@@ -103,7 +103,7 @@ mod tests {
     const CRACKS: Criterion = Criterion::cracking_of(1);
     const PARTS: Criterion = Criterion::delamination_of(1);
 
-    /// All that stands on a picture, in a line.
+    /// All text of a picture, in a line.
     fn words(picture: Option<Canvas>) -> String {
         let marks = picture.unwrap().marks.into_iter();
         let words = marks.filter_map(|mark| if let Mark::Text { text, .. } = mark { Some(text) } else { None });

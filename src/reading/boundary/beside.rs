@@ -4,7 +4,7 @@
 //! axis fall into. The samples are found once for all iterations of a fit, with a margin over which the rim may move.
 
 use super::rim::Rim;
-use super::spot::{Sample, Scale, Spot};
+use super::spot::{ContactSamples, PolarSpot, Sample};
 use crate::numeric::closed_line::ANGLES;
 use std::f64::consts::TAU;
 
@@ -26,8 +26,8 @@ pub struct Point {
 
 /// Samples near the rim `radii` of a spot.
 pub struct Beside<'a> {
-    spot: &'a Spot<'a>,
-    scale: &'a Scale<'a>,
+    spot: &'a PolarSpot<'a>,
+    samples: &'a ContactSamples<'a>,
     rim: Rim,
     /// Largest distance of a sample from the rim, a length.
     reach: f64,
@@ -44,10 +44,10 @@ pub struct Beside<'a> {
 
 impl<'a> Beside<'a> {
     /// The samples nearer than `reach` to the rim `radii`.
-    pub fn new(spot: &'a Spot<'a>, scale: &'a Scale<'a>, rim: Rim, reach: f64, radii: &[f64]) -> Self {
+    pub fn new(spot: &'a PolarSpot<'a>, samples: &'a ContactSamples<'a>, rim: Rim, reach: f64, radii: &[f64]) -> Self {
         let mut beside = Self {
             spot,
-            scale,
+            samples,
             rim,
             reach,
             radii: radii.to_vec(),
@@ -62,7 +62,7 @@ impl<'a> Beside<'a> {
 
     /// Finds the samples again where the rim has moved too far to `radii`.
     pub fn follow(&mut self, radii: &[f64]) {
-        let margin = MARGIN * self.scale.spacing;
+        let margin = MARGIN * self.samples.spacing;
         if radii.iter().zip(&self.radii).any(|(now, then)| (now - then).abs() > margin) {
             self.radii.copy_from_slice(radii);
             self.find();
@@ -75,8 +75,8 @@ impl<'a> Beside<'a> {
     }
 
     /// The samples of the contact.
-    pub fn scale(&self) -> &'a Scale<'a> {
-        self.scale
+    pub fn samples(&self) -> &'a ContactSamples<'a> {
+        self.samples
     }
 
     /// Number of samples.
@@ -113,12 +113,12 @@ impl<'a> Beside<'a> {
 
     fn find(&mut self) {
         let beside = &*self;
-        let Self { spot, scale, rim, ref radii, .. } = *beside;
-        let near = self.reach + MARGIN * scale.spacing;
+        let Self { spot, samples, rim, ref radii, .. } = *beside;
+        let near = self.reach + MARGIN * samples.spacing;
         let [least, most] =
             radii.iter().fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], &radius| [a.min(radius), b.max(radius)]);
         let distances = match rim {
-            Rim::Outer => [(least - near).max(0.0), (most + near).max(spot.farthest() + scale.spacing)],
+            Rim::Outer => [(least - near).max(0.0), (most + near).max(spot.farthest() + samples.spacing)],
             Rim::Hole => [0.0, most + near],
         };
         type Found = (Vec<(u32, Point)>, f64);
@@ -137,7 +137,7 @@ impl<'a> Beside<'a> {
             let mut point = Point { r, angle, part: place - f64::from(angle), value: 0.0 };
             let distance = beside.distance(&point, &beside.radii);
             if distance.abs() < near {
-                point.value = if open { scale.opening(index) } else { scale.pressure[index] };
+                point.value = if open { samples.opening(index) } else { samples.pressure[index] };
                 let sector = if point.part < 0.5 { angle } else { (angle + 1) % ANGLES as u32 };
                 points.push((2 * sector + u32::from(open), point));
             } else if !open {

@@ -1,7 +1,7 @@
 //! The clearance of a rim: the distance over which samples lie open beside it, by directions.
 
 use super::rim::Rim;
-use super::spot::{Sample, Spot};
+use super::spot::{PolarSpot, Sample};
 use crate::numeric::closed_line::{ANGLES, angle, mean_radius};
 
 /// Number of sectors with a clearance of their own.
@@ -12,7 +12,7 @@ const FAR: f64 = 0.7;
 
 /// Distance over which samples lie open beside the rim `radii` in each of equal sectors, out to twice the mean radius; lengths,
 /// infinite where neighbours are far.
-pub fn clearance(spot: &Spot<'_>, rim: Rim, radii: &[f64], spacing: f64) -> [f64; SECTORS] {
+pub fn clearance(spot: &PolarSpot<'_>, rim: Rim, radii: &[f64], spacing: f64) -> [f64; SECTORS] {
     let mut clearance = [0.0f64; SECTORS];
     let mean = mean_radius(radii);
     for (index, radius) in radii.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::constants::HARMONICS;
 use super::rim::Rim;
-use super::spot::{Sample, Spot};
+use super::spot::{PolarSpot, Sample};
 use crate::numeric::closed_line::series_line;
 use std::f64::consts::PI;
 
@@ -11,7 +11,7 @@ const DISC: f64 = 0.9;
 
 /// Radii of the boundary of low harmonics that encloses the samples as they are counted, and √(area/π), lengths: ρ² has the
 /// moments ½∮ρ² cos kθ dθ = ∫ cos kθ d²x.
-pub fn counted_rim(spot: &Spot<'_>, sample_area: f64, rim: Rim) -> (Vec<f64>, f64) {
+pub fn counted_rim(spot: &PolarSpot<'_>, sample_area: f64, rim: Rim) -> (Vec<f64>, f64) {
     const COUNT: usize = 2 * HARMONICS + 1;
     // The waves cancel over a disc around the axis: of their sums remain the samples of the spot outside the disc, less those of
     // the disc outside the spot.

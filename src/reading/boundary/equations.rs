@@ -69,7 +69,7 @@ impl Fit {
         let sign = beside.rim().sign() * self.reach;
         let shifts: Vec<f64> = series_line(&c[count..2 * count]).into_iter().map(|shift| sign * shift).collect();
         // One step moves the edge by one spacing at most.
-        Some(closed_line::moved(radii, &shifts, beside.scale().spacing))
+        Some(closed_line::moved(radii, &shifts, beside.samples().spacing))
     }
 
     /// The sides of the rim whose samples enter: inside 0, outside 1.
@@ -111,7 +111,7 @@ impl Fit {
 
     /// Sums over the samples inside and outside the rim `radii`, for each sector with samples.
     fn sector_sums(&self, beside: &Beside<'_>, radii: &[f64]) -> Vec<[Sums; 2]> {
-        let edge = beside.scale().edge;
+        let edge = beside.samples().edge;
         let units = [edge.pressure(self.reach, 0.0)[0].abs(), edge.opening(self.reach, 0.0)[0]];
         let side = |sector: usize, open: bool| self.summed(beside, radii, (sector, open), units[usize::from(open)]);
         let summed = |&sector: &usize| [false, true].map(|open| side(sector, open));
@@ -121,16 +121,16 @@ impl Fit {
 
     /// Sums over the samples of one side of a sector, beside the rim `radii`; `unit` is φ or γ at the reach.
     fn summed(&self, beside: &Beside<'_>, radii: &[f64], (sector, open): (usize, bool), unit: f64) -> Sums {
-        let (scale, reach) = (beside.scale(), self.reach);
+        let (samples, reach) = (beside.samples(), self.reach);
         let mut sums = Sums::default();
         if !open && self.inside == 0.0 {
             return sums;
         }
         // The outward normal of a hole points to the axis; an outline is nearly round.
-        let along = beside.rim().sign() * scale.edge.along(angle(sector));
+        let along = beside.rim().sign() * samples.edge.along(angle(sector));
         let most = if open { self.one_edge_reach(sector) } else { reach };
         let outwards = if open { 1.0 } else { -1.0 };
-        let (nearest, rise) = (NEAREST * scale.spacing, 1.0 / (WEIGHT_RISE * scale.spacing));
+        let (nearest, rise) = (NEAREST * samples.spacing, 1.0 / (WEIGHT_RISE * samples.spacing));
         let (per_reach, per_unit) = (1.0 / reach, 1.0 / unit);
         for point in beside.points(sector, open) {
             let d = outwards * beside.distance(point, radii);
@@ -140,10 +140,10 @@ impl Fit {
             let part = d * per_reach;
             let rise = (d * rise).min(1.0);
             let ([value, slope], weight) = if open {
-                let [value, slope] = scale.edge.opening(d, along);
+                let [value, slope] = samples.edge.opening(d, along);
                 ([value, -slope], rise * rise / (2.25 * part))
             } else {
-                (scale.edge.pressure(d, along), (2.0 * self.inside * rise).powi(2) * part)
+                (samples.edge.pressure(d, along), (2.0 * self.inside * rise).powi(2) * part)
             };
             let (y, value, slope) = (point.value * per_unit, value * per_unit, slope * (reach * per_unit));
             sums.count += 1;

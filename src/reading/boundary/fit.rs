@@ -5,7 +5,7 @@ use super::clearance::{SECTORS, clearance};
 use super::constants::{COUNTED_ERROR, HARMONICS, MAX_ITERATIONS, MAX_SHIFT, MIN_RESOLUTION, WEIGHT_RISE};
 use super::counted_rim::counted_rim;
 use super::rim::Rim;
-use super::spot::{Scale, Spot};
+use super::spot::{ContactSamples, PolarSpot};
 use crate::numeric::closed_line::{ANGLES, mean_radius};
 use std::f64::consts::PI;
 
@@ -44,25 +44,25 @@ const TOLERANCE: f64 = 1e-4;
 const ERROR_FLOOR: f64 = 0.01;
 
 /// Radii of a rim, and the estimated error of their mean; lengths. `None` where no fit converges near the counted rim.
-pub(super) fn located(spot: &Spot<'_>, scale: &Scale<'_>, rim: Rim) -> Option<(Vec<f64>, f64)> {
-    let (start, radius) = counted_rim(spot, scale.sample_area, rim);
-    if scale.resolution(radius) < MIN_RESOLUTION {
+pub(super) fn located(spot: &PolarSpot<'_>, samples: &ContactSamples<'_>, rim: Rim) -> Option<(Vec<f64>, f64)> {
+    let (start, radius) = counted_rim(spot, samples.sample_area, rim);
+    if samples.resolution(radius) < MIN_RESOLUTION {
         return None;
     }
-    let (reach, clearance) = (scale.reach(radius), clearance(spot, rim, &start, scale.spacing));
-    let mut beside = Beside::new(spot, scale, rim, reach, &start);
+    let (reach, clearance) = (samples.reach(radius), clearance(spot, rim, &start, samples.spacing));
+    let mut beside = Beside::new(spot, samples, rim, reach, &start);
     // No boundary that is near enough to the counted one leaves its samples on the right side.
-    if beside.is_astray(&start, largest_shift(&start, scale.spacing) + scale.spacing) {
+    if beside.is_astray(&start, largest_shift(&start, samples.spacing) + samples.spacing) {
         return None;
     }
     HIGHEST_HARMONICS.into_iter().find_map(|(harmonics, astray)| {
         let whole = Fit { reach, inside: 0.0, powers: 2, harmonics, clearance };
         let (best, radii) = whole.best(&mut beside, &start)?;
         beside.follow(&radii);
-        if beside.is_astray(&radii, astray * scale.spacing) {
+        if beside.is_astray(&radii, astray * samples.spacing) {
             return None;
         }
-        let error = if scale.errors { whole.error(best, &mut beside, &start, &radii) } else { 0.0 };
+        let error = if samples.errors { whole.error(best, &mut beside, &start, &radii) } else { 0.0 };
         Some((radii, error))
     })
 }
@@ -94,7 +94,7 @@ impl Fit {
 
     /// Error of the best reading, which has converged to `radii`: from its differences to two other readings, a length.
     fn error(self, best: usize, beside: &mut Beside<'_>, start: &[f64], radii: &[f64]) -> f64 {
-        let spacing = beside.scale().spacing;
+        let spacing = beside.samples().spacing;
         let half = Self { reach: (0.5 * (self.reach + WEIGHT_RISE * spacing)).min(self.reach), powers: 1, ..self };
         let mean = mean_radius(radii);
         let mut difference = |other: Self| {
@@ -109,7 +109,7 @@ impl Fit {
 
     /// Radii of the converged fit, iterated from the `counted` ones; `None` if it moves far from these or diverges.
     fn converged(&self, beside: &mut Beside<'_>, counted: &[f64]) -> Option<Vec<f64>> {
-        let spacing = beside.scale().spacing;
+        let spacing = beside.samples().spacing;
         let (mut radii, mut amplitude, mut last) = (counted.to_vec(), Vec::new(), f64::INFINITY);
         for iteration in 0..MAX_ITERATIONS {
             let before = std::mem::take(&mut radii);
@@ -130,7 +130,7 @@ impl Fit {
     fn moved(&self, beside: &mut Beside<'_>, counted: &[f64], from: &[f64]) -> Option<Vec<f64>> {
         let mut amplitude = Vec::new();
         let radii = self.iterate(beside, counted, from, &mut amplitude)?;
-        if farthest(&radii, from) < ERROR_FLOOR * beside.scale().spacing {
+        if farthest(&radii, from) < ERROR_FLOOR * beside.samples().spacing {
             return Some(radii);
         }
         self.iterate(beside, counted, &radii, &mut amplitude)
@@ -146,7 +146,7 @@ impl Fit {
     ) -> Option<Vec<f64>> {
         beside.follow(radii);
         let radii = self.refined(beside, radii, amplitude)?;
-        let bound = largest_shift(counted, beside.scale().spacing);
+        let bound = largest_shift(counted, beside.samples().spacing);
         // A radius that is not a number counts as far.
         radii.iter().zip(counted).all(|(radius, counted)| (radius - counted).abs() < bound).then_some(radii)
     }
@@ -168,7 +168,7 @@ impl Fit {
             let own = 0.0..self.one_edge_reach(sector);
             beside.points(sector, true).iter().filter(|point| own.contains(&beside.distance(point, radii))).count()
         };
-        beside.filled().iter().map(|&sector| near(sector)).sum::<usize>() as f64 * beside.scale().sample_area
+        beside.filled().iter().map(|&sector| near(sector)).sum::<usize>() as f64 * beside.samples().sample_area
             > ENOUGH_OPEN * whole
     }
 }

@@ -28,7 +28,7 @@ mod fit;
 mod rim;
 mod spot;
 
-pub use spot::{Sample, Scale, Spot};
+pub use spot::{ContactSamples, PolarSpot, Sample};
 
 use crate::numeric::closed_line::{self, ANGLES, mean_radius};
 use constants::COUNTED_ERROR;
@@ -53,13 +53,13 @@ pub struct Boundary {
 impl Boundary {
     /// Boundary of a spot, and of its hole where it `is_ring`; `None` for a spot with too few samples for a fit, or without a
     /// simple boundary around the axis.
-    pub(crate) fn locate(spot: &Spot<'_>, scale: &Scale<'_>, is_ring: bool) -> Option<Self> {
-        let (radii, error) = located(spot, scale, Rim::Outer)?;
+    pub(crate) fn locate(spot: &PolarSpot<'_>, samples: &ContactSamples<'_>, is_ring: bool) -> Option<Self> {
+        let (radii, error) = located(spot, samples, Rim::Outer)?;
         let mut boundary = Self { radii, hole: Vec::new(), error, hole_error: 0.0 };
         if is_ring {
-            (boundary.hole, boundary.hole_error) = located(spot, scale, Rim::Hole).unwrap_or_else(|| {
-                let (counted, _) = counted_rim(spot, scale.sample_area, Rim::Hole);
-                (vec![mean_radius(&counted); ANGLES], COUNTED_ERROR * scale.spacing)
+            (boundary.hole, boundary.hole_error) = located(spot, samples, Rim::Hole).unwrap_or_else(|| {
+                let (counted, _) = counted_rim(spot, samples.sample_area, Rim::Hole);
+                (vec![mean_radius(&counted); ANGLES], COUNTED_ERROR * samples.spacing)
             });
         }
         Some(boundary)
@@ -107,14 +107,13 @@ mod tests {
     use super::*;
     use crate::body::{HalfSpace, Material};
     use crate::lattice::{Cell, Grid};
-    use crate::reading::edge::Edge;
+    use crate::reading::edge::ContactEdge;
 
     /// Pressure and gap of a contact with E* = 1 in the middle of a cell of side 4.
     struct Fields {
         grid: Grid,
         pressure: Vec<f64>,
         gap: Vec<f64>,
-        /// Where the hole is.
         hole: Vec<bool>,
     }
 
@@ -153,18 +152,25 @@ mod tests {
     /// The boundary on a bare half-space.
     fn located(fields: &Fields, spacing: f64) -> Option<Boundary> {
         let bare = HalfSpace::new(vec![], Material::from_young(1.0, 0.0).unwrap());
-        let [shortest, longest] = Scale::distances(&fields.grid);
-        let edge = Edge::new(bare.response(), None, shortest, longest);
+        let [shortest, longest] = ContactSamples::distances(&fields.grid);
+        let edge = ContactEdge::new(bare.response(), None, shortest, longest);
         let Fields { grid, pressure, gap, hole } = fields;
         let what = |index: usize| match (pressure[index] > 0.0, hole[index]) {
             (true, _) => Sample::Contact,
             (_, true) => Sample::Hole,
             _ => Sample::Open,
         };
-        let scale =
-            Scale { sample_area: spacing * spacing, spacing, pressure, gap, modulus: 1.0, edge: &edge, errors: true };
-        let spot = Spot::new(grid, axis(spacing), 1.1, &what);
-        Boundary::locate(&spot, &scale, hole.contains(&true))
+        let samples = ContactSamples {
+            sample_area: spacing * spacing,
+            spacing,
+            pressure,
+            gap,
+            modulus: 1.0,
+            edge: &edge,
+            errors: true,
+        };
+        let spot = PolarSpot::new(grid, axis(spacing), 1.1, &what);
+        Boundary::locate(&spot, &samples, hole.contains(&true))
     }
 
     #[test]

@@ -1,9 +1,9 @@
-//! A contact spot on its grid, seen from an axis.
+//! A contact spot on its grid, in polar coordinates about an axis.
 
 use super::constants::WEIGHT_RISE;
 use crate::lattice::runs::{SampleRun, annulus, samples};
 use crate::lattice::{Grid, ReducedBasis};
-use crate::reading::edge::Edge;
+use crate::reading::edge::ContactEdge;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -27,7 +27,7 @@ pub enum Sample {
 }
 
 /// A contact spot and the samples around it.
-pub struct Spot<'a> {
+pub struct PolarSpot<'a> {
     grid: &'a Grid,
     reduced: ReducedBasis,
     /// Half the length of the shortest lattice vector: a sample nearer than that to the axis is farther from all images of it.
@@ -40,9 +40,9 @@ pub struct Spot<'a> {
     what: &'a (dyn Fn(usize) -> Sample + Sync),
 }
 
-impl<'a> Spot<'a> {
+impl<'a> PolarSpot<'a> {
     /// The spot around a `centre` (lengths), whose samples in contact are not farther from it than `farthest`, a length; `what`
-    /// says where a sample lies, by its flat index.
+    /// classifies a sample by its flat index.
     pub fn new(grid: &'a Grid, centre: [f64; 2], farthest: f64, what: &'a (dyn Fn(usize) -> Sample + Sync)) -> Self {
         let reduced = grid.cell().reduced();
         let [x, y] = reduced.short();
@@ -105,7 +105,7 @@ impl<'a> Spot<'a> {
 
 /// The samples of a contact, their spacing, and the edge of its body.
 #[derive(Debug, Clone, Copy)]
-pub struct Scale<'a> {
+pub struct ContactSamples<'a> {
     /// Area of a sample, a length squared.
     pub sample_area: f64,
     /// Largest distance of neighbours, a length.
@@ -116,13 +116,13 @@ pub struct Scale<'a> {
     pub gap: &'a [f64],
     /// Contact modulus of the surface material, E* = E/(1 − ν²).
     pub modulus: f64,
-    /// Pressure and gap at an edge on the half-space, at [`Scale::distances`].
-    pub edge: &'a Edge,
+    /// Pressure and gap at an edge on the half-space, at [`ContactSamples::distances`].
+    pub edge: &'a ContactEdge,
     /// Whether errors of boundaries are estimated.
     pub errors: bool,
 }
 
-impl Scale<'_> {
+impl ContactSamples<'_> {
     /// The least and the largest distance from an edge of the samples that fits on a grid use, lengths.
     pub fn distances(grid: &Grid) -> [f64; 2] {
         let most = (grid.len() as f64 / PI).sqrt();

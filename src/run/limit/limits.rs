@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 /// Relative error above which the ends of the interval of a limit are shown in place of the error.
 const WIDE: f64 = 0.3;
 
-/// Where a criterion is reached.
+/// How a limit is reached, or its bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum At {
     /// By residual stress alone, everywhere in the material.
@@ -80,7 +80,7 @@ pub enum At {
 pub struct Limit {
     /// The criterion.
     pub criterion: Criterion,
-    /// Where it is reached.
+    /// How it is reached.
     pub at: At,
 }
 
@@ -97,7 +97,7 @@ pub struct Limits {
     pub complete: f64,
     /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
     pub change: Option<f64>,
-    /// Reason for which the refinement ended, if there was one.
+    /// Reason of the end of the refinement; `None` without one.
     pub end: Option<RefinementEnd>,
     /// Warnings about the results.
     pub warnings: Vec<String>,

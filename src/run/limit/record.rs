@@ -1,4 +1,4 @@
-//! A limit in records: every limit has the keys of a load, null where the limit does not have it, and a code that says how it is
+//! The record of a limit: every limit has the keys of a load, null where it does not have the value, and a code of how it is
 //! reached.
 
 use super::limits::{At, Limit};

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 /// Residual, certificate and energy of an iterate.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Check {
+pub(super) struct ConvergenceCheck {
     /// ε = Σ p|g| / (δ Σp).
     pub residual: f64,
     /// Bounds on the error of the pressure.
@@ -54,8 +54,8 @@ impl GapSums {
     }
 }
 
-impl Check {
-    /// Check of the present pressure of `unknowns`, whose gap, penetration and certificate are set, from one convolution.
+impl ConvergenceCheck {
+    /// Convergence check of the present pressure of `unknowns`, whose gap, penetration and certificate are set, from one convolution.
     pub fn new<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> Self {
         let (load_control, len) = (problem.load.is_mean_pressure(), problem.initial_gap.len() as f64);
         let [load, energy, work, open] = displaced_gap(problem, unknowns);
@@ -65,7 +65,7 @@ impl Check {
         };
         unknowns.penetration = penetration;
         let (p, g) = (&unknowns.pressure[..], Arc::make_mut(&mut unknowns.gap));
-        let Totals { sums: [work, complementarity], least: [mut least, mut outside] } = rows::sweep(
+        let Totals { sums: [work, complementarity], least: [mut least, mut outside] } = rows::row_totals(
             BLOCK,
             (p.par_chunks(BLOCK), g.par_chunks_mut(BLOCK)),
             |_, (p, g)| vectorised!(simd => opened(simd, p, g, penetration)),
@@ -87,7 +87,7 @@ impl Check {
         check
     }
 
-    /// Check from the sums of a gap; `energy` is the elastic one over the number of samples `len`.
+    /// Convergence check from the sums of a gap; `energy` is the elastic one over the number of samples `len`.
     pub fn of(gap: GapSums, penetration: f64, energy: f64, load_control: bool, len: f64) -> Self {
         let GapSums { load, work, complementarity, least, outside } = gap;
         let least = if load_control { least } else { least.min(0.0) };
@@ -133,9 +133,9 @@ fn displaced_gap<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknow
     }
     let g = Arc::make_mut(&mut unknowns.gap);
     let uniform = if let Load::MeanPressure(mean) = problem.load { mean } else { 0.0 };
-    let parts = problem.operator.parts();
-    let mut totals = parts.totals();
-    let fields = parts.of(p).zip(parts.of(f)).zip(parts.of_mut(g)).zip(&mut totals);
+    let blocks = problem.operator.blocks();
+    let mut totals = blocks.totals();
+    let fields = blocks.of(p).zip(blocks.of(f)).zip(blocks.of_mut(g)).zip(&mut totals);
     let rows = fields.map(|(((p, f), g), totals)| {
         let mut rows = p.zip(f).zip(g);
         move |w: &mut [f64]| {
@@ -143,7 +143,7 @@ fn displaced_gap<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknow
             totals.add(vectorised!(simd => deformed(simd, w, p, f, g, uniform)));
         }
     });
-    problem.operator.displaced(&mut problem.working.transforms, rows_of(parts, p)).rows(rows);
+    problem.operator.displaced(&mut problem.working.transforms, rows_of(blocks, p)).rows(rows);
     Totals::of(totals).sums
 }
 

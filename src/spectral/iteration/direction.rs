@@ -1,7 +1,7 @@
 //! Line 4 of the method, fused: from z = M r to the direction t = z + βt and to C t, on their way through the convolutions.
 
 use crate::numeric::lanes::{LANES, RUN, Real, all_zero, splat, total, vectorised};
-use crate::numeric::rows::{Parts, Totals, next};
+use crate::numeric::rows::{RowBlocks, Totals, next};
 use crate::spectral::extension;
 use fearless_simd::prelude::*;
 use rayon::prelude::*;
@@ -34,11 +34,11 @@ impl Overlaps {
 
 /// Sources of r − mean on the active set, 0 outside.
 pub(super) fn centred(
-    parts: Parts,
+    blocks: RowBlocks,
     residual: &[f32],
     mean: f32,
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> {
-    parts.of(residual).map(move |mut residual| {
+    blocks.of(residual).map(move |mut residual| {
         move |row: &mut [f32]| {
             let centred = |(to, &r): (&mut f32, &f32)| *to = if r == 0.0 { 0.0 } else { r - mean };
             row.iter_mut().zip(next(&mut residual)).for_each(centred);
@@ -48,16 +48,16 @@ pub(super) fn centred(
 
 /// z on the active set, from C⁻¹ E r in `image` and what Eᵀ adds by the `weight`, goes to `image`; its sums with r, r′ and t′.
 pub(super) fn overlap(
-    parts: Parts,
+    blocks: RowBlocks,
     [residual, previous, direction]: [&[f32]; 3],
     weight: Option<&[f32]>,
     image: &mut [f32],
 ) -> Overlaps {
-    let [_, columns] = parts.points();
+    let [_, columns] = blocks.points();
     let nothing = vec![0.0; columns];
-    let fields = parts.of(residual).zip(parts.of(previous)).zip(parts.of(direction)).zip(parts.of_mut(image));
-    let totals = fields.enumerate().map(|(part, (((residual, previous), direction), image))| {
-        let mut gathering = weight.map(|weight| extension::gathering(parts, part, weight));
+    let fields = blocks.of(residual).zip(blocks.of(previous)).zip(blocks.of(direction)).zip(blocks.of_mut(image));
+    let totals = fields.enumerate().map(|(block, (((residual, previous), direction), image))| {
+        let mut gathering = weight.map(|weight| extension::gathering(blocks, block, weight));
         let mut totals = Totals::NONE;
         for (((residual, previous), direction), image) in residual.zip(previous).zip(direction).zip(image) {
             let gathered = gathering.as_mut().map_or(&nothing[..], |gathering| &gathering.next()[0][..columns]);
@@ -110,14 +110,14 @@ fn overlaps<S: Simd>(
 
 /// Sources of t ← z − mean + βt on the active set, 0 outside, from z in `image`; ⟨r, t⟩ goes to `descent`.
 pub(super) fn conjugate<'a>(
-    parts: Parts,
+    blocks: RowBlocks,
     [residual, image]: [&'a [f32]; 2],
     mean: f64,
     beta: f64,
     direction: &'a mut [f32],
     descent: &'a mut [Totals<1, 0>],
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
-    let fields = parts.of(residual).zip(parts.of(image)).zip(parts.of_mut(direction)).zip(descent);
+    let fields = blocks.of(residual).zip(blocks.of(image)).zip(blocks.of_mut(direction)).zip(descent);
     fields.map(move |(((residual, image), direction), descent)| {
         let mut rows = residual.zip(image).zip(direction);
         move |row: &mut [f32]| {
@@ -161,12 +161,12 @@ fn conjugate_row<S: Simd>(
 
 /// Sinks that put the rows of C t into `image`; ⟨t, C t⟩ goes to `curvature`.
 pub(super) fn curvature<'a>(
-    parts: Parts,
+    blocks: RowBlocks,
     direction: &'a [f32],
     image: &'a mut [f32],
     curvature: &'a mut [Totals<1, 0>],
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
-    let fields = parts.of(direction).zip(parts.of_mut(image)).zip(curvature);
+    let fields = blocks.of(direction).zip(blocks.of_mut(image)).zip(curvature);
     fields.map(move |((direction, image), curvature)| {
         let mut rows = direction.zip(image);
         move |row: &mut [f32]| {

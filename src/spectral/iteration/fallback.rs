@@ -13,7 +13,7 @@ use super::report::{Report, Route, Stop};
 use super::stopping::unless_rounding;
 use super::{polonsky_keer, preconditioned};
 use crate::spectral::operator::ElasticOperator;
-use crate::spectral::operator::Traction::{Lagged, Updated};
+use crate::spectral::operator::TractionUpdate::{Lagged, Updated};
 
 /// Largest coupling at which the traction is updated in every step.
 const MAX_UPDATED_COUPLING: f64 = 0.4;

@@ -57,7 +57,7 @@ impl Unknowns {
         let pressure = Arc::make_mut(&mut self.pressure);
         admissible.restrict(pressure);
         let Totals { sums: [sum], least: [] } =
-            rows::sweep(BLOCK, pressure.par_chunks_mut(BLOCK), |_, p| vectorised!(simd => clipped(simd, p)));
+            rows::row_totals(BLOCK, pressure.par_chunks_mut(BLOCK), |_, p| vectorised!(simd => clipped(simd, p)));
         let Load::MeanPressure(mean) = load else { return };
         let total = mean * pressure.len() as f64;
         if sum > 0.0 {

@@ -1,16 +1,16 @@
 //! Lines 3 to 5 of the method, and line 1 by changes: iterations in single precision from one gap in double precision to the
 //! next.
 
-use super::check::Check;
+use super::check::ConvergenceCheck;
 use super::direction;
 use super::fields::{Fields, Unknowns};
 use super::problem::ContactProblem;
 use super::update::{self, ActiveSet};
 use crate::load::Load;
-use crate::numeric::rows::{Parts, Totals};
+use crate::numeric::rows::{RowBlocks, Totals};
 use crate::spectral::by_rows::{ResultRows, rows_of, rows_to};
 use crate::spectral::extension;
-use crate::spectral::operator::{ElasticOperator, Traction};
+use crate::spectral::operator::{ElasticOperator, TractionUpdate};
 use std::sync::Arc;
 
 /// Shorter steps that are tried after one that raises the energy, before the step ends at the minimum along it.
@@ -34,7 +34,7 @@ pub(super) enum Continuation {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Variant {
     pub continuation: Continuation,
-    pub traction: Traction,
+    pub traction: TractionUpdate,
 }
 
 /// The iteration before, as the next direction needs it.
@@ -77,7 +77,7 @@ struct TakenStep {
 /// Iterations in single precision from one gap in double precision to the next.
 #[derive(Debug)]
 pub(super) struct InnerIteration {
-    parts: Parts,
+    blocks: RowBlocks,
     variant: Variant,
     /// Unit of the working fields: the largest f.
     length: f64,
@@ -85,8 +85,8 @@ pub(super) struct InnerIteration {
     pressure: f64,
     active: ActiveSet,
     penetration: f64,
-    /// Check of the pressure by the gap in single precision.
-    pub check: Check,
+    /// Convergence check of the pressure by the gap in single precision.
+    pub check: ConvergenceCheck,
 }
 
 impl InnerIteration {
@@ -94,7 +94,7 @@ impl InnerIteration {
     pub fn new<O: ElasticOperator>(
         problem: &mut ContactProblem<'_, O>,
         unknowns: &mut Unknowns,
-        check: Check,
+        check: ConvergenceCheck,
         share: f64,
         variant: Variant,
     ) -> Self {
@@ -104,8 +104,8 @@ impl InnerIteration {
         }
         let (gap, residual) = problem.working.gap_and_residual(problem.operator);
         let active = update::gap_from(&unknowns.pressure, &unknowns.gap, length / share, gap, residual);
-        let (parts, pressure) = (problem.operator.parts(), length / problem.operator.unit());
-        Self { parts, variant, length, pressure, active, penetration: unknowns.penetration, check }
+        let (blocks, pressure) = (problem.operator.blocks(), length / problem.operator.unit());
+        Self { blocks, variant, length, pressure, active, penetration: unknowns.penetration, check }
     }
 
     /// One iteration; false where no step can be found.
@@ -136,23 +136,23 @@ impl InnerIteration {
         double: &mut [f64],
         last: &LastDirection,
     ) -> Option<Direction> {
-        let (parts, mean, load_control) = (self.parts, self.mean(problem.load), problem.load.is_mean_pressure());
+        let (blocks, mean, load_control) = (self.blocks, self.mean(problem.load), problem.load.is_mean_pressure());
         let operator = &mut *problem.operator;
         let mut fields = problem.working.of(operator, double);
         self.precondition(operator, &mut fields, mean);
         let Fields { residual, previous, direction, image, weight, memory, .. } = fields;
         let weight = (self.variant.continuation == Continuation::Fading).then_some(&*weight);
-        let overlaps = direction::overlap(parts, [residual, previous, direction], weight, image);
+        let overlaps = direction::overlap(blocks, [residual, previous, direction], weight, image);
         let z_mean = if load_control { overlaps.sum / self.active.size } else { 0.0 };
         let norm = overlaps.with_residual - mean * overlaps.sum;
         let overlap = overlaps.with_previous(last.mean, z_mean);
         let beta = if last.norm > 0.0 { ((norm - overlap) / last.norm).max(0.0) } else { 0.0 };
         // The last direction on I is freed of its mean too, or the load would drift.
         let t_mean = if load_control && beta > 0.0 { overlaps.direction / self.active.size } else { 0.0 };
-        let [mut descent, mut curvature] = [(); 2].map(|()| parts.totals());
-        let t = direction::conjugate(parts, [residual, image], z_mean + beta * t_mean, beta, direction, &mut descent);
+        let [mut descent, mut curvature] = [(); 2].map(|()| blocks.totals());
+        let t = direction::conjugate(blocks, [residual, image], z_mean + beta * t_mean, beta, direction, &mut descent);
         let displaced = operator.displaced_single(self.variant.traction, memory, t);
-        displaced.rows(direction::curvature(parts, direction, image, &mut curvature));
+        displaced.rows(direction::curvature(blocks, direction, image, &mut curvature));
         let ([descent], [curvature]) = (Totals::of(descent).sums, Totals::of(curvature).sums);
         let tau = descent / curvature;
         (tau.is_finite() && curvature > 0.0).then_some(Direction { norm, beta, tau })
@@ -160,18 +160,18 @@ impl InnerIteration {
 
     /// C⁻¹ E (r − mean) in `image`, and in `weight` what Eᵀ gathers of it.
     fn precondition<O: ElasticOperator>(&self, operator: &mut O, fields: &mut Fields<'_>, mean: f64) {
-        let (parts, mean) = (self.parts, mean as f32);
+        let (blocks, mean) = (self.blocks, mean as f32);
         let Fields { residual, image, weight, memory, .. } = fields;
         match self.variant.continuation {
             Continuation::Fading => {
-                let mut reached = vec![false; parts.points()[0]];
-                let extended = extension::extended(parts, residual, mean, weight, &mut reached);
+                let mut reached = vec![false; blocks.points()[0]];
+                let extended = extension::extended(blocks, residual, mean, weight, &mut reached);
                 let convolved = operator.preconditioned(memory, extended);
-                convolved.some_rows(|row| reached[row], extension::gathered(parts, image, weight));
+                convolved.some_rows(|row| reached[row], extension::gathered(blocks, image, weight));
             }
             Continuation::Zero => {
-                let centred = direction::centred(parts, residual, mean);
-                operator.preconditioned(memory, centred).rows(rows_to(parts, image));
+                let centred = direction::centred(blocks, residual, mean);
+                operator.preconditioned(memory, centred).rows(rows_to(blocks, image));
             }
         }
     }
@@ -185,7 +185,7 @@ impl InnerIteration {
         Direction { beta, mut tau, .. }: Direction,
         is_first: bool,
     ) -> Option<TakenStep> {
-        let (parts, unit, load) = (self.parts, self.pressure, problem.load);
+        let (blocks, unit, load) = (self.blocks, self.pressure, problem.load);
         let operator = &mut *problem.operator;
         let Fields { gap, direction, image, weight: step, memory, .. } = problem.working.of(operator, double);
         for backtracks in 0..=MAX_BACKTRACKS {
@@ -201,9 +201,9 @@ impl InnerIteration {
             if scale != 1.0 {
                 update::rescale(p, scale, unit, step);
             }
-            let mut sums = parts.totals();
-            let displaced = operator.displaced_single(self.variant.traction, memory, rows_of(parts, step));
-            displaced.rows(update::after_step(parts, p, [gap, step], image, &mut sums));
+            let mut sums = blocks.totals();
+            let displaced = operator.displaced_single(self.variant.traction, memory, rows_of(blocks, step));
+            displaced.rows(update::after_step(blocks, p, [gap, step], image, &mut sums));
             let [curvature, load, work] = Totals::of(sums).sums;
             // ⟨g, p⟩ = 0 under load control: the scale adds nothing to the slope.
             let slope = scale * advance.slope;
@@ -246,8 +246,13 @@ impl InnerIteration {
         self.penetration += shift * self.length;
         let (active, sums) = update::update_gap(p, load, (image, step.factor), shift, gap, residual);
         self.active = active;
-        self.check =
-            Check::of(sums.times(self.length), self.penetration, self.check.energy, load_control, p.len() as f64);
+        self.check = ConvergenceCheck::of(
+            sums.times(self.length),
+            self.penetration,
+            self.check.energy,
+            load_control,
+            p.len() as f64,
+        );
     }
 }
 

@@ -6,7 +6,7 @@ use super::preconditioned::OUTER_REDUCTION;
 use crate::load::Load;
 use crate::spectral::LayeredOperator;
 use crate::spectral::extension::{DECAY, FADE, WIDTH};
-use crate::spectral::operator::{ElasticOperator, Traction, Workspace};
+use crate::spectral::operator::{ElasticOperator, TractionUpdate, Workspace};
 
 type Field = Vec<f64>;
 
@@ -32,7 +32,7 @@ struct Last {
 impl Plain {
     /// Pressure after each iteration from the pressure `p`, and the length τ of its step.
     pub fn iterates(&mut self, mut p: Field, iterations: usize) -> Vec<(Field, f64)> {
-        let lagged = self.variant.traction == Traction::Lagged;
+        let lagged = self.variant.traction == TractionUpdate::Lagged;
         let share = if lagged { 1.0 / (1.0 + self.body.coupling().powi(2)) } else { 1.0 };
         let (mut last, mut all) = (None, Vec::new());
         let (mut g, mut penetration) = self.gap(&p);
@@ -92,7 +92,8 @@ impl Plain {
     /// A change of w: by A with an updated traction, by C with a lagged one.
     fn displacement(&mut self, change: &[f64]) -> Field {
         let mut field = change.to_vec();
-        let operator = if self.variant.traction == Traction::Updated { &mut self.body } else { &mut self.symmetric };
+        let operator =
+            if self.variant.traction == TractionUpdate::Updated { &mut self.body } else { &mut self.symmetric };
         operator.displace(&mut field, &mut Workspace::default());
         field
     }
@@ -283,8 +284,8 @@ mod tests {
         }
     }
 
-    const UPDATED: Variant = Variant { continuation: Continuation::Fading, traction: Traction::Updated };
-    const LAGGED: Variant = Variant { continuation: Continuation::Fading, traction: Traction::Lagged };
+    const UPDATED: Variant = Variant { continuation: Continuation::Fading, traction: TractionUpdate::Updated };
+    const LAGGED: Variant = Variant { continuation: Continuation::Fading, traction: TractionUpdate::Lagged };
 
     #[test]
     fn smooth_contact_is_iterated_as_in_plain_lines() {

@@ -4,7 +4,7 @@
 //! − τt, 0); samples outside contact that penetrate join with p ← −τ g. Under load control g is freed of its mean over
 //! contact, Ct likewise, and p is scaled back to its mean.
 
-use super::check::Check;
+use super::check::ConvergenceCheck;
 use super::fields::Unknowns;
 use super::problem::{ContactProblem, Settings};
 use super::report::{Progress, Report, Route, Stop};
@@ -29,7 +29,7 @@ pub(super) fn solve<O: ElasticOperator>(
     let (mut t, mut image) = (vec![0.0; len], vec![0.0; len]);
     unknowns.admit(load, problem.admissible);
     loop {
-        let check = Check::new(problem, unknowns);
+        let check = ConvergenceCheck::new(problem, unknowns);
         let ended = |stop, iterations| Report::new(stop, Route::Baseline, iterations, check.residual);
         if let Some(stop) = reason_to_end(&check, &problem.settings, &mut stall, iterations) {
             return ended(stop, iterations);
@@ -64,7 +64,7 @@ pub(super) fn solve<O: ElasticOperator>(
                 continue;
             }
             // The mean over contact has been taken off the gap.
-            Check::new(problem, unknowns);
+            ConvergenceCheck::new(problem, unknowns);
             return ended(Stop::Stalled, iterations);
         }
         sums::update(p, |i, p| if p > 0.0 { (p - step * t[i]).max(0.0) } else { p });
@@ -73,13 +73,23 @@ pub(super) fn solve<O: ElasticOperator>(
         conjugate = joined == 0.0;
         unknowns.admit(load, problem.admissible);
         if (problem.progress)(Progress { iteration: iterations, residual: check.residual }).is_break() {
-            return Report::new(Stop::Interrupted, Route::Baseline, iterations, Check::new(problem, unknowns).residual);
+            return Report::new(
+                Stop::Interrupted,
+                Route::Baseline,
+                iterations,
+                ConvergenceCheck::new(problem, unknowns).residual,
+            );
         }
     }
 }
 
 /// Reason to end the iteration at a check, if there is one.
-fn reason_to_end(check: &Check, settings: &Settings, stall: &mut StallDetector, iterations: usize) -> Option<Stop> {
+fn reason_to_end(
+    check: &ConvergenceCheck,
+    settings: &Settings,
+    stall: &mut StallDetector,
+    iterations: usize,
+) -> Option<Stop> {
     if check.converged(settings.tolerance) {
         Some(Stop::Converged)
     } else if stall.detected(check.measure()) {

@@ -30,13 +30,13 @@
 //! pressure is double, and when the criteria are met, or single precision is exhausted, the gap is computed afresh in double
 //! precision: that alone decides about convergence.
 
-use super::check::Check;
+use super::check::ConvergenceCheck;
 use super::fields::Unknowns;
 use super::inner_iteration::{InnerIteration, LastDirection, Variant};
 use super::problem::ContactProblem;
 use super::report::{Progress, Report, Route, Stop};
 use super::stopping::StallDetector;
-use crate::spectral::operator::{ElasticOperator, Traction};
+use crate::spectral::operator::{ElasticOperator, TractionUpdate};
 
 /// First window of the stall detector, iterations.
 const FIRST_WINDOW: usize = 30;
@@ -59,8 +59,8 @@ pub(super) fn solve<O: ElasticOperator>(
     let coupling = problem.operator.coupling();
     // ω, and the part of the criteria at which the gap is computed afresh.
     let (share, reduction) = match variant.traction {
-        Traction::Updated => (1.0, SINGLE_PRECISION_REDUCTION),
-        Traction::Lagged => (1.0 / (1.0 + coupling * coupling), OUTER_REDUCTION / (1.0 + coupling * coupling)),
+        TractionUpdate::Updated => (1.0, SINGLE_PRECISION_REDUCTION),
+        TractionUpdate::Lagged => (1.0 / (1.0 + coupling * coupling), OUTER_REDUCTION / (1.0 + coupling * coupling)),
     };
     let mut last = LastDirection::NONE;
     loop {
@@ -89,7 +89,7 @@ pub(super) fn solve<O: ElasticOperator>(
             }
             iterations += 1;
             if (problem.progress)(Progress { iteration: iterations, residual: inner.check.residual }).is_break() {
-                let Check { residual, .. } = fresh_check(problem, unknowns);
+                let ConvergenceCheck { residual, .. } = fresh_check(problem, unknowns);
                 return Report::new(Stop::Interrupted, Route::Direct, iterations, residual);
             }
             let is_met = inner.check.converged(tolerance);
@@ -100,8 +100,8 @@ pub(super) fn solve<O: ElasticOperator>(
     }
 }
 
-/// Check of the pressure, made admissible.
-fn fresh_check<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> Check {
+/// Convergence check of the pressure, made admissible.
+fn fresh_check<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> ConvergenceCheck {
     unknowns.admit(problem.load, problem.admissible);
-    Check::new(problem, unknowns)
+    ConvergenceCheck::new(problem, unknowns)
 }

@@ -6,7 +6,7 @@
 //! accepted by the criteria of displacement control; its tolerance is smaller than theirs, because its own error changes its
 //! penetration.
 
-use super::check::Check;
+use super::check::ConvergenceCheck;
 use super::fallback::iterate;
 use super::fields::Unknowns;
 use super::problem::{ContactProblem, Method, Settings};
@@ -38,19 +38,19 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
         let (gap, everywhere) = (self.initial_gap, self.admissible.is_everywhere());
         if !self.load.value().is_finite() {
             unknowns.clear();
-            Check::new(self, unknowns);
+            ConvergenceCheck::new(self, unknowns);
             return done(Stop::Stalled, f64::INFINITY);
         }
         if self.load.value() <= 0.0 {
             unknowns.clear();
-            Check::new(self, unknowns);
+            ConvergenceCheck::new(self, unknowns);
             return done(Stop::NoContact, 0.0);
         }
         match self.load {
             Load::MeanPressure(mean) if everywhere && gap.iter().all(|f| *f == gap[0]) => {
                 // A flat counterbody: complete contact at once.
                 unknowns.pressure = Arc::new(vec![mean; gap.len()]);
-                Check::new(self, unknowns);
+                ConvergenceCheck::new(self, unknowns);
                 done(Stop::Converged, 0.0)
             }
             Load::MeanPressure(_) => iterate(self, 0, unknowns),
@@ -58,7 +58,7 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
                 if everywhere && penetration >= sums::mean(gap) {
                     // Nothing of the step before is an answer.
                     unknowns.clear();
-                    Check::new(self, unknowns);
+                    ConvergenceCheck::new(self, unknowns);
                     return done(Stop::BeyondFullContact, f64::INFINITY);
                 }
                 let direct = iterate(self, 0, unknowns);
@@ -111,7 +111,7 @@ fn search_load<O: ElasticOperator>(
         let report = iterate(&mut trial, last.iterations, unknowns);
         problem.outer = trial.outer;
         let error = unknowns.penetration - penetration;
-        let check = Check::new(problem, unknowns);
+        let check = ConvergenceCheck::new(problem, unknowns);
         last = Report { route: Route::LoadSearch { trials }, residual: check.residual, ..report };
         if check.converged(settings.tolerance) {
             return Report { stop: Stop::Converged, ..last };

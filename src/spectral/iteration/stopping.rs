@@ -10,7 +10,7 @@
 //! are the residual, the energy gap and the penetration outside contact of an exact solution after rounding. An iteration that
 //! no longer advances while each criterion is below its tolerance, or below eight times this, has converged to rounding.
 
-use super::check::Check;
+use super::check::ConvergenceCheck;
 use super::fields::Unknowns;
 use super::problem::ContactProblem;
 use super::report::Stop;
@@ -72,7 +72,7 @@ pub(super) fn unless_rounding<O: ElasticOperator>(
 
 /// Whether rounding alone keeps a pressure from the tolerance; sets its gap in `unknowns`.
 fn is_at_rounding<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> bool {
-    let check = Check::new(problem, unknowns);
+    let check = ConvergenceCheck::new(problem, unknowns);
     let own = rounding(problem, unknowns, &check);
     let tolerance = problem.settings.tolerance;
     let is_met = |(criterion, rounding): (f64, f64)| criterion < tolerance.max(ROUNDING_MARGIN * rounding);
@@ -80,7 +80,11 @@ fn is_at_rounding<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unkno
 }
 
 /// The criteria of the difference of the gap and the gap computed again.
-fn rounding<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &Unknowns, check: &Check) -> [f64; 3] {
+fn rounding<O: ElasticOperator>(
+    problem: &mut ContactProblem<'_, O>,
+    unknowns: &Unknowns,
+    check: &ConvergenceCheck,
+) -> [f64; 3] {
     let Unknowns { pressure: p, gap: g, penetration, .. } = unknowns;
     let (f, len) = (problem.initial_gap, problem.initial_gap.len());
     let mut again: Vec<f64> = p.iter().map(|p| PERTURBATION * p).collect();
@@ -91,7 +95,7 @@ fn rounding<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &
     let mean = if problem.load.is_mean_pressure() && load > 0.0 { work / load } else { 0.0 };
     let [complementarity] = sums::of(len, |i| [p[i] * (again[i] - mean).abs()]);
     let largest = -sums::least(len, |i| -(again[i] - mean).abs());
-    Check::criteria_of([
+    ConvergenceCheck::criteria_of([
         complementarity / (load * penetration),
         (complementarity + largest * load) / (len as f64 * check.energy),
         largest / penetration,

@@ -8,7 +8,7 @@
 
 use super::check::GapSums;
 use crate::numeric::lanes::{LANES, RUN, Real, all_zero, lowest, splat, total, vectorised};
-use crate::numeric::rows::{Parts, Totals, each, next, sweep};
+use crate::numeric::rows::{RowBlocks, Totals, each_row, next, row_totals};
 use crate::numeric::sums::BLOCK;
 use fearless_simd::{f64x8, mask64x8, prelude::*};
 use rayon::prelude::*;
@@ -32,7 +32,7 @@ impl ActiveSet {
 /// gap ← g/length; r is the gap on the active set.
 pub(super) fn gap_from(p: &[f64], g: &[f64], length: f64, gap: &mut [f32], residual: &mut [f32]) -> ActiveSet {
     let fields = (p.par_chunks(BLOCK), g.par_chunks(BLOCK), gap.par_chunks_mut(BLOCK), residual.par_chunks_mut(BLOCK));
-    let Totals { sums: [size, sum], .. } = sweep(
+    let Totals { sums: [size, sum], .. } = row_totals(
         BLOCK,
         fields,
         |_, (p, g, gap, residual)| vectorised!(simd => gap_from_block(simd, p, g, 1.0 / length, gap, residual)),
@@ -83,7 +83,7 @@ pub(super) fn update_gap(
 ) -> (ActiveSet, GapSums) {
     let fields =
         (p.par_chunks(BLOCK), changes.par_chunks(BLOCK), gap.par_chunks_mut(BLOCK), residual.par_chunks_mut(BLOCK));
-    let Totals { sums: [size, sum, work, complementarity], least: [least, outside] } = sweep(
+    let Totals { sums: [size, sum, work, complementarity], least: [least, outside] } = row_totals(
         BLOCK,
         fields,
         |_, (p, changes, gap, residual)| vectorised!(simd => update_gap_block(simd, p, (changes, factor), shift, gap, residual)),
@@ -150,7 +150,7 @@ pub(super) fn advance(
         image.par_chunks(BLOCK),
         step.par_chunks_mut(BLOCK),
     );
-    let Totals { sums: [load, slope, work], least: [clipped] } = sweep(
+    let Totals { sums: [load, slope, work], least: [clipped] } = row_totals(
         BLOCK,
         fields,
         |_, (p, gap, direction, image, step)| vectorised!(simd => advance_block(simd, p, [gap, direction, image], factor, unit, step)),
@@ -205,7 +205,7 @@ fn rounded<S: Simd>(simd: S, group: f64x8<S>) -> f64x8<S> {
 
 /// p ← s p after a step d, which becomes the whole step from the pressure before it.
 pub(super) fn rescale(p: &mut [f64], scale: f64, unit: f64, step: &mut [f32]) {
-    each(BLOCK, (p.par_chunks_mut(BLOCK), step.par_chunks_mut(BLOCK)), |_, (p, step)| {
+    each_row(BLOCK, (p.par_chunks_mut(BLOCK), step.par_chunks_mut(BLOCK)), |_, (p, step)| {
         vectorised!(simd => rescale_block(simd, p, scale, unit, step));
     });
 }
@@ -230,7 +230,7 @@ fn rescale_block<S: Simd>(simd: S, p: &mut [f64], scale: f64, unit: f64, step: &
 
 /// p ← max(p − unit d, 0).
 pub(super) fn retreat(p: &mut [f64], step: &[f32], unit: f64) {
-    each(BLOCK, (p.par_chunks_mut(BLOCK), step.par_chunks(BLOCK)), |_, (p, step)| {
+    each_row(BLOCK, (p.par_chunks_mut(BLOCK), step.par_chunks(BLOCK)), |_, (p, step)| {
         vectorised!(simd => retreat_block(simd, p, step, unit));
     });
 }
@@ -245,13 +245,13 @@ fn retreat_block<S: Simd>(simd: S, p: &mut [f64], step: &[f32], unit: f64) {
 
 /// Sinks that put the rows of C d for a step d into `image`; ⟨d, C d⟩, Σ p and Σ p (g + C d) go to `sums`.
 pub(super) fn after_step<'a>(
-    parts: Parts,
+    blocks: RowBlocks,
     p: &'a [f64],
     [gap, step]: [&'a [f32]; 2],
     image: &'a mut [f32],
     sums: &'a mut [Totals<3, 0>],
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
-    let fields = parts.of(p).zip(parts.of(gap)).zip(parts.of(step)).zip(parts.of_mut(image)).zip(sums);
+    let fields = blocks.of(p).zip(blocks.of(gap)).zip(blocks.of(step)).zip(blocks.of_mut(image)).zip(sums);
     fields.map(move |((((p, gap), step), image), sums)| {
         let mut rows = p.zip(gap).zip(step).zip(image);
         move |row: &mut [f32]| {
@@ -278,7 +278,7 @@ fn step_sums<S: Simd>(simd: S, p: &[f64], [gap, step, image]: [&[f32]; 3]) -> To
 /// Σ p and Σ p (g + factor · changes).
 pub(super) fn load_and_work(p: &[f64], gap: &[f32], (changes, factor): (&[f32], f64)) -> [f64; 2] {
     let fields = (p.par_chunks(BLOCK), gap.par_chunks(BLOCK), changes.par_chunks(BLOCK));
-    let Totals { sums, least: [] } = sweep(
+    let Totals { sums, least: [] } = row_totals(
         BLOCK,
         fields,
         |_, (p, gap, changes)| vectorised!(simd => load_and_work_of(simd, p, gap, (changes, factor))),

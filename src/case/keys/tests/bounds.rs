@@ -6,7 +6,7 @@ use super::bases::{self, Bases, all_keys};
 use super::schema::accepts;
 use std::ops::Bound;
 
-/// A value, where in it the fault is if it is one, and whether bounds alone see that.
+/// A value, the place of its fault, and whether bounds alone show the fault.
 #[derive(Debug, Clone)]
 struct Probe {
     value: String,
@@ -34,7 +34,7 @@ fn of_number(range: Range) -> Vec<Probe> {
     let own = match range {
         Range::Size => [vec![probe("0", false), probe("9.9e-61", false), probe("1e-60", true)], carried("").into()],
         Range::SizeOrZero => [vec![probe("-1e-60", false), unseen("9.9e-61"), probe("0", true)], carried("").into()],
-        Range::Place => [carried("-").into(), carried("").into()],
+        Range::Coordinate => [carried("-").into(), carried("").into()],
         Range::Factor => {
             let small =
                 vec![unseen("0"), unseen("9e-61"), unseen("-9e-61"), probe("-1e-60", true), probe("1e-60", true)];

@@ -1,4 +1,4 @@
-//! The table is what the reader does, the README says, the schema demands and `percoat explain` prints.
+//! Reader, README, schema and `percoat explain` agree with the table of keys.
 
 mod bases;
 mod bounds;
@@ -20,7 +20,7 @@ fn is(key: &Key) -> String {
     }
 }
 
-/// One row a key; those of a range stand under the first key that takes one.
+/// One row a key; those of a range are listed under the first key that admits one.
 fn rows(keys: &Keys, path: &str) -> String {
     let names = |key: &Key| key.holds().all.iter().map(|key| key.name).collect::<Vec<_>>();
     let row = |(index, key): (usize, &Key)| {
@@ -73,19 +73,19 @@ fn sizes_of_one_shape_exclude_those_of_the_others() {
 
 #[test]
 fn a_key_is_found_by_its_path_or_its_name_and_a_slip_is_told() {
-    let paths = |asked: &str| explain(asked).map(|found| found.into_iter().map(|key| key.path).collect::<Vec<_>>());
-    for asked in ["layers.poisson", "layers.0.poisson", "layers[0].poisson"] {
-        assert_eq!(paths(asked).unwrap(), ["layers.poisson"]);
+    let paths = |path: &str| explain(path).map(|found| found.into_iter().map(|key| key.path).collect::<Vec<_>>());
+    for path in ["layers.poisson", "layers.0.poisson", "layers[0].poisson"] {
+        assert_eq!(paths(path).unwrap(), ["layers.poisson"]);
     }
     assert_eq!(paths("points").unwrap(), ["grid.points", "stress.points", "stress.volume.points"]);
     assert_eq!(paths("volume.points").unwrap(), ["stress.volume.points"]);
-    let near = |asked: &str| paths(asked).unwrap_err().near;
+    let near = |path: &str| paths(path).unwrap_err().near;
     assert_eq!(near("layers.thicknes"), ["layers.thickness"]);
     assert_eq!(near("poison"), ["layers.poisson", "layers.graded.poisson", "substrate.poisson"]);
     assert_eq!(near("solver.acuracy"), ["grid.accuracy"]);
     assert_eq!(near("sovler.tolerance"), ["solver.tolerance"]);
     assert_eq!(near("sovler"), ["solver"]);
-    let strange = UnknownKey { asked: "xyzzy".to_owned(), near: vec![] };
+    let strange = UnknownKey { path: "xyzzy".to_owned(), near: vec![] };
     assert_eq!(explain("xyzzy").unwrap_err(), strange);
     assert!(strange.to_string().contains("lists the sections") && paths("").is_err() && paths("0").is_err());
 }

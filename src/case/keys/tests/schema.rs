@@ -1,4 +1,4 @@
-//! The schema takes every case that the reader takes, and refuses what a schema can see.
+//! The schema admits every case that the reader admits, and refuses faults that a schema can express.
 
 use super::super::schema;
 use super::bases::Bases;

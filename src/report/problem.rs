@@ -1,4 +1,4 @@
-//! What was asked: the case of a result, in tables.
+//! The problem of a result, and how it is solved: the keys of its case in tables.
 
 use super::markup::{Markup, tag};
 use super::table::{pairs, table};
@@ -6,11 +6,11 @@ use crate::output::number;
 use crate::output::table::Table;
 use serde_json::{Map, Value};
 
-/// Names of keys as a reader knows them; others are told as they stand in the case.
+/// Names of keys in the tables; a key that is not listed is shown as in the case, underscores as blanks.
 const NAMES: [(&str, &str); 19] = [
     ("a1", "cell vector a₁"),
     ("a2", "cell vector a₂"),
-    ("accuracy", "accuracy asked for"),
+    ("accuracy", "prescribed accuracy"),
     ("coefficient", "coefficient"),
     ("coupling", "coupled to the pressure"),
     ("heights", "heights, a file"),
@@ -32,11 +32,11 @@ const NAMES: [(&str, &str); 19] = [
 /// Keys of a list of which the columns come first.
 const FRONT: [&str; 5] = ["name", "thickness", "shear_ratio", "young", "graded"];
 
-/// What these sections of a case say is shown each by itself or is of no matter for the result.
+/// Sections of a case that the last table leaves out: shown in tables of their own, or without effect on the result.
 const APART: [&str; 6] = ["title", "levels", "layers", "substrate", "localized", "units"];
 
-/// The problem and how it is solved.
-pub(super) fn asked(case: &Value) -> Markup {
+/// Counterbody and body in a sentence, then the keys of the case in tables.
+pub(super) fn problem(case: &Value) -> Markup {
     let mut parts = vec![tag("p", sentence(case))];
     let list = |key: &str| case[key].as_array().map(Vec::as_slice).unwrap_or_default();
     if !list("levels").is_empty() {
@@ -56,11 +56,11 @@ pub(super) fn asked(case: &Value) -> Markup {
     let sections = case.as_object().into_iter().flatten().filter(|(key, _)| !APART.contains(&key.as_str()));
     let rows: Vec<(String, String)> = sections.flat_map(|(section, value)| entries(section, value)).collect();
     let rows: Vec<(&str, Markup)> = rows.iter().map(|(name, text)| (name.as_str(), text.as_str().into())).collect();
-    parts.push(pairs("Cell, load, grid and what else was asked", &rows));
+    parts.push(pairs("Cell, load, grid and all other keys", &rows));
     parts.into()
 }
 
-/// Number of materials that a layer is laid out as.
+/// Number of sublayers of a layer; 1 where it is not graded.
 fn sublayers(layer: &Value) -> usize {
     layer["graded"]["sublayers"].as_u64().and_then(|count| usize::try_from(count).ok()).unwrap_or(1)
 }
@@ -86,7 +86,7 @@ fn sentence(case: &Value) -> String {
     format!("{counterbody} {pressed} into {body}{slides}.")
 }
 
-/// Tables of a list as one: a row each, a column for every key that any has.
+/// A list of the case as one table: a row an item, a column for every key of any item.
 fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> String) -> Markup {
     let known = |key: &str| FRONT.iter().position(|own| *own == key).unwrap_or(FRONT.len());
     let mut keys: Vec<&String> = Vec::new();
@@ -125,10 +125,10 @@ fn named(key: &str) -> String {
     NAMES.iter().find(|(own, _)| *own == key).map_or_else(|| key.replace('_', " "), |(_, name)| (*name).to_owned())
 }
 
-/// Longest list that is shown whole.
+/// Most items of a list that is shown whole.
 const SHOWN: usize = 12;
 
-/// A value as a person writes it.
+/// A value of the case as text.
 fn text(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
@@ -158,7 +158,7 @@ fn text(value: &Value) -> String {
     }
 }
 
-/// A number as it was given, 2e-7 for 0.0000002, or where that is long five digits of it.
+/// A number with all its digits, or with five where these are many; 2e-7 for 0.0000002.
 fn plain(x: f64) -> String {
     if x.to_string().len() > 9 && x.abs() < 1e6 && x.abs() >= 1e-3 {
         number(x)

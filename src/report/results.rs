@@ -1,4 +1,4 @@
-//! What a folder holds of finished results.
+//! The finished results of a folder.
 
 use super::ReportError;
 use crate::output::{LimitFile, SWEEP_LOG, Summary, Unreadable, damaged_results, disk, is_beside};
@@ -7,9 +7,9 @@ use serde_json::Value;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// The results of a folder; one at least.
+/// The finished results of a folder, one at least.
 #[derive(Debug)]
-pub(super) struct Finished {
+pub(super) struct Results {
     pub folder: PathBuf,
     /// `summary.json`.
     pub run: Option<Summary>,
@@ -17,23 +17,23 @@ pub(super) struct Finished {
     pub limit: Option<LimitFile>,
     /// `sweep.json` with its log.
     pub sweep: Option<Swept>,
-    /// Files that do not stand there as percoat wrote them, each with what is the matter with it.
+    /// Files that are missing or were changed since percoat wrote them, each with what is wrong with it.
     unlike: Vec<(String, String)>,
 }
 
 /// Files whose numbers a page shows.
 const SHOWN: [&str; 4] = ["summary.json", "limit.json", "sweep.json", SWEEP_LOG];
 
-/// A sweep.
+/// `sweep.json` with the rows of its log.
 #[derive(Debug)]
 pub(super) struct Swept {
-    /// What was asked for, and how it ended.
+    /// `sweep.json`.
     pub description: Description,
     /// Its combinations, by ascending number.
     pub rows: Vec<Row>,
 }
 
-impl Finished {
+impl Results {
     /// Reads the files of a folder.
     pub(super) fn read(folder: &Path) -> Result<Self, ReportError> {
         if !folder.is_dir() {
@@ -44,15 +44,15 @@ impl Finished {
         let run = record(&folder.join("summary.json"), Summary::read)?;
         let limit = record(&folder.join("limit.json"), LimitFile::read)?;
         let unlike = damaged_results(folder);
-        let finished = Self { folder: folder.to_owned(), run, limit, sweep, unlike };
-        if finished.run.is_none() && finished.limit.is_none() && finished.sweep.is_none() {
+        let results = Self { folder: folder.to_owned(), run, limit, sweep, unlike };
+        if results.run.is_none() && results.limit.is_none() && results.sweep.is_none() {
             let unfinished = ["unfinished", "unfinished-sweep"].iter().any(|name| disk::is_folder(&folder.join(name)));
             return Err(ReportError::Nothing { folder: folder.to_owned(), unfinished });
         }
-        Ok(finished)
+        Ok(results)
     }
 
-    /// Refuses a file that is shown and not as it was written.
+    /// Refuses a file with numbers of the page that was changed since percoat wrote it.
     pub(super) fn whole(&self) -> Result<(), ReportError> {
         match self.unlike.iter().find(|(name, _)| SHOWN.contains(&name.as_str()) && self.folder.join(name).exists()) {
             Some((name, reason)) => {
@@ -62,12 +62,12 @@ impl Finished {
         }
     }
 
-    /// What is missing of the results or damaged, and so not shown.
+    /// Files that are missing or damaged and not shown, a sentence each.
     pub(super) fn doubts(&self) -> Vec<String> {
         self.unlike.iter().map(|(name, reason)| format!("{name} {reason}")).collect()
     }
 
-    /// The picture of a name beside a result, with its kind of file, lines before pixels; `None` where the result has none.
+    /// Media type and bytes of the picture `name` of a result, SVG before PNG; `None` where the result has none.
     pub(super) fn picture(&self, result: &str, name: &str) -> Result<Option<(&'static str, Vec<u8>)>, ReportError> {
         for (ending, kind) in [("svg", "image/svg+xml"), ("png", "image/png")] {
             let file = format!("{name}.{ending}");
@@ -88,7 +88,7 @@ fn text(path: &Path) -> Result<Option<String>, ReportError> {
     }
 }
 
-/// The record of a file, which names the version that wrote it.
+/// The record in a JSON file; `None` where there is no file.
 fn record<T>(path: &Path, read: impl Fn(&Value) -> Result<T, Unreadable>) -> Result<Option<T>, ReportError> {
     let Some(text) = text(path)? else { return Ok(None) };
     let refused = |version: Option<&str>, reason: String| {
