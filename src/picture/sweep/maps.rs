@@ -87,7 +87,7 @@ impl Keys {
         Some(sheet(caption, &panels.collect::<Vec<_>>()))
     }
 
-    /// What the last results of the rows have, cell by cell: first the lowest row.
+    /// Values of the last results of the rows, cell by cell, the lowest row first.
     fn field<T: Copy>(&self, rows: &[Row], value: impl Fn(&SweepResult) -> Option<T>) -> MapValues<T> {
         let Some(up) = &self.pair else { return Vec::new() };
         let mut field = vec![None; self.along.1.len() * up.1.len()];
