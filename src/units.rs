@@ -71,7 +71,7 @@ impl Units {
         Self { length: relative(length.map(str::to_owned)), pressure: relative(pressure) }
     }
 
-    /// Of which nothing is known.
+    /// Unknown units.
     pub fn unknown() -> Self {
         Self { length: Unit::None, pressure: Unit::None }
     }
@@ -85,22 +85,22 @@ impl Units {
         }
     }
 
-    /// Of lengths.
+    /// Unit of lengths.
     pub fn length(&self) -> &Unit {
         &self.length
     }
 
-    /// Of pressures.
+    /// Unit of pressures.
     pub fn pressure(&self) -> &Unit {
         &self.pressure
     }
 
-    /// Of forces: a pressure times an area. None where one of both has no name.
+    /// Unit of forces: a pressure times an area; [`Unit::None`] where one of both has no name.
     pub fn force(&self) -> Unit {
         self.pressure_times(2, "N", "²")
     }
 
-    /// Of energies: a pressure times a volume. None where one of both has no name.
+    /// Unit of energies: a pressure times a volume; [`Unit::None`] where one of both has no name.
     pub fn energy(&self) -> Unit {
         self.pressure_times(3, "J", "³")
     }
@@ -136,7 +136,7 @@ pub fn is_force(name: &str) -> bool {
 }
 
 impl Unit {
-    /// By its name, which may be that of an SI unit `base` with a prefix.
+    /// The unit of a name, which may be an SI unit `base` with a prefix.
     fn called(name: &str, base: &'static str) -> Self {
         // The letters mu and u are written for the sign.
         let prefix = name.strip_suffix(base).map(|prefix| if ["u", "μ"].contains(&prefix) { "µ" } else { prefix });

@@ -4,7 +4,7 @@ use super::{InterfaceStrength, Material, MaterialError, Strength};
 use crate::notation::number;
 use std::fmt;
 
-/// How the lower face of a layer holds to what lies below it. Interfaces never open: tension is carried.
+/// Kind of the interface below a layer. Interfaces never open: tension is carried.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Interface {

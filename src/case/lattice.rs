@@ -15,7 +15,7 @@ words! {
     pub enum LatticeKind {
         /// Triangular; its cell is a rhombus of 60°.
         Hexagonal = "hexagonal",
-        /// Of squares.
+        /// Square; its cell is a square.
         Square = "square",
         /// Any cell.
         Oblique = "oblique",

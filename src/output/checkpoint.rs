@@ -284,7 +284,7 @@ mod tests {
     use crate::spectral::Solver;
     use std::io::Cursor;
 
-    /// What was kept gives the step again: its fields, how it was solved, and the coarser grids that errors are read from.
+    /// A step restored from its checkpoint has its fields, its report and the coarser grids of the error estimates.
     #[test]
     fn a_checkpoint_alone_gives_its_step_again() {
         let case = Case::read(&embedded::source("fig2").unwrap(), &["grid.points=96".to_owned()]).unwrap();

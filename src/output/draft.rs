@@ -1,6 +1,6 @@
 //! Files that are written under a temporary name and renamed when they are complete.
 
-use super::error::At;
+use super::error::AtPath;
 use super::{OutputError, disk};
 use std::fs;
 use std::io::{self, BufWriter, Write};

@@ -18,11 +18,11 @@ impl OutputError {
 }
 
 /// Adds the path to an error of the system.
-pub(crate) trait At<T> {
+pub(crate) trait AtPath<T> {
     fn at(self, path: &Path) -> Result<T, OutputError>;
 }
 
-impl<T> At<T> for io::Result<T> {
+impl<T> AtPath<T> for io::Result<T> {
     fn at(self, path: &Path) -> Result<T, OutputError> {
         self.map_err(|error| OutputError::new(path, error))
     }

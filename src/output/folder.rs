@@ -1,6 +1,6 @@
 //! An output folder locked for one run; its life is described in the [module's head](super).
 
-use super::error::At;
+use super::error::AtPath;
 use super::files::{FileRecord, Files};
 use super::folder_error::FolderError;
 use super::foreign::{refuse_in_own_places, refuse_in_staging, refuse_planned};

@@ -2,7 +2,7 @@
 //! refused before anything is written.
 
 use super::disk::{self, found, kind};
-use super::error::At;
+use super::error::AtPath;
 use super::files::Files;
 use super::folder_error::FolderError;
 use super::layout::{LIST, OWN, RETIRED, is_staging, names, staging};

@@ -1,6 +1,6 @@
 //! The staging folder of an interrupted run, and the steps on a coarser grid.
 
-use super::error::At;
+use super::error::AtPath;
 use super::layout::{COARSER, MARK, SWEEP_LOG, is_staging, staging};
 use super::log::{cut, has_whole_line};
 use super::staging::{Entry, entries, remove_or_set_aside, remove_own};

@@ -1,6 +1,6 @@
 //! Names of files and folders in an output folder.
 
-use super::error::At;
+use super::error::AtPath;
 use super::writer::Writer;
 use super::{OutputError, disk};
 use std::fs;

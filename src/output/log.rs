@@ -5,7 +5,7 @@
 //! every terminated line is whole; an unterminated one is cut off before the log is used again.
 
 use super::disk::{self, Appended};
-use super::error::At;
+use super::error::AtPath;
 use super::{OutputError, write_file, write_text};
 use std::io::{self, BufRead, BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};

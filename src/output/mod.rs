@@ -115,7 +115,7 @@ pub use trailer::{TrailerError, digest, with_checksum, without_checksum};
 pub use volume::write_volume;
 pub use writer::Writer;
 
-use error::At;
+use error::AtPath;
 use std::path::Path;
 
 /// Makes `folder` and what leads to it.

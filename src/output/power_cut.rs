@@ -34,7 +34,7 @@ fn result(folder: &Path) -> BTreeMap<String, String> {
     PLAN.iter().filter_map(|name| read(name)).collect()
 }
 
-/// What a power cut may leave of a folder in which a result of `old` names is replaced by one of `new` names.
+/// States that a power cut may leave of a folder in which a result of `old` names is replaced by one of `new` names.
 fn replaced(writer: Writer, old: &[&str], new: &[&str], ignores_syncs: bool) -> Vec<Image> {
     let place = tempfile::tempdir().unwrap();
     let journal = Journal::begin(place.path());
@@ -197,7 +197,7 @@ fn fields(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     names.map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
 }
 
-/// What a power cut may leave of a run, and after which images each step was finished.
+/// States that a power cut may leave of a run, and the number of states when each step was finished.
 fn cut(case: &Case) -> (BTreeMap<String, Vec<u8>>, Vec<Image>, Vec<usize>) {
     let place = tempfile::tempdir().unwrap();
     let journal: Arc<Mutex<Journal>> = Journal::begin(place.path());

@@ -13,7 +13,7 @@
 //! second name (hard link), so that the new result is complete in the staging folder until it is listed; without hard links
 //! the files are moved one by one. The disk is synced before each step.
 
-use super::error::At;
+use super::error::AtPath;
 use super::files::{FileRecord, Ownership, parents};
 use super::folder_error::FolderError;
 use super::layout::{DECIDED, LIST, OWN, is_staging, staging};

@@ -1,7 +1,7 @@
 //! Release of a solved folder that becomes part of another result, as those of the combinations of a sweep: percoat's own files
 //! in it are removed.
 
-use super::error::At;
+use super::error::AtPath;
 use super::files::Files;
 use super::layout::{LIST, OWN, names, staging};
 use super::manifest::published;

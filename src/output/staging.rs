@@ -6,7 +6,7 @@
 //! foreign files are kept in `interrupted-1/` or the next free number.
 
 use super::disk::{self, found};
-use super::error::At;
+use super::error::AtPath;
 use super::files::is_inside;
 use super::layout::{COARSER, COMBINATIONS, DECIDED, MARK, OWN, RETIRED, SWEEP_LOG, is_staging};
 use super::{OutputError, checkpoint, steps_log, write_text};

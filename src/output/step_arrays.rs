@@ -4,7 +4,7 @@
 
 use super::checksum::Checksum;
 use super::draft::Draft;
-use super::error::At;
+use super::error::AtPath;
 use super::npy::{complete, header, npy, values};
 use super::npz::Archive;
 use super::staging::remove_own;

@@ -3,7 +3,7 @@
 //! A line is the record of the step as in `summary.json`, with the data for resuming the run: number, load, fingerprint of the
 //! run, files with their checksums, and a [checksum](super::trailer) of the line. A step is finished when its line is terminated.
 
-use super::error::At;
+use super::error::AtPath;
 use super::json::read_back;
 use super::log::{LineLog, whole_lines};
 use super::trailer::{with_checksum, without_checksum};

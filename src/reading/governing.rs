@@ -1,11 +1,11 @@
-//! What comes nearest to failure, and what else may within the errors.
+//! The governing criterion of a load step, and its rivals within the errors.
 //!
 //! Of several utilisations u ± e the largest u governs; every other one with u′ + e′ ≥ u − e is its rival.
 
 use super::strength::{Criterion, Utilisation};
 use super::verdict::Verdict;
 
-/// What comes nearest to failure in a load step.
+/// The criterion nearest to failure in a load step.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Governing {
@@ -21,7 +21,7 @@ pub struct Governing {
 }
 
 impl Governing {
-    /// Of all utilisations of a step; `None` without any.
+    /// The governing criterion of all utilisations of a step; `None` without any.
     pub fn of(all: &[Utilisation]) -> Option<Self> {
         let first = all.iter().max_by(|a, b| a.value.total_cmp(&b.value))?;
         let mut rivals: Vec<&Utilisation> =

@@ -21,7 +21,7 @@ pub struct LevelReading {
     /// [`crate::counterbody::Shape::singular_peak`].
     #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::max_pressure"))]
     pub max_pressure: f64,
-    /// What the grid resolves of a peak pressure that is infinite; `None` where it is finite.
+    /// Largest pressure on the grid where the peak pressure is infinite; `None` where it is finite.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub resolved_peak: Option<f64>,
     /// Contact area of one indenter, a length squared.
@@ -64,13 +64,13 @@ pub struct LevelReading {
 pub struct Uncertainty {
     /// Samples between the peak pressure and the edge of contact, at most those along the contact radius.
     pub peak_to_edge: f64,
-    /// Of the contact area, a length squared.
+    /// Uncertainty of the contact area, a length squared.
     pub area: f64,
-    /// Of the contact radius, a length.
+    /// Uncertainty of the contact radius, a length.
     pub radius: Option<f64>,
-    /// Of the radius of a ring's hole, a length.
+    /// Uncertainty of the radius of a ring's hole, a length.
     pub hole: Option<f64>,
-    /// Of the distances of the boundary from the axis, a length.
+    /// Uncertainty of the distances of the boundary from the axis, a length.
     pub boundary: Option<f64>,
 }
 

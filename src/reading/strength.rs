@@ -1,4 +1,4 @@
-//! How much of what materials and interfaces bear a load step takes up, and where.
+//! Failure criteria and their utilisations in a load step.
 //!
 //! The **utilisation** of a criterion is 1 where it fails: von Mises over the yield strength, σ₁ over the tensile strength,
 //! √((⟨σ_zz⟩/σ_c)² + (τ/τ_c)²) of an interface. It is no safety factor: contact is not linear, and the load at which it
@@ -13,7 +13,7 @@ use crate::stress::Peak;
 use std::fmt;
 use std::str::FromStr;
 
-/// What can fail.
+/// A failure criterion of a material or an interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(
     feature = "serde",
@@ -93,7 +93,7 @@ impl Criterion {
         }
     }
 
-    /// What residual stress alone takes up of it: in a layer under σ_r in both directions, von Mises is |σ_r|.
+    /// Utilisation by residual stress alone: in a layer under σ_r in both directions, von Mises is |σ_r|.
     pub fn at_rest(self, half_space: &HalfSpace) -> f64 {
         let residual = |material: MaterialId| half_space.residual_stresses().nth(material.number - 1).unwrap_or(0.0);
         let stress = match self {
@@ -133,7 +133,7 @@ impl FromStr for Criterion {
     }
 }
 
-/// How much of a criterion is taken up, and where.
+/// The utilisation of a criterion, and its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Utilisation {
@@ -148,7 +148,7 @@ pub struct Utilisation {
     /// Whether the criterion fails, by value and error.
     #[cfg_attr(feature = "serde", serde(rename = "state"))]
     pub verdict: Verdict,
-    /// x, y, z; lengths.
+    /// Place x, y, z of the largest utilisation; lengths.
     #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::place"))]
     pub position: [f64; 3],
     /// Another place (x, y, z), lengths, where the utilisation may be largest within the errors; see [`Peak::rival`].
@@ -157,24 +157,24 @@ pub struct Utilisation {
 }
 
 impl Utilisation {
-    /// Of a criterion by its value and the error of it, at a place.
+    /// The utilisation of a criterion with its error, at a place.
     pub fn new(criterion: Criterion, value: f64, error: Option<f64>, position: [f64; 3]) -> Self {
         let half = error.unwrap_or(0.0);
         let verdict = Verdict::of(value - half, value + half);
         Self { criterion, value, error, verdict, position, rival: None }
     }
 
-    /// The value less its error: what is taken up at least.
+    /// The value less its error.
     pub fn least(&self) -> f64 {
         self.value - self.error.unwrap_or(0.0)
     }
 
-    /// The value with its error: what is taken up at most.
+    /// The value plus its error.
     pub fn most(&self) -> f64 {
         self.value + self.error.unwrap_or(0.0)
     }
 
-    /// Of every criterion of a half-space under the largest stresses of a step.
+    /// The utilisation of every criterion of a half-space by the largest stresses of a step.
     pub fn all(half_space: &HalfSpace, stress: &StressReading) -> Vec<Self> {
         let of = |criterion: Criterion| {
             let peak: Peak = match criterion {

@@ -1,4 +1,4 @@
-//! What is read off the stresses of a step: where coating and substrate are stressed most, and how sure that is.
+//! The largest stresses of coating and substrate in a step, with their errors.
 
 use super::Reading;
 use crate::counterbody::Site;

@@ -61,7 +61,7 @@ pub struct StepRecord {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sliding {
-    /// How often the gap was computed afresh under the traction of the pressure; 0 where friction is not coupled.
+    /// Number of times the gap was recomputed under the traction of the pressure; 0 where friction is not coupled.
     pub outer_iterations: usize,
     /// ε of the whole problem, the displacement by the traction included.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]

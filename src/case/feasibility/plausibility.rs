@@ -15,7 +15,6 @@ const MODULI_APART: f64 = 1e3;
 /// Coefficient of friction beyond which it is implausible.
 const ROUGH: f64 = 2.0;
 
-/// What it is called.
 const SUBSTRATE: &str = "the substrate";
 
 /// Warnings about a case before it is solved, a sentence each.

@@ -112,7 +112,7 @@ fn heights_are_scaled_and_a_unit_needs_that_of_the_case() {
     assert!(fault("window = \"boxcar\"").contains("\"hann\" or \"tukey\""));
 }
 
-/// What a section with the unit of the case gives, whichever reads it.
+/// Heights of a section with the unit of the case.
 #[test]
 fn a_unit_becomes_part_of_the_scale() {
     let node = |text: &str| super::super::node::Table::parse(text).unwrap();

@@ -65,7 +65,7 @@ impl Keys {
     }
 }
 
-/// Of so many curves one in how many is drawn.
+/// Step of the curves that are drawn, so that at most [`CURVES`] are.
 pub fn one_in(curves: usize) -> usize {
     curves.div_ceil(CURVES).max(1)
 }

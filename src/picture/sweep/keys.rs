@@ -7,11 +7,11 @@ use crate::sweep::Row;
 /// Values of a key from which on two of them make a map.
 const SIDE: usize = 3;
 
-/// The keys of a sweep as a picture has them.
+/// The keys of a sweep along the axes of a picture.
 pub struct Keys {
     /// Index and values of the one with most numbers.
     pub along: (usize, Vec<f64>),
-    /// Those of a second one, where both are all that changes and every pair is there.
+    /// Index and values of a second one, where only these two keys change and every pair occurs.
     pub pair: Option<(usize, Vec<f64>)>,
     pub names: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! What changes with the settings of a sweep: curves over one key, or maps over two.
+//! Results of a sweep over its settings: curves over one key, or maps over two.
 
 mod curves;
 mod first;
@@ -71,7 +71,7 @@ fn undecided(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
         .collect()
 }
 
-/// What places without a number mean; empty where there are none.
+/// Legend of places without a number; empty where there are none.
 fn unknown(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
     let all = || rows.iter().flat_map(|row| numbers.iter().map(move |shown| (row.results.last(), shown)));
     let value =

@@ -11,7 +11,7 @@ pub struct Number {
     of: Of,
 }
 
-/// Which number it is.
+/// Quantity of a number.
 enum Of {
     /// One of the main scalars of a load step.
     Scalar(&'static Scalar),
@@ -21,14 +21,14 @@ enum Of {
     Limit(Option<Criterion>),
 }
 
-/// What is known where there is no number.
+/// Bound of a limit without a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bound {
     /// It is reached below the smallest load that the grid resolves.
     Below,
     /// It is not reached.
     Above,
-    /// By its error it may be reached.
+    /// Within its error it may be reached.
     Undecided,
 }
 
@@ -71,7 +71,7 @@ impl Number {
         }
     }
 
-    /// What is known of a limit that has no number.
+    /// Bound of a limit without a number; `None` for other numbers.
     pub fn bound(&self, result: &SweepResult) -> Option<Bound> {
         let Of::Limit(of) = self.of else { return None };
         result.limits()?;

@@ -1,4 +1,4 @@
-//! What the table admits is what the reader takes, and what it does not is refused, at every bound.
+//! The reader admits and refuses the values that the table of keys admits and refuses, at every bound.
 
 use super::super::key::Form;
 use super::super::range::Range;
@@ -25,7 +25,7 @@ fn unseen(value: &str) -> Probe {
     Probe { seen_by_schema: false, ..probe(value, false) }
 }
 
-/// What any number must be, and on either side of each of its bounds one.
+/// Values that no number may be, and values on either side of each bound of `range`.
 fn of_number(range: Range) -> Vec<Probe> {
     let float = |x: f64| format!("{x:?}");
     let carried = |sign: &str| {
