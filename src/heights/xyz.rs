@@ -146,7 +146,7 @@ fn on_grid(points: &[Point]) -> Result<PointGrid, Fault> {
         let place = axes[0].index(at[0]).zip(axes[1].index(at[1])).map(|(i, j)| i * counts[1] + j);
         let Some(place) = place.filter(|place| *place < values.len()) else {
             let what = format!(
-                "line {line}: its point is on no grid of equal spacings along x and y ({} × {} were found)",
+                "line {line}: its point is off the grid of equal spacings along x and y ({} × {} points)",
                 counts[0], counts[1]
             );
             return Err(Fault::new(what, format!("line {line}"))
@@ -209,7 +209,7 @@ mod tests {
         let told = with(&|lines| lines[4] = lines[0].clone());
         assert!(told.contains("lines 1 and 5 hold the same point"), "{told}");
         let told = with(&|lines| lines[3] = "-0.6 7 11".to_owned());
-        assert!(told.contains("line 4: its point stands"), "{told}");
+        assert!(told.contains("line 4: its point is off the grid"), "{told}");
         let told = with(&|lines| lines[2] = "1 2".to_owned());
         assert!(told.contains("line 3 does not hold three"), "{told}");
         let told = with(&|lines| lines[0] = "-1 5 nan".to_owned());
