@@ -189,7 +189,7 @@ fn files_that_hold_something_else_are_refused_or_told() {
         ("points with holes", "a.txt", gaps, Refused(&["6 of 16 × 16 points are missing"])),
         ("points with a quality", "a.txt", four, Refused(&["16 × 16 grid", "keep x, y and z"])),
         ("points anywhere", "a.txt", scattered.clone(), Told(&["200 lines of three numbers", "points x y z?"])),
-        ("points anywhere, said", "a.xyz", scattered, Refused(&["is on no grid"])),
+        ("points anywhere, said", "a.xyz", scattered, Refused(&["is off the grid"])),
         (
             "two images by headers",
             "a.txt",
