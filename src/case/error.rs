@@ -6,14 +6,13 @@ use std::ops::Range;
 
 use ariadne::{CharSet, Color, Config, IndexType, Label, Report, ReportKind};
 
-use super::Source;
 use super::place::Place;
 use crate::plain;
 
 /// A refusal while its place is still a span of one of several sources.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Refusal {
-    place: Place,
+    pub(super) place: Place,
     message: String,
     label: String,
     help: Option<String>,
@@ -53,15 +52,11 @@ struct Excerpt {
 }
 
 impl CaseError {
-    /// The refusal with the text it points into, the file's or that of a `--set`. A span over several lines is cut to its
-    /// first one. In all of it nothing is hidden.
-    pub(super) fn new(file: &Source, overrides: &[String], refusal: Refusal) -> Self {
+    /// The refusal with the text it points into and its name, the file's or that of a `--set`. A span over several lines is
+    /// cut to its first one. In all of it nothing is hidden.
+    pub(super) fn new(name: &str, text: &str, refusal: Refusal) -> Self {
         let Refusal { place, message, label, help } = refusal;
-        let Place { source, start, end } = place;
-        let (name, text) = match source {
-            0 => (&file.name[..], &file.text),
-            number => ("--set", &overrides[number - 1]),
-        };
+        let Place { start, end, .. } = place;
         let boundary = |at: usize| (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
         let start = boundary(start);
         let line = text[start..].find(['\r', '\n']).map_or(text.len(), |length| start + length);

@@ -30,7 +30,7 @@ use crate::body::{HalfSpace, MeanStress};
 use crate::comparison::ComparisonTask;
 use crate::counterbody::{Counterbody, Topography};
 use crate::problem::Problem;
-use crate::run::{Run, Sampling};
+use crate::run::{Run, Sampling, StressRequest};
 use crate::spectral::Settings;
 use crate::units::Units;
 use std::sync::Arc;
@@ -89,16 +89,12 @@ section! { whole
 }
 
 impl Case {
-    /// Read a case and change it by `overrides`, each `KEY=VALUE`, in their order.
+    /// Read a case and change it by the values that its source sets and by `overrides`, each `KEY=VALUE`, in their order.
     ///
     /// # Errors
     /// [`CaseError`] for the first fault found: TOML, unknown, missing or misspelt keys, types, ranges.
     pub fn read(source: &Source, overrides: &[String]) -> Result<Self, CaseError> {
-        read(source, overrides).map_err(|refusal| match source.as_text() {
-            // Only a text has lines to show: that of values is made, and refused in turn, where they are.
-            Some(text) => CaseError::new(&text, overrides, read(&text, overrides).err().unwrap_or(refusal)),
-            None => CaseError::new(source, overrides, refusal),
-        })
+        source.read(overrides, |source| read(source, overrides))
     }
 
     /// The case as TOML, complete with its defaults; it reads back equal.
@@ -158,6 +154,21 @@ impl Case {
         self.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean)
     }
 
+    /// The stresses asked for where the key `stress.section` has this value.
+    ///
+    /// # Errors
+    /// [`CaseError`] of a value that the key does not admit.
+    pub fn section(&self, cut: &toml::Value) -> Result<StressRequest, CaseError> {
+        let source = Source { set: vec![("stress.section".to_owned(), cut.clone())], ..Source::default() };
+        source.read(&[], |source| {
+            let root = source.tree(&CASE)?;
+            let root = TableAt::root(&root, &CASE, Place::NOWHERE);
+            let sliding = self.friction.map(|own| own.direction);
+            let section = StressSection::read_in(&root.required_section("stress")?, self.levels.len(), sliding)?;
+            Ok(section.request(self.counterbody()))
+        })
+    }
+
     /// What `percoat solve` does.
     pub fn run(&self) -> Run {
         Run {
@@ -171,8 +182,8 @@ impl Case {
 }
 
 fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
-    let mut root = source.tree()?;
-    for (number, text) in (1..).zip(overrides) {
+    let mut root = source.tree(&CASE)?;
+    for (number, text) in (1 + source.set.len()..).zip(overrides) {
         overrides::apply(text, number, &mut root, &CASE)?;
     }
     let end = source.text.trim_end().len();

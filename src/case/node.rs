@@ -104,31 +104,31 @@ impl Value {
     }
 }
 
-/// The tree of values that stand in no text.
-impl From<&toml::Table> for Table {
-    fn from(values: &toml::Table) -> Self {
+impl Table {
+    /// The tree of values that stand in no text; each is shown at `place` where it is refused.
+    pub(super) fn of(values: &toml::Table, place: Place) -> Self {
         let entry = |(key, value): (&String, &toml::Value)| Entry {
             key: key.clone(),
-            key_place: Place::NOWHERE,
-            node: Node::from(value),
+            key_place: place,
+            node: Node::of(value, place),
         };
         Self { entries: values.iter().map(entry).collect() }
     }
 }
 
-/// A value that stands in no text.
-impl From<&toml::Value> for Node {
-    fn from(value: &toml::Value) -> Self {
+impl Node {
+    /// A value that stands in no text, shown at `place` where it is refused.
+    pub(super) fn of(value: &toml::Value, place: Place) -> Self {
         let value = match value {
             toml::Value::String(text) => Value::Text(text.clone()),
             toml::Value::Integer(value) => Value::Integer(*value),
             toml::Value::Float(value) => Value::Float(*value),
             toml::Value::Boolean(value) => Value::Boolean(*value),
             toml::Value::Datetime(date) => Value::Date(date.to_string()),
-            toml::Value::Array(items) => Value::List(items.iter().map(Self::from).collect()),
-            toml::Value::Table(table) => Value::Table(Table::from(table)),
+            toml::Value::Array(items) => Value::List(items.iter().map(|item| Self::of(item, place)).collect()),
+            toml::Value::Table(table) => Value::Table(Table::of(table, place)),
         };
-        Self { value, place: Place::NOWHERE }
+        Self { value, place }
     }
 }
 
