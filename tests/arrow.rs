@@ -1,14 +1,21 @@
-//! The arrow of modules in `lib.rs` is true, and no two files import each other.
+//! The arrow of modules in `lib.rs` is true, and no two files of the library import each other, nor of the Python module.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every source file of the library by its module path, without its tests and comments.
-fn sources() -> BTreeMap<String, String> {
+fn library() -> BTreeMap<String, String> {
+    sources(&[("src", ""), ("validation", "validation")])
+}
+
+/// The source files in folders by their module paths below that of the folder.
+fn sources(folders: &[(&str, &str)]) -> BTreeMap<String, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut sources = BTreeMap::new();
-    let mut folders = vec![(root.join("src"), String::new()), (root.join("validation"), "validation".to_owned())];
+    let folders = folders.iter().map(|(folder, module)| (root.join(folder), (*module).to_owned()));
+    // The published crate has no Python module.
+    let mut folders: Vec<_> = folders.filter(|(folder, _)| folder.is_dir()).collect();
     while let Some((folder, module)) = folders.pop() {
         for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
             let stem = path.file_stem().unwrap().to_string_lossy().replace('-', "_");
@@ -26,7 +33,7 @@ fn sources() -> BTreeMap<String, String> {
 
 fn code(path: &PathBuf) -> String {
     let text = fs::read_to_string(path).unwrap();
-    let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+    let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
     text.lines().filter(|line| !line.trim_start().starts_with("//")).map(|line| format!("{line}\n")).collect()
 }
 
@@ -87,7 +94,7 @@ fn every_module_uses_only_what_stands_to_its_left() {
     let arrow = lib.split("```text").nth(1).and_then(|rest| rest.split("```").next()).expect("the arrow of modules");
     let order: Vec<&str> = arrow.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let place = |module: &str| order.iter().position(|name| *name == module);
-    let sources: BTreeMap<String, String> = sources().into_iter().filter(|(path, _)| path != "lib").collect();
+    let sources: BTreeMap<String, String> = library().into_iter().filter(|(path, _)| path != "lib").collect();
     let modules: BTreeSet<String> =
         sources.keys().filter_map(|path| path.split("::").next().map(str::to_owned)).collect();
     assert_eq!(modules, order.iter().map(|name| (*name).to_owned()).collect(), "modules of the arrow");
@@ -101,7 +108,12 @@ fn every_module_uses_only_what_stands_to_its_left() {
 
 #[test]
 fn no_two_files_import_each_other() {
-    let sources = sources();
+    assert_eq!(circles(&library()), [], "files of the library that import each other");
+    assert_eq!(circles(&sources(&[("python/src", "")])), [], "files of the Python module that import each other");
+}
+
+/// Pairs of files that import each other.
+fn circles(sources: &BTreeMap<String, String>) -> Vec<(String, String)> {
     let is_folder = |path: &str| sources.keys().any(|other| other.starts_with(&format!("{path}::")));
     // Names that a folder hands on from its files: `pub use file::{Name, …}`.
     let mut homes: BTreeMap<String, String> = BTreeMap::new();
@@ -139,10 +151,9 @@ fn no_two_files_import_each_other() {
             (path, used.filter(|used| used != path).collect())
         })
         .collect();
-    let circles: Vec<(&String, &String)> = imports
+    imports
         .iter()
-        .flat_map(|(path, used)| used.iter().map(move |used| (*path, used)))
-        .filter(|(path, used)| path < used && imports.get(used).is_some_and(|back| back.contains(*path)))
-        .collect();
-    assert_eq!(circles, [], "files that import each other");
+        .flat_map(|(path, used)| used.iter().map(|used| ((*path).clone(), used.clone())))
+        .filter(|(path, used)| path < used && imports.get(used).is_some_and(|back| back.contains(path)))
+        .collect()
 }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from os import PathLike
 from typing import Any, List, Mapping, Optional, Union
 
@@ -60,16 +59,7 @@ def case(case: CaseLike, *, set: Settings = None) -> dict[str, Any]:
     >>> percoat.case(fig2)["layers"][0]["thickness"]
     0.2
     """
-    return as_dict(_core.Case(case, set))
-
-
-def as_dict(case: _core.Case) -> dict[str, Any]:
-    """The case as run, complete with defaults; heights that are in memory as an array."""
-    own: dict[str, Any] = json.loads(case.json)
-    heights = own.get("surface", {}).get("heights")
-    if heights in case.arrays:
-        own["surface"]["heights"] = case.arrays[heights]
-    return own
+    return _core.Case(case, set).as_dict()
 
 
 def check(case: CaseLike, *, set: Settings = None, threads: Optional[int] = None) -> Check:
@@ -87,7 +77,7 @@ def check(case: CaseLike, *, set: Settings = None, threads: Optional[int] = None
     Fig. 2: relatively hard coating, three levels in contact
     ...
     """
-    return Check(json.loads(_core.Case(case, set).check(threads)))
+    return Check(_core.Case(case, set).check(threads))
 
 
 def cases() -> dict[str, str]:
@@ -123,5 +113,4 @@ def schema() -> dict[str, Any]:
     >>> percoat.schema()["properties"]["title"]["type"]
     'string'
     """
-    own: dict[str, Any] = json.loads(_core.schema())
-    return own
+    return _core.schema()

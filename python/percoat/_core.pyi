@@ -23,15 +23,12 @@ class Case:
         self, case: Union[str, PathLike[str], Mapping[str, Any], Case], set: _Settings = None
     ) -> None: ...
     @property
-    def arrays(self) -> Mapping[str, _Array]: ...
-    @property
-    def json(self) -> str: ...
-    @property
     def cell(self) -> List[List[float]]: ...
-    def check(self, threads: Optional[int] = None) -> str: ...
+    def as_dict(self) -> _Keys: ...
+    def check(self, threads: Optional[int] = None) -> _Keys: ...
 
 class HalfSpace:
-    """Layers on a substrate, and what they answer to a harmonic traction."""
+    """Layers on a substrate, and their response to harmonic tractions."""
 
     def __init__(self, sections: Union[Mapping[str, Any], Case]) -> None: ...
     def compliance(self, wavenumbers: _Array) -> _Array: ...
@@ -57,36 +54,36 @@ class Step:
     def checkpoint(self) -> bytes: ...
 
 class Progress:
-    """How far a computation is. It prints as a line."""
+    """Progress of a computation. It prints as a line."""
 
     @property
     def unit(self) -> str:
-        """What is counted: ``step`` or ``combination``; ``load`` where the end is not known."""
+        """Counted things: ``step``, ``combination`` or ``part``; ``load`` where their number is not known."""
     @property
     def done(self) -> int:
-        """How many are done."""
+        """Number of those that are done."""
     @property
     def of(self) -> int:
-        """Of how many; 0 where that is not known."""
+        """Number of all; 0 where it is not known."""
     @property
     def points(self) -> Optional[Tuple[int, int]]:
-        """The grid that is worked on, points along a₁ and a₂; ``None`` for a sweep."""
+        """Points of the present grid along a₁ and a₂; ``None`` for a sweep."""
     @property
     def iteration(self) -> int:
-        """Iterations so far on it."""
+        """Iterations so far on that grid."""
     @property
     def residual(self) -> float:
-        """ε of the last one; NaN before the first."""
+        """ε of the last iteration; NaN before the first."""
     @property
     def phase(self) -> str:
-        """What goes on right now, in words."""
+        """The present phase in words."""
     @property
     def seconds(self) -> float:
-        """Wall time so far."""
+        """Wall time so far, seconds."""
 
 def cases() -> List[Tuple[str, str]]: ...
 def explain(key: Optional[str] = None) -> str: ...
-def schema() -> str: ...
+def schema() -> _Keys: ...
 def solve(
     case: Case, threads: Optional[int] = None, progress: _Listener = None
 ) -> Tuple[_Keys, bool, Tuple[_Array, _Array, NDArray[np.int32]], List[Step]]: ...

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from percoat import _core
-from percoat._case import CaseLike, Settings, as_dict
+from percoat._case import CaseLike, Settings
 from percoat._record import Record
 from percoat._warnings import NotConverged, warn
 
@@ -467,7 +467,7 @@ class Result:
     @property
     def case(self) -> dict[str, Any]:
         """The case as run, complete with defaults."""
-        return as_dict(self._common.case)
+        return self._common.case.as_dict()
 
     @property
     def units(self) -> Record:

@@ -1,9 +1,9 @@
 //! A case: from a file, by its name, or from a dict.
 
 use crate::errors::{no_case, refused, unreadable};
-use crate::toml;
+use crate::record::to_python;
+use crate::value::{settings, table};
 use crate::work;
-use ::toml::Value;
 use ndarray::ArrayD;
 use numpy::{PyArrayDyn, PyArrayLikeDyn};
 use percoat::case::resources::{Job, refusal};
@@ -16,8 +16,9 @@ use pyo3::types::{PyBytes, PyDict, PyMapping, PyString, PyTuple};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use toml::{Table, Value};
 
-/// Name under which a case has the heights of a dict, one that no file on disk has.
+/// Name of the heights of a dict in its case, none of a file.
 const HEIGHTS: &str = "<array>.npy";
 
 /// A case that has been read, with every default resolved.
@@ -26,119 +27,109 @@ const HEIGHTS: &str = "<array>.npy";
 pub struct Case {
     pub own: Arc<case::Case>,
     pub name: String,
-    /// What it was read from.
+    /// The text or values from which it was read, with the files and arrays in memory.
     pub source: Arc<Source>,
 }
 
 #[pymethods]
 impl Case {
-    /// The case that `case` stands for, changed by `set`.
+    /// The case of a path, a name, a dict or a case, changed by `set`.
     #[new]
     #[pyo3(signature = (case, set = None))]
     pub fn new(case: &Bound<'_, PyAny>, set: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
-        let settings = toml::settings(set)?;
-        let (source, name) = source(case)?;
-        if let (Ok(known), true) = (case.cast::<Self>(), settings.is_empty()) {
+        let (values, texts) = settings(set)?;
+        if let (Ok(known), true, true) = (case.cast::<Self>(), values.is_empty(), texts.is_empty()) {
             return Ok(known.get().clone());
         }
-        Self::read(case.py(), source, settings, name)
+        let (source, name) = source(case)?;
+        Self::read(case.py(), Source { set: values, ..source }, texts, name)
     }
 
-    /// Heights that are an array in memory, under the name that the case has for them.
-    #[getter]
-    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        arrays(py, &self.source)
+    /// The case as a dict, complete with its defaults; heights in memory are an array.
+    fn as_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let own = to_python(py, &*self.own)?;
+        let heights = self.own.surface.as_ref().and_then(|surface| surface.heights.as_ref());
+        if let Some(heights) = heights.and_then(|name| self.source.arrays.get(name)) {
+            own.get_item("surface")?.set_item("heights", PyArrayDyn::from_array(py, heights))?;
+        }
+        Ok(own)
     }
 
-    /// The whole case as JSON.
-    #[getter]
-    fn json(&self) -> String {
-        serde_json::to_string(&*self.own).expect("a case is numbers and texts under names")
-    }
-
-    /// Vectors a₁ and a₂ of its cell.
+    /// Vectors a₁ and a₂ of the cell, lengths.
     #[getter]
     fn cell(&self) -> [[f64; 2]; 2] {
         self.own.counterbody().cell().vectors()
     }
 
-    /// What `percoat check` says, as JSON.
+    /// The values of `percoat check` and its text, as a dict.
     #[pyo3(signature = (threads = None))]
-    fn check(&self, py: Python<'_>, threads: Option<i64>) -> PyResult<String> {
+    fn check<'py>(&self, py: Python<'py>, threads: Option<i64>) -> PyResult<Bound<'py, PyAny>> {
         let Self { own, name, .. } = self.clone();
         let room = self.allow(Job::Keep)?;
         let checked = work::run(py, threads, None, move |_| {
-            Check::of(&own, &name, room).map(|check| check.json().to_string()).map_err(|error| error.to_string())
+            Check::of(&own, &name, room).map(|check| check.json()).map_err(|error| error.to_string())
         })?;
-        checked.map_err(refused)
+        to_python(py, &checked.map_err(refused)?)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (py, case) = (slf.py(), slf.get());
         let own = case.clone();
         let source = work::run(py, None, None, move |_| own.portable())??;
-        let (files, arrays) = (files(py, &source)?, arrays(py, &source)?);
-        let state = (source.text, files, arrays, &case.name).into_pyobject(py)?;
+        let (files, arrays) = (PyDict::new(py), PyDict::new(py));
+        for (name, bytes) in &source.files {
+            files.set_item(name, PyBytes::new(py, bytes))?;
+        }
+        for (name, heights) in &source.arrays {
+            arrays.set_item(name, PyArrayDyn::from_array(py, heights))?;
+        }
+        let state = (to_python(py, &source.values)?, files, arrays, &case.name).into_pyobject(py)?;
         Ok((slf.get_type().getattr("_restore")?, state))
     }
 
     #[staticmethod]
     fn _restore(
-        text: String,
-        files_of: &Bound<'_, PyDict>,
-        arrays_of: &Bound<'_, PyDict>,
+        values: &Bound<'_, PyDict>,
+        files: &Bound<'_, PyDict>,
+        arrays: &Bound<'_, PyDict>,
         name: String,
     ) -> PyResult<Self> {
         let file = |(name, bytes): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<(String, Arc<[u8]>)> {
             Ok((name.extract()?, Arc::from(bytes.cast::<PyBytes>()?.as_bytes())))
         };
-        let files = files_of.iter().map(file).collect::<PyResult<BTreeMap<_, _>>>()?;
         let heights = |(name, own): (Bound<'_, PyAny>, Bound<'_, PyAny>)| Ok((name.extract()?, array(&own)?));
-        let arrays = arrays_of.iter().map(heights).collect::<PyResult<BTreeMap<_, _>>>()?;
-        let source = Source { name: name.clone(), text, files, arrays, ..Source::default() };
-        Self::read(files_of.py(), source, Vec::new(), name)
+        let source = Source {
+            name: name.clone(),
+            values: Some(table(values.as_mapping(), "")?),
+            files: files.iter().map(file).collect::<PyResult<_>>()?,
+            arrays: arrays.iter().map(heights).collect::<PyResult<_>>()?,
+            ..Source::default()
+        };
+        Self::read(values.py(), source, Vec::new(), name)
     }
-}
-
-/// The files of a source that are in memory.
-fn files<'py>(py: Python<'py>, source: &Source) -> PyResult<Bound<'py, PyDict>> {
-    let files = PyDict::new(py);
-    for (name, bytes) in &source.files {
-        files.set_item(name, PyBytes::new(py, bytes))?;
-    }
-    Ok(files)
-}
-
-/// The arrays of a source that are in memory, copied.
-fn arrays<'py>(py: Python<'py>, source: &Source) -> PyResult<Bound<'py, PyDict>> {
-    let arrays = PyDict::new(py);
-    for (name, heights) in &source.arrays {
-        arrays.set_item(name, PyArrayDyn::from_array(py, heights))?;
-    }
-    Ok(arrays)
 }
 
 impl Case {
-    /// Reads a case, where surfaces are made and files read, on threads of its own.
-    fn read(py: Python<'_>, source: Source, settings: Vec<String>, name: String) -> PyResult<Self> {
+    /// The case of a source, changed by texts `KEY=VALUE`; read on a thread of its own, as files and random surfaces take time.
+    fn read(py: Python<'_>, source: Source, texts: Vec<String>, name: String) -> PyResult<Self> {
         let (source, read) = work::run(py, None, None, move |_| {
-            let read = case::Case::read(&source, &settings);
+            let read = case::Case::read(&source, &texts);
             (source, read)
         })?;
         Ok(Self { own: Arc::new(read.map_err(refused)?), name, source: Arc::new(source) })
     }
 
-    /// Room for a job, which is refused where there is not enough.
+    /// Memory of this machine for a job, or the refusal of a job that needs more.
     pub fn allow(&self, job: Job) -> PyResult<Capacity> {
         let room = Capacity { disk: u64::MAX, ..Capacity::on_this_machine(Path::new(".")) };
         refusal(&self.own, room, job).map_or(Ok(room), |why| Err(refused(why)))
     }
 
-    /// The same case as text with all its files, to be read on any machine.
+    /// The case as values with all its files in memory, which any machine can read.
     fn portable(&self) -> PyResult<Source> {
         let mut source = Source {
             name: self.name.clone(),
-            text: self.own.to_toml(),
+            values: Some(values(&self.own)),
             files: self.source.files.clone(),
             arrays: self.source.arrays.clone(),
             ..Source::default()
@@ -160,11 +151,17 @@ impl Case {
     }
 }
 
-/// Text or values that `case` stands for, and its name.
+/// A case as the values of its keys.
+fn values(case: &case::Case) -> Table {
+    Table::try_from(case).expect("a case is numbers and texts under names")
+}
+
+/// The text or the values of a path, a name, a dict or a case, and what the case is called.
 pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
     if let Ok(known) = case.cast::<Case>() {
         let Case { own, name, source } = known.get();
-        return Ok((Source { text: own.to_toml(), values: None, ..(**source).clone() }, name.clone()));
+        let (text, values, set) = (String::new(), Some(values(own)), Vec::new());
+        return Ok((Source { text, values, set, ..(**source).clone() }, name.clone()));
     }
     if let Ok(path) = case.extract::<PathBuf>() {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -176,32 +173,24 @@ pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
             "a case is a path, the name of an embedded case or a dict of the same shape as the file, not a {kind}"
         )));
     };
-    let mut arrays = BTreeMap::new();
-    let mut values = ::toml::Table::new();
-    for pair in mapping.items()?.iter() {
-        let (key, own): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair.extract()?;
-        let heights = match (key.extract::<String>().as_deref(), own.cast::<PyMapping>()) {
-            (Ok("surface"), Ok(section)) => {
-                section.get_item("heights").ok().filter(|own| !own.is_none() && own.extract::<PathBuf>().is_err())
-            }
-            _ => None,
-        };
-        let Some(heights) = heights else {
-            let single = PyDict::new(case.py());
-            single.set_item(key, own)?;
-            values.extend(toml::table(single.as_mapping(), "")?);
-            continue;
-        };
-        arrays.insert(HEIGHTS.to_owned(), array(&heights)?);
-        let section = PyDict::new(case.py());
-        section.update(own.cast::<PyMapping>()?)?;
-        section.set_item("heights", HEIGHTS)?;
-        values.insert("surface".to_owned(), Value::Table(toml::table(section.as_mapping(), "surface")?));
+    let (sections, surface, mut arrays) = (PyDict::new(case.py()), PyDict::new(case.py()), BTreeMap::new());
+    sections.update(mapping)?;
+    if let Some(section) = sections.get_item("surface")?
+        && let Ok(section) = section.cast::<PyMapping>()
+    {
+        surface.update(section)?;
+        let is_array = |heights: &Bound<'_, PyAny>| !heights.is_none() && heights.extract::<PathBuf>().is_err();
+        if let Some(heights) = surface.get_item("heights")?.filter(is_array) {
+            arrays.insert(HEIGHTS.to_owned(), array(&heights)?);
+            surface.set_item("heights", HEIGHTS)?;
+            sections.set_item("surface", surface)?;
+        }
     }
-    Ok((Source { name: "dict".to_owned(), values: Some(values), arrays, ..Source::default() }, "dict".to_owned()))
+    let values = Some(table(sections.as_mapping(), "")?);
+    Ok((Source { name: "dict".to_owned(), values, arrays, ..Source::default() }, "dict".to_owned()))
 }
 
-/// Heights as an array of their own.
+/// Heights as an array of the case, copied.
 fn array(heights: &Bound<'_, PyAny>) -> PyResult<Arc<ArrayD<f64>>> {
     let masked = heights.py().import("numpy.ma")?.getattr("MaskedArray")?;
     if heights.is_instance(&masked)? {
@@ -214,7 +203,7 @@ fn array(heights: &Bound<'_, PyAny>) -> PyResult<Arc<ArrayD<f64>>> {
     }
     has_room(&sizes(heights)?)?;
     let py = heights.py();
-    // A table of another library says itself which array it is: taken as a sequence it is that of its columns.
+    // A table of another library, as a sequence, is that of its columns.
     let is_table = heights.hasattr("__array__")?;
     let heights = if is_table { py.import("numpy")?.call_method1("asarray", (heights,))? } else { heights.clone() };
     let heights: PyArrayLikeDyn<'_, f64, numpy::AllowTypeChange> = heights.extract().map_err(|error: PyErr| {
@@ -228,7 +217,7 @@ fn array(heights: &Bound<'_, PyAny>) -> PyResult<Arc<ArrayD<f64>>> {
     Ok(Arc::new(view.to_owned()))
 }
 
-/// The sizes of an array or of a list of lists, before anything of it is copied.
+/// Samples along each axis of an array or of a list of lists.
 fn sizes(heights: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
     if let Ok(shape) = heights.getattr("shape") {
         return Ok(shape.extract().unwrap_or_default());
@@ -245,15 +234,15 @@ fn sizes(heights: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
     Ok(sizes)
 }
 
-/// Copies of the heights that are there at once at most: in another type, as an array of the case, and as a surface with its waves.
+/// Most copies of the heights in memory at once: in another type, as an array of the case, as a surface, and its waves.
 const COPIES: u64 = 4;
 
-/// Refuses heights that memory does not hold before any is taken for them.
+/// Refuses heights of which memory does not hold the copies, before any is made.
 fn has_room(sizes: &[usize]) -> PyResult<()> {
     let samples = sizes.iter().fold(1_u64, |samples, &size| samples.saturating_mul(size as u64));
     let (needed, available) = (samples.saturating_mul(8 * COPIES), available_memory());
     let mut all: Vec<u8> = Vec::new();
-    // A limit of the process refuses what it would not survive.
+    // The process may have a limit below the memory of the machine.
     let is_given =
         needed <= available && usize::try_from(needed).is_ok_and(|needed| all.try_reserve_exact(needed).is_ok());
     if is_given {
@@ -271,15 +260,15 @@ fn has_room(sizes: &[usize]) -> PyResult<()> {
 /// Names and titles of the embedded cases.
 #[pyfunction]
 pub fn cases() -> PyResult<Vec<(&'static str, String)>> {
-    // Their surfaces need not be made.
+    // The title stands in the text; to read the case would make its surface.
     let title = |text: &str| -> PyResult<String> {
-        let table: ::toml::Table = ::toml::from_str(text).map_err(refused)?;
+        let table: Table = toml::from_str(text).map_err(refused)?;
         Ok(table.get("title").and_then(Value::as_str).unwrap_or_default().to_owned())
     };
     embedded::all().iter().map(|(name, text)| Ok((*name, title(text)?))).collect()
 }
 
-/// What `percoat explain` says.
+/// The text of `percoat explain`.
 #[pyfunction]
 #[pyo3(signature = (key = None))]
 pub fn explain(key: Option<&str>) -> PyResult<String> {
@@ -290,6 +279,6 @@ pub fn explain(key: Option<&str>) -> PyResult<String> {
 
 /// The JSON schema of a case.
 #[pyfunction]
-pub fn schema() -> String {
-    case::schema().to_string()
+pub fn schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+    to_python(py, &case::schema())
 }

@@ -15,7 +15,7 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// Room for a finer grid, where one is looked for.
+/// The recorder of a refinement: keeps no step, and says by this function which grids memory holds.
 struct Fits<F>(F);
 
 impl<F: Fn([usize; 2]) -> bool + Send> Recorder for Fits<F> {
@@ -26,11 +26,11 @@ impl<F: Fn([usize; 2]) -> bool + Send> Recorder for Fits<F> {
     }
 }
 
-/// A comparison as a dict, its tables, what is doubtful about it, and whether all has converged.
+/// A comparison as a dict, its tables, its warnings, and whether all solutions have converged.
 type Compared<'py> = (Bound<'py, PyAny>, String, Vec<String>, bool);
 
-/// Compares both methods under the last load: a dict with the keys of `compare.json`, its tables as the command line prints them in so many letters,
-/// what is doubtful, and whether all has converged.
+/// Both methods under the last load: a dict with the keys of `compare.json`, the tables of the command line in lines of `width`
+/// letters, the warnings, and whether all solutions have converged.
 #[pyfunction]
 #[pyo3(signature = (case, width, threads = None, progress = None))]
 pub fn compare<'py>(

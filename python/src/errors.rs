@@ -1,4 +1,4 @@
-//! Errors, with the message of the command line.
+//! Errors with the messages of the command line.
 
 use percoat::case::NoCase;
 use percoat::plain;
@@ -16,12 +16,12 @@ pyo3::create_exception!(
      where it stands, the value received, what is allowed and what to do."
 );
 
-/// What is asked for is refused, for this reason, in which nothing is hidden.
+/// A `CaseError` with this reason, hidden characters escaped.
 pub fn refused(reason: impl fmt::Display) -> PyErr {
     CaseError::new_err(plain::lines(&reason.to_string()).into_owned())
 }
 
-/// A file cannot be read; Python makes of it `FileNotFoundError` and the like.
+/// The error of a file that cannot be read: an `OSError`, `FileNotFoundError` and the like by the number of the system.
 pub fn unreadable(path: &Path, error: &io::Error) -> PyErr {
     match error.raw_os_error() {
         Some(code) => {
@@ -33,7 +33,7 @@ pub fn unreadable(path: &Path, error: &io::Error) -> PyErr {
     }
 }
 
-/// There is no case where one is looked for.
+/// The error of a path or name without a case.
 pub fn no_case(none: NoCase) -> PyErr {
     match none {
         NoCase::Unreadable { path, error } => unreadable(&path, &error),

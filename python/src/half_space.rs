@@ -10,17 +10,18 @@ use percoat::output::{self, Traction};
 use percoat::units::CARRIED;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use toml::Table;
 
 /// Layers on a substrate, and their response to harmonic tractions.
 #[pyclass(frozen, module = "percoat._core")]
 #[derive(Debug)]
 pub struct HalfSpace {
     own: percoat::HalfSpace,
-    /// The sections it was read from.
-    text: String,
+    /// The sections `layers` and `substrate` of a case.
+    sections: Table,
 }
 
-/// Wavenumbers that double precision carries.
+/// Refuses wavenumbers that double precision does not carry.
 fn checked(wavenumbers: &[f64]) -> PyResult<()> {
     match wavenumbers.iter().find(|q| !CARRIED.contains(q)) {
         Some(q) => Err(refused(format!("a wavenumber is a number greater than 0, between 1e-60 and 1e60, not {q}"))),
@@ -30,26 +31,20 @@ fn checked(wavenumbers: &[f64]) -> PyResult<()> {
 
 #[pymethods]
 impl HalfSpace {
-    /// Of a case, or of a dict with the sections `layers` and `substrate` alone.
+    /// The half-space of a case, or of a dict with the sections `layers` and `substrate` alone.
     #[new]
     fn new(sections: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (source, _) = case::source(sections)?;
-        if let Ok(known) = sections.cast::<case::Case>() {
-            let own = known.get().own.half_space().clone();
-            let mut sections: toml::Table = toml::from_str(&source.text).map_err(refused)?;
-            sections.retain(|key, _| ["layers", "substrate"].contains(&key));
-            let text = toml::to_string(&sections).map_err(refused)?;
-            return Ok(Self { own, text });
-        }
-        let own = half_space(&source).map_err(refused)?;
-        let text = match &source.values {
-            Some(values) => toml::to_string(values).map_err(refused)?,
-            None => source.text,
+        let own = match sections.cast::<case::Case>() {
+            Ok(known) => known.get().own.half_space().clone(),
+            Err(_) => half_space(&source).map_err(refused)?,
         };
-        Ok(Self { own, text })
+        let mut sections = source.values.map_or_else(|| toml::from_str(&source.text), Ok).map_err(refused)?;
+        sections.retain(|key, _| ["layers", "substrate"].contains(&key));
+        Ok(Self { own, sections })
     }
 
-    /// ŵ/p̂ at wavenumbers, a length over a pressure.
+    /// ŵ/p̂ at wavenumbers (1/length, one axis), a length over a pressure.
     fn compliance<'py>(
         &self,
         py: Python<'py>,
@@ -58,7 +53,7 @@ impl HalfSpace {
         self.of_each(py, &wavenumbers, LayeredResponse::compliance)
     }
 
-    /// T, the compliance over that of a half-space of the surface's material.
+    /// T at wavenumbers, the compliance over that of a half-space of the surface's material.
     fn correction<'py>(
         &self,
         py: Python<'py>,
@@ -67,7 +62,7 @@ impl HalfSpace {
         self.of_each(py, &wavenumbers, LayeredResponse::correction)
     }
 
-    /// The lines of `percoat kernel`, as dicts.
+    /// The lines of `percoat kernel`, a dict a wavenumber.
     fn kernel<'py>(
         &self,
         py: Python<'py>,
@@ -96,14 +91,8 @@ impl HalfSpace {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        Ok((slf.get_type().getattr("_restore")?, (&slf.get().text,).into_pyobject(slf.py())?))
-    }
-
-    #[staticmethod]
-    fn _restore(text: String) -> PyResult<Self> {
-        let source = percoat::case::Source { name: "half-space".to_owned(), text, ..Default::default() };
-        let own = half_space(&source).map_err(refused)?;
-        Ok(Self { own, text: source.text })
+        let sections = to_python(slf.py(), &slf.get().sections)?;
+        Ok((slf.get_type().into_any(), (sections,).into_pyobject(slf.py())?))
     }
 }
 

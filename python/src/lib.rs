@@ -1,7 +1,7 @@
-//! percoat from Python: what the package `percoat` is made of.
+//! percoat from Python: the compiled module `percoat._core` of the package `percoat`.
 //!
-//! Records cross as dicts of the keys that they have in the files of the command line; fields cross as arrays that stay where
-//! they are. The package in `percoat/` gives them the shape that users see.
+//! A dict becomes a case, and a record a dict with the keys that it has in the files of the command line, value by value; a field
+//! becomes an array over the memory of its step. The classes that users see stand in `percoat/`.
 
 mod case;
 mod command;
@@ -15,7 +15,7 @@ mod record;
 mod solve;
 mod step;
 mod sweep;
-mod toml;
+mod value;
 mod work;
 
 #[pyo3::pymodule]

@@ -7,11 +7,11 @@ use crate::solve::Keeping;
 use crate::work;
 use percoat::case::plausibility;
 use percoat::case::resources::Job;
-use percoat::output::{Clock, LimitFile, table};
+use percoat::output::{LimitFile, table};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// Looks for the limit loads: a dict with the keys of `limit.json`, and whether all has converged.
+/// The limit loads: a dict with the keys of `limit.json`, and whether all loads have converged.
 #[pyfunction]
 #[pyo3(signature = (case, threads = None, progress = None))]
 pub fn limit<'py>(
@@ -25,21 +25,7 @@ pub fn limit<'py>(
     let own = Arc::clone(&case.get().own);
     let found = work::run(py, threads, progress, move |listener| {
         let run = own.run();
-        let mut keeping = Keeping {
-            case: &own,
-            job,
-            room,
-            listener,
-            clock: Clock::start(),
-            unit: "load",
-            of: 0,
-            points: [0; 2],
-            done: 0,
-            surface: None,
-            keeps: false,
-            checkpoint: None,
-            steps: Vec::new(),
-        };
+        let mut keeping = Keeping::new(&own, job, room, listener, ("load", 0));
         let limits = run.limits(&mut keeping).map_err(|error| error.told())?;
         let warnings = [limits.warnings.clone(), plausibility::of_case(&own)].concat();
         Ok::<_, String>((LimitFile::new(&limits, &own, &warnings), limits.converged()))
@@ -48,7 +34,7 @@ pub fn limit<'py>(
     Ok((to_python(py, &limits)?, converged))
 }
 
-/// The table of limit loads that the command line prints, of the dict that [`limit`] gives.
+/// The table that the command line prints of these limit loads, a dict of [`limit`], in lines of `width` letters.
 #[pyfunction]
 pub fn limit_text(case: &Bound<'_, Case>, limits: &Bound<'_, PyAny>, width: usize) -> PyResult<String> {
     let file: LimitFile = from_python(limits)?;

@@ -1,33 +1,33 @@
-//! How far a computation is, for the callable that wants to know.
+//! Progress of a computation, the argument of the callable `progress`.
 
 use pyo3::prelude::*;
 
-/// How far a computation is.
+/// Progress of a computation.
 #[pyclass(frozen, skip_from_py_object, module = "percoat._core")]
 #[derive(Debug, Clone)]
 pub struct Progress {
-    /// What is counted: `step` or `combination`; `load` where the end is not known.
+    /// Counted things: `step`, `combination` or `part`; `load` where their number is not known.
     #[pyo3(get)]
     pub unit: &'static str,
-    /// How many are done.
+    /// Number of those that are done.
     #[pyo3(get)]
     pub done: usize,
-    /// Of how many; 0 where that is not known.
+    /// Number of all; 0 where it is not known.
     #[pyo3(get)]
     pub of: usize,
-    /// The grid that is worked on, points along a₁ and a₂; `None` for a sweep.
+    /// Points of the present grid along a₁ and a₂; `None` for a sweep.
     #[pyo3(get)]
     pub points: Option<(usize, usize)>,
-    /// Iterations so far on it.
+    /// Iterations so far on that grid.
     #[pyo3(get)]
     pub iteration: usize,
-    /// ε of the last one.
+    /// ε of the last iteration; NaN before the first.
     #[pyo3(get)]
     pub residual: f64,
-    /// What goes on right now, in words.
+    /// The present phase in words.
     #[pyo3(get)]
     pub phase: String,
-    /// Wall time so far.
+    /// Wall time so far, seconds.
     #[pyo3(get)]
     pub seconds: f64,
 }

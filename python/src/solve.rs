@@ -1,11 +1,11 @@
-//! `percoat.solve`: every load step of a case, kept in memory.
+//! `percoat.solve`: every load step of a case, in memory.
 
 use crate::case::Case;
 use crate::errors::refused;
 use crate::progress::Progress as Told;
 use crate::record::{from_python, to_python};
 use crate::step::{Kept, Step};
-use crate::work::{self, Listener};
+use crate::work::{self, Listener, Stopped};
 use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use percoat::Progress;
@@ -19,38 +19,36 @@ use percoat::{Load, Solver, StressField, Surface};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// Nobody waits for the run any more.
-#[derive(Debug)]
-pub struct Stopped;
-
-impl std::fmt::Display for Stopped {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("stopped before its end")
-    }
-}
-
-impl std::error::Error for Stopped {}
-
-/// Keeps every step of a run, and tells how far it is.
+/// The recorder of a run that reports its progress and, for `percoat.solve`, keeps every step.
 pub struct Keeping<'a> {
-    pub case: &'a Arc<case::Case>,
-    pub job: Job,
-    pub room: Capacity,
-    pub listener: &'a mut Listener,
-    pub clock: Clock,
-    /// What the steps are called, and how many there are, if that is known.
-    pub unit: &'static str,
-    pub of: usize,
-    pub points: [usize; 2],
-    pub done: usize,
-    pub surface: Option<Arc<Surface>>,
-    /// Whether steps are kept with their fields.
-    pub keeps: bool,
-    pub checkpoint: Option<Checkpoint>,
-    pub steps: Vec<Kept>,
+    case: &'a Arc<case::Case>,
+    job: Job,
+    room: Capacity,
+    listener: &'a mut Listener,
+    clock: Clock,
+    /// Name of a step in the progress, and the number of all, 0 where it is not known.
+    unit: &'static str,
+    of: usize,
+    points: [usize; 2],
+    done: usize,
+    surface: Option<Arc<Surface>>,
+    checkpoint: Option<Checkpoint>,
+    steps: Vec<Kept>,
 }
 
-impl Keeping<'_> {
+impl<'a> Keeping<'a> {
+    /// The recorder of a job that has not begun; steps are kept with their fields for [`Job::Keep`].
+    pub fn new(
+        case: &'a Arc<case::Case>,
+        job: Job,
+        room: Capacity,
+        listener: &'a mut Listener,
+        (unit, of): (&'static str, usize),
+    ) -> Self {
+        let (clock, points, done, surface, checkpoint, steps) = (Clock::start(), [0; 2], 0, None, None, Vec::new());
+        Self { case, job, room, listener, clock, unit, of, points, done, surface, checkpoint, steps }
+    }
+
     fn tell(&mut self, new: bool, phase: impl FnOnce() -> String, iterated: Option<Progress>) {
         let Self { unit, done, of, points: [n1, n2], .. } = *self;
         let (iteration, residual) = iterated.map_or((0, f64::NAN), |own| (own.iteration, own.residual));
@@ -75,7 +73,7 @@ impl Recorder for Keeping<'_> {
     }
 
     fn begin(&mut self, solver: &Solver) -> Result<(), Stopped> {
-        // Steps on a coarser grid have done their service.
+        // Steps on a coarser grid are not part of the result.
         self.steps.clear();
         (self.done, self.points) = (0, solver.grid().points());
         self.surface = Some(Arc::clone(solver.surface()));
@@ -98,7 +96,7 @@ impl Recorder for Keeping<'_> {
     }
 
     fn solved(&mut self, checkpoint: &Checkpoint) -> Result<(), Stopped> {
-        self.checkpoint = self.keeps.then(|| checkpoint.clone());
+        self.checkpoint = (self.job == Job::Keep).then(|| checkpoint.clone());
         self.searching()
     }
 
@@ -108,7 +106,7 @@ impl Recorder for Keeping<'_> {
     }
 
     fn searching(&self) -> Result<(), Stopped> {
-        if self.listener.stops() { Err(Stopped) } else { Ok(()) }
+        self.listener.check()
     }
 
     fn step(&mut self, step: &percoat::Step, record: &StepRecord, _field: Option<&StressField>) -> Result<(), Stopped> {
@@ -123,11 +121,11 @@ impl Recorder for Keeping<'_> {
     }
 }
 
-/// Fields of a surface: x, y, and the level that owns each sample.
+/// Fields (n₁, n₂) of a surface: x and y, and the level whose indenter faces the sample, from 1; 0 for a topography.
 type Places<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i32>>);
 
-/// Solves a case: its summary as a dict, whether the accuracy is reached if one was prescribed, the places of its samples, and
-/// its steps.
+/// Solves a case: its summary as a dict, whether the accuracy of the case is reached, if it has one, the places of its samples,
+/// and its steps.
 #[pyfunction]
 #[pyo3(signature = (case, threads = None, progress = None))]
 pub fn solve<'py>(
@@ -141,21 +139,7 @@ pub fn solve<'py>(
     let solved = work::run(py, threads, progress, move |listener| {
         let run = own.run();
         run.check().map_err(|error| error.told())?;
-        let mut keeping = Keeping {
-            case: &own,
-            job: Job::Keep,
-            room,
-            listener,
-            clock: Clock::start(),
-            unit: "step",
-            of: run.loads.len(),
-            points: [0; 2],
-            done: 0,
-            surface: None,
-            keeps: true,
-            checkpoint: None,
-            steps: Vec::new(),
-        };
+        let mut keeping = Keeping::new(&own, Job::Keep, room, listener, ("step", run.loads.len()));
         let outcome = run.solve(&mut keeping).map_err(|error| error.told())?;
         let warnings = [outcome.warnings.clone(), plausibility::of_case(&own)].concat();
         let summary = Summary::new(&own, &warnings, outcome.change, &outcome.steps, keeping.clock.timing());
@@ -178,7 +162,7 @@ fn places(surface: &Surface) -> (Array2<f64>, Array2<f64>, Array2<i32>) {
     (x, y, surface.owner().map_or(Array2::zeros(points), |owner| owner.map(level)))
 }
 
-/// The table of a run that the command line prints, of its summary.
+/// The table that the command line prints of a run with this summary, in lines of `width` letters.
 #[pyfunction]
 pub fn outcome_text(case: &Bound<'_, Case>, summary: &Bound<'_, PyAny>, width: usize) -> PyResult<String> {
     let summary: Summary = from_python(summary)?;

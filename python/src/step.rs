@@ -1,25 +1,26 @@
-//! A solved load step: its fields, where they are, and what is inside the body.
+//! A solved load step: its fields on the surface, and stresses and displacements inside the body.
 
 use crate::case::Case;
 use crate::errors::refused;
 use crate::interior;
 use crate::record::to_python;
+use crate::value::value;
 use crate::work;
 use ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use percoat::case::resources::Job;
 use percoat::output::{read_checkpoint, write_checkpoint};
 use percoat::reading::StressReading;
-use percoat::run::{Cut, StressRequest};
+use percoat::run::StressRequest;
 use percoat::spectral::Checkpoint;
-use percoat::{MeanStress, Solver, StressField, case};
+use percoat::{Solver, StressField, case};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::io::Cursor;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-/// What stays of a step.
+/// A solved load step, its case, and the checkpoint from which it can be restored.
 #[derive(Debug)]
 pub struct Kept {
     pub case: Arc<case::Case>,
@@ -39,40 +40,36 @@ impl From<Kept> for Step {
 }
 
 impl Kept {
-    fn mean(&self) -> MeanStress {
-        self.case.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean)
-    }
-
-    /// The stress field under it.
-    pub fn field(&self) -> StressField {
-        StressField::new(self.step.finest(), self.mean())
+    /// The stress field under the contact.
+    fn field(&self) -> StressField {
+        StressField::new(self.step.finest(), self.case.mean_stress())
     }
 }
 
-/// Components on a section, its points, and what its rows are.
+/// Of a section s, x, y of its points and z of its rows; the materials of the rows; the components (12, rows, points).
 type Cross<'py> = ([Bound<'py, PyArray1<f64>>; 4], Bound<'py, PyArray1<i32>>, Bound<'py, PyArray3<f64>>);
 
 #[pymethods]
 impl Step {
-    /// Pressure, a view of where it is; nothing is copied.
+    /// Contact pressure (n₁, n₂), a view of the memory of the step.
     #[getter]
     fn pressure<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray2<f64>> {
         Self::shared(slf, slf.get().0.step.pressure())
     }
 
-    /// Gap, a view of where it is; nothing is copied.
+    /// Gap (n₁, n₂), a view of the memory of the step.
     #[getter]
     fn gap<'py>(slf: &Bound<'py, Self>) -> Bound<'py, PyArray2<f64>> {
         Self::shared(slf, slf.get().0.step.gap())
     }
 
-    /// Displacement, an array of its own.
+    /// Displacement of the surface (n₁, n₂), a new array.
     fn displacement<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let kept = Arc::clone(&self.0);
         Ok(work::run(py, None, None, move |_| kept.step.displacement())?.into_pyarray(py))
     }
 
-    /// Stresses at points (n, 3), of the material of this number where a depth is an interface.
+    /// Stresses (n, 6) at points (n, 3); on an interface in the material of this number, from 1.
     #[pyo3(signature = (points, material = None))]
     fn stress<'py>(
         &self,
@@ -81,11 +78,12 @@ impl Step {
         material: Option<i64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let (kept, points) = (Arc::clone(&self.0), points.as_array().to_owned());
-        let states = work::run(py, None, None, move |listener| interior::at(&kept, points.view(), material, listener))?;
+        let states =
+            work::run(py, None, None, move |listener| interior::at(&kept.field(), points.view(), material, listener))?;
         Ok(states.map_err(refused)?.into_pyarray(py))
     }
 
-    /// Twelve components on a plane (12, n₁, n₂), and the material it is in.
+    /// Twelve components on a plane (12, n₁, n₂), at the samples of the contact without `points`, and the number of its material.
     #[pyo3(signature = (z, points = None, material = None))]
     fn plane<'py>(
         &self,
@@ -95,30 +93,29 @@ impl Step {
         material: Option<i64>,
     ) -> PyResult<(Bound<'py, PyArray3<f64>>, usize)> {
         let kept = Arc::clone(&self.0);
-        let plane = work::run(py, None, None, move |listener| interior::plane(&kept, z, points, material, listener))?;
+        let points = points.map_or(Ok(kept.step.grid().points()), |points| interior::counts(&points));
+        let points = points.map_err(refused)?;
+        let plane =
+            work::run(py, None, None, move |listener| interior::plane(&kept.field(), z, points, material, listener))?;
         let (components, material) = plane.map_err(refused)?;
         Ok((components.into_pyarray(py), material))
     }
 
-    /// A vertical cut as the key `stress.section` of a case has it, or the case's own: s, x, y; z and material of each row;
-    /// twelve components (12, rows, points).
+    /// Twelve components on the vertical cut of this value of the key `stress.section`, without one on that of the case.
     #[pyo3(signature = (cut = None))]
     fn section<'py>(&self, py: Python<'py>, cut: Option<&Bound<'py, PyAny>>) -> PyResult<Cross<'py>> {
         let kept = Arc::clone(&self.0);
         let request = match cut {
-            Some(cut) => {
-                let (case, cut) = (Arc::clone(&kept.case), crate::toml::value(cut, "stress.section")?);
-                work::run(py, None, None, move |_| interior::request(&case, &cut))?.map_err(refused)?
-            }
+            Some(cut) => kept.case.section(&value(cut, "stress.section")?).map_err(refused)?,
             None => kept.case.run().stress.unwrap_or_default(),
         };
         let StressRequest { cut: Some(cut), .. } = request else {
             return Err(refused("say where the section begins and where it leads: the case asks for none"));
         };
         let (line, sides, components) = work::run(py, None, None, move |_| {
-            let Cut { line, .. } = cut;
             let depths = cut.depths(kept.step.problem().half_space());
-            (line, depths.clone(), interior::section(&kept, &line, &depths))
+            let components = interior::section(&kept.field(), &cut.line, &depths);
+            (cut.line, depths, components)
         })?;
         let places = line.places();
         let [x, y] = [0, 1].map(|axis| places.iter().map(|place| place[axis]).collect::<Vec<f64>>());
@@ -142,7 +139,7 @@ impl Step {
         stress.map(|stress| to_python(py, &stress)).transpose()
     }
 
-    /// What the step is made again of, see [`step`].
+    /// The bytes from which [`step`] restores the step.
     fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let mut bytes = Cursor::new(Vec::new());
         write_checkpoint(&mut bytes, &self.0.checkpoint).map_err(refused)?;
@@ -151,17 +148,17 @@ impl Step {
 }
 
 impl Step {
-    /// A field of a step, where it is.
-    #[expect(unsafe_code, reason = "NumPy is shown memory that belongs to the step")]
+    /// A field of a step as an array that cannot be written to; nothing is copied.
+    #[expect(unsafe_code, reason = "NumPy reads memory that belongs to the step")]
     fn shared<'py>(slf: &Bound<'py, Self>, field: ArrayView2<'_, f64>) -> Bound<'py, PyArray2<f64>> {
-        // SAFETY: the array keeps the step alive, which neither changes nor moves its fields; nobody can write through it.
+        // SAFETY: the array keeps the step alive, which neither changes nor moves its fields; it cannot be written to.
         let array = unsafe { PyArray2::borrow_from_array(&field, slf.clone().into_any()) };
         drop(array.readwrite().make_nonwriteable());
         array
     }
 }
 
-/// A step of a case again, of what was kept of it: `index` is that of its load, from 0.
+/// The step of a case from the bytes of its checkpoint; `index` is that of its load, from 0.
 #[pyfunction]
 pub fn step(py: Python<'_>, case: &Bound<'_, Case>, index: usize, points: [usize; 2], bytes: &[u8]) -> PyResult<Step> {
     case.get().allow(Job::Keep)?;

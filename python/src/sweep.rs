@@ -4,26 +4,24 @@ use crate::case;
 use crate::errors::refused;
 use crate::progress::Progress;
 use crate::record::to_python;
-use crate::toml::{value, written};
+use crate::value::{text, value};
 use crate::work;
-use ::toml::Value;
+use percoat::case::Source;
 use percoat::machine::Capacity;
 use percoat::sweep::{Axis, Combinations, Group, Row, Study, Task, columns};
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::collections::HashSet;
 use std::path::Path;
+use toml::Value;
 
-/// A combination: its name, how it ended, why if not well, and what is doubtful about it.
+/// Of a combination its name, its status, the reason where it is not `done`, and its warnings.
 type Told = (String, &'static str, String, Vec<String>);
 
-/// The columns of the table of a sweep, each a name with a list of cells; and of each combination its name, status, reason and
-/// warnings.
+/// The columns of the table of a sweep, each a name with a list of cells, and what is told of each combination.
 type Swept<'py> = (Bound<'py, PyAny>, Vec<Told>);
 
-/// Solves the combinations of the values of `set`, those of several keys as pairs if `zip`: the columns of the table, and
-/// name, status, reason and warnings of each combination.
+/// Solves the combinations of the values of `set`, with `zip` only those of values at the same place of their lists.
 #[pyfunction]
 #[pyo3(signature = (case, set, zip = false, limit = false, threads = None, progress = None))]
 pub fn sweep<'py>(
@@ -35,18 +33,8 @@ pub fn sweep<'py>(
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Swept<'py>> {
-    let (source, _) = case::source(case)?;
-    let (mut fixed, mut axes) = (Vec::new(), Vec::new());
-    for (key, values) in set.iter() {
-        let key: String = key
-            .extract()
-            .map_err(|_| PyTypeError::new_err(format!("a key of what is swept over is no text: {key}")))?;
-        // One value alone holds for all; a list of one is an axis like any other.
-        match axis(&key, &values)? {
-            (axis, false) => axes.push(axis),
-            (axis, true) => fixed.extend(axis.settings()),
-        }
-    }
+    let (mut source, _) = case::source(case)?;
+    let (axes, fixed) = axes(set, &mut source)?;
     let groups = match zip && !axes.is_empty() {
         true => vec![Group::zip(&axes).map_err(refused)?],
         false => axes.iter().map(Group::of).collect(),
@@ -74,7 +62,7 @@ pub fn sweep<'py>(
             });
             if listener.stops() { Err(()) } else { Ok(()) }
         });
-        // Nobody hears of a sweep that was stopped.
+        // The caller of a sweep that was stopped has raised already.
         let _ = ended;
         Ok::<_, String>(rows)
     })?;
@@ -84,19 +72,44 @@ pub fn sweep<'py>(
     Ok((to_python(py, &columns(&rows))?, rows.iter().map(told).collect()))
 }
 
-/// The values of a key: a list, a text as the command line takes it, or one value alone, which is told.
-fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<(Axis, bool)> {
-    if let Ok(text) = values.extract::<String>() {
-        let axis = Axis::parse(&format!("{key}={text}")).map_err(refused)?;
-        let alone = axis.values.len() == 1;
-        return Ok((axis, alone));
+/// The keys with lists of values, and `KEY=VALUE` of those with one text; any other value is one for all, set in the source.
+fn axes(set: &Bound<'_, PyDict>, source: &mut Source) -> PyResult<(Vec<Axis>, Vec<String>)> {
+    let (mut axes, mut fixed) = (Vec::new(), Vec::new());
+    for (key, values) in set.iter() {
+        let key = text(&key, "what is swept over")?;
+        if let Ok(text) = values.extract::<String>() {
+            let axis = Axis::parse(&format!("{key}={text}")).map_err(refused)?;
+            if axis.values.len() == 1 {
+                fixed.extend(axis.settings())
+            } else {
+                axes.push(axis)
+            }
+            continue;
+        }
+        match value(&values, &key)? {
+            Value::Array(items) if items.is_empty() => {
+                return Err(refused(format!("`{key}` has no values to sweep over")));
+            }
+            Value::Array(items) => axes.push(Axis { key, values: items.iter().map(written).collect() }),
+            single => source.set.push((key, single)),
+        }
     }
-    let (values, alone): (Vec<String>, bool) = match value(values, key)? {
-        Value::Array(items) => (items.iter().map(written).collect(), false),
-        single => (vec![written(&single)], true),
-    };
-    if values.is_empty() {
-        return Err(refused(format!("`{key}` has no values to sweep over")));
+    Ok((axes, fixed))
+}
+
+/// A value as the command line takes it, the text by which rows, columns and logs of a sweep name it.
+fn written(value: &Value) -> String {
+    match value {
+        // 2e-7 is shorter than 0.0000002.
+        Value::Float(x) if x.is_finite() && *x != 0.0 && !(1e-3..1e6).contains(&x.abs()) => format!("{x:e}"),
+        Value::String(text) if is_word(text) => text.clone(),
+        other => other.to_string(),
     }
-    Ok((Axis { key: key.to_owned(), values }, alone))
+}
+
+/// Whether a text needs no quotes: a letter before letters, digits, `-` and `_`, and no value of TOML.
+fn is_word(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_alphabetic())
+        && text.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c))
+        && !["true", "false", "inf", "nan"].contains(&text)
 }

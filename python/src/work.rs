@@ -1,8 +1,8 @@
-//! Work that takes time: the interpreter is free meanwhile, hears of it, and can end it.
+//! Work on threads that never touch the interpreter, with progress and Ctrl-C.
 //!
-//! The work is done by threads of their own, which never touch the interpreter. The thread that asked for it waits, calls the
-//! callable that wants to hear, and looks for Ctrl-C. When that comes it raises at once; solutions then end between two
-//! iterations, stresses between two rows, points or planes, and what is neither when it is done.
+//! The thread of the caller waits without the lock of the interpreter, calls the callable `progress`, and checks for Ctrl-C, on
+//! which it raises at once. The work then stops: a solution between two iterations, stresses between two rows, points or planes;
+//! other work ends when it is done.
 
 use crate::errors::refused;
 use crate::progress::Progress;
@@ -18,14 +18,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Between two looks for Ctrl-C.
+/// Longest time between two checks for Ctrl-C.
 const PATIENCE: Duration = Duration::from_millis(50);
-/// Between two calls of the callable while the same thing goes on.
+/// Shortest time between two reports of one phase.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// What goes from the work to the thread that waits for it.
+/// A message from the work to the thread of the caller.
 enum Event<T> {
-    /// With whether it must be heard even when more has come since.
+    /// A report, and whether it is passed on even where a later one is there.
     Progress(Progress, bool),
     Done(thread::Result<T>),
 }
@@ -33,7 +33,7 @@ enum Event<T> {
 /// Events in the order in which they came.
 type Events<T> = VecDeque<Event<T>>;
 
-/// What hears of the work from within.
+/// The caller as seen from the work: receives reports and may stop it.
 pub struct Listener {
     stop: Arc<AtomicBool>,
     tell: Option<Box<dyn Fn(Progress, bool) + Send>>,
@@ -41,18 +41,34 @@ pub struct Listener {
     told: Option<Instant>,
 }
 
+/// The work was stopped before its end.
+#[derive(Debug, thiserror::Error)]
+#[error("stopped before its end")]
+pub struct Stopped;
+
+impl From<Stopped> for String {
+    fn from(stopped: Stopped) -> Self {
+        stopped.to_string()
+    }
+}
+
 impl Listener {
-    /// Whether nobody waits for the work any more.
+    /// Whether the work is to stop.
     pub fn stops(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// The same, to be handed on.
+    /// [`Stopped`] where the work is to stop.
+    pub fn check(&self) -> Result<(), Stopped> {
+        if self.stops() { Err(Stopped) } else { Ok(()) }
+    }
+
+    /// The flag that becomes true when the work is to stop.
     pub fn stop(&self) -> &Arc<AtomicBool> {
         &self.stop
     }
 
-    /// Tells how far it is: always of what is `new`, of the same as before not too often.
+    /// Reports progress: a `new` phase always, the present one at most once a [`PAUSE`].
     pub fn tell(&mut self, new: bool, progress: impl FnOnce(f64) -> Progress) {
         let Some(tell) = &self.tell else { return };
         if new || self.told.is_none_or(|told| told.elapsed() > PAUSE) {
@@ -62,7 +78,7 @@ impl Listener {
     }
 }
 
-/// Does the work on so many threads, all cores if it is not said.
+/// The result of the work on this number of threads, without one on all cores.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     threads: Option<i64>,
@@ -78,7 +94,7 @@ pub fn run<T: Send + 'static>(
     let (send, mut receive) = mpsc::channel();
     let tell = progress.is_some_and(|progress| !progress.is_none()).then(|| {
         let send: Sender<Event<T>> = send.clone();
-        // Whoever waits may have gone.
+        // After Ctrl-C the receiver is gone.
         Box::new(move |progress, new| drop(send.send(Event::Progress(progress, new))))
             as Box<dyn Fn(Progress, bool) + Send>
     });
@@ -127,13 +143,13 @@ pub fn run<T: Send + 'static>(
     })
 }
 
-/// What has come, at least one event unless none comes for a while.
+/// The events that have come: at least one, or the error of none within [`PATIENCE`].
 fn wait<T>(receive: Receiver<Event<T>>) -> (Result<Events<T>, RecvTimeoutError>, Receiver<Event<T>>) {
     let first = receive.recv_timeout(PATIENCE);
     (first.map(|first| std::iter::once(first).chain(receive.try_iter()).collect()), receive)
 }
 
-/// The next of them. Whoever hears slowly is spared what is out of date.
+/// The next event, past reports that a later one replaces: a slow callable receives the latest.
 fn next<T>(events: &mut Events<T>) -> Option<Event<T>> {
     let stale = |events: &Events<T>| {
         matches!(events.front(), Some(Event::Progress(_, false)))
@@ -145,7 +161,7 @@ fn next<T>(events: &mut Events<T>) -> Option<Event<T>> {
     events.pop_front()
 }
 
-/// The threads of a process: those of a parent are not there after a fork.
+/// Threads of a process; after a fork the child has none of its parent's.
 struct Pool {
     process: u32,
     threads: Option<i64>,
@@ -154,8 +170,8 @@ struct Pool {
 
 static POOLS: Mutex<Vec<Pool>> = Mutex::new(Vec::new());
 
-/// As many threads as asked for, else as the environment says, at most four a core; the last ones asked for, and as many as there are
-/// cores, are kept.
+/// A pool of this number of threads, without one as many as the environment says, at most four a core; the pool without a number and
+/// the last one with a number are kept.
 fn pool(threads: Option<i64>) -> PyResult<Arc<ThreadPool>> {
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
@@ -171,7 +187,7 @@ fn pool(threads: Option<i64>) -> PyResult<Arc<ThreadPool>> {
     };
     let pool = Arc::new(pool.map_err(told)?);
     let (here, gone): (Vec<Pool>, Vec<Pool>) = pools.drain(..).partition(|own| own.process == process);
-    // Nobody is there who could be told to end.
+    // To drop a pool is to wait for threads, which the parent has.
     gone.into_iter().for_each(std::mem::forget);
     pools.extend(here.into_iter().filter(|own| own.threads.is_none() || threads.is_none()));
     pools.push(Pool { process, threads, pool: Arc::clone(&pool) });

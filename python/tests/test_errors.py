@@ -134,6 +134,23 @@ def test_settings_are_refused_in_the_words_of_the_command_line(
     assert words(refusal(lambda: percoat.solve("fig2", set=settings))).splitlines()[0] == first
 
 
+def test_settings_are_refused_with_key_value_and_place(fig2: dict[str, Any]) -> None:
+    # As the same text of the command line, whatever the case is read from.
+    for case in ("fig2", fig2):
+        for key, value, text in [
+            ("layers.0.poisson", 0.7, "layers.0.poisson=0.7"),
+            ("levels[0].shape", "pyramid", 'levels[0].shape="pyramid"'),
+            ("grid.pints", np.int64(8), "grid.pints=8"),
+            ("levels.7.height", 1.5, "levels.7.height=1.5"),
+            ("a..b", 1, "a..b=1"),
+            ("", 1, "=1"),
+        ]:
+            ours = refusal(lambda: percoat.case(case, set={"title": "own", key: value}))
+            assert ours == refusal(lambda: percoat.case(case, set=["title=own", text])) and text in ours
+    # A key is not cut at an equals sign, as a text is.
+    assert "unknown key `title=a`" in refusal(lambda: percoat.case("fig2", set={"title=a": "b"}))
+
+
 @pytest.mark.skipif(not REFUSED.is_dir(), reason="the cases are in the repository alone")
 def test_files_are_refused_in_the_words_of_the_command_line(program: Program) -> None:
     # As many as show every kind of refusal, of reading, of syntax and of meaning; each takes the start of a
@@ -407,6 +424,17 @@ def test_sections_that_lead_nowhere(three_levels: percoat.Result) -> None:
     assert "a place [x, y]" in refusal(lambda: step.section((0, 0, 0), (1, 0)))
     with pytest.raises(TypeError, match="`stress.section.from` is an? object"):
         step.section(object(), (1, 0))  # type: ignore[arg-type]
+
+
+def test_a_section_is_refused_as_in_a_case(three_levels: percoat.Result, flat_wave: percoat.Result) -> None:
+    # With the key, the value received and the excerpt that the same value of `set` has.
+    cut = {"from": "level 1", "toward": "level 9", "length": 1.0, "depth": 0.5}
+    ours = refusal(lambda: three_levels[0].section("level 1", "level 9", length=1.0, depth=0.5))
+    assert ours == refusal(lambda: percoat.case("fig2", set={"stress.section": cut}))
+    assert "stress.section={" in ours and 'not the text "level 9"' in ours
+    # A topography has no levels.
+    told = "`stress.section.from` must be two numbers in brackets: beside [surface] there are no levels"
+    assert told in refusal(lambda: flat_wave[0].section("level 1", (1, 0)))
 
 
 @pytest.mark.parametrize("wavenumber", [0.0, -1.0, np.nan, np.inf, 1e70, 1e-70, [1.0, 0.0], None])

@@ -176,6 +176,30 @@ def test_the_order_of_rows_does_not_depend_on_threads() -> None:
     assert one["combination"].tolist() == list(range(1, 13))
 
 
+def test_combinations_are_named_by_their_values() -> None:
+    heard: list[percoat.Progress] = []
+    values: dict[str, Any] = {
+        **SMALL,
+        "load": {"mean_pressure": 0.02},
+        "solver.tolerance": np.array([2e-7]),
+        "layers.0.interface": ["bonded"],
+        "title": ["a b"],
+        "lattice": [{"kind": "hexagonal", "period": 1.5}],
+    }
+    table = percoat.sweep("fig2", values, progress=heard.append)
+    # What holds for all is no part of a name.
+    name = (
+        'combination 1 (solver.tolerance=2e-7, layers.0.interface=bonded, title="a b", '
+        'lattice={ kind = "hexagonal", period = 1.5 })'
+    )
+    assert [own.phase for own in heard] == [f"{name} done"]
+    assert table["set_solver_tolerance"].tolist() == [2e-7]
+    assert table["mean_pressure"] == pytest.approx([0.02], rel=1e-12)
+    assert [key for key in table if key.startswith("set_")] == [
+        "set_solver_tolerance", "set_layers_0_interface", "set_title", "set_lattice",
+    ]
+
+
 def test_progress_of_a_sweep() -> None:
     heard: list[percoat.Progress] = []
     percoat.sweep("fig2", {**SMALL, "layers.0.thickness": "0.1:1:7"}, progress=heard.append)

@@ -5,14 +5,13 @@ use std::ops::Range;
 
 use ariadne::{CharSet, Color, Config, IndexType, Label, Report, ReportKind};
 
-use super::Source;
 use super::span::Span;
 use crate::plain;
 
 /// A refusal at a span of one of the sources, before its excerpt is made.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Refusal {
-    span: Span,
+    pub(super) span: Span,
     message: String,
     label: String,
     help: Option<String>,
@@ -52,15 +51,11 @@ struct Excerpt {
 }
 
 impl CaseError {
-    /// The error of a refusal, with an excerpt of the file or `--set`. A span over several lines is cut to its first one; control
-    /// characters are escaped.
-    pub(super) fn new(file: &Source, overrides: &[String], refusal: Refusal) -> Self {
+    /// The error of a refusal, with an excerpt of the text: of the file of this `name`, or of a `--set`. A span over several
+    /// lines is cut to its first one; control characters are escaped.
+    pub(super) fn new(name: &str, text: &str, refusal: Refusal) -> Self {
         let Refusal { span, message, label, help } = refusal;
-        let Span { source, start, end } = span;
-        let (name, text) = match source {
-            0 => (&file.name[..], &file.text),
-            number => ("--set", &overrides[number - 1]),
-        };
+        let Span { start, end, .. } = span;
         let boundary = |at: usize| (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
         let start = boundary(start);
         let line = text[start..].find(['\r', '\n']).map_or(text.len(), |length| start + length);

@@ -13,14 +13,11 @@ use crate::body::HalfSpace;
 /// # Errors
 /// [`CaseError`] as for a case, and for any other section.
 pub fn half_space(source: &Source) -> Result<HalfSpace, CaseError> {
-    read(source).map_err(|refusal| match source.as_text() {
-        Some(text) => CaseError::new(&text, &[], read(&text).err().unwrap_or(refusal)),
-        None => CaseError::new(source, &[], refusal),
-    })
+    source.read(&[], read)
 }
 
 fn read(source: &Source) -> Result<HalfSpace, Refusal> {
-    let root = source.tree()?;
+    let root = source.tree(&CASE)?;
     let end = source.text.trim_end().len();
     let root = TableAt::root(&root, &CASE, Span::new(0, end..end));
     root.only()?;

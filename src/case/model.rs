@@ -29,7 +29,7 @@ use crate::body::{HalfSpace, MeanStress};
 use crate::comparison::ComparisonTask;
 use crate::counterbody::{Counterbody, Topography};
 use crate::problem::Problem;
-use crate::run::{Run, Sampling};
+use crate::run::{Run, Sampling, StressRequest};
 use crate::spectral::Settings;
 use crate::units::Units;
 use std::sync::Arc;
@@ -88,16 +88,12 @@ section! { whole
 }
 
 impl Case {
-    /// Reads a case and changes it by `overrides`, each `KEY=VALUE`, in their order.
+    /// Reads a case and changes it by the values that its source sets and by `overrides`, each `KEY=VALUE`, in their order.
     ///
     /// # Errors
     /// [`CaseError`] for the first fault found: TOML, unknown, missing or misspelt keys, types, ranges.
     pub fn read(source: &Source, overrides: &[String]) -> Result<Self, CaseError> {
-        read(source, overrides).map_err(|refusal| match source.as_text() {
-            // An excerpt needs a text: a case of values is written as text and refused again.
-            Some(text) => CaseError::new(&text, overrides, read(&text, overrides).err().unwrap_or(refusal)),
-            None => CaseError::new(source, overrides, refusal),
-        })
+        source.read(overrides, |source| read(source, overrides))
     }
 
     /// The case as TOML, complete with its defaults; it reads back equal.
@@ -152,6 +148,21 @@ impl Case {
         self.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean)
     }
 
+    /// The request of stresses on a vertical section, from a value of the key `stress.section`.
+    ///
+    /// # Errors
+    /// [`CaseError`] of a value that the key does not admit.
+    pub fn section(&self, cut: &toml::Value) -> Result<StressRequest, CaseError> {
+        let source = Source { set: vec![("stress.section".to_owned(), cut.clone())], ..Source::default() };
+        source.read(&[], |source| {
+            let root = source.tree(&CASE)?;
+            let root = TableAt::root(&root, &CASE, Span::NOWHERE);
+            let sliding = self.friction.map(|own| own.direction);
+            let section = StressSection::read_in(&root.required_section("stress")?, self.levels.len(), sliding)?;
+            Ok(section.request(self.counterbody()))
+        })
+    }
+
     /// The run of `percoat solve`.
     pub fn run(&self) -> Run {
         Run {
@@ -165,8 +176,8 @@ impl Case {
 }
 
 fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
-    let mut root = source.tree()?;
-    for (number, text) in (1..).zip(overrides) {
+    let mut root = source.tree(&CASE)?;
+    for (number, text) in (1 + source.set.len()..).zip(overrides) {
         overrides::apply(text, number, &mut root, &CASE)?;
     }
     let end = source.text.trim_end().len();

@@ -103,31 +103,31 @@ impl Value {
     }
 }
 
-/// The tree of values without a text.
-impl From<&toml::Table> for Table {
-    fn from(values: &toml::Table) -> Self {
+impl Table {
+    /// The tree of values that stand in no text; an error of each shows `span`.
+    pub(super) fn of(values: &toml::Table, span: Span) -> Self {
         let entry = |(key, value): (&String, &toml::Value)| Entry {
             key: key.clone(),
-            key_span: Span::NOWHERE,
-            node: Node::from(value),
+            key_span: span,
+            node: Node::of(value, span),
         };
         Self { entries: values.iter().map(entry).collect() }
     }
 }
 
-/// A value without a text.
-impl From<&toml::Value> for Node {
-    fn from(value: &toml::Value) -> Self {
+impl Node {
+    /// A value that stands in no text, of which an error shows `span`.
+    pub(super) fn of(value: &toml::Value, span: Span) -> Self {
         let value = match value {
             toml::Value::String(text) => Value::Text(text.clone()),
             toml::Value::Integer(value) => Value::Integer(*value),
             toml::Value::Float(value) => Value::Float(*value),
             toml::Value::Boolean(value) => Value::Boolean(*value),
             toml::Value::Datetime(date) => Value::Date(date.to_string()),
-            toml::Value::Array(items) => Value::List(items.iter().map(Self::from).collect()),
-            toml::Value::Table(table) => Value::Table(Table::from(table)),
+            toml::Value::Array(items) => Value::List(items.iter().map(|item| Self::of(item, span)).collect()),
+            toml::Value::Table(table) => Value::Table(Table::of(table, span)),
         };
-        Self { value, span: Span::NOWHERE }
+        Self { value, span }
     }
 }
 

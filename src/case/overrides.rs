@@ -1,6 +1,7 @@
 //! Overrides `KEY=VALUE` of single values of a case, as in `--set layers.0.thickness=0.3`.
 //!
-//! KEY is a dotted path, items of lists counted from 0; VALUE is TOML, a bare word counts as text.
+//! KEY is a dotted path, items of lists counted from 0; VALUE is TOML, a bare word counts as text. A value that stands in no text
+//! replaces one of a case as it is ([`replace`]).
 
 use super::error::Refusal;
 use super::keys::Keys;
@@ -28,10 +29,6 @@ impl PathStep {
 pub(super) fn apply(text: &str, source: usize, root: &mut Table, keys: &'static Keys) -> Result<(), Refusal> {
     let (key, value) = split(text, source)?;
     let steps = steps(key, source)?;
-    if let Some(step) = steps.get(DEEPEST) {
-        return Err(Refusal::new(step.span, "no key of a case has so many parts", "too many parts")
-            .help("write KEY=VALUE, for example layers.0.thickness=0.2"));
-    }
     let offset = key.len() + 1 + (value.len() - value.trim_start().len());
     let (key, value) = (key.trim(), value.trim());
     let span = Span::new(source, offset..offset + value.len());
@@ -48,20 +45,33 @@ pub(super) fn apply(text: &str, source: usize, root: &mut Table, keys: &'static 
     set_in_table(root, keys, "", &steps, value)
 }
 
+/// Sets a value that stands in no text, which is source number `source`: shown as `KEY=VALUE` where it is refused.
+pub(super) fn replace(
+    key: &str,
+    value: &toml::Value,
+    source: usize,
+    root: &mut Table,
+    keys: &'static Keys,
+) -> Result<(), Refusal> {
+    let place = Span::new(source, key.len() + 1..usize::MAX);
+    set_in_table(root, keys, "", &steps(key, source)?, Node::of(value, place))
+}
+
 fn split(text: &str, source: usize) -> Result<(&str, &str), Refusal> {
-    let (message, label) = match text.split_once('=') {
-        None => ("an override needs a value", "no `=` here"),
-        Some((key, _)) if key.trim().is_empty() => ("an override needs a key", "no key before `=`"),
-        Some(pair) => return Ok(pair),
-    };
-    Err(Refusal::new(Span::new(source, 0..text.len()), message, label)
-        .help("write KEY=VALUE, for example solver.tolerance=1e-10"))
+    text.split_once('=').ok_or_else(|| {
+        Refusal::new(Span::new(source, 0..text.len()), "an override needs a value", "no `=` here").help(WITH_BOTH)
+    })
 }
 
 /// The parts of `layers.0.thickness`, also written `layers[0].thickness` as in errors.
 fn steps(key: &str, source: usize) -> Result<Vec<PathStep>, Refusal> {
+    if key.trim().is_empty() {
+        let span = Span::new(source, 0..usize::MAX);
+        return Err(Refusal::new(span, "an override needs a key", "no key before `=`").help(WITH_BOTH));
+    }
     let mut at = 0;
-    key.split(['.', '['])
+    let steps: Vec<PathStep> = key
+        .split(['.', '['])
         .map(|part| {
             let start = at + (part.len() - part.trim_start().len());
             at += part.len() + 1;
@@ -74,9 +84,15 @@ fn steps(key: &str, source: usize) -> Result<Vec<PathStep>, Refusal> {
             }
             Ok(PathStep { name: name.to_owned(), span })
         })
-        .collect()
+        .collect::<Result<_, _>>()?;
+    match steps.get(DEEPEST) {
+        Some(step) => Err(Refusal::new(step.span, "no key of a case has so many parts", "too many parts")
+            .help("write KEY=VALUE, for example layers.0.thickness=0.2")),
+        None => Ok(steps),
+    }
 }
 
+const WITH_BOTH: &str = "write KEY=VALUE, for example solver.tolerance=1e-10";
 const WITH_A_POINT: &str = "write the number with a point: 0.5; several values are a list: [0, 5]";
 
 /// Whether it is two integers with a comma between them.

@@ -8,9 +8,12 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::error::Refusal;
+use super::error::{CaseError, Refusal};
+use super::keys::Keys;
 use super::named_pipes::{Pipes, is_pipe};
 use super::node::Table;
+use super::overrides;
+use super::span::Span;
 
 /// Text of a case with its name and its files.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -21,6 +24,8 @@ pub struct Source {
     pub text: String,
     /// The case as values without a text, such as those of a dict of Python.
     pub values: Option<toml::Table>,
+    /// Values that replace those of the case, by their dotted keys, in their order and before any override.
+    pub set: Vec<(String, toml::Value)>,
     /// Folder to which the path of a surface's file is relative.
     pub folder: PathBuf,
     /// Files in memory by their names in the case; they take precedence over those of the folder.
@@ -56,15 +61,46 @@ impl Source {
         self.files.contains_key(name) || self.arrays.contains_key(name)
     }
 
-    /// The tree of the case.
-    pub(super) fn tree(&self) -> Result<Table, Refusal> {
-        self.values.as_ref().map_or_else(|| Table::parse(&self.text), |values| Ok(Table::from(values)))
+    /// The tree of the case, which has these `keys`, with the values that are set.
+    pub(super) fn tree(&self, keys: &'static Keys) -> Result<Table, Refusal> {
+        let mut tree = match &self.values {
+            Some(values) => Table::of(values, Span::NOWHERE),
+            None => Table::parse(&self.text)?,
+        };
+        for (number, (key, value)) in (1..).zip(&self.set) {
+            overrides::replace(key, value, number, &mut tree, keys)?;
+        }
+        Ok(tree)
     }
 
-    /// A case of values written as text, for the excerpt of an error; `None` for one that is text.
-    pub(super) fn as_text(&self) -> Option<Self> {
+    /// What `read` makes of the source, or its refusal with the text in which it stands.
+    pub(super) fn read<T>(
+        &self,
+        overrides: &[String],
+        read: impl Fn(&Self) -> Result<T, Refusal>,
+    ) -> Result<T, CaseError> {
+        read(self).map_err(|refusal| match self.as_text() {
+            // Values have no lines to show: the text of them is made, and refused in turn, where they are.
+            Some(text) => text.error(overrides, read(&text).err().unwrap_or(refusal)),
+            None => self.error(overrides, refusal),
+        })
+    }
+
+    /// A case of values as text; `None` of one that is text.
+    fn as_text(&self) -> Option<Self> {
         let text = toml::to_string(self.values.as_ref()?).ok()?;
         Some(Self { text, values: None, ..self.clone() })
+    }
+
+    /// The error of a refusal, with the text into which its span points: of the case, of what is set as `KEY=VALUE`, or of an override.
+    fn error(&self, overrides: &[String], refusal: Refusal) -> CaseError {
+        let Some(index) = refusal.span.source.checked_sub(1) else {
+            return CaseError::new(&self.name, &self.text, refusal);
+        };
+        match self.set.get(index) {
+            Some((key, value)) => CaseError::new("--set", &format!("{key}={value}"), refusal),
+            None => CaseError::new("--set", &overrides[index - self.set.len()], refusal),
+        }
     }
 
     /// Path of the file `name` of the case; `None` for one in memory.

@@ -1,6 +1,6 @@
 //! Places in the text of a case file or a `--set`.
 
-/// A span of bytes in one of the sources (0: the case file, n: the n-th `--set`).
+/// A span of bytes in one of the sources (0: the case file, n: the n-th value that is set, then the `--set`s).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Span {
     pub(super) source: usize,

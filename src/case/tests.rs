@@ -168,6 +168,57 @@ fn overrides_come_one_after_another_and_are_checked_like_the_file() {
 }
 
 #[test]
+fn values_that_are_set_are_read_as_overrides_are() {
+    let set = |values: &[&str], overrides: &[&str]| {
+        let pair = |text: &&str| {
+            let (key, value) = text.split_once('=').unwrap();
+            (key.to_owned(), toml::from_str::<toml::Table>(&format!("value = {value}")).unwrap()["value"].clone())
+        };
+        let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+        Case::read(&Source { set: values.iter().map(pair).collect(), ..source(&fig2()) }, &overrides)
+    };
+    let values = ["load.penetration=[0, 0.1]", "layers[0].poisson=0.4", "layers.0.poisson=0.3", "title=\"a b\""];
+    assert_eq!(set(&values, &[]), read(&fig2(), &values));
+    assert_eq!(set(&values[..2], &values[2..]), read(&fig2(), &values), "before the overrides");
+    let deep = "a.".repeat(20) + "a=1";
+    for wrong in ["substrate.poisson=0.6", "layers.7.poisson=0.3", "grid.pints=8", "=1", "a..b=1", &deep] {
+        let (own, typed) = (set(&[wrong], &[]).unwrap_err(), read(&fig2(), &[wrong]).unwrap_err());
+        assert_eq!(own.to_string(), typed.to_string());
+        let told = set(&["title=\"x\""], &["title=y", wrong]).unwrap_err().to_string();
+        assert_eq!(told, typed.to_string());
+    }
+}
+
+#[test]
+fn a_section_is_that_of_a_case_with_this_key() {
+    let with = |case: &str, section: &str| read(case, &["stress={}", &format!("stress.section={section}")]);
+    let asked = |case: &str, section: &str| {
+        let value = toml::from_str::<toml::Table>(&format!("value = {section}")).unwrap()["value"].clone();
+        read(case, &[]).unwrap().section(&value)
+    };
+    let sliding = fig2() + "[friction]\ncoefficient = 0.1\n";
+    for (case, section) in [
+        (fig2(), "{ from = \"level 1\", toward = \"level 2\", length = 1.0, depth = 0.5 }"),
+        (fig2(), "{ from = [0.1, 0.2], toward = [1, 0], length = 2, depth = 0.5, behind = 0.25 }"),
+        (sliding, "{ from = \"level 3\", length = 1.0, depth = 0.5 }"),
+    ] {
+        assert_eq!(Some(asked(&case, section).unwrap()), with(&case, section).unwrap().run().stress);
+    }
+    for wrong in [
+        "{ from = \"level 9\", toward = \"level 1\", length = 1.0, depth = 0.5 }",
+        "{ from = \"level 1\", length = 1.0, depth = 0.5 }",
+        "{ from = \"level 1\", toward = [0, 0], length = 1.0, depth = 0.5 }",
+        "{ from = \"level 1\", toward = \"level 2\", length = -1.0, depth = 0.5 }",
+        "{ from = \"level 1\", toward = \"level 2\", lenght = 1.0, depth = 0.5 }",
+        "1",
+    ] {
+        let (own, typed) = (asked(&fig2(), wrong).unwrap_err(), with(&fig2(), wrong).unwrap_err());
+        assert_eq!(own.message(), typed.message());
+        assert!(own.message().contains("`stress.section"), "{own}");
+    }
+}
+
+#[test]
 fn layers_and_circles_without_end_are_refused() {
     let layers = fig2() + &"[[layers]]\nthickness = 1\nshear_ratio = 2\npoisson = 0.2\n".repeat(200);
     let error = read(&layers, &[]).unwrap_err();

@@ -102,7 +102,6 @@ pub use limit::{FirstLimit, LimitFile};
 pub(crate) use log::LineLog;
 pub use log::whole_lines;
 pub use manifest::{damaged_results, is_beside};
-pub use npy::npy_bytes;
 pub use number::number;
 pub(crate) use number::with_error;
 pub use plan::{Plan, Scope};

@@ -27,17 +27,7 @@ pub(super) fn npy<T: AutoSerialize + Pod>(
     complete(shape, count)
 }
 
-/// The content of a `.npy` file of numbers, values in C order.
-///
-/// # Errors
-/// When the number of values is not that of the shape.
-pub fn npy_bytes(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    npy(&mut bytes, shape, values)?;
-    Ok(bytes)
-}
-
-/// Writes the header of an array. The values follow in bulk: writing them one by one with `npyz` is slower than the disk.
+/// Writes the header of an array. `npyz` would write the values one by one too, which takes longer than the disk.
 pub(super) fn header<T: AutoSerialize>(writer: impl Write, shape: &[usize]) -> io::Result<()> {
     let sizes: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
     let header = npyz::WriteOptions::new_header_only().dtype(T::default_dtype()).shape(&sizes);
