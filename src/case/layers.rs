@@ -4,7 +4,7 @@ use super::error::Refusal;
 use super::grading::{GRADING, Grading, LAYERS};
 use super::interface::{INTERFACE_STRENGTH, InterfaceSection, InterfaceStrengthSection, SPRING};
 use super::keys::{Form, Key, Range, Unit};
-use super::material_names::names;
+use super::material_names::distinct;
 use super::reader::TableAt;
 use super::section::{demanded, section};
 use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Name, Strength};
@@ -182,7 +182,8 @@ fn build(
     let base = Material::from_young(substrate.young, substrate.poisson)
         .map_err(|error| refuse(substrate_section, "young", error))?;
     count(layers, layer_sections)?;
-    let names = names(layers, substrate);
+    let names: Vec<_> = layers.iter().map(|layer| &layer.name).chain([&substrate.name]).map(Option::as_deref).collect();
+    let names = distinct(&names);
     let built: Result<Vec<Vec<Layer>>, Refusal> = layers
         .iter()
         .zip(layer_sections)

@@ -1,20 +1,17 @@
 //! Names of the materials of a case, by the `name` of their layer or of the substrate.
 
-use super::{LayerSection, SubstrateSection};
-
-/// The name of each layer from the surface down, then of the substrate, where the case gives one. One that several share has
-/// their number behind it: "TiN, layer 3".
-pub(super) fn names(layers: &[LayerSection], substrate: &SubstrateSection) -> Vec<Option<String>> {
-    let all: Vec<_> = layers.iter().map(|layer| layer.name.as_deref()).chain([substrate.name.as_deref()]).collect();
-    let distinct = |(index, name): (usize, &Option<&str>)| {
+/// Names of all materials that differ, from the `name` of each layer from the surface down and of the substrate. One that
+/// several share has their number behind it: "TiN, layer 3".
+pub(super) fn distinct(names: &[Option<&str>]) -> Vec<Option<String>> {
+    let own = |(index, name): (usize, &Option<&str>)| {
         let name = (*name)?;
-        Some(match all.iter().filter(|own| **own == Some(name)).count() {
+        Some(match names.iter().filter(|own| **own == Some(name)).count() {
             1 => name.to_owned(),
-            _ if index == layers.len() => format!("{name}, substrate"),
+            _ if index + 1 == names.len() => format!("{name}, substrate"),
             _ => format!("{name}, layer {}", index + 1),
         })
     };
-    all.iter().enumerate().map(distinct).collect()
+    names.iter().enumerate().map(own).collect()
 }
 
 #[cfg(test)]
