@@ -71,10 +71,12 @@ class Plane(Field):
     y: Array
     z: float
     material: int
+    name: Optional[str]
+    """Name of the material, where the case gives one."""
 
     def __repr__(self) -> str:
         n1, n2 = self.xx.shape
-        return f"<percoat.Plane: {n1} × {n2} points at z = {self.z}, in material {self.material}>"
+        return f"<percoat.Plane: {n1} × {n2} points at z = {self.z}, in {self.name or f'material {self.material}'}>"
 
 
 class Section(Field):
@@ -289,9 +291,10 @@ class Step:
         (96, 96)
         """
         wanted = [points, points] if isinstance(points, (int, np.integer)) else points
-        components, material = self._core.plane(z, None if wanted is None else list(wanted), material)
+        components, material, name = self._core.plane(z, None if wanted is None else list(wanted), material)
         x, y = self._common.places(*components.shape[1:])
-        return Plane({"x": x, "y": y, "z": float(z), "material": material, **dict(zip(COMPONENTS, components))})
+        place = {"x": x, "y": y, "z": float(z), "material": material, "name": name}
+        return Plane({**place, **dict(zip(COMPONENTS, components))})
 
     def section(
         self,

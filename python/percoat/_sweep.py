@@ -113,7 +113,9 @@ def _column(name: str, cells: list[Any]) -> NDArray[Any]:
 
 
 def _number(text: str) -> Any:
-    """A value as it was typed: a number where it is one."""
+    """A value as it was typed: a truth or a number where it is one."""
+    if text in ("true", "false"):
+        return text == "true"
     for kind in (int, float):
         try:
             return kind(text)

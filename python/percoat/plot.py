@@ -152,7 +152,7 @@ def plane(
     scale = _scale(values, artist)
     ax = _map(ax, plane, values, scale, units, window, artist)
     depth = f"{plane.z:g} {_unit('length', units)}".rstrip()
-    ax.set_title(f"z = {depth}, material {plane.material}", fontsize="medium")
+    ax.set_title(f"z = {depth}, {plane.name or f'material {plane.material}'}", fontsize="medium")
     return _bar(ax, scale, _label(LABELS[quantity], KINDS[quantity], units))
 
 

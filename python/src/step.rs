@@ -83,7 +83,8 @@ impl Step {
         Ok(states.map_err(refused)?.into_pyarray(py))
     }
 
-    /// Twelve components on a plane (12, n₁, n₂), at the samples of the contact without `points`, and the number of its material.
+    /// Twelve components on a plane (12, n₁, n₂), at the samples of the contact without `points`; the number of its
+    /// material, and the name.
     #[pyo3(signature = (z, points = None, material = None))]
     fn plane<'py>(
         &self,
@@ -91,14 +92,15 @@ impl Step {
         z: f64,
         points: Option<Vec<i64>>,
         material: Option<i64>,
-    ) -> PyResult<(Bound<'py, PyArray3<f64>>, usize)> {
+    ) -> PyResult<(Bound<'py, PyArray3<f64>>, usize, Option<&'static str>)> {
         let kept = Arc::clone(&self.0);
         let points = points.map_or(Ok(kept.step.grid().points()), |points| interior::counts(&points));
         let points = points.map_err(refused)?;
         let plane =
             work::run(py, None, None, move |listener| interior::plane(&kept.field(), z, points, material, listener))?;
         let (components, material) = plane.map_err(refused)?;
-        Ok((components.into_pyarray(py), material))
+        let name = self.0.step.problem().half_space().material_id(material).name;
+        Ok((components.into_pyarray(py), material, name.map(|name| name.text())))
     }
 
     /// Twelve components on the vertical cut of this value of the key `stress.section`, without one on that of the case.

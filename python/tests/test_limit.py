@@ -121,6 +121,17 @@ def test_limits_print_their_table(limits: percoat.Limits) -> None:
     assert repr(limits).startswith(f"<percoat.Limits {limits.title!r}: yield of material 2 at 0.04")
 
 
+def test_names_of_materials_stand_in_the_place_of_their_numbers() -> None:
+    names = {"layers.0.name": "DLC", "layers.1.name": "Cr", "substrate.name": "steel"}
+    limits = percoat.limit("dlc-on-steel", set={**SETTINGS, **names})
+    assert repr(limits).startswith(f"<percoat.Limits {limits.title!r}: yield of Cr at 0.04")
+    assert "delamination of Cr/steel" in str(limits) and limits.first is not None
+    assert (limits.first.material, limits.first.name) == (2, "Cr")
+    step = percoat.solve("dlc-on-steel", set={"grid.points": 64, **names})[0]
+    assert repr(step.plane(1.0)).endswith("at z = 1.0, in DLC>") and step.plane(2.2).name == "Cr"
+    assert [own.max_tau1.name for own in step.maxima().materials] == ["DLC", "Cr", "steel"]
+
+
 def test_limits_are_a_dict_and_pickle(limits: percoat.Limits) -> None:
     plain = limits.to_dict()
     assert type(plain) is dict and type(plain["limits"][0]) is dict

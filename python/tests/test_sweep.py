@@ -40,6 +40,12 @@ def test_rows_are_the_steps_of_their_cases() -> None:
         assert table["points_1"][row] == 48 and bool(table["converged"][row]) == step.converged
 
 
+def test_swept_truths_are_a_column_of_truths() -> None:
+    table = percoat.sweep("fig2", {**SMALL, "localized.mutual_effect": [True, False]})
+    column = table["set_localized_mutual_effect"]
+    assert column.dtype == bool and column.tolist() == [True, False]
+
+
 def test_pairs_are_zipped() -> None:
     table = percoat.sweep(
         "fig2", {**SMALL, "layers.0.thickness": [0.1, 0.4], "substrate.poisson": [0.2, 0.45]}, zip=True
