@@ -14,7 +14,7 @@ from percoat._solve import Listener, listener
 from percoat._warnings import NotConverged, warn
 
 
-TEXTS = ("status", "reason", "warnings", "route", "criterion", "reached", "state", "rivals")
+TEXTS = ("status", "reason", "warnings", "route", "criterion", "reached", "state", "rivals", "name")
 """How the columns of texts end; what they do not have is an empty one."""
 
 

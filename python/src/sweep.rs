@@ -72,17 +72,19 @@ pub fn sweep<'py>(
     Ok((to_python(py, &columns(&rows))?, rows.iter().map(told).collect()))
 }
 
-/// The keys with lists of values, and `KEY=VALUE` of those with one text; any other value is one for all, set in the source.
+/// The keys with lists of values, and `KEY=VALUE` of those with one value, in their order. Without a text among these they are
+/// set in the source instead, as the values that they are.
 fn axes(set: &Bound<'_, PyDict>, source: &mut Source) -> PyResult<(Vec<Axis>, Vec<String>)> {
-    let (mut axes, mut fixed) = (Vec::new(), Vec::new());
+    let (mut axes, mut single, mut fixed) = (Vec::new(), Vec::new(), Vec::new());
     for (key, values) in set.iter() {
         let key = text(&key, "what is swept over")?;
         if let Ok(text) = values.extract::<String>() {
             let axis = Axis::parse(&format!("{key}={text}")).map_err(refused)?;
             if axis.values.len() == 1 {
-                fixed.extend(axis.settings())
+                single.push((key, None));
+                fixed.extend(axis.settings());
             } else {
-                axes.push(axis)
+                axes.push(axis);
             }
             continue;
         }
@@ -91,8 +93,16 @@ fn axes(set: &Bound<'_, PyDict>, source: &mut Source) -> PyResult<(Vec<Axis>, Ve
                 return Err(refused(format!("`{key}` has no values to sweep over")));
             }
             Value::Array(items) => axes.push(Axis { key, values: items.iter().map(written).collect() }),
-            single => source.set.push((key, single)),
+            value => {
+                fixed.push(format!("{key}={}", written(&value)));
+                single.push((key, Some(value)));
+            }
         }
+    }
+    // The text of a value is read with the command line's rules: one text among them makes texts of all, which keeps their order.
+    if let Some(values) = single.into_iter().map(|(key, value)| Some((key, value?))).collect::<Option<Vec<_>>>() {
+        source.set.extend(values);
+        fixed.clear();
     }
     Ok((axes, fixed))
 }

@@ -46,6 +46,11 @@ def test_swept_truths_are_a_column_of_truths() -> None:
     assert column.dtype == bool and column.tolist() == [True, False]
 
 
+def test_values_are_set_in_their_order_texts_among_them() -> None:
+    table = percoat.sweep("fig2", {"grid": "{ points = 48 }", "grid.points": 64, "layers.0.thickness": [0.1, 0.4]})
+    assert table["points_1"].tolist() == [64, 64]
+
+
 def test_pairs_are_zipped() -> None:
     table = percoat.sweep(
         "fig2", {**SMALL, "layers.0.thickness": [0.1, 0.4], "substrate.poisson": [0.2, 0.45]}, zip=True

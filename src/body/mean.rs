@@ -1,6 +1,7 @@
 //! Lateral stress under the mean pressure p̄, the component q = 0 that the periodic problem alone leaves open in the plane.
 
 use super::{HalfSpace, Interface, Layer, Material};
+use serde::Serialize;
 
 /// Assumption for the mean lateral stress.
 ///
@@ -26,8 +27,8 @@ use super::{HalfSpace, Interface, Layer, Material};
 /// ρK₁(ρ) is 1 at ρ = 0 and √(πρ/2) e^{−ρ} far off: the load is wide against the **slip length** ℓ ([`Self::slip_lengths`])
 /// and the layers follow the substrate, or it is narrow and they spread on their own. `half-space` means R → ∞ with k_t
 /// fixed. Where ℓ is longer than the cell a case is warned, for then only loads of many cells are wide.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum MeanStress {
     /// No mean lateral strain: the periodic system fills the plane.

@@ -1,13 +1,15 @@
 //! Names and numbers of materials and interfaces.
 
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
 /// Name of a material, as "TiN", or of an interface, as "TiN/steel". A copy costs nothing: each different text is kept once,
 /// until the program ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(transparent))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(transparent)]
 pub struct Name(&'static str);
 
 impl Name {
@@ -35,74 +37,80 @@ impl fmt::Display for Name {
     }
 }
 
-#[cfg(feature = "serde")]
 impl<'de> serde::Deserialize<'de> for Name {
     fn deserialize<D: serde::Deserializer<'de>>(text: D) -> Result<Self, D::Error> {
         String::deserialize(text).map(|text| Self::new(&text))
     }
 }
 
-/// A material of the body: its number from the surface down, and its name where it has one. It prints itself as its name, or as
-/// "material 2".
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct MaterialId {
-    /// Number, from 1; the substrate is layers + 1.
-    #[cfg_attr(feature = "serde", serde(rename = "material"))]
-    pub number: usize,
-    /// Name that the user gave it.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub name: Option<Name>,
+macro_rules! numbered {
+    ($(#[$doc:meta])* $id:ident, $what:literal, $number:literal) => {
+        $(#[$doc])*
+        ///
+        /// It prints itself as its name, or without one as its number. Equal numbers are equal and in order, whatever the names: a
+        /// name says what stands there, and may differ between two cases.
+        #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+        pub struct $id {
+            #[doc = $number]
+            #[serde(rename = $what)]
+            pub number: usize,
+            /// Its name; `None` where it has none.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            pub name: Option<Name>,
+        }
+
+        impl $id {
+            /// The one with this number, from 1, without a name.
+            pub const fn numbered(number: usize) -> Self {
+                Self { number, name: None }
+            }
+        }
+
+        impl fmt::Display for $id {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                match self.name {
+                    Some(name) => name.fmt(f),
+                    None => write!(f, "{} {}", $what, self.number),
+                }
+            }
+        }
+
+        impl PartialEq for $id {
+            fn eq(&self, other: &Self) -> bool {
+                self.number == other.number
+            }
+        }
+
+        impl Eq for $id {}
+
+        impl PartialOrd for $id {
+            fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+                Some(self.cmp(other))
+            }
+        }
+
+        impl Ord for $id {
+            fn cmp(&self, other: &Self) -> Ordering {
+                self.number.cmp(&other.number)
+            }
+        }
+    };
 }
 
-/// An interface of the body: its number from the surface down, and its name where a material beside it has one. It prints itself
-/// as its name, or as "interface 1".
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct InterfaceId {
-    /// Number, from 1: the lower face of that layer.
-    #[cfg_attr(feature = "serde", serde(rename = "interface"))]
-    pub number: usize,
-    /// Its name by the materials: "TiN/steel".
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub name: Option<Name>,
+numbered! {
+    /// Number of a material of the body, and its name where the user gave it one.
+    MaterialId, "material", "Number, from 1 at the surface down; the substrate is layers + 1."
 }
-
-impl MaterialId {
-    /// The material with this number, from 1, without a name.
-    pub const fn numbered(number: usize) -> Self {
-        Self { number, name: None }
-    }
+numbered! {
+    /// Number of an interface of the body, and its name where a material beside it has one.
+    InterfaceId, "interface", "Number, from 1: the lower face of that layer."
 }
 
 impl InterfaceId {
-    /// The interface with this number, from 1, without a name.
-    pub const fn numbered(number: usize) -> Self {
-        Self { number, name: None }
-    }
-
     /// The interface between a material and the one below it: "TiN/steel" where either has a name.
     pub fn between(upper: MaterialId, lower: MaterialId) -> Self {
         let has_name = upper.name.is_some() || lower.name.is_some();
         Self { number: upper.number, name: has_name.then(|| Name::new(&format!("{upper}/{lower}"))) }
-    }
-}
-
-impl fmt::Display for MaterialId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name {
-            Some(name) => name.fmt(f),
-            None => write!(f, "material {}", self.number),
-        }
-    }
-}
-
-impl fmt::Display for InterfaceId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.name {
-            Some(name) => name.fmt(f),
-            None => write!(f, "interface {}", self.number),
-        }
     }
 }
 
@@ -115,6 +123,12 @@ mod tests {
         let [first, second] = [Name::new("TiN"), Name::new(&["Ti", "N"].concat())];
         assert!(std::ptr::eq(first.text(), second.text()));
         assert!(Name::new("DLC") != first);
+    }
+
+    #[test]
+    fn materials_are_equal_by_number() {
+        let named = MaterialId { number: 2, name: Some(Name::new("TiN")) };
+        assert!(named == MaterialId::numbered(2) && named < MaterialId::numbered(3));
     }
 
     #[test]

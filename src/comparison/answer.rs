@@ -2,28 +2,27 @@
 
 use crate::localized;
 use crate::numeric::search::largest;
-#[cfg(feature = "serde")]
 use crate::numeric::serialised;
 use crate::reading::{LevelReading, Reading};
+use serde::{Deserialize, Serialize};
 
 /// Largest deviation of any level in contact from a reference, relative except for the load share.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Deviation {
     /// Deviation of the penetration, relative.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub penetration: f64,
     /// Deviation of the load on one indenter, relative.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub load: f64,
     /// Deviation of the share of the whole load, absolute.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub load_share: f64,
     /// Deviation of the peak pressure, relative; not a number where it is infinite.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub max_pressure: f64,
     /// Deviation of the contact radius, relative.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub contact_radius: f64,
 }
 

@@ -10,11 +10,12 @@
 //! ([`exterior`](super::exterior)).
 
 use crate::lattice::Lattice;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Rule for the radius R of the circle outside of which the nominal pressure acts, or what acts there instead.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum CircleRadius {
     /// The indenters inside carry π R² p̄.

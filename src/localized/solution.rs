@@ -9,13 +9,14 @@ use super::square::Squares;
 use super::system::System;
 use crate::numeric::closed_line::mean_radius;
 use crate::reading::LevelReading;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::fmt;
 use std::sync::Arc;
 
 /// How a localized solution ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Stop {
     /// Loads change by less than 1e-8 of the whole load, and gaps in contact are less than 1e-9 of the largest displacement.

@@ -14,7 +14,6 @@ pub mod paraboloid;
 pub mod quadrature;
 pub mod rows;
 pub mod search;
-#[cfg(feature = "serde")]
 pub mod serialised;
 pub mod series_fit;
 pub mod sums;

@@ -4,8 +4,8 @@
 //! 2. *Decided*: `.publish.json` beside the files lists those of this command to come, kept and new ones. From here on any run
 //!    that claims the folder completes what this one does not.
 //! 3. *Placed*: every staged file of that list has its place, and every unchanged file of this command's earlier result that has
-//!    no successor is gone. Between the removal of an old file and the new one in its place neither stands there: a rename over
-//!    it would leave no such moment, and would overwrite what a user has just put there.
+//!    no successor is gone. An old file is removed before the new one is linked, so that for a moment neither is there. A rename
+//!    has no such moment, but would overwrite a file that a user puts there just then.
 //! 4. *Listed*: `written.json` has these files beside those of other commands.
 //! 5. *Retired*: the staging folder has gone to `.percoat/retired` in one move, and is removed there.
 //!
@@ -53,8 +53,7 @@ pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>,
     let decided = manifest::read(&staging.join(DECIDED)).filter(|_| disk::is_folder(&staging) && is_staging(&staging));
     let (old, Some(decided)) = (published(folder), decided) else { return Ok(None) };
     let new = decided.filtered(|_, by| by == writer);
-    let mut list = old.clone().filtered(|_, by| by != writer && (by != Writer::Report || !writer.outdates_report()));
-    list.append(new.clone());
+    let goes = |by: Writer| by == writer || by == Writer::Report && writer.outdates_report();
     let mut waiting = Vec::new();
     for name in new.names().filter(|name| disk::is_file(&staging.join(name))) {
         let path = folder.join(name);
@@ -72,7 +71,7 @@ pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>,
         path.parent().map_or(Ok(()), make_folder)?;
         place(&staging.join(name), &path, before).at(&path)?;
     }
-    for name in old.names().filter(|name| !list.has(name)) {
+    for name in old.clone().filtered(|name, by| goes(by) && !new.has(name)).names() {
         let path = folder.join(name);
         // A file changed in the meantime stays.
         if old.ownership(folder, name).at(&path)? == Ownership::AsWritten {
@@ -81,6 +80,9 @@ pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>,
     }
     // New names and removals are on the disk before the list.
     sync_folders(folder, old.names().chain(new.names()))?;
+    // What another command has listed in the meantime stays listed: not every file system keeps the lock.
+    let mut list = published(folder).filtered(|_, by| !goes(by));
+    list.append(new);
     manifest::write(&folder.join(LIST), list)?;
     disk::sync_folder(&folder.join(OWN)).at(folder)?;
     Ok(discard(&staging, folder)?)
@@ -225,6 +227,26 @@ mod tests {
         renewed.keep("summary.json".to_owned());
         renewed.publish().unwrap();
         assert_eq!(files(folder)["summary.json"], "summary.json: new", "what is kept can be renewed");
+    }
+
+    /// As on a file system without locks, where two commands write at once.
+    #[test]
+    fn what_another_command_lists_in_the_meantime_stays_listed() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = place.path();
+        gathered(folder, &["case.toml"], "old").publish().unwrap();
+        let run = gathered(folder, &["case.toml", "summary.json"], "new");
+        let plan = Plan { names: PLAN.map(str::to_owned).to_vec(), ..Plan::new(Writer::Solve) };
+        decide(folder, &plan).unwrap();
+        let other = folder.join("limit.json");
+        fs::write(&other, "limit").unwrap();
+        let mut list = published(folder);
+        list.insert("limit.json", FileRecord::of(&other, Writer::Limit).unwrap());
+        manifest::write(&folder.join(LIST), list).unwrap();
+        complete(folder, Writer::Solve).unwrap();
+        drop(run);
+        assert_eq!(published(folder).names().collect::<Vec<_>>(), ["case.toml", "limit.json", "summary.json"]);
+        assert_eq!(files(folder).len(), 3);
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub struct Legend {
 }
 
 fn entry_width(curve: &Curve) -> f64 {
-    PIECE + TEXT_GAP + text::width(&curve.label, NUMBERS)
+    PIECE + TEXT_GAP + text::width(&curve.entry_text(), NUMBERS)
 }
 
 fn named(curves: &[Curve]) -> impl Iterator<Item = (usize, &Curve)> {

@@ -10,59 +10,58 @@ use super::{Errors, LevelReading, peak, spots, topography};
 use crate::lattice::Grid;
 use crate::lattice::components::Component;
 use crate::notation::number;
-#[cfg(feature = "serde")]
 use crate::numeric::serialised;
 use crate::numeric::sums;
 use crate::spectral::Contact;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::fmt;
 
 /// Scalars of the contact of one load step.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
     /// Mean pressure p̄ over the cell, in the unit of Young's modulus.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub mean_pressure: f64,
     /// Penetration δ, a length: measured from the mean plane of the deformed surface, the additional displacement of Eq. (8).
-    #[cfg_attr(feature = "serde", serde(flatten, with = "both_names"))]
+    #[serde(flatten, with = "both_names")]
     pub penetration: f64,
     /// Fraction of the cell in contact: read between the samples, or counted and corrected by the perimeter where that errs
     /// less, as on rough surfaces whose spots have few samples.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub contact_fraction: f64,
     /// Uncertainty of the fraction in contact, from the samples of this grid alone; not kept in files.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub contact_fraction_uncertainty: f64,
     /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length: see
     /// [`Contact::elastic_energy`](crate::spectral::Contact::elastic_energy).
-    #[cfg_attr(feature = "serde", serde(default = "unknown", deserialize_with = "serialised::number"))]
+    #[serde(default = "unknown", deserialize_with = "serialised::number")]
     pub elastic_energy: f64,
     /// Largest pressure, between the samples, in the unit of Young's modulus; infinite where that of a level is.
-    #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::max_pressure"))]
+    #[serde(flatten, with = "serialised::max_pressure")]
     pub max_pressure: f64,
     /// Largest pressure that the grid resolves, where the largest one is infinite; `None` where it is finite.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub resolved_peak: Option<f64>,
     /// Estimated discretisation errors; empty without coarser grids.
     pub errors: Errors,
     /// Samples between the largest pressure and the edge of contact, at most `spot_resolution`; not kept in files.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub peak_to_edge: f64,
     /// Number of contact spots in the cell; merged contacts are one.
     pub contact_spots: usize,
     /// Samples along the radius of a disc as large as the typical spot: the one up to which, from the smallest on, half
     /// of the load is carried. 0 without contact.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub spot_resolution: f64,
     /// Per level; empty for a topography.
     pub levels: Vec<LevelReading>,
     /// Per site, the boundary of its contact; `None` without contact, for merged contacts and for spots of too few
     /// samples or no smooth boundary. Empty for a topography; not kept in files.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub boundaries: Vec<Option<Boundary>>,
     /// All readings of the fraction in contact; not kept in files.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub(crate) fractions: Fractions,
 }
 
@@ -139,14 +138,12 @@ impl Reading {
 }
 
 /// The elastic energy of files of earlier versions, which do not have it.
-#[cfg(feature = "serde")]
 fn unknown() -> f64 {
     f64::NAN
 }
 
 /// The penetration under both of its names: δ is measured from the mean plane of the deformed surface, so that it is the
 /// additional displacement w_a of Eq. (8).
-#[cfg(feature = "serde")]
 mod both_names {
     use crate::numeric::serialised::number;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};

@@ -1,5 +1,7 @@
 //! Estimated discretisation errors of a reading.
 
+use serde::{Deserialize, Serialize};
+
 /// Estimated errors of the scalars of a load step, each in the unit of its quantity; `None` where there is no
 /// coarser grid to compare with or no such quantity.
 ///
@@ -28,8 +30,7 @@
 /// The numbers are read off seven hundred random cases solved again with four times the points; that the estimates hold
 /// in 95 % of others is shown in `validation/discretisation`. A prescribed quantity has no error; the peak under a tip is
 /// infinite and has none either.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Errors {
     /// Error of the mean pressure, in the unit of pressure.
     pub mean_pressure: Option<f64>,
@@ -38,15 +39,14 @@ pub struct Errors {
     /// Error of the fraction in contact.
     pub contact_fraction: Option<f64>,
     /// Error of the elastic energy, a pressure times a cubed length.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub elastic_energy: Option<f64>,
     /// Error of the largest pressure, in the unit of pressure.
     pub max_pressure: Option<f64>,
 }
 
 /// Estimated errors of the scalars of a level.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct LevelErrors {
     /// Error of the force on one indenter, a pressure times an area.
     pub load: Option<f64>,
@@ -69,6 +69,6 @@ pub struct LevelErrors {
     /// Error of the asymmetry (largest − smallest)/largest.
     pub asymmetry: Option<f64>,
     /// Errors of x and y of the pressure's centre, lengths.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub centre: [Option<f64>; 2],
 }

@@ -4,19 +4,19 @@
 
 use super::strength::{Criterion, Utilisation};
 use super::verdict::Verdict;
+use serde::{Deserialize, Serialize};
 
 /// The criterion nearest to failure in a load step.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Governing {
     /// The criterion of the largest utilisation.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub criterion: Criterion,
     /// Whether that criterion fails.
-    #[cfg_attr(feature = "serde", serde(rename = "state"))]
+    #[serde(rename = "state")]
     pub verdict: Verdict,
     /// The others that may govern within the errors, the one that may reach highest first.
-    #[cfg_attr(feature = "serde", serde(with = "names"))]
+    #[serde(with = "names")]
     pub rivals: Vec<Criterion>,
 }
 
@@ -40,7 +40,6 @@ pub fn within_the_errors(rivals: &[Criterion]) -> String {
 }
 
 /// Criteria by their codes, with the name of a material or an interface behind in parentheses: "yield of material 2 (TiN)".
-#[cfg(feature = "serde")]
 pub(crate) mod names {
     use crate::reading::Criterion;
     use serde::de::Error;

@@ -1,5 +1,6 @@
 //! Histograms: the number of values of a quantity in each of several intervals.
 
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
 /// Number of intervals of an even histogram.
@@ -8,8 +9,7 @@ const EVEN: usize = 64;
 const PER_DECADE: f64 = 8.0;
 
 /// Counts in neighbouring intervals; the upper end belongs to the last one.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Histogram {
     /// Name of the quantity.
     pub quantity: Cow<'static, str>,

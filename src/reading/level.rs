@@ -1,31 +1,30 @@
 //! Reading of one level: loads, areas, radii and their errors.
 
 use super::LevelErrors;
-#[cfg(feature = "serde")]
 use crate::numeric::serialised;
+use serde::{Deserialize, Serialize};
 
 /// Scalars of one level. Where a level has several indenters in the cell, loads and areas are means over them, contact,
 /// inner and outer radius means by area, the others extremes.
-#[derive(Debug, Clone, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct LevelReading {
     /// Level, from 1.
     pub level: usize,
     /// Force on one indenter: a pressure times an area.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub load: f64,
     /// Share of the whole load that the level carries.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub load_share: f64,
     /// Peak pressure, between the samples, in the unit of Young's modulus; infinite under a tip with load, see
     /// [`crate::counterbody::Shape::singular_peak`].
-    #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::max_pressure"))]
+    #[serde(flatten, with = "serialised::max_pressure")]
     pub max_pressure: f64,
     /// Largest pressure on the grid where the peak pressure is infinite; `None` where it is finite.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub resolved_peak: Option<f64>,
     /// Contact area of one indenter, a length squared.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub contact_area: f64,
     /// √(area/π), a length; `None` for merged contacts.
     pub contact_radius: Option<f64>,
@@ -44,16 +43,16 @@ pub struct LevelReading {
     /// (largest − smallest)/largest boundary radius; see `radius_min`.
     pub asymmetry: Option<f64>,
     /// Centre [x, y] of the pressure from the axis, lengths: Σ p **x**/Σ p. `None` without load and for merged contacts.
-    #[cfg_attr(feature = "serde", serde(with = "serialised::pair"))]
+    #[serde(with = "serialised::pair")]
     pub centre: Option<[f64; 2]>,
     /// Whether the contact of an indenter of this level touches that of a neighbour, or by the localized method one of
     /// both reaches under the other's surface.
     pub merged: bool,
     /// Samples, or elements, along the contact radius: below [`FEW_SAMPLES`] the radii are rough.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub resolution: f64,
     /// Uncertainties of the reading of the boundary on one grid; not kept in files.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub uncertainty: Uncertainty,
     /// Estimated discretisation errors, where there are coarser grids.
     pub errors: LevelErrors,

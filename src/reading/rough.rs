@@ -19,17 +19,17 @@ use crate::lattice::Grid;
 use crate::lattice::components::SpotCounts;
 use crate::numeric::sums;
 use crate::spectral::Contact;
+use serde::{Deserialize, Serialize};
 
 /// Scalars and distributions of the contact of a topography.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RoughReading {
     /// Samples in contact over all samples.
     pub counted_fraction: f64,
     /// Fraction of the cell in contact, counted and corrected by the perimeter.
     pub corrected_fraction: f64,
     /// Estimated discretisation error of the corrected fraction; `None` without a coarser grid.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub corrected_fraction_error: Option<f64>,
     /// Length of the contacts' borders along the samples' edges, over the cell's area: 1/length. A border without preferred
     /// direction is 4/π times as long along the edges of rectangular samples as it is.
@@ -39,20 +39,19 @@ pub struct RoughReading {
     /// Mean gap over the cell, zero in contact; a length.
     pub mean_gap: f64,
     /// Estimated discretisation error of the mean gap, a length; `None` without a coarser grid.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub mean_gap_error: Option<f64>,
     /// Normal stiffness dp̄/dδ, pressure per length; `None` without neighbouring load steps.
     pub stiffness: Option<f64>,
     /// Estimated error of the stiffness, pressure per length.
     pub stiffness_error: Option<f64>,
     /// Histograms of pressure and gap over the samples, and of the areas of spots.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub histograms: Vec<Histogram>,
 }
 
 /// Sizes of the contact spots; areas are counted, lengths squared. 0 without contact.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SpotSizes {
     /// Number of spots in the cell.
     pub count: usize,

@@ -7,19 +7,15 @@
 use super::StressReading;
 use super::verdict::Verdict;
 use crate::body::{HalfSpace, InterfaceId, MaterialId, Name};
-#[cfg(feature = "serde")]
 use crate::numeric::serialised;
 use crate::stress::Peak;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
 /// A failure criterion of a material or an interface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(tag = "criterion", rename_all = "snake_case")
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(tag = "criterion", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Criterion {
     /// A material yields: von Mises.
@@ -78,10 +74,36 @@ impl Criterion {
 
     /// Its code, with the name of its material or interface behind: "yield of material 2 (TiN)".
     pub fn code_with_name(self) -> String {
-        let (Self::Yield(MaterialId { name, .. })
-        | Self::Cracking(MaterialId { name, .. })
-        | Self::Delamination(InterfaceId { name, .. })) = self;
-        name.map_or_else(|| self.code(), |name| format!("{} ({name})", self.code()))
+        self.subject().map_or_else(|| self.code(), |name| format!("{} ({name})", self.code()))
+    }
+
+    /// The name of its material or interface.
+    pub fn subject(self) -> Option<Name> {
+        match self {
+            Self::Yield(MaterialId { name, .. }) | Self::Cracking(MaterialId { name, .. }) => name,
+            Self::Delamination(InterfaceId { name, .. }) => name,
+        }
+    }
+
+    /// The criteria of several cases, each once; without a name where the cases give different ones.
+    pub fn distinct(all: impl IntoIterator<Item = Self>) -> Vec<Self> {
+        let mut distinct: Vec<Self> = Vec::new();
+        for own in all {
+            match distinct.iter_mut().find(|known| **known == own) {
+                None => distinct.push(own),
+                Some(known) if known.subject() == own.subject() => {}
+                Some(known) => *known = own.without_name(),
+            }
+        }
+        distinct
+    }
+
+    fn without_name(self) -> Self {
+        match self {
+            Self::Yield(own) => Self::yield_of(own.number),
+            Self::Cracking(own) => Self::cracking_of(own.number),
+            Self::Delamination(own) => Self::delamination_of(own.number),
+        }
     }
 
     /// Its strength, a pressure; 1 for an interface, whose utilisation is searched itself.
@@ -121,38 +143,39 @@ impl FromStr for Criterion {
     /// Reads a [code](Criterion::code), with a name behind it or without.
     fn from_str(text: &str) -> Result<Self, String> {
         let (own, name) = match text.strip_suffix(')').and_then(|text| text.split_once(" (")) {
-            Some((own, name)) => (own, Some(Name::new(name))),
+            Some((own, name)) => (own, Some(name)),
             None => (text, None),
         };
-        let number = |start: &str| own.strip_prefix(start)?.parse().ok();
-        let yields = number("yield of material ").map(|number| Self::Yield(MaterialId { number, name }));
-        let cracks = || number("cracking of material ").map(|number| Self::Cracking(MaterialId { number, name }));
-        let parts =
-            || number("delamination of interface ").map(|number| Self::Delamination(InterfaceId { number, name }));
+        let number = |start: &str| Some((own.strip_prefix(start)?.parse().ok()?, name.map(Name::new)));
+        let yields = number("yield of material ").map(|(number, name)| Self::Yield(MaterialId { number, name }));
+        let cracks =
+            || number("cracking of material ").map(|(number, name)| Self::Cracking(MaterialId { number, name }));
+        let parts = || {
+            number("delamination of interface ").map(|(number, name)| Self::Delamination(InterfaceId { number, name }))
+        };
         yields.or_else(cracks).or_else(parts).ok_or_else(|| format!("criterion {text:?} is not known"))
     }
 }
 
 /// The utilisation of a criterion, and its place.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Utilisation {
     /// The criterion.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub criterion: Criterion,
     /// Stress over strength: 1 where the criterion fails; infinite under a tip.
-    #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::utilisation"))]
+    #[serde(flatten, with = "serialised::utilisation")]
     pub value: f64,
     /// Estimated error of the value by the grid.
     pub error: Option<f64>,
     /// Whether the criterion fails, by value and error.
-    #[cfg_attr(feature = "serde", serde(rename = "state"))]
+    #[serde(rename = "state")]
     pub verdict: Verdict,
     /// Place x, y, z of the largest utilisation; lengths.
-    #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::place"))]
+    #[serde(flatten, with = "serialised::place")]
     pub position: [f64; 3],
     /// Another place (x, y, z), lengths, where the utilisation may be largest within the errors; see [`Peak::rival`].
-    #[cfg_attr(feature = "serde", serde(with = "serialised::place_or_none"))]
+    #[serde(with = "serialised::place_or_none")]
     pub rival: Option<[f64; 3]>,
 }
 
@@ -208,11 +231,24 @@ mod tests {
             Criterion::Delamination(InterfaceId { number: 1, name }),
         ];
         for own in named.into_iter().chain([Criterion::cracking_of(3)]) {
-            assert_eq!(own.code_with_name().parse(), Ok(own));
+            let read: Criterion = own.code_with_name().parse().unwrap();
+            assert_eq!((read, read.subject()), (own, own.subject()));
         }
         assert_eq!(named.map(|own| own.to_string()), ["yield of TiN (PVD)", "delamination of TiN (PVD)"]);
         assert_eq!(named[0].code_with_name(), "yield of material 2 (TiN (PVD))");
         assert!("yield of TiN".parse::<Criterion>().is_err());
+    }
+
+    #[test]
+    fn criteria_of_several_cases_keep_a_name_that_all_have() {
+        let named = |name: &str| Criterion::Yield(MaterialId { number: 1, name: Some(Name::new(name)) });
+        let texts =
+            |all: &[Criterion]| Criterion::distinct(all.to_vec()).iter().map(Criterion::to_string).collect::<Vec<_>>();
+        assert_eq!(
+            texts(&[named("TiN"), Criterion::cracking_of(1), named("TiN")]),
+            ["yield of TiN", "cracking of material 1"]
+        );
+        assert_eq!(texts(&[named("TiN"), named("CrN"), named("CrN")]), ["yield of material 1"]);
     }
 
     #[test]

@@ -3,19 +3,18 @@
 use super::Reading;
 use crate::counterbody::Site;
 use crate::friction::Friction;
-#[cfg(feature = "serde")]
 use crate::numeric::serialised;
 use crate::spectral::Step;
 use crate::stress::maxima::{Carried, Extremes, Maxima};
 use crate::stress::{Peak, StressField};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Largest stresses of a step, residual stresses among them, see [`crate::stress::maxima`].
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StressReading {
     /// Over all materials.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub overall: Extremes,
     /// Over each material, from the surface down.
     pub materials: Vec<Extremes>,
@@ -25,7 +24,7 @@ pub struct StressReading {
     pub interfaces: Vec<Carried>,
     /// Estimated relative error of the largest tension on the surface, see [`crate::stress::Crest::error`]; infinite where
     /// the samples do not show it.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::infinite"))]
+    #[serde(deserialize_with = "serialised::infinite")]
     pub surface_error: f64,
 }
 
@@ -46,15 +45,10 @@ impl StressReading {
         };
         let surface_error = maxima.surface_error();
         let Maxima { mut materials, mut faces, mut interfaces, .. } = maxima;
-        let half_space = step.problem().half_space();
         for peak in peaks(&mut materials, &mut faces, &mut interfaces) {
-            let rival = peak.rival.as_mut().map(|rival| (&mut rival.position, &mut rival.material));
-            for (position, material) in [(&mut peak.position, &mut peak.material)].into_iter().chain(rival) {
-                *position = beside_site(step, *position);
-                *material = half_space.material_id(material.number);
-            }
+            peak.position = beside_site(step, peak.position);
+            peak.rival.iter_mut().for_each(|rival| rival.position = beside_site(step, rival.position));
         }
-        interfaces.iter_mut().for_each(|own| own.interface = half_space.interface_id(own.interface.number));
         // A tip is infinitely stressed, whatever a grid shows of it.
         if let Some(tip) = tips(step, reading).next() {
             let [x, y] = step.grid().cell().point(tip.place);
@@ -65,7 +59,7 @@ impl StressReading {
                     *peak = Peak {
                         value: f64::INFINITY,
                         position: [x, y, 0.0],
-                        material: half_space.material_id(1),
+                        material: step.problem().half_space().material_id(1),
                         error: None,
                         rival: None,
                         ..*peak

@@ -1,11 +1,12 @@
 //! The verdict on a criterion: with the utilisation u ± e it **fails** where u − e ≥ 1 and **holds** where u + e < 1; between it is
 //! **undecided** by the error of the grid.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Whether a criterion fails, by its utilisation and the estimated error of it. Where no error is known, the value decides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// The utilisation and its error stay below 1.
     Holds,

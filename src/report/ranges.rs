@@ -7,7 +7,6 @@ use super::units::with_unit;
 use crate::output::table::{Table, percent_with_error};
 use crate::output::with_error;
 use crate::reading::Criterion;
-use crate::run::Limit;
 use crate::sweep::{Foremost, Kind, LimitValue, Row, SCALARS, Scalar, SweepResult, SweptKey};
 use crate::units::{Unit, Units};
 
@@ -86,9 +85,8 @@ fn of_last(rows: &[Row]) -> &'static str {
 
 /// The first limit and that of each criterion; nothing where load steps were solved.
 pub(super) fn criteria(rows: &[Row]) -> Vec<Option<Criterion>> {
-    let limits = last(rows).next().and_then(|(_, result)| result.limits());
-    let each = |limits: &[Limit]| limits.iter().map(|limit| Some(limit.criterion)).collect::<Vec<_>>();
-    limits.map_or(Vec::new(), |limits| [vec![None], each(limits)].concat())
+    let criteria = SweepResult::criteria(last(rows).map(|(_, result)| result)).into_iter().map(Some);
+    are_limits(rows).then_some(None).into_iter().chain(criteria).collect()
 }
 
 /// Whether limit loads were searched for.
@@ -101,7 +99,7 @@ fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units)
     let unit = match scalar.kind {
         Kind::Pressure => Some(units.pressure()),
         Kind::Length => Some(units.length()),
-        Kind::Part => None,
+        Kind::Fraction => None,
     };
     range(rows, keys, scalar.name, |result| (scalar.of)(result.step()?), unit)
 }
@@ -171,6 +169,7 @@ fn combinations(count: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Limit;
     use crate::sweep::examples::{below, never, reached, row, step};
 
     const YIELDS: Criterion = Criterion::yield_of(1);

@@ -163,5 +163,5 @@ fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey]) -> Vec<(String, Cell<'a>)>
 /// A scalar of a step with its error.
 fn scalar_text(scalar: &Scalar, own: Shown<'_>) -> Option<String> {
     let (x, error) = (scalar.of)(own.result?.step()?)?;
-    Some(if scalar.kind == Kind::Part { percent_with_error(x, error) } else { with_error(x, error) })
+    Some(if scalar.kind == Kind::Fraction { percent_with_error(x, error) } else { with_error(x, error) })
 }

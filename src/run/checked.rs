@@ -1,7 +1,7 @@
 //! Validation of the record of a load step that is read back.
 
 use super::StepRecord;
-use crate::reading::{Governing, Utilisation};
+use crate::reading::{Governing, Utilisation, Verdict};
 use crate::spectral::{Certificate, Stop};
 
 /// A number that is null was not finite, which is allowed only in a step with [`Stop::NotANumber`]; elsewhere a null, or a pressure
@@ -48,17 +48,16 @@ impl StepRecord {
         for own in &self.strength {
             number(&format!("utilisation of {}", own.criterion), own.value)?;
             let due = Utilisation::new(own.criterion, own.value, own.error, own.position).verdict;
-            if own.verdict != due {
+            // An error that is not finite is null in a file, and leaves the criterion undecided.
+            if own.verdict != due && (own.verdict != Verdict::Undecided || own.error.is_some()) {
                 let (criterion, is) = (own.criterion, own.verdict);
-                return Err(format!(
-                    "the `state` of {criterion} is {is} where its utilisation and error make it {due}"
-                ));
+                let value = own.error.map_or(own.value.to_string(), |error| format!("{} ± {error}", own.value));
+                return Err(format!("`state` of {criterion} is `{is}`, and its utilisation {value} makes it `{due}`"));
             }
         }
-        if self.governing != Governing::of(&self.strength) {
-            return Err("`governing` is not what `strength` makes it".to_owned());
-        }
-        Ok(())
+        let governing = |own: Option<&Governing>| own.map_or("nothing".to_owned(), |own| own.criterion.to_string());
+        let [is, due] = [self.governing.as_ref(), Governing::of(&self.strength).as_ref()].map(governing);
+        if is == due { Ok(()) } else { Err(format!("`governing` is {is}, and the largest utilisation is of {due}")) }
     }
 }
 
@@ -98,9 +97,11 @@ mod tests {
         let mut other = step.clone();
         let own = other.strength.iter_mut().find(|own| own.verdict == Verdict::Fails).unwrap();
         own.verdict = Verdict::Holds;
-        assert!(other.check().unwrap_err().contains("is holds where its utilisation and error make it fails"));
+        assert!(other.check().unwrap_err().contains("makes it `fails`"));
         let mut other = step;
-        other.governing.as_mut().unwrap().rivals = vec![other.strength[0].criterion; 9];
+        let governing = other.governing.as_mut().unwrap();
+        let another = other.strength.iter().find(|own| own.criterion != governing.criterion).unwrap();
+        governing.criterion = another.criterion;
         assert!(other.check().unwrap_err().contains("`governing`"));
     }
 }

@@ -18,7 +18,6 @@
 //! ```
 
 mod accuracy;
-#[cfg(feature = "serde")]
 mod checked;
 mod earlier_run;
 mod limit;

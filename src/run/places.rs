@@ -2,6 +2,7 @@
 
 use crate::body::{Depth, HalfSpace, MeanStress};
 use crate::stress::SurfaceLine;
+use serde::Serialize;
 
 /// Number of intervals in depth and of points along the line of a section.
 pub(crate) const SECTION: [usize; 2] = [200, 401];
@@ -31,8 +32,7 @@ pub struct Cut {
 }
 
 /// A volume under the whole cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Volume {
     /// Depth down to which it reaches, a length.
     pub depth: f64,

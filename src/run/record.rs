@@ -2,74 +2,71 @@
 
 use super::Tapered;
 use crate::body::HalfSpace;
-#[cfg(feature = "serde")]
 use crate::numeric::serialised;
 use crate::reading::{
     Criterion, Governing, Reading, RoughReading, StressReading, Utilisation, stiffness, within_the_errors,
 };
 use crate::spectral::{Certificate, Report, Route, Step, Stop};
+use serde::{Deserialize, Serialize};
 
 /// Every scalar of a load step.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepRecord {
     /// Loads, penetration, pressures, contact areas and radii with their errors.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub reading: Reading,
     /// Why the iteration ended.
-    #[cfg_attr(feature = "serde", serde(flatten, with = "with_verdict"))]
+    #[serde(flatten, with = "with_verdict")]
     pub stop: Stop,
     /// Route of the iteration to the solution.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub route: Route,
     /// Iterations of all methods and trials on the finest grid.
     pub iterations: usize,
     /// Convolutions on all grids, as equivalents of the finest one.
     pub convolutions: f64,
     /// ε = Σ p|g| / (δ Σp) of the last iterate.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub residual: f64,
     /// Bounds on the error of the pressure.
     pub certificate: Certificate,
     /// Grid points along a₁ and a₂.
     pub points: [usize; 2],
     /// Areas, spots, gap and stiffness of a topography; `None` for indenters.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rough: Option<RoughReading>,
     /// Parts of load and contact where the window of a topography is below 1; `None` without a window.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tapered: Option<Tapered>,
     /// How contact and traction were solved together; `None` without friction.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<Sliding>,
     /// Largest stresses; `None` where they are not computed, and without contact.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stress: Option<StressReading>,
     /// Utilisation of each criterion with a strength; empty without contact.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub strength: Vec<Utilisation>,
     /// The criterion nearest to failure, with its rivals; `None` without contact or strengths.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub governing: Option<Governing>,
     /// Wall time of the solution, the readings and the largest stresses, seconds, by the [clock](super::Recorder::clock)
     /// of the recorder; `None` where it has none.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
 }
 
 /// How contact and traction were solved together.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Sliding {
     /// Number of times the gap was recomputed under the traction of the pressure; 0 where friction is not coupled.
     pub outer_iterations: usize,
     /// ε of the whole problem, the displacement by the traction included.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub residual: f64,
 }
 
 /// Why an iteration ended, with `converged` beside it, which follows from that.
-#[cfg(feature = "serde")]
 mod with_verdict {
     use crate::spectral::Stop;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};

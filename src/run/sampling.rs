@@ -2,10 +2,11 @@
 
 use super::accuracy::{Refinement, TooOblong};
 use crate::lattice::Cell;
+use serde::Serialize;
 
 /// The grids of a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Sampling {
     /// One grid, with numbers of samples along a₁ and a₂.
     Points([usize; 2]),

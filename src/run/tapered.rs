@@ -1,10 +1,10 @@
 //! The parts of load and contact of a topography where a window tapers its heights.
 
 use crate::spectral::Contact;
+use serde::{Deserialize, Serialize};
 
 /// Parts of load and contact where the [window](crate::counterbody::roughness::Window) of a topography is below 1.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Tapered {
     /// Part of the load, 0 to 1.
     pub load: f64,

@@ -17,7 +17,7 @@ use super::peak::Peak;
 use super::smoothed_surface::SmoothedSurface;
 use super::tensor::StressState;
 use super::transform::Transform;
-use crate::body::{Depth, MaterialId};
+use crate::body::Depth;
 use crate::numeric::search::{first_largest, largest};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -177,7 +177,7 @@ impl StressField {
         };
         let few = largest(edges.iter().map(few));
         let direction = state.s1_direction();
-        let (position, material) = ([place[0], place[1], 0.0], MaterialId::numbered(1));
+        let (position, material) = ([place[0], place[1], 0.0], self.half_space().material_id(1));
         let peak = Peak { value, position, material, direction, error: None, rival: None };
         Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) }
     }

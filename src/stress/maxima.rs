@@ -15,37 +15,36 @@ use super::field::StressField;
 use super::measure::{MATERIAL_MEASURES, StressMeasure};
 use super::peak::Peak;
 use crate::body::InterfaceId;
+use serde::{Deserialize, Serialize};
 
 /// Largest stresses of a material or a face.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
     /// Largest principal shear stress τ₁.
-    #[cfg_attr(feature = "serde", serde(rename = "max_tau1"))]
+    #[serde(rename = "max_tau1")]
     pub tau1: Peak,
     /// Largest principal stress σ₁; negative where all of it is in compression.
-    #[cfg_attr(feature = "serde", serde(rename = "max_tension"))]
+    #[serde(rename = "max_tension")]
     pub tension: Peak,
     /// Largest stress of von Mises.
-    #[cfg_attr(feature = "serde", serde(rename = "max_mises"))]
+    #[serde(rename = "max_mises")]
     pub mises: Peak,
 }
 
 /// Largest stresses that an interface carries.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Carried {
     /// The interface.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub interface: InterfaceId,
     /// Largest σ_zz; negative where all of the interface is in compression.
-    #[cfg_attr(feature = "serde", serde(rename = "max_normal"))]
+    #[serde(rename = "max_normal")]
     pub normal: Peak,
     /// Largest shear √(σ_xz² + σ_yz²).
-    #[cfg_attr(feature = "serde", serde(rename = "max_shear"))]
+    #[serde(rename = "max_shear")]
     pub shear: Peak,
     /// Largest utilisation of the interface's strength, dimensionless; `None` without a strength.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub delamination: Option<Peak>,
 }
 
@@ -74,7 +73,7 @@ pub(super) struct ContenderLists {
     pub materials: Vec<Contenders>,
     pub faces: Vec<Contenders>,
     /// Each interface, from 1, with its contenders.
-    pub interfaces: Vec<(usize, Contenders)>,
+    pub interfaces: Vec<(InterfaceId, Contenders)>,
 }
 
 impl ContenderLists {
@@ -102,10 +101,10 @@ impl Maxima {
         };
         self.materials = self.contenders.materials.iter().map(extremes).collect();
         self.faces = self.contenders.faces.iter().map(extremes).collect();
-        let carried = |(interface, contenders): &(usize, Contenders)| {
+        let carried = |(interface, contenders): &(InterfaceId, Contenders)| {
             let strength = contenders.iter().map(|(measure, _)| *measure).find(StressMeasure::is_delamination);
             Some(Carried {
-                interface: InterfaceId::numbered(*interface),
+                interface: *interface,
                 normal: stated(contenders, StressMeasure::Opening, apart)?,
                 shear: stated(contenders, StressMeasure::Shear, apart)?,
                 delamination: strength.and_then(|measure| stated(contenders, measure, apart)),

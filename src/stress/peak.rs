@@ -1,47 +1,45 @@
 //! A largest stress with its position, its error and its rival.
 
 use crate::body::MaterialId;
-#[cfg(feature = "serde")]
 use crate::numeric::serialised;
+use serde::{Deserialize, Serialize};
 
 /// A largest value and its position.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Peak {
     /// The value, a pressure; infinite under a tip in contact.
-    #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::value"))]
+    #[serde(flatten, with = "serialised::value")]
     pub value: f64,
     /// Estimated discretisation error of the value; `None` without a coarser grid or for a value that is not a number. It covers
     /// the rivals: the largest value plus error of all positions compared, less the value, and no less than the value's own error.
     pub error: Option<f64>,
     /// Position x, y, z; lengths.
-    #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::place"))]
+    #[serde(flatten, with = "serialised::place")]
     pub position: [f64; 3],
     /// Material of the position.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub material: MaterialId,
     /// Direction of σ₁ at the position, a unit vector: a crack opens across it.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::numbers"))]
+    #[serde(deserialize_with = "serialised::numbers")]
     pub direction: [f64; 3],
     /// Another position where the stress may be largest within the errors; `None` where there is none, or no error is known.
     pub rival: Option<Rival>,
 }
 
 /// A position whose value plus error exceeds the largest value less its error; of several the one with the largest sum.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Rival {
     /// Value at the position, in the unit of the largest one.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub value: f64,
     /// Estimated discretisation error of the value.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub error: f64,
     /// Position x, y, z; lengths.
-    #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::place"))]
+    #[serde(flatten, with = "serialised::place")]
     pub position: [f64; 3],
     /// Material of the position.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub material: MaterialId,
 }
 

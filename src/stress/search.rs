@@ -18,7 +18,7 @@ use super::measure::{MATERIAL_MEASURES, StressMeasure};
 use super::peak::Peak;
 use super::plane_search::{Candidate, SEARCH_REACH};
 use super::tensor::StressState;
-use crate::body::{Depth, Layer, MaterialId};
+use crate::body::{Depth, Layer};
 
 /// The largest samples of a plane.
 #[derive(Debug)]
@@ -85,7 +85,8 @@ impl StressField {
             all.materials.push(own);
             if strength.is_some() {
                 let lower = planes.last().map(|plane| plane.on_face.clone()).unwrap_or_default();
-                all.interfaces.push((material, lower.into_iter().filter(|own| !is_overall(&own)).collect()));
+                let interface = self.half_space().interface_id(material);
+                all.interfaces.push((interface, lower.into_iter().filter(|own| !is_overall(&own)).collect()));
             }
         }
         let crest = of_measure(&crests, StressMeasure::Tension).map(|&(_, crest)| crest);
@@ -227,7 +228,7 @@ impl StressField {
         let peak = Peak {
             value,
             position: [x, y, depth.z],
-            material: MaterialId::numbered(depth.material),
+            material: self.half_space().material_id(depth.material),
             direction: state.s1_direction(),
             error: None,
             rival: None,

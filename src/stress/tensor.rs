@@ -1,10 +1,10 @@
 //! The state at one point: stress tensor and displacement, principal stresses and equivalent stresses.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Stress (positive in tension, a pressure) and displacement (a length; u_z into the body) at a point.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct StressState {
     /// Stress σ_xx, in the unit of Young's modulus.
     pub xx: f64,
@@ -19,7 +19,7 @@ pub struct StressState {
     /// Stress σ_yz, in the unit of Young's modulus.
     pub yz: f64,
     /// Displacement u_x, u_y, u_z, lengths; not kept in files.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    #[serde(skip)]
     pub displacement: [f64; 3],
 }
 

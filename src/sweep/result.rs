@@ -65,19 +65,19 @@ pub enum Kind {
     /// A length.
     Length,
     /// A fraction.
-    Part,
+    Fraction,
 }
 
 /// The main scalars of a load step.
 pub static SCALARS: [Scalar; 7] = {
-    use Kind::{Length, Part, Pressure};
+    use Kind::{Fraction, Length, Pressure};
     const fn scalar(name: &'static str, kind: Kind, of: fn(&StepRecord) -> Option<Measured>) -> Scalar {
         Scalar { name, kind, of }
     }
     [
         scalar("mean pressure", Pressure, |step| Some((step.reading.mean_pressure, step.reading.errors.mean_pressure))),
         scalar("penetration", Length, |step| Some((step.reading.penetration, step.reading.errors.penetration))),
-        scalar("contact", Part, |step| Some((step.reading.contact_fraction, step.reading.errors.contact_fraction))),
+        scalar("contact", Fraction, |step| Some((step.reading.contact_fraction, step.reading.errors.contact_fraction))),
         scalar("peak pressure", Pressure, |step| Some((step.reading.finite_peak()?, step.reading.errors.max_pressure))),
         scalar("largest τ₁", Pressure, |step| finite(&step.stress.as_ref()?.overall.tau1)),
         scalar("largest tension", Pressure, |step| finite(&step.stress.as_ref()?.overall.tension)),
@@ -109,12 +109,17 @@ impl SweepResult {
         }
     }
 
+    /// The criteria of the limits of several results, see [`Criterion::distinct`].
+    pub fn criteria<'a>(results: impl Iterator<Item = &'a Self>) -> Vec<Criterion> {
+        Criterion::distinct(results.filter_map(Self::limits).flatten().map(|limit| limit.criterion))
+    }
+
     /// Value or bound of the first limit, or of that of a criterion. Where no limit comes first: undecided if one may within the
     /// errors, else `None`.
     pub fn limit_value(&self, of: Option<Criterion>) -> Option<LimitValue> {
         match self.limit(of) {
             Some(limit) => Some(limit.into()),
-            None => (self.foremost()? == Foremost::Undecided).then_some(LimitValue::Undecided),
+            None => (of.is_none() && self.foremost()? == Foremost::Undecided).then_some(LimitValue::Undecided),
         }
     }
 
@@ -174,8 +179,11 @@ impl SweepResult {
 impl Foremost {
     /// What comes first in each of the results, with the number of results; the most frequent first.
     pub fn counted<'a>(results: impl Iterator<Item = &'a SweepResult>) -> Vec<(Self, usize)> {
-        let mut counts: BTreeMap<Self, usize> = BTreeMap::new();
-        results.filter_map(SweepResult::foremost).for_each(|own| *counts.entry(own).or_default() += 1);
+        let all: Vec<Self> = results.filter_map(SweepResult::foremost).collect();
+        let criterion = |own: &Self| if let Self::Criterion(criterion) = own { Some(*criterion) } else { None };
+        let named = Criterion::distinct(all.iter().filter_map(criterion)).into_iter().map(Self::Criterion);
+        let mut counts: BTreeMap<Self, usize> = named.map(|own| (own, 0)).collect();
+        all.into_iter().for_each(|own| *counts.entry(own).or_default() += 1);
         let mut counted: Vec<(Self, usize)> = counts.into_iter().collect();
         counted.sort_by_key(|(_, count)| usize::MAX - count);
         counted
@@ -221,6 +229,20 @@ impl fmt::Display for LimitValue {
 mod tests {
     use super::super::examples::{below, never, reached};
     use super::*;
+    use crate::body::{MaterialId, Name};
+
+    #[test]
+    fn a_limit_is_found_whatever_the_name_of_its_material() {
+        let named = |name: &str| Criterion::Yield(MaterialId { number: 2, name: Some(Name::new(name)) });
+        let results = [("TiN", 0.2), ("CrN", 0.4)]
+            .map(|(name, load)| SweepResult::Limits(vec![reached(named(name), load, 0.01)]));
+        let criteria = SweepResult::criteria(results.iter());
+        assert_eq!(criteria.iter().map(Criterion::to_string).collect::<Vec<_>>(), ["yield of material 2"]);
+        assert!(results.iter().all(|own| matches!(own.limit_value(Some(criteria[0])), Some(LimitValue::At(..)))));
+        let counted = Foremost::counted(results.iter());
+        assert_eq!((counted.len(), counted[0].1, counted[0].0.to_string()), (1, 2, "yield of material 2".to_owned()));
+        assert_eq!(results[0].limit_value(Some(Criterion::cracking_of(2))), None);
+    }
 
     #[test]
     fn limits_are_shown_with_their_errors_or_a_bound() {

@@ -86,8 +86,7 @@ impl<'a> Study<'a> {
             let planned = match case.and_then(|case| study.check(&case).map(|()| case)) {
                 Ok(case) => {
                     results += of_results(&case, task);
-                    let (read, all) = (study.planned.len() as u64 + 1, combinations.all.len() as u64);
-                    study.has_room_for(results / read * all)?;
+                    study.has_room_for(results)?;
                     study.planned(combination, case)
                 }
                 Err(error) => {
@@ -98,7 +97,6 @@ impl<'a> Study<'a> {
             };
             study.planned.push(planned);
         }
-        study.has_room_for(results)?;
         study.room.memory -= results;
         match first {
             Some(error) if study.planned.iter().all(|planned| planned.fingerprint.is_empty()) => Err(error),

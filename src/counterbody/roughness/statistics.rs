@@ -4,10 +4,10 @@
 
 use crate::numeric::sums;
 use ndarray::ArrayView2;
+use serde::Serialize;
 
 /// Mean, rms value, range, skewness and kurtosis of heights.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Statistics {
     /// Mean height, a length.
     pub mean: f64,

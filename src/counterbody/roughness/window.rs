@@ -10,11 +10,12 @@
 
 use super::plane::MeanPlane;
 use ndarray::Array2;
+use serde::Serialize;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Window of a taper along both directions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Window {
     /// Hann's window, over the whole length.
     Hann,

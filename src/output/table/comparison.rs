@@ -88,10 +88,10 @@ pub fn stresses(comparison: &Comparison, units: &Units) -> Option<String> {
     let largest = comparison.stresses.iter().flat_map(|pair| pair.spectral.components()[..6].to_vec());
     let largest = largest.fold(0.0, |most: f64, stress| most.max(stress.abs()));
     Some(format!(
-        "stresses at {} points under the highest level agree within {:.2} % of the largest, worst at z = {} in material {}",
+        "stresses at {} points under the highest level agree within {:.2} % of the largest, worst at z = {} in {}",
         comparison.stresses.len(),
         100.0 * worst.difference() / largest,
         units.length().with_unit(worst.depth.z, number),
-        worst.depth.material
+        comparison.task.problem.half_space().material_id(worst.depth.material)
     ))
 }

@@ -79,8 +79,9 @@ impl Number {
             Some(LimitValue::At(..)) => None,
             Some(LimitValue::Undecided) => Some(Bound::Undecided),
             Some(LimitValue::Below(_)) => Some(Bound::Below),
-            // The first of all, where nothing fails.
-            Some(LimitValue::Above(_)) | None => Some(Bound::Above),
+            Some(LimitValue::Above(_)) => Some(Bound::Above),
+            // Nothing comes first; or the case has no such criterion.
+            None => of.is_none().then_some(Bound::Above),
         }
     }
 }
@@ -99,8 +100,8 @@ pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
         Number { quantity: "largest utilisation".into(), of: Of::Utilisation },
         Number::scalar(units.pressure_of("largest shear stress", "τ₁"), "largest τ₁"),
     ];
-    let limits = rows.iter().flat_map(|row| &row.results).next().and_then(SweepResult::limits).unwrap_or_default();
-    all.extend(limits.iter().map(|own| limit(&own.criterion.to_string(), Some(own.criterion))));
+    let criteria = SweepResult::criteria(rows.iter().flat_map(|row| &row.results));
+    all.extend(criteria.into_iter().map(|own| limit(&own.to_string(), Some(own))));
     let last = || rows.iter().filter_map(|row| row.results.last());
     all.retain(|number| last().any(|result| number.value(result).is_some()));
     all

@@ -22,7 +22,6 @@ mod band;
 mod curve;
 mod enclosure;
 mod limits;
-#[cfg(feature = "serde")]
 mod record;
 mod search;
 mod section;

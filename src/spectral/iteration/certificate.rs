@@ -15,24 +15,23 @@
 //! bounds hold (under displacement control while p* has at most the load of p) for the elastic energy of the error, ½⟨d, Cd⟩ with d = p − p*, which without friction is at most E(p) − E*:
 //! ⟨d, Cd⟩ = ⟨d, Ad⟩ ≤ ⟨d, g⟩, as p* solves the problem, and ⟨d, g⟩ is at most the gap, and at most ⟨d, Cd⟩^½ ⟨g, C⁻¹g⟩^½.
 
-#[cfg(feature = "serde")]
 use crate::numeric::serialised;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Bounds on the error of a pressure, all dimensionless.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Certificate {
     /// Σ p (g − min g) over ½⟨p, Cp⟩ (min(0, min g) under displacement control): bound on the elastic energy of the error
     /// over that of p, and without coupled friction on the relative excess of energy.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub energy_gap: f64,
     /// Deepest penetration outside contact over δ, ≥ 0.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub penetration: f64,
     /// Deviation of what was prescribed: |mean p − p̄|/p̄ under load control, |Σp(w+f)/Σp − δ|/δ under displacement
     /// control.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    #[serde(deserialize_with = "serialised::number")]
     pub load: f64,
 }
 

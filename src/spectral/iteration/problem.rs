@@ -5,12 +5,13 @@ use super::fields::Working;
 use super::report::Progress;
 use crate::load::Load;
 use crate::spectral::operator::ElasticOperator;
+use serde::Serialize;
 use std::fmt;
 use std::ops::ControlFlow;
 
 /// Conjugate-gradient method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Method {
     /// Preconditioned with C⁻¹ between the active set and its surroundings: iterations do not grow with the grid.
@@ -21,8 +22,7 @@ pub enum Method {
 }
 
 /// Dimensionless tolerance and limits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Settings {
     /// The method that starts; the preconditioned one falls back to the other when it stalls, unless friction is coupled.
     pub method: Method,

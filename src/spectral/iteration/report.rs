@@ -1,38 +1,39 @@
 //! Report of a solution: its route, and the reason why the iteration ended.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Reason why the iteration ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Stop {
     /// ε < tolerance, energy gap < 20 tolerance and penetration outside contact < 10 tolerance · δ.
     Converged,
     /// The tolerance is not reached, and no further iteration reduces the criteria: ε, energy gap and penetration outside contact are each
     /// below their multiple of the tolerance, or below eight times what rounding in double precision makes of them.
-    #[cfg_attr(feature = "serde", serde(rename = "converged_to_rounding", alias = "converged to rounding"))]
+    #[serde(rename = "converged_to_rounding", alias = "converged to rounding")]
     Rounding,
     /// Over the last window of iterations the mean of what must fall below the tolerance was not below 0.9 of that over
     /// the window before, half as long; or the load is no finite number.
     Stalled,
     /// As many iterations as allowed, tolerance not reached.
-    #[cfg_attr(feature = "serde", serde(alias = "iteration limit"))]
+    #[serde(alias = "iteration limit")]
     IterationLimit,
     /// Nothing to solve: the load or the penetration is not above zero.
-    #[cfg_attr(feature = "serde", serde(alias = "no contact"))]
+    #[serde(alias = "no contact")]
     NoContact,
     /// At the prescribed penetration at most four samples are in contact, a touching indenter (of a topography, in
     /// all): contact is no wider than the grid's spacing, and its load a matter of where the samples lie.
     Unresolved,
     /// The prescribed penetration is not below the mean of the initial gap f, where contact is complete: no finite load
     /// reaches it.
-    #[cfg_attr(feature = "serde", serde(alias = "beyond full contact"))]
+    #[serde(alias = "beyond full contact")]
     BeyondFullContact,
     /// The progress callback has ended the step.
     Interrupted,
     /// A number of the result is not finite.
-    #[cfg_attr(feature = "serde", serde(alias = "not a number"))]
+    #[serde(alias = "not a number")]
     NotANumber,
 }
 
@@ -60,8 +61,8 @@ impl fmt::Display for Stop {
 }
 
 /// Route to a solution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(tag = "route", rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(tag = "route", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Route {
     /// The preconditioned method, as prescribed; also where there was nothing to solve.
@@ -103,10 +104,9 @@ impl Route {
 
 /// A route in a record: its name, whether it fell back to the baseline, and mean pressures tried. The last two follow from
 /// the route.
-#[cfg(feature = "serde")]
 impl serde::Serialize for Route {
     fn serialize<S: serde::Serializer>(&self, keys: S) -> Result<S::Ok, S::Error> {
-        #[derive(serde::Serialize)]
+        #[derive(Serialize)]
         struct Keys {
             route: &'static str,
             fell_back: bool,
