@@ -75,7 +75,7 @@ pub fn damage(reason: &str, aside: Option<&Path>, done: &str) -> String {
     format!("{reason}{aside}; {done}")
 }
 
-/// The first five of some warnings, and one on the number of the `others`, which the text describes.
+/// At most five warnings, then one with the number of the rest; `others` ends its sentence.
 pub fn first_five(mut warnings: Vec<String>, others: &str) -> Vec<String> {
     let more = warnings.len().saturating_sub(5);
     warnings.truncate(5);
