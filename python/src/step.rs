@@ -46,6 +46,9 @@ impl Kept {
     }
 }
 
+/// Twelve components on a plane (12, n₁, n₂), the number of its material, from 1, and the name where it has one.
+type Plane<'py> = (Bound<'py, PyArray3<f64>>, usize, Option<&'static str>);
+
 /// Of a section s, x, y of its points and z of its rows; the materials of the rows; the components (12, rows, points).
 type Cross<'py> = ([Bound<'py, PyArray1<f64>>; 4], Bound<'py, PyArray1<i32>>, Bound<'py, PyArray3<f64>>);
 
@@ -92,7 +95,7 @@ impl Step {
         z: f64,
         points: Option<Vec<i64>>,
         material: Option<i64>,
-    ) -> PyResult<(Bound<'py, PyArray3<f64>>, usize, Option<&'static str>)> {
+    ) -> PyResult<Plane<'py>> {
         let kept = Arc::clone(&self.0);
         let points = points.map_or(Ok(kept.step.grid().points()), |points| interior::counts(&points));
         let points = points.map_err(refused)?;

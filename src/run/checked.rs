@@ -84,6 +84,7 @@ fn peak(name: &str, value: f64) -> Result<(), String> {
     if value == f64::INFINITY { Ok(()) } else { at_least_zero(name, value) }
 }
 
+#[cfg(feature = "cli")]
 #[cfg(test)]
 mod tests {
     use crate::case::{Case, embedded};
