@@ -18,7 +18,7 @@ use toml::Value;
 /// Of a combination its name, its status, the reason where it is not `done`, and its warnings.
 type Told = (String, &'static str, String, Vec<String>);
 
-/// The columns of the table of a sweep, each a name with a list of cells, and what is told of each combination.
+/// The columns of the table of a sweep, each a name with a list of cells; and name, status, reason and warnings of each combination.
 type Swept<'py> = (Bound<'py, PyAny>, Vec<Told>);
 
 /// Solves the combinations of the values of `set`, with `zip` only those of values at the same place of their lists.

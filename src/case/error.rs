@@ -1,4 +1,4 @@
-//! Errors of a case: the line, the key, the value received, what is allowed and what to do.
+//! The error of a case that is refused: it names line and key, the value received, the values allowed, and a remedy.
 
 use std::fmt;
 use std::ops::Range;

@@ -76,13 +76,13 @@ impl<'a> Plot<'a> {
     fn layout(&self, width: f64, margins: Margins) -> Layout {
         let Chart { x, y, curves, .. } = self.chart;
         let frame = Frame::new([x, y], self.ranges(), width, margins, self.aspect, false);
-        let inside = Legend::new(curves, 0.0).and_then(|legend| {
+        let inside = Legend::new(curves, frame.size[0], 1).and_then(|legend| {
             let place = legend.free_place(frame.corner, frame.size, &self.taken(&frame))?;
             Some((legend, place))
         });
         let mut height = frame.height;
         let legend = inside.or_else(|| {
-            let legend = Legend::new(curves, frame.size[0])?;
+            let legend = Legend::new(curves, frame.size[0], usize::MAX)?;
             let place = [frame.corner[0] - legend::GAP, height + 2.0 - 0.5 * legend::GAP];
             height += legend.size[1] + 2.0;
             Some((legend, place))

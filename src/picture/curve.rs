@@ -3,10 +3,6 @@
 use super::canvas::{Anchor, Canvas, Dash};
 use super::colour::Colour;
 use super::sheet::NUMBERS;
-use std::borrow::Cow;
-
-/// Most letters of an entry in a legend.
-const ENTRY: usize = 48;
 
 /// A curve of a chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -161,22 +157,12 @@ impl Curve {
     }
 
     /// Draws the curve's entry in a legend: a piece of it, then its name.
-    pub(super) fn entry(&self, canvas: &mut Canvas, [x, y]: [f64; 2], length: f64) {
+    pub(super) fn entry(&self, text: &str, canvas: &mut Canvas, [x, y]: [f64; 2], length: f64) {
         if let Some(dash) = self.style.dash() {
             canvas.dashed(&[[x, y], [x + length, y]], STROKE, dash, self.colour.colour());
         }
         self.mark(canvas, [x + 0.5 * length, y]);
-        canvas.label(&self.entry_text(), [x + length + TEXT_GAP, y], Anchor::Left, NUMBERS, Colour::BLACK);
-    }
-
-    /// The text of the entry: the label, or both ends of one that is longer than a chart is wide.
-    pub(super) fn entry_text(&self) -> Cow<'_, str> {
-        let letters: Vec<char> = self.label.chars().collect();
-        if letters.len() <= ENTRY {
-            return Cow::Borrowed(&self.label);
-        }
-        let (first, last) = (&letters[..ENTRY / 2], &letters[letters.len() - ENTRY / 2 + 1..]);
-        Cow::Owned(first.iter().chain(['…'].iter()).chain(last).collect())
+        canvas.label(text, [x + length + TEXT_GAP, y], Anchor::Left, NUMBERS, Colour::BLACK);
     }
 
     /// Draws the marker, if the style has one: shapes alternate with the colours.

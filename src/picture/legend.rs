@@ -15,29 +15,26 @@ const ROW: f64 = 1.4 * NUMBERS;
 /// A legend laid out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Legend {
-    /// Upper left corners of the entries relative to the legend's; indices of the curves.
-    entries: Vec<(usize, [f64; 2])>,
+    /// Index of the curve, text and upper left corner relative to the legend's of each entry.
+    entries: Vec<(usize, String, [f64; 2])>,
     /// Width and height, points.
     pub size: [f64; 2],
 }
 
-fn entry_width(curve: &Curve) -> f64 {
-    PIECE + TEXT_GAP + text::width(&curve.entry_text(), NUMBERS)
-}
-
-fn named(curves: &[Curve]) -> impl Iterator<Item = (usize, &Curve)> {
-    curves.iter().enumerate().filter(|(_, curve)| !curve.label.is_empty())
-}
-
 impl Legend {
-    /// Legend with entries in as many columns of equal width as fit into `width` points, at least one; `None` without entries.
-    pub fn new(curves: &[Curve], width: f64) -> Option<Self> {
-        let pitch = named(curves).map(|(_, curve)| entry_width(curve)).fold(0.0, f64::max) + 3.0 * GAP;
-        let count = named(curves).count();
-        let columns = ((width / pitch) as usize).clamp(1, count.max(1));
+    /// Legend with entries in as many columns of equal width as fit into `width` points, at least one and at most `most`; `None`
+    /// without entries. Labels are [fitted](text::fitted) into the width.
+    pub fn new(curves: &[Curve], width: f64, most: usize) -> Option<Self> {
+        let room = width - PIECE - TEXT_GAP - 3.0 * GAP;
+        let named = curves.iter().enumerate().filter(|(_, curve)| !curve.label.is_empty());
+        let texts: Vec<(usize, String)> =
+            named.map(|(index, curve)| (index, text::fitted(&curve.label, NUMBERS, room))).collect();
+        let widest = texts.iter().map(|(_, text)| text::width(text, NUMBERS)).fold(0.0, f64::max);
+        let (pitch, count) = (PIECE + TEXT_GAP + widest + 3.0 * GAP, texts.len());
+        let columns = ((width / pitch) as usize).clamp(1, count.clamp(1, most));
         let rows = count.div_ceil(columns);
         let place = |k: usize| [GAP + (k / rows) as f64 * pitch, 0.5 * GAP + (k % rows) as f64 * ROW];
-        let entries = named(curves).enumerate().map(|(k, (index, _))| (index, place(k))).collect();
+        let entries = texts.into_iter().enumerate().map(|(k, (index, text))| (index, text, place(k))).collect();
         (count > 0).then_some(Self { entries, size: [columns as f64 * pitch - GAP, rows as f64 * ROW + GAP] })
     }
 
@@ -66,9 +63,9 @@ impl Legend {
 
     /// Draws the entries with the upper left corner at `corner`.
     pub fn draw(&self, canvas: &mut Canvas, corner: [f64; 2], curves: &[Curve]) {
-        for &(index, [dx, dy]) in &self.entries {
+        for (index, text, [dx, dy]) in &self.entries {
             let middle = [corner[0] + dx, corner[1] + dy + 0.5 * ROW];
-            curves[index].entry(canvas, middle, PIECE);
+            curves[*index].entry(text, canvas, middle, PIECE);
         }
     }
 }

@@ -54,6 +54,19 @@ pub fn width(text: &str, size: f64) -> f64 {
     size * placed(text).1
 }
 
+/// The text, or its beginning and its end with "…" between where it is wider than `most`.
+pub fn fitted(text: &str, size: f64, most: f64) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let ends = |kept: usize| -> String {
+        let [first, last] = [&letters[..kept.div_ceil(2)], &letters[letters.len() - kept / 2..]];
+        first.iter().chain(&['…']).chain(last).collect()
+    };
+    if width(text, size) <= most {
+        return text.to_owned();
+    }
+    (0..letters.len()).rev().map(ends).find(|cut| width(cut, size) <= most).unwrap_or_else(|| ends(0))
+}
+
 /// The text in lines not wider than `most`, broken at spaces but not at no-break spaces.
 pub fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
@@ -93,6 +106,19 @@ mod tests {
         {
             assert_ne!(FONT.glyph_id(letter).0, 0, "{letter} is missing");
         }
+    }
+
+    #[test]
+    fn a_text_is_cut_in_its_middle_where_it_is_too_wide() {
+        let whole = "delamination of hydrogenated carbon/steel, above";
+        assert_eq!(fitted(whole, 7.0, 1000.0), whole);
+        for most in [150.0, 60.0, 20.0] {
+            let cut = fitted(whole, 7.0, most);
+            let (first, last) = cut.split_once('…').unwrap();
+            assert!(width(&cut, 7.0) <= most && most - width(&cut, 7.0) < 10.0, "{cut}");
+            assert!(whole.starts_with(first) && whole.ends_with(last), "{cut}");
+        }
+        assert_eq!(fitted(whole, 7.0, 0.0), "…");
     }
 
     #[test]
