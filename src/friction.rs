@@ -5,7 +5,7 @@
 //! ([`SurfaceResponse`](crate::body::SurfaceResponse)): with **coupled** friction the pressure depends on that displacement;
 //! uncoupled, the pressure is that of frictionless contact, as in the school of the paper, and stresses superpose.
 
-use crate::body::Material;
+use crate::body::InterfaceId;
 use crate::notation::number;
 use std::f64::consts::PI;
 use std::fmt;
@@ -22,10 +22,10 @@ pub enum FrictionError {
     Direction([f64; 2]),
     /// A layer on a frictionless interface, which cannot carry the mean traction.
     #[error(
-        "layer {0} lies on a frictionless interface, and nothing holds it against the mean traction of friction: make the \
-         interface bonded or a spring"
+        "layer {}{} lies on a frictionless interface, and nothing holds it against the mean traction of friction: make the \
+         interface bonded or a spring", .0.number, if .0.is_counterbody() { " of the counterbody" } else { "" }
     )]
-    Unheld(usize),
+    Unheld(InterfaceId),
 }
 
 /// Sliding friction.
@@ -81,16 +81,22 @@ impl Friction {
         self.coupled && self.coefficient > 0.0
     }
 
-    /// Exponent η = −atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)), of the edges of contact with the `surface` material: the pressure vanishes
-    /// like d^{½+η} at the trailing edge and like d^{½−η} at the leading one; 0 without coupling.
-    pub fn edge_exponent(&self, surface: Material) -> f64 {
-        let beta = (1.0 - 2.0 * surface.poisson()) / (2.0 * (1.0 - surface.poisson()));
+    /// Exponent η = −atan(μβ)/π of the edges of contact of bodies with Dundurs'
+    /// [β](crate::body::Bodies::dundurs_beta): the pressure vanishes like d^{½+η} at the trailing edge and like d^{½−η} at the
+    /// leading one; 0 without coupling.
+    pub fn edge_exponent(&self, beta: f64) -> f64 {
         if self.coupled { -(self.coefficient * beta).atan() / PI } else { 0.0 }
     }
 
     /// Traction on the body over the pressure, μ **e**.
     pub fn traction(&self) -> [f64; 2] {
         self.direction.map(|e| self.coefficient * e)
+    }
+
+    /// It as the counterbody bears it: the body slides the other way.
+    #[must_use]
+    pub fn reversed(self) -> Self {
+        Self { direction: self.direction.map(|e| -e), ..self }
     }
 }
 

@@ -94,7 +94,9 @@ pub mod units;
 #[path = "../validation/mod.rs"]
 pub mod validation;
 
-pub use body::{Depth, HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, MeanStress, Strength};
+pub use body::{
+    Bodies, Depth, HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, MeanStress, Strength,
+};
 pub use counterbody::{Counterbody, CounterbodyError, IndenterError, Indenters, Level, Shape, Surface, Topography};
 pub use friction::{Friction, FrictionError};
 pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid};
@@ -103,4 +105,4 @@ pub use problem::Problem;
 pub use reading::{LevelReading, Reading, StressReading};
 pub use run::{Run, Sampling};
 pub use spectral::{Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver, Step, Stop};
-pub use stress::{DepthPlane, StressField, StressState, SurfaceLine, VerticalSection};
+pub use stress::{DepthPlane, StressField, StressFields, StressState, SurfaceLine, VerticalSection};

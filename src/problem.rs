@@ -1,6 +1,6 @@
-//! The contact problem: a rigid counterbody above a layered elastic half-space, at rest or sliding.
+//! The contact problem: a counterbody, rigid or elastic, above a layered elastic half-space, at rest or sliding.
 
-use crate::body::{HalfSpace, Interface};
+use crate::body::{Bodies, HalfSpace, Interface};
 use crate::counterbody::Counterbody;
 use crate::friction::{Friction, FrictionError};
 use crate::lattice::Cell;
@@ -10,15 +10,16 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     counterbody: Counterbody,
-    half_space: HalfSpace,
+    bodies: Bodies,
     friction: Option<Friction>,
 }
 
 impl Problem {
-    /// Frictionless contact of the counterbody ([`Indenters`](crate::counterbody::Indenters) or a
-    /// [`Topography`](crate::counterbody::Topography)) with the half-space, in one unit of length.
-    pub fn new(counterbody: impl Into<Counterbody>, half_space: HalfSpace) -> Self {
-        Self { counterbody: counterbody.into(), half_space, friction: None }
+    /// Frictionless contact of a counterbody of this shape ([`Indenters`](crate::counterbody::Indenters) or a
+    /// [`Topography`](crate::counterbody::Topography)) with a [`HalfSpace`], rigid, or of [`Bodies`] of which both are elastic; in
+    /// one unit of length.
+    pub fn new(counterbody: impl Into<Counterbody>, bodies: impl Into<Bodies>) -> Self {
+        Self { counterbody: counterbody.into(), bodies: bodies.into(), friction: None }
     }
 
     /// The problem with friction.
@@ -26,21 +27,30 @@ impl Problem {
     /// # Errors
     /// [`FrictionError::Unheld`] when a layer lies on a frictionless interface, unless the coefficient is zero.
     pub fn sliding(self, friction: Friction) -> Result<Self, FrictionError> {
-        let loose = self.half_space.layers().iter().position(|layer| layer.interface() == Interface::Frictionless);
-        match loose.filter(|_| friction.coefficient() > 0.0) {
-            Some(layer) => Err(FrictionError::Unheld(layer + 1)),
+        let loose = |own: &HalfSpace| {
+            let index = own.layers().iter().position(|layer| layer.interface() == Interface::Frictionless)?;
+            Some(own.interface_id(index + 1))
+        };
+        let unheld = self.bodies.each().find_map(loose).filter(|_| friction.coefficient() > 0.0);
+        match unheld {
+            Some(interface) => Err(FrictionError::Unheld(interface)),
             None => Ok(Self { friction: Some(friction), ..self }),
         }
     }
 
-    /// The rigid counterbody.
+    /// The shape of the counterbody.
     pub fn counterbody(&self) -> &Counterbody {
         &self.counterbody
     }
 
-    /// The layered half-space.
+    /// The elastic bodies.
+    pub fn bodies(&self) -> &Bodies {
+        &self.bodies
+    }
+
+    /// The layered half-space of the body.
     pub fn half_space(&self) -> &HalfSpace {
-        &self.half_space
+        self.bodies.body()
     }
 
     /// The friction of a sliding counterbody; `None` at rest.
@@ -56,7 +66,7 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}\n{}", self.counterbody, self.half_space)?;
+        write!(f, "{}\n{}", self.counterbody, self.bodies)?;
         self.friction.iter().try_for_each(|friction| write!(f, "\n{friction}"))
     }
 }

@@ -41,6 +41,8 @@ mod stress;
 mod surface_stress;
 #[path = "library/topographies.rs"]
 mod topographies;
+#[path = "library/two_bodies.rs"]
+mod two_bodies;
 #[path = "library/volume.rs"]
 mod volume;
 #[path = "library/work.rs"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Callable, Iterator, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Literal, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
+Body = Literal["body", "counterbody"]
 Listener = Union[None, bool, Callable[["_core.Progress"], object]]
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz", "ux", "uy", "uz", "tau1", "mises", "s1")
@@ -238,15 +239,19 @@ class Step:
         displacement.flags.writeable = False
         return displacement
 
-    def stress(self, points: ArrayLike, *, material: Optional[int] = None) -> Array:
-        """Stresses at points inside the body, by the sum over waves itself.
+    def stress(
+        self, points: ArrayLike, *, material: Optional[int] = None, body: Body = "body"
+    ) -> Array:
+        """Stresses at points inside one of the bodies, by the sum over waves itself.
 
         Parameters
         ----------
         points
             (…, 3): x, y, z, lengths; z ≥ 0 grows into the body.
         material
-            Of the two that meet at an interface, from 1; else the upper one.
+            Of the two that meet at an interface, from 1; else the one nearer to the surface.
+        body
+            ``"counterbody"`` for an elastic one; x and y are those of the body, z grows into it.
 
         Returns
         -------
@@ -267,10 +272,15 @@ class Step:
         if points.ndim == 0 or points.shape[-1] != 3:
             raise _core.CaseError(f"points have three coordinates x, y, z along their last axis, not {points.shape}")
         flat = np.ascontiguousarray(points.reshape(-1, 3))
-        return self._core.stress(flat, material).reshape(*points.shape[:-1], 6)
+        return self._core.stress(flat, material, body).reshape(*points.shape[:-1], 6)
 
     def plane(
-        self, z: float, *, points: Union[None, int, Sequence[int]] = None, material: Optional[int] = None
+        self,
+        z: float,
+        *,
+        points: Union[None, int, Sequence[int]] = None,
+        material: Optional[int] = None,
+        body: Body = "body",
     ) -> Plane:
         """Stresses and displacements on the horizontal plane at the depth z.
 
@@ -281,7 +291,9 @@ class Step:
         points
             Along a₁ and a₂; those of the contact if it is not said.
         material
-            Of the two that meet at an interface, from 1; else the upper one.
+            Of the two that meet at an interface, from 1; else the one nearer to the surface.
+        body
+            ``"counterbody"`` for an elastic one; z grows into it.
 
         Examples
         --------
@@ -291,7 +303,7 @@ class Step:
         (96, 96)
         """
         wanted = [points, points] if isinstance(points, (int, np.integer)) else points
-        components, material, name = self._core.plane(z, None if wanted is None else list(wanted), material)
+        components, material, name = self._core.plane(z, None if wanted is None else list(wanted), material, body)
         x, y = self._common.places(*components.shape[1:])
         place = {"x": x, "y": y, "z": float(z), "material": material, "name": name}
         return Plane({**place, **dict(zip(COMPONENTS, components))})
@@ -304,6 +316,7 @@ class Step:
         length: Optional[float] = None,
         depth: Optional[float] = None,
         behind: Optional[float] = None,
+        body: Body = "body",
     ) -> Section:
         """Stresses and displacements on a vertical cut; without arguments, on that of the case.
 
@@ -320,6 +333,8 @@ class Step:
             How long and how deep it is, lengths; that of a₁ and half of it if they are not said.
         behind
             How much of the length lies before ``start``.
+        body
+            ``"counterbody"`` for an elastic one; z grows into it.
 
         Examples
         --------
@@ -338,7 +353,7 @@ class Step:
                 "depth": 0.5 * period if depth is None else depth,
                 "behind": behind,
             }
-        (s, x, y, z), material, components = self._core.section(cut)
+        (s, x, y, z), material, components = self._core.section(cut, body)
         return Section(
             {"s": s, "x": x, "y": y, "z": z, "material": material, **dict(zip(COMPONENTS, components))}
         )

@@ -15,7 +15,7 @@ use percoat::machine::Capacity;
 use percoat::output::{Clock, Phase, Summary, table};
 use percoat::run::{Recorder, StepRecord};
 use percoat::spectral::Checkpoint;
-use percoat::{Load, Solver, StressField, Surface};
+use percoat::{Load, Solver, StressFields, Surface};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -109,7 +109,12 @@ impl Recorder for Keeping<'_> {
         self.listener.check()
     }
 
-    fn step(&mut self, step: &percoat::Step, record: &StepRecord, _field: Option<&StressField>) -> Result<(), Stopped> {
+    fn step(
+        &mut self,
+        step: &percoat::Step,
+        record: &StepRecord,
+        _fields: Option<&StressFields>,
+    ) -> Result<(), Stopped> {
         if let Some(checkpoint) = self.checkpoint.take() {
             self.steps.push(Kept { case: Arc::clone(self.case), step: step.clone(), checkpoint });
         }

@@ -13,7 +13,7 @@ use percoat::output::{read_checkpoint, write_checkpoint};
 use percoat::reading::StressReading;
 use percoat::run::StressRequest;
 use percoat::spectral::Checkpoint;
-use percoat::{Solver, StressField, case};
+use percoat::{HalfSpace, Solver, StressFields, case};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::io::Cursor;
@@ -40,9 +40,21 @@ impl From<Kept> for Step {
 }
 
 impl Kept {
-    /// The stress field under the contact.
-    fn field(&self) -> StressField {
-        StressField::new(self.step.finest(), self.case.mean_stress())
+    /// The stress fields under the contact.
+    fn fields(&self) -> StressFields {
+        StressFields::new(self.step.finest(), self.case.mean_stress())
+    }
+
+    /// The half-space of this name, "body" or "counterbody".
+    fn half_space(&self, body: &str) -> Result<&HalfSpace, String> {
+        let bodies = self.step.problem().bodies();
+        match body {
+            "body" => Ok(bodies.body()),
+            "counterbody" => bodies.counterbody().ok_or_else(|| {
+                "the counterbody of the case is rigid: it has no stresses; give it a section [counterbody]".to_owned()
+            }),
+            other => Err(format!("body is \"body\" or \"counterbody\", not {other:?}")),
+        }
     }
 }
 
@@ -73,42 +85,49 @@ impl Step {
     }
 
     /// Stresses (n, 6) at points (n, 3); on an interface in the material of this number, from 1.
-    #[pyo3(signature = (points, material = None))]
+    #[pyo3(signature = (points, material = None, body = "body"))]
     fn stress<'py>(
         &self,
         py: Python<'py>,
         points: PyReadonlyArray2<'py, f64>,
         material: Option<i64>,
+        body: &str,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let side = self.0.half_space(body).map_err(refused)?.side();
         let (kept, points) = (Arc::clone(&self.0), points.as_array().to_owned());
-        let states =
-            work::run(py, None, None, move |listener| interior::at(&kept.field(), points.view(), material, listener))?;
+        let states = work::run(py, None, None, move |listener| {
+            interior::at(kept.fields().on(side), points.view(), material, listener)
+        })?;
         Ok(states.map_err(refused)?.into_pyarray(py))
     }
 
     /// Twelve components on a plane (12, n₁, n₂), at the samples of the contact without `points`; the number of its
     /// material, and the name.
-    #[pyo3(signature = (z, points = None, material = None))]
+    #[pyo3(signature = (z, points = None, material = None, body = "body"))]
     fn plane<'py>(
         &self,
         py: Python<'py>,
         z: f64,
         points: Option<Vec<i64>>,
         material: Option<i64>,
+        body: &str,
     ) -> PyResult<Plane<'py>> {
-        let kept = Arc::clone(&self.0);
+        let half_space = self.0.half_space(body).map_err(refused)?;
+        let (side, kept) = (half_space.side(), Arc::clone(&self.0));
         let points = points.map_or(Ok(kept.step.grid().points()), |points| interior::counts(&points));
         let points = points.map_err(refused)?;
-        let plane =
-            work::run(py, None, None, move |listener| interior::plane(&kept.field(), z, points, material, listener))?;
+        let plane = work::run(py, None, None, move |listener| {
+            interior::plane(kept.fields().on(side), z, points, material, listener)
+        })?;
         let (components, material) = plane.map_err(refused)?;
-        let name = self.0.step.problem().half_space().material_id(material).name;
+        let name = half_space.material_id(material).name;
         Ok((components.into_pyarray(py), material, name.map(|name| name.text())))
     }
 
     /// Twelve components on the vertical cut of this value of the key `stress.section`, without one on that of the case.
-    #[pyo3(signature = (cut = None))]
-    fn section<'py>(&self, py: Python<'py>, cut: Option<&Bound<'py, PyAny>>) -> PyResult<Cross<'py>> {
+    #[pyo3(signature = (cut = None, body = "body"))]
+    fn section<'py>(&self, py: Python<'py>, cut: Option<&Bound<'py, PyAny>>, body: &str) -> PyResult<Cross<'py>> {
+        let side = self.0.half_space(body).map_err(refused)?.side();
         let kept = Arc::clone(&self.0);
         let request = match cut {
             Some(cut) => kept.case.section(&value(cut, "stress.section")?).map_err(refused)?,
@@ -118,8 +137,9 @@ impl Step {
             return Err(refused("say where the section begins and where it leads: the case asks for none"));
         };
         let (line, sides, components) = work::run(py, None, None, move |_| {
-            let depths = cut.depths(kept.step.problem().half_space());
-            let components = interior::section(&kept.field(), &cut.line, &depths);
+            let fields = kept.fields();
+            let depths = cut.depths(fields.on(side).half_space());
+            let components = interior::section(fields.on(side), &cut.line, &depths);
             (cut.line, depths, components)
         })?;
         let places = line.places();
@@ -138,7 +158,7 @@ impl Step {
             let stop = listener.stop();
             let goes_on = || !stop.load(Ordering::Relaxed);
             (reading.max_pressure > 0.0)
-                .then(|| StressReading::of_while(&kept.step, &reading, &kept.field(), &goes_on))
+                .then(|| StressReading::of_while(&kept.step, &reading, &kept.fields(), &goes_on))
                 .flatten()
         })?;
         stress.map(|stress| to_python(py, &stress)).transpose()

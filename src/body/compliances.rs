@@ -1,11 +1,11 @@
-//! Surface compliance at very many wavenumbers: the layer correction T, and the coupling over the compliance, as short
+//! Compliance of the surfaces at very many wavenumbers: the layer correction T, and the coupling over the compliance, as short
 //! series.
 //!
 //! T varies with ln q on the scale of one, whatever the layers: on a panel, one of the eight equal parts between a power of
 //! two and the next, a Chebyshev series of few terms holds it to rounding. Outside the panels whose
 //! series is accurate the compliance is computed from the layers directly.
 
-use super::LayeredResponse;
+use super::Bodies;
 use crate::numeric::chebyshev::{Chebyshev, inside, place};
 use rayon::prelude::*;
 
@@ -18,10 +18,10 @@ const SERIES_TOLERANCE: f64 = 1e-14;
 /// Bits of a wavenumber below its exponent and the three bits that number the eighth of an octave.
 const PANEL_SHIFT: u32 = 49;
 
-/// Compliances of a half-space within a range of wavenumbers.
+/// Compliances of one body or of two in contact within a range of wavenumbers.
 #[derive(Debug)]
 pub(crate) struct Compliances<'a> {
-    response: &'a LayeredResponse,
+    bodies: &'a Bodies,
     corrections: Panels,
     ratios: Panels,
 }
@@ -64,41 +64,41 @@ impl Panels {
 
 impl<'a> Compliances<'a> {
     /// Compliances to be evaluated `times` between the wavenumbers `least` and `most` (1/length); others take longer.
-    pub fn new(response: &'a LayeredResponse, [least, most]: [f64; 2], times: usize) -> Self {
-        // A bare half-space needs no help.
-        let times = if response.strata().layers.is_empty() { 0 } else { times };
-        let corrections = Panels::new([least, most], times, 0.0, |q| response.correction(q));
-        Self { response, corrections, ratios: Panels::default() }
+    pub fn new(bodies: &'a Bodies, [least, most]: [f64; 2], times: usize) -> Self {
+        // Bare half-spaces need no help.
+        let times = if bodies.is_bare() { 0 } else { times };
+        let corrections = Panels::new([least, most], times, 0.0, |q| bodies.correction(q));
+        Self { bodies, corrections, ratios: Panels::default() }
     }
 
     /// Compliances with series of the [coupling ratio](Self::coupling_ratio) too.
-    pub fn coupled(response: &'a LayeredResponse, [least, most]: [f64; 2], times: usize) -> Self {
-        let own = Self::new(response, [least, most], times);
-        let times = if response.strata().layers.is_empty() { 0 } else { times };
-        Self { ratios: Panels::new([least, most], times, 1.0, |q| response.coupling_ratio(q)), ..own }
+    pub fn coupled(bodies: &'a Bodies, [least, most]: [f64; 2], times: usize) -> Self {
+        let own = Self::new(bodies, [least, most], times);
+        let times = if bodies.is_bare() { 0 } else { times };
+        Self { ratios: Panels::new([least, most], times, 1.0, |q| bodies.coupling_ratio(q)), ..own }
     }
 
     /// Compliance ŵ/p̂ at the wavenumber q > 0 (1/length): a length per pressure.
     pub fn at(&self, wavenumber: f64) -> f64 {
         match self.corrections.at(wavenumber) {
-            Some(correction) => self.response.compliance_of(correction, wavenumber),
-            None => self.response.compliance(wavenumber),
+            Some(correction) => self.bodies.compliance_of(correction, wavenumber),
+            None => self.bodies.compliance(wavenumber),
         }
     }
 
     /// Replaces wavenumbers > 0 (1/length) by their compliances (lengths per pressure).
     pub fn replace(&self, wavenumbers: &mut [f64]) {
-        if self.response.strata().layers.is_empty() {
-            let bare = self.response.compliance(1.0);
+        if self.bodies.is_bare() {
+            let bare = self.bodies.compliance(1.0);
             wavenumbers.iter_mut().for_each(|q| *q = bare / *q);
         } else {
             wavenumbers.iter_mut().for_each(|q| *q = self.at(*q));
         }
     }
 
-    /// K/C of the [`SurfaceResponse`](super::SurfaceResponse) at the wavenumber q > 0 (1/length).
+    /// [Coupling over compliance](Bodies::coupling_ratio) at the wavenumber q > 0 (1/length).
     pub fn coupling_ratio(&self, wavenumber: f64) -> f64 {
-        self.ratios.at(wavenumber).unwrap_or_else(|| self.response.coupling_ratio(wavenumber))
+        self.ratios.at(wavenumber).unwrap_or_else(|| self.bodies.coupling_ratio(wavenumber))
     }
 }
 
@@ -128,17 +128,17 @@ mod tests {
         for stack in stacks {
             let layers = stack.len();
             let half_space = HalfSpace::new(stack, material(1.0, 0.3));
-            let response = half_space.response();
-            let compliances = Compliances::coupled(response, [1e-3, 1e5], usize::MAX);
+            let bodies = Bodies::from(half_space);
+            let compliances = Compliances::coupled(&bodies, [1e-3, 1e5], usize::MAX);
             let (mut worst, mut worst_ratio) = (0.0f64, 0.0f64);
             for k in 0..20_000 {
                 let q = 1e-3 * 1e8f64.powf((f64::from(k) + 0.37) / 20_000.0);
                 let mut replaced = [q];
                 compliances.replace(&mut replaced);
                 for compliance in [compliances.at(q), replaced[0]] {
-                    worst = worst.max((compliance / response.compliance(q) - 1.0).abs());
+                    worst = worst.max((compliance / bodies.compliance(q) - 1.0).abs());
                 }
-                let ratio = response.coupling_ratio(q);
+                let ratio = bodies.coupling_ratio(q);
                 worst_ratio = worst_ratio.max((compliances.coupling_ratio(q) - ratio).abs() / ratio.abs().max(1.0));
             }
             assert!(worst < 3e-14 && worst_ratio < 3e-14, "{layers} layers: {worst:e}, {worst_ratio:e}");
@@ -146,7 +146,7 @@ mod tests {
                 let rejected = series.iter().filter(|series| series.is_none()).count();
                 assert!(10 * rejected <= series.len(), "{layers} layers: {rejected} panels without series");
             }
-            assert_eq!(compliances.at(1e7), response.compliance(1e7));
+            assert_eq!(compliances.at(1e7), bodies.compliance(1e7));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The coated half-space: layers on a substrate.
 
-use super::{Depth, InterfaceId, Layer, LayeredResponse, Material, MaterialError, MaterialId, Strength};
+use super::{Depth, InterfaceId, Layer, LayeredResponse, Material, MaterialError, MaterialId, Side, Strength};
 use crate::notation::number;
 use std::fmt;
 use std::sync::Arc;
@@ -13,6 +13,8 @@ pub struct HalfSpace {
     layers: Vec<Layer>,
     substrate: Material,
     substrate_strength: Strength,
+    /// Which of two elastic bodies it is.
+    side: Option<Side>,
     response: Arc<LayeredResponse>,
 }
 
@@ -20,7 +22,18 @@ impl HalfSpace {
     /// Half-space of `substrate` under `layers`, given from the surface down (none: uncoated).
     pub fn new(layers: Vec<Layer>, substrate: Material) -> Self {
         let response = Arc::new(LayeredResponse::new(&layers, substrate));
-        Self { layers, substrate, substrate_strength: Strength::default(), response }
+        Self { layers, substrate, substrate_strength: Strength::default(), side: None, response }
+    }
+
+    /// It as one of two elastic bodies: its materials and interfaces say so.
+    #[must_use]
+    pub fn on_side(self, side: Side) -> Self {
+        Self { side: Some(side), ..self }
+    }
+
+    /// Which of two elastic bodies it is; `None` under a rigid counterbody.
+    pub fn side(&self) -> Option<Side> {
+        self.side
     }
 
     /// Half-space with strengths of the substrate.
@@ -59,7 +72,7 @@ impl HalfSpace {
     /// Number and name of material `number`, from 1 at the surface down to the substrate.
     pub fn material_id(&self, number: usize) -> MaterialId {
         let name = number.checked_sub(1).and_then(|index| self.materials().nth(index)?.name());
-        MaterialId { number, name }
+        MaterialId { side: self.side, number, name }
     }
 
     /// Number and name of interface `number`, from 1: the lower face of that layer.

@@ -24,6 +24,7 @@
 //! compliance (`compliances`) and of the interior (`interior_table`).
 
 mod across;
+mod bodies;
 mod compliances;
 mod depth;
 mod functional;
@@ -41,6 +42,7 @@ mod strength;
 mod stress_function;
 
 pub use across::Antiplane;
+pub use bodies::Bodies;
 pub(crate) use compliances::Compliances;
 pub use depth::Depth;
 pub use half_space::HalfSpace;
@@ -49,6 +51,6 @@ pub(crate) use interior_table::{InteriorTable, REACH};
 pub use layer::{Interface, Layer};
 pub use material::{Material, MaterialError};
 pub use mean::MeanStress;
-pub use names::{InterfaceId, MaterialId, Name};
+pub use names::{InterfaceId, MaterialId, Name, Side};
 pub use response::{LayeredResponse, SurfaceResponse};
 pub use strength::{InterfaceStrength, Strength};

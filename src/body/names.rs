@@ -43,14 +43,44 @@ impl<'de> serde::Deserialize<'de> for Name {
     }
 }
 
+/// One of two elastic bodies in contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    /// The body below, into which z is measured.
+    Body,
+    /// The counterbody above, into which its own z is measured; x and y are those of the body.
+    Counterbody,
+}
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Body => "body",
+            Self::Counterbody => "counterbody",
+        })
+    }
+}
+
+impl Side {
+    /// Words behind what belongs to the counterbody: " of the counterbody"; none for what belongs to the body.
+    fn behind(own: Option<Self>) -> &'static str {
+        if own == Some(Self::Counterbody) { " of the counterbody" } else { "" }
+    }
+}
+
 macro_rules! numbered {
     ($(#[$doc:meta])* $id:ident, $what:literal, $number:literal) => {
         $(#[$doc])*
         ///
-        /// It prints itself as its name, or without one as its number. Equal numbers are equal and in order, whatever the names: a
-        /// name says what stands there, and may differ between two cases.
+        /// It prints itself as its name, or without one as its number. Equal numbers of one body are equal and in order, whatever
+        /// the names: a name says what stands there, and may differ between two cases. Those of the counterbody follow those of
+        /// the body.
         #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
         pub struct $id {
+            /// The body it belongs to; `None` where the counterbody is rigid.
+            #[serde(default, rename = "body", skip_serializing_if = "Option::is_none")]
+            pub side: Option<Side>,
             #[doc = $number]
             #[serde(rename = $what)]
             pub number: usize,
@@ -62,22 +92,52 @@ macro_rules! numbered {
         impl $id {
             /// The one with this number, from 1, without a name.
             pub const fn numbered(number: usize) -> Self {
-                Self { number, name: None }
+                Self { side: None, number, name: None }
+            }
+
+            /// It without its name.
+            #[must_use]
+            pub const fn without_name(self) -> Self {
+                Self { name: None, ..self }
+            }
+
+            /// Whether it belongs to an elastic counterbody.
+            pub fn is_counterbody(self) -> bool {
+                self.side == Some(Side::Counterbody)
+            }
+
+            /// Its number with the body it belongs to, as files have it.
+            pub fn code(self) -> String {
+                format!("{} {}{}", $what, self.number, Side::behind(self.side))
+            }
+
+            /// Reads its [code](Self::code).
+            pub fn of_code(code: &str) -> Option<Self> {
+                let (side, own) = match code.strip_suffix(Side::behind(Some(Side::Counterbody))) {
+                    Some(own) => (Some(Side::Counterbody), own),
+                    None => (None, code),
+                };
+                let number = own.strip_prefix($what)?.strip_prefix(' ')?.parse().ok()?;
+                Some(Self { side, number, name: None })
+            }
+
+            fn place(self) -> (bool, usize) {
+                (self.is_counterbody(), self.number)
             }
         }
 
         impl fmt::Display for $id {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 match self.name {
-                    Some(name) => name.fmt(f),
-                    None => write!(f, "{} {}", $what, self.number),
+                    Some(name) => write!(f, "{name}{}", Side::behind(self.side)),
+                    None => f.write_str(&self.code()),
                 }
             }
         }
 
         impl PartialEq for $id {
             fn eq(&self, other: &Self) -> bool {
-                self.number == other.number
+                self.place() == other.place()
             }
         }
 
@@ -91,7 +151,7 @@ macro_rules! numbered {
 
         impl Ord for $id {
             fn cmp(&self, other: &Self) -> Ordering {
-                self.number.cmp(&other.number)
+                self.place().cmp(&other.place())
             }
         }
     };
@@ -110,7 +170,10 @@ impl InterfaceId {
     /// The interface between a material and the one below it: "TiN/steel" where either has a name.
     pub fn between(upper: MaterialId, lower: MaterialId) -> Self {
         let has_name = upper.name.is_some() || lower.name.is_some();
-        Self { number: upper.number, name: has_name.then(|| Name::new(&format!("{upper}/{lower}"))) }
+        // The body stands behind the whole.
+        let [above, below] = [upper, lower].map(|own| MaterialId { side: None, ..own });
+        let name = has_name.then(|| Name::new(&format!("{above}/{below}")));
+        Self { side: upper.side, number: upper.number, name }
     }
 }
 
@@ -127,13 +190,19 @@ mod tests {
 
     #[test]
     fn materials_are_equal_by_number() {
-        let named = MaterialId { number: 2, name: Some(Name::new("TiN")) };
+        let named = MaterialId { side: Some(Side::Body), number: 2, name: Some(Name::new("TiN")) };
         assert!(named == MaterialId::numbered(2) && named < MaterialId::numbered(3));
+        let other = MaterialId { side: Some(Side::Counterbody), ..named };
+        assert!(other != named && other > MaterialId::numbered(3));
+        assert_eq!(other.to_string(), "TiN of the counterbody");
+        assert_eq!(other.code(), "material 2 of the counterbody");
+        assert_eq!(MaterialId::of_code(&other.code()), Some(other));
+        assert_eq!(MaterialId::of_code("material 2"), Some(named));
     }
 
     #[test]
     fn an_interface_is_named_by_the_materials_beside_it() {
-        let material = |number, name: Option<&str>| MaterialId { number, name: name.map(Name::new) };
+        let material = |number, name: Option<&str>| MaterialId { side: None, number, name: name.map(Name::new) };
         let between = |upper, lower| InterfaceId::between(material(1, upper), material(2, lower)).to_string();
         assert_eq!(between(Some("TiN"), Some("steel")), "TiN/steel");
         assert_eq!(between(Some("TiN"), None), "TiN/material 2");

@@ -39,7 +39,7 @@ impl FrictionSection {
     pub(super) fn slide(
         &self,
         section: &TableAt<'_>,
-        layers: &[&TableAt<'_>],
+        layers: &[Vec<&TableAt<'_>>; 2],
         (problem, settings): (Problem, Settings),
         solver: &TableAt<'_>,
     ) -> Result<Problem, Refusal> {
@@ -51,7 +51,10 @@ impl FrictionSection {
                 .help("leave the key out, or set friction.coupling = false"));
         }
         let refuse = |error: FrictionError| {
-            let layer = if let FrictionError::Unheld(layer) = error { layers.get(layer - 1) } else { None };
+            let layer = match error {
+                FrictionError::Unheld(own) => layers[usize::from(own.is_counterbody())].get(own.number - 1),
+                _ => None,
+            };
             let interface = layer.and_then(|layer| layer.optional("interface"));
             let span = interface.map_or(section.span, |interface| interface.node.span);
             Refusal::new(span, format!("`friction`: {error}"), "slides without anything to hold it")

@@ -12,13 +12,13 @@ use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, Mate
 /// Most letters of a material's name.
 const LETTERS: usize = 40;
 
-const SIZE: Form = Form::Number(Range::Size);
-const POISSON: Form = Form::Number(Range::between(0.0, 0.5));
+pub(super) const SIZE: Form = Form::Number(Range::Size);
+pub(super) const POISSON: Form = Form::Number(Range::between(0.0, 0.5));
 
-// Keys of layers and of the substrate.
-const NAME: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its number");
-const YIELD: Key = Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("never reached");
-const TENSILE: Key = Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("never reached");
+// Keys of layers, of the substrate and of the counterbody.
+pub(super) const NAME: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its number");
+pub(super) const YIELD: Key = Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("never reached");
+pub(super) const TENSILE: Key = Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("never reached");
 
 section! {
     /// One section of `[[layers]]`, from the surface down.
@@ -164,8 +164,26 @@ pub(super) fn read<'a>(root: &TableAt<'a>) -> Result<Body<'a>, Refusal> {
     let layers: Vec<LayerSection> = sections.iter().map(LayerSection::read_table).collect::<Result<_, _>>()?;
     let substrate_section = root.required_section("substrate")?;
     let substrate = SubstrateSection::read_table(&substrate_section)?;
-    let half_space = build(&layers, &sections, &substrate, &substrate_section)?;
+    build_body(layers, sections, substrate, &substrate_section)
+}
+
+/// A body of layers, from its surface inward, on a substrate, each with its section.
+pub(super) fn build_body<'a>(
+    layers: Vec<LayerSection>,
+    sections: Vec<TableAt<'a>>,
+    substrate: SubstrateSection,
+    substrate_section: &TableAt<'a>,
+) -> Result<Body<'a>, Refusal> {
+    let half_space = build(&layers, &sections, &substrate, substrate_section)?;
     Ok(Body { layers, substrate, half_space, sections })
+}
+
+impl<'a> Body<'a> {
+    /// The section of each layer of the half-space.
+    pub(super) fn places(&self) -> Vec<&TableAt<'a>> {
+        let places = self.layers.iter().zip(&self.sections);
+        places.flat_map(|(layer, section)| std::iter::repeat_n(section, layer.sublayers())).collect()
+    }
 }
 
 /// The half-space of the case, or a refusal at the line of the fault.

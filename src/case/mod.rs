@@ -3,7 +3,7 @@
 //! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and converted to the core's types: its problem,
 //! and the run that solves it. Faults are refused with their line ([`CaseError`]).
 //!
-//! One file a section: lattice, levels, surface, layers (with the substrate, `interface` and `grading`), load, grid, solver,
+//! One file a section: lattice, levels, surface, layers (with the substrate, `interface` and `grading`), elastic counterbody, load, grid, solver,
 //! friction, units, stress, localized; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
 //! makes of them the texts of `percoat explain` and the schema. A document is parsed to a tree (`node`), changed by `overrides`,
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
@@ -16,6 +16,7 @@
 //! ```
 
 mod counterbody;
+mod elastic_counterbody;
 pub mod embedded;
 mod error;
 pub mod feasibility;
@@ -50,6 +51,7 @@ mod units;
 mod value;
 mod writer;
 
+pub use elastic_counterbody::CounterbodySection;
 pub use error::CaseError;
 pub use feasibility::single_contact::foreseen;
 pub use feasibility::sublayers::sublayer_error;

@@ -1,6 +1,7 @@
 //! The whole case.
 
 use super::counterbody::{self, CounterbodySections};
+use super::elastic_counterbody::{self, COUNTERBODY};
 use super::error::{CaseError, Refusal};
 use super::feasibility::magnitude;
 use super::friction::FRICTION;
@@ -22,10 +23,10 @@ use super::surface::SURFACE;
 use super::units::UNITS;
 use super::writer::written;
 use super::{
-    FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
-    SubstrateSection, SurfaceSection, UnitsSection,
+    CounterbodySection, FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection,
+    Source, StressSection, SubstrateSection, SurfaceSection, UnitsSection,
 };
-use crate::body::{HalfSpace, MeanStress};
+use crate::body::{Bodies, HalfSpace, MeanStress};
 use crate::comparison::ComparisonTask;
 use crate::counterbody::{Counterbody, Topography};
 use crate::problem::Problem;
@@ -60,6 +61,8 @@ section! { whole
                 .omitted_as_nothing(),
         /// the material below the layers
         pub substrate: SubstrateSection = Key::new(&[Form::Table(&SUBSTRATE)], "{ young = 1.0, poisson = 0.3 }"),
+        /// the elastic body that the indenters or the topography belong to
+        pub counterbody: Option<CounterbodySection> = Key::new(&[Form::Table(&COUNTERBODY)], "{ young = 210.0, poisson = 0.3 }").otherwise("rigid"),
         /// mean pressure or penetration, one value a load step
         pub load: LoadSection = Key::new(&[Form::Table(&LOAD)], "{ mean_pressure = 0.01 }"),
         /// samples of the cell
@@ -101,17 +104,17 @@ impl Case {
         written(self).expect("keys are strings, integers come from TOML, absent values are skipped")
     }
 
-    /// Counterbody and half-space.
+    /// Counterbody and bodies.
     pub fn problem(&self) -> &Arc<Problem> {
         &self.problem
     }
 
-    /// The rigid counterbody: indenters on their lattice, or a topography.
+    /// The shape of the counterbody: indenters on their lattice, or a topography.
     pub fn counterbody(&self) -> &Counterbody {
         self.problem.counterbody()
     }
 
-    /// The layers on the substrate.
+    /// The layers on the substrate of the body.
     pub fn half_space(&self) -> &HalfSpace {
         self.problem.half_space()
     }
@@ -186,12 +189,17 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let title = title(&root)?;
     let CounterbodySections { levels, lattice, cell_section, grid_section, surface, counterbody } =
         counterbody::read(&root, source)?;
-    let Body { layers, substrate, half_space, sections } = layers::read(&root)?;
-    // The section of each layer of the half-space.
-    let places = layers.iter().zip(&sections);
-    let places = places.flat_map(|(layer, section)| std::iter::repeat_n(section, layer.sublayers()));
-    let places: Vec<&TableAt<'_>> = places.collect();
-    magnitude::layers(&half_space, &places, counterbody.cell())?;
+    let body = layers::read(&root)?;
+    let elastic_section = root.section("counterbody")?;
+    let elastic = elastic_section.as_ref().map(elastic_counterbody::read).transpose()?;
+    let above = elastic.as_ref().map(|(_, above)| above);
+    for own in [&body].into_iter().chain(above) {
+        magnitude::layers(&own.half_space, &own.places(), counterbody.cell())?;
+    }
+    let bodies = match above {
+        Some(above) => Bodies::elastic(body.half_space.clone(), above.half_space.clone()),
+        None => Bodies::from(body.half_space.clone()),
+    };
 
     let load = LoadSection::read_table(&root.required_section("load")?)?;
     let file_points = counterbody.topography().map(Topography::points);
@@ -202,10 +210,11 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     magnitude::grid(sampling, file_points, &grid_section, &cell_section, counterbody.cell())?;
     let solver_section = root.section_or_empty("solver")?;
     let settings = Settings::read_table(&solver_section)?;
-    let mut problem = Problem::new(counterbody, half_space);
+    let mut problem = Problem::new(counterbody, bodies);
     let mut friction = None;
     if let Some(section) = root.section("friction")? {
         let own = FrictionSection::read_table(&section)?;
+        let places = [body.places(), above.map_or(Vec::new(), Body::places)];
         problem = own.slide(&section, &places, (problem, settings), &solver_section)?;
         friction = Some(own);
     }
@@ -223,8 +232,9 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         localized: LocalizedSection::read_table(&root.section_or_empty("localized")?)?,
         levels,
         surface,
-        layers,
-        substrate,
+        layers: body.layers,
+        substrate: body.substrate,
+        counterbody: elastic.map(|(own, _)| own),
         load,
         surface_doubts,
         problem: Arc::new(problem),

@@ -14,7 +14,7 @@ use crate::case::{Case, plausibility};
 use crate::output::{LimitFile, Writer, number, summary, table, with_error};
 use crate::picture::{self, Snapshot};
 use crate::run::{LimitStep, Limits, Recorder, Run, StepRecord};
-use crate::{Solver, Step, StressField};
+use crate::{Solver, Step, StressFields};
 use std::convert::Infallible;
 use std::path::Path;
 use std::time::Instant;
@@ -41,7 +41,7 @@ impl Recorder for Searching<'_> {
         Ok(())
     }
 
-    fn step(&mut self, _step: &Step, record: &StepRecord, _field: Option<&StressField>) -> Result<(), Infallible> {
+    fn step(&mut self, _step: &Step, record: &StepRecord, _fields: Option<&StressFields>) -> Result<(), Infallible> {
         let words = record.governing_in_words(with_error).unwrap_or("no contact".to_owned());
         let words = format!("mean pressure {}: {words}", number(record.reading.mean_pressure));
         self.progress.tell(&words);
@@ -82,12 +82,12 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
 fn draw(results: &Results, case: &Case, run: &Run, limits: &Limits, pictures: &PictureOptions) -> Result<(), Failure> {
     let staging = results.staging();
     pictures.write(&staging, "limit", || picture::utilisations(&case.title, case.problem(), &case.units(), limits))?;
-    if let (true, Some(section), Some(LimitStep { limit, record, step })) =
-        (pictures.wanted(), limits.section(run), limits.shown.clone())
+    if let (true, Some(sections), Some(LimitStep { limit, record, step })) =
+        (pictures.wanted(), limits.sections(run), limits.shown.clone())
     {
         let snapshot = Snapshot::new(&case.title, step, record.reading).with_strength(record.strength);
         let snapshot = snapshot.at_limit_of(limit.criterion).with_units(case.units());
-        pictures.write(&staging, "limit-section", || Some(picture::section(&snapshot, &section)))?;
+        pictures.write(&staging, "limit-section", || Some(picture::section(&snapshot, &sections)))?;
     }
     Ok(())
 }

@@ -43,12 +43,12 @@ impl PictureOptions {
         FORMATS.into_iter().filter(|format| self.wanted() && self.pictures.contains(format)).collect()
     }
 
-    /// Draws the pictures of a solved step, of a section of its stresses if there is one, and of all steps.
+    /// Draws the pictures of a solved step, of the sections of its stresses if there are any, and of all steps.
     pub fn draw(
         &self,
         folder: &Path,
         last: &Snapshot,
-        section: Option<&VerticalSection>,
+        sections: &[VerticalSection],
         steps: &[StepRecord],
     ) -> Result<(), Failure> {
         if !self.wanted() {
@@ -56,7 +56,7 @@ impl PictureOptions {
         }
         type Draw<'a> = &'a (dyn Fn() -> Option<Canvas> + Sync);
         let touching = last.reading.mean_pressure > 0.0;
-        let touching_section = section.filter(|_| touching);
+        let sections = Some(sections).filter(|sections| touching && !sections.is_empty());
         let pictures: [(&str, Draw); 6] = [
             ("pressure", &|| touching.then(|| picture::pressure(last))),
             ("contact", &|| {
@@ -66,8 +66,8 @@ impl PictureOptions {
             ("profiles", &|| {
                 picture::profiles(last, isolated::profiles(last.step.problem(), &last.reading).as_deref())
             }),
-            ("section", &|| Some(picture::section(last, touching_section?))),
-            ("lines", &|| Some(picture::lines(last, touching_section?))),
+            ("section", &|| Some(picture::section(last, sections?))),
+            ("lines", &|| Some(picture::lines(last, sections?))),
             ("curve", &|| picture::load_curves(&last.title, last.step.problem(), &last.units, steps)),
         ];
         pictures.par_iter().try_for_each(|(name, draw)| self.write(folder, name, draw))

@@ -8,7 +8,7 @@ use super::terminal;
 use crate::output::{Clock, OutputError, Recording};
 use crate::run::{EarlierRun, Recorder, Run, StepRecord};
 use crate::spectral::Checkpoint;
-use crate::{Load, Solver, Step, StressField, VerticalSection};
+use crate::{Load, Solver, Step, StressFields, VerticalSection};
 
 /// Records a run and shows its progress.
 pub struct ProgressRecorder<'a> {
@@ -27,7 +27,7 @@ impl<'a> ProgressRecorder<'a> {
     }
 
     /// Finishes the recording, as [`Recording::finish`].
-    pub fn finish(self) -> Result<(Option<VerticalSection>, Clock), OutputError> {
+    pub fn finish(self) -> Result<(Vec<VerticalSection>, Clock), OutputError> {
         self.progress.say("writing fields");
         let finished = self.recording.finish();
         self.progress.finish();
@@ -85,9 +85,9 @@ impl Recorder for ProgressRecorder<'_> {
         self.progress.say("stresses");
     }
 
-    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
+    fn step(&mut self, step: &Step, record: &StepRecord, fields: Option<&StressFields>) -> Result<(), OutputError> {
         self.progress.tell(format_args!("{}\n{}\n{}", record.reading, record.report(), record.certificate));
-        self.recording.step(step, record, field)?;
+        self.recording.step(step, record, fields)?;
         *interruption::hold() = self.saved();
         self.progress.advance();
         Ok(())

@@ -74,9 +74,9 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
     let recording = if fields { recording } else { recording.without_fields() };
     let mut recording = ProgressRecorder::new(recording, &results, &run, common);
     let outcome = run.solve(&mut recording)?;
-    let (section, mut clock) = recording.finish()?;
+    let (sections, mut clock) = recording.finish()?;
     let warnings = [outcome.warnings.clone(), plausibility::of_case(&case)].concat();
-    draw(&results, &case, &outcome, section.as_ref(), common)?;
+    draw(&results, &case, &outcome, &sections, common)?;
     let timing = clock.timing();
     write_scalars(&results.staging(), &case, &outcome, &warnings, timing)?;
     let json = || Summary::new(&case, &warnings, outcome.change, &outcome.steps, timing).to_json();
@@ -97,7 +97,7 @@ fn draw(
     results: &Results,
     case: &Case,
     outcome: &Outcome,
-    section: Option<&VerticalSection>,
+    sections: &[VerticalSection],
     common: &Common,
 ) -> Result<(), Failure> {
     if let (Some(last), Some(record), true) = (&outcome.last, outcome.steps.last(), common.pictures.wanted()) {
@@ -105,7 +105,7 @@ fn draw(
         let snapshot = snapshot.with_strength(record.strength.clone()).with_units(case.units());
         let progress = Progress::new("", 0, 0, common);
         progress.say("drawing pictures");
-        common.pictures.draw(&results.staging(), &snapshot, section, &outcome.steps)?;
+        common.pictures.draw(&results.staging(), &snapshot, sections, &outcome.steps)?;
         progress.finish();
     }
     Ok(())

@@ -129,7 +129,7 @@ mod tests {
             let [coating, substrate] = [young, 1.0].map(|young| Material::from_young(young, 0.3).unwrap());
             for interface in [Interface::Bonded, Interface::Frictionless] {
                 let layer = Layer::new(coating, 0.02, interface).unwrap();
-                let kernel = PointKernel::new(&HalfSpace::new(vec![layer], substrate), 1.0);
+                let kernel = PointKernel::new(HalfSpace::new(vec![layer], substrate), 1.0);
                 let edge = EdgeRatios::new(&kernel);
                 let root = young.sqrt();
                 let near = [edge.pressure(2e-5), edge.opening(2e-5)];

@@ -4,7 +4,7 @@ use super::circle::CircleRadius;
 use super::solution::{Solution, Stop};
 use super::solver::{Localized, Setup};
 use super::spot::Spot;
-use crate::body::HalfSpace;
+use crate::body::Bodies;
 use crate::counterbody::{Indenters, Level};
 use crate::lattice::Lattice;
 use crate::load::Load;
@@ -46,17 +46,17 @@ pub fn radii(problem: &Problem, reading: &Reading) -> Option<Vec<f64>> {
 pub fn profiles(problem: &Problem, reading: &Reading) -> Option<Vec<Vec<[f64; 2]>>> {
     let size = problem.cell().reduced().longer_side();
     let levels = problem.counterbody().levels().iter().zip(&reading.levels);
-    let own = |(level, own): (&Level, &LevelReading)| profile(*level, problem.half_space(), own.load, size);
+    let own = |(level, own): (&Level, &LevelReading)| profile(*level, problem.bodies(), own.load, size);
     stand_apart(reading).then(|| levels.map(|level| own(level).unwrap_or_default()).collect())
 }
 
 /// Pressure of a single indenter of `level` under a `force`, as in [`profiles`]; `size` is a length of the order of the contact's
 /// or larger. `None` without force or solution.
-fn profile(level: Level, half_space: &HalfSpace, force: f64, size: f64) -> Option<Vec<[f64; 2]>> {
+fn profile(level: Level, bodies: &Bodies, force: f64, size: f64) -> Option<Vec<[f64; 2]>> {
     let lattice = Lattice::square(ISOLATING_PERIOD * size, 1).ok()?;
     let mean_pressure = Load::MeanPressure(force / lattice.cell().area());
     let alone = Indenters::new(lattice, vec![level]).ok().filter(|_| force > 0.0)?;
-    let alone = Localized::new(&Problem::new(alone, half_space.clone()), 1).ok()?;
+    let alone = Localized::new(&Problem::new(alone, bodies.clone()), 1).ok()?;
     let Solution { spots, stop, .. } = alone.solve(mean_pressure, &ISOLATED);
     let spot = &spots[0];
     let middle = spot.mesh.width / 2;
@@ -70,7 +70,7 @@ fn profile(level: Level, half_space: &HalfSpace, force: f64, size: f64) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::Material;
+    use crate::body::{HalfSpace, Material};
     use crate::counterbody::Shape;
 
     #[test]
@@ -78,7 +78,7 @@ mod tests {
         let half_space = HalfSpace::new(vec![], Material::from_young(1.0, 0.0).unwrap());
         let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
         let a = 0.2f64;
-        let points = profile(level, &half_space, 4.0 / 3.0 * a.powi(3), 1.0).unwrap();
+        let points = profile(level, &half_space.into(), 4.0 / 3.0 * a.powi(3), 1.0).unwrap();
         for [r, p] in points.into_iter().filter(|[r, _]| *r < 0.9 * a) {
             let hertz = 2.0 / std::f64::consts::PI * (a * a - r * r).sqrt();
             assert!((p / hertz - 1.0).abs() < 8e-3, "{r}: {p} {hertz}");

@@ -223,7 +223,7 @@ mod tests {
     use crate::body::{HalfSpace, Material};
 
     fn bare() -> EdgeRatios {
-        EdgeRatios::new(&PointKernel::new(&HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap()), 1.0))
+        EdgeRatios::new(&PointKernel::new(HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap()), 1.0))
     }
 
     /// Elements of a contact between radii `inner` and 1: near the edges p² = `stiff` times a distance and

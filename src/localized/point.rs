@@ -1,6 +1,6 @@
 //! Displacement of the layered surface at the distance r from a unit point force on it.
 //!
-//! With c = (1−ν₁)/G₁ of the surface material and the layer correction T,
+//! With c = Σ(1−ν)/G of the materials at the surfaces and the layer correction T of the bodies,
 //!
 //! K(r) = c/(2π) [1/r + C(r)],  C(r) = ∫₀^∞ (T(q) − 1) J₀(qr) dq.
 //!
@@ -8,12 +8,11 @@
 //! kept as Chebyshev series on intervals of r, each halved until it agrees with the integral between its nodes.
 
 use super::quadrature::{Bessel, Estimate, hankel};
-use crate::body::{HalfSpace, Layer, LayeredResponse};
+use crate::body::Bodies;
 use crate::numeric::chebyshev::{self, Chebyshev};
 use crate::numeric::search::largest;
 use rayon::prelude::*;
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// Number of nodes of one Chebyshev series.
 const SERIES_NODES: usize = 16;
@@ -26,13 +25,13 @@ const LAYER_CUTOFF: f64 = 24.0;
 /// Largest number of halvings of an interval.
 const MAX_HALVINGS: usize = 8;
 
-/// Point kernel of a layered half-space, tabulated up to a distance.
+/// Point kernel of a layered half-space, or of two in contact, tabulated up to a distance.
 #[derive(Debug, Clone)]
 pub struct PointKernel {
-    transfer: Arc<LayeredResponse>,
-    /// c = (1−ν₁)/G₁, 1/pressure.
+    bodies: Bodies,
+    /// c = Σ(1−ν)/G, 1/pressure.
     compliance: f64,
-    /// Thickness of the first layer; `None` without layers.
+    /// Thickness of the first layer, of two the thinner one; `None` without layers.
     thickness: Option<f64>,
     /// Upper ends of the intervals, ascending, and their series of C.
     intervals: Vec<(f64, Chebyshev<SERIES_NODES>)>,
@@ -41,13 +40,13 @@ pub struct PointKernel {
 }
 
 impl PointKernel {
-    /// Kernel of `half_space`, tabulated for distances up to `reach`, a length.
-    pub fn new(half_space: &HalfSpace, reach: f64) -> Self {
-        let surface = half_space.surface_material();
+    /// Kernel of the bodies, tabulated for distances up to `reach`, a length.
+    pub fn new(bodies: impl Into<Bodies>, reach: f64) -> Self {
+        let bodies = bodies.into();
         let mut kernel = Self {
-            transfer: Arc::clone(half_space.response()),
-            compliance: (1.0 - surface.poisson()) / surface.shear(),
-            thickness: half_space.layers().first().map(Layer::thickness),
+            compliance: bodies.surface_compliance(),
+            thickness: bodies.thinnest_first_layer(),
+            bodies,
             intervals: Vec::new(),
             reach,
             error: 0.0,
@@ -92,7 +91,7 @@ impl PointKernel {
 
     /// T(q) − 1.
     pub(super) fn excess(&self, wavenumber: f64) -> f64 {
-        self.transfer.correction(wavenumber) - 1.0
+        self.bodies.correction(wavenumber) - 1.0
     }
 
     /// C(r) by quadrature, 1/length.
@@ -147,7 +146,7 @@ impl PointKernel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{Interface, Material};
+    use crate::body::{HalfSpace, Interface, Layer, Material};
 
     #[test]
     fn beyond_its_reach_the_kernel_is_that_of_a_longer_table() {

@@ -54,7 +54,7 @@ impl Localized {
     /// [`NoIndenters`] for a topography.
     pub fn new(problem: &Problem, count: usize) -> Result<Self, NoIndenters> {
         let indenters = problem.counterbody().indenters().ok_or(NoIndenters)?;
-        Ok(Self { system: Arc::new(System::new(indenters, problem.half_space(), count)) })
+        Ok(Self { system: Arc::new(System::new(indenters, problem.bodies(), count)) })
     }
 
     /// The indenters and the half-space.

@@ -3,7 +3,7 @@
 use super::circle::Circle;
 use super::edge_ratios::EdgeRatios;
 use super::point::PointKernel;
-use crate::body::HalfSpace;
+use crate::body::{Bodies, HalfSpace};
 use crate::counterbody::{Indenters, Level, Site};
 use crate::lattice::Cell;
 use std::fmt;
@@ -18,13 +18,13 @@ pub struct System {
     indenters: Indenters,
     sites: Vec<Site>,
     kernel: PointKernel,
-    half_space: HalfSpace,
+    bodies: Bodies,
     edge: Arc<EdgeRatios>,
 }
 
 impl System {
-    /// `indenters` on `half_space`, for circles of up to `count` of them.
-    pub fn new(indenters: &Indenters, half_space: &HalfSpace, count: usize) -> Self {
+    /// `indenters` on `bodies`, for circles of up to `count` of them.
+    pub fn new(indenters: &Indenters, bodies: &Bodies, count: usize) -> Self {
         let lattice = indenters.lattice();
         let (sites, nearest) = (indenters.sites(), lattice.period());
         let places: Vec<[f64; 2]> = sites.iter().map(|site| site.place).collect();
@@ -33,19 +33,19 @@ impl System {
             .map(|[x, y]| x.hypot(y))
             .fold(0.0, f64::max);
         // From the far corner of one mesh to that of another, with a margin for circles of varying radius.
-        let kernel = PointKernel::new(half_space, 2.0 * (farthest.max(lattice.cell().area().sqrt()) + 3.0 * nearest));
+        let kernel = PointKernel::new(bodies, 2.0 * (farthest.max(lattice.cell().area().sqrt()) + 3.0 * nearest));
         Self {
             sites,
             edge: Arc::new(EdgeRatios::new(&kernel)),
             kernel,
             indenters: indenters.clone(),
-            half_space: half_space.clone(),
+            bodies: bodies.clone(),
         }
     }
 
     /// The layered half-space.
     pub fn half_space(&self) -> &HalfSpace {
-        &self.half_space
+        self.bodies.body()
     }
 
     /// Point kernel of the half-space.

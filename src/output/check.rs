@@ -118,7 +118,7 @@ impl Check {
             title: if case.title.is_empty() { name.to_owned() } else { case.title.clone() },
             problem: [
                 described::counterbody(&units, case.counterbody()),
-                described::half_space(&units, case.half_space()),
+                described::bodies(&units, case.problem().bodies()),
             ],
             units,
             sublayers: sublayer_error(case).map(|error| (counts(), error)),

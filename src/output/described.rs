@@ -1,7 +1,7 @@
 //! Counterbody, half-space and grid of a case in words, every length and pressure with its unit.
 
 use super::number::{number, with_error};
-use crate::body::{HalfSpace, Interface, Layer, Material};
+use crate::body::{Bodies, HalfSpace, Interface, Layer, Material};
 use crate::counterbody::{Counterbody, Shape};
 use crate::lattice::{Cell, Grid};
 use crate::units::{Unit, Units};
@@ -85,8 +85,17 @@ fn interface(units: &Units, interface: Interface) -> String {
     format!("spring, tangential stiffness {tangential}, normal stiffness {normal}")
 }
 
+/// Layers and substrate of the body, one a line, then those of an elastic counterbody.
+pub(super) fn bodies(units: &Units, bodies: &Bodies) -> String {
+    let own = half_space(units, bodies.body());
+    match bodies.counterbody() {
+        Some(above) => format!("{own}\ncounterbody, from its surface inward:\n{}", half_space(units, above)),
+        None => own,
+    }
+}
+
 /// Layers and substrate, one a line.
-pub(super) fn half_space(units: &Units, half_space: &HalfSpace) -> String {
+fn half_space(units: &Units, half_space: &HalfSpace) -> String {
     let substrate = half_space.substrate();
     let layers = (1..).zip(half_space.layers()).map(|(index, layer): (usize, &Layer)| {
         let residual = match layer.residual_stress() {

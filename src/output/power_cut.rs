@@ -7,7 +7,7 @@ use super::*;
 use crate::case::{Case, Source};
 use crate::run::{EarlierRun, Recorder, StepRecord};
 use crate::spectral::{Checkpoint, Solver, Step};
-use crate::stress::StressField;
+use crate::stress::StressFields;
 use std::collections::BTreeMap;
 use std::fs;
 use std::sync::{Arc, Mutex};
@@ -162,8 +162,8 @@ impl Recorder for Watched<'_> {
         self.recording.solved(checkpoint)
     }
 
-    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
-        self.recording.step(step, record, field)?;
+    fn step(&mut self, step: &Step, record: &StepRecord, fields: Option<&StressFields>) -> Result<(), OutputError> {
+        self.recording.step(step, record, fields)?;
         self.steps.extend(self.journal.map(|journal| journal.lock().unwrap().images.len()));
         Ok(())
     }

@@ -10,7 +10,7 @@ use crate::case::feasibility::Allowed;
 use crate::load::Load;
 use crate::run::{EarlierRun, Recorder, Run, StepRecord, StressRequest};
 use crate::spectral::{Checkpoint, Solver, Step};
-use crate::stress::{StressField, VerticalSection};
+use crate::stress::{StressField, StressFields, VerticalSection};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -50,8 +50,8 @@ struct OnGrid {
     fields: Option<ContactArchive>,
     /// None where fields are not kept, or the case has no stresses.
     stresses: Option<StressArchive>,
-    /// The section of the last step, where stresses are not kept.
-    section: Option<VerticalSection>,
+    /// The sections of the last step, where stresses are not kept.
+    sections: Vec<VerticalSection>,
     log: StepsLog,
     /// The grid.
     points: [usize; 2],
@@ -105,26 +105,26 @@ impl<'a> Recording<'a> {
     /// The files of the steps on the grid of a solver, of which an interrupted run has finished `standing`.
     fn open(&self, solver: &Solver, standing: Option<usize>) -> Result<OnGrid, OutputError> {
         let folder = self.claim.staging();
-        let half_space = solver.problem().half_space().clone();
+        let bodies = solver.problem().bodies().clone();
         let request = self.stress.clone().filter(|_| self.fields);
         let surface = self.fields.then(|| Arc::clone(solver.surface()));
         let run = self.checkpoints.as_ref().map(|checkpoints| checkpoints.fingerprint.clone());
         let (fields, stresses, log) = match standing {
             None => (
                 surface.map(|surface| ContactArchive::new(&folder, surface)).transpose()?,
-                request.map(|request| StressArchive::new(&folder, request, half_space)).transpose()?,
+                request.map(|request| StressArchive::new(&folder, request, bodies)).transpose()?,
                 StepsLog::new(&folder, run),
             ),
             Some(steps) => (
                 surface.map(|surface| ContactArchive::go_on(&folder, surface, steps)).transpose()?,
-                request.map(|request| StressArchive::go_on(&folder, request, half_space, steps)).transpose()?,
+                request.map(|request| StressArchive::go_on(&folder, request, bodies, steps)).transpose()?,
                 StepsLog::go_on(&folder, run, steps)?,
             ),
         };
         Ok(OnGrid {
             fields,
             stresses,
-            section: None,
+            sections: Vec::new(),
             log,
             points: solver.grid().points(),
             steps: standing.unwrap_or(0),
@@ -141,20 +141,20 @@ impl<'a> Recording<'a> {
         self.set_aside.as_deref()
     }
 
-    /// Gathers the fields of all steps in their archives. Returns the section of the last step, and the clock in the phase
-    /// [output](Phase::Output).
+    /// Gathers the fields of all steps in their archives. Returns the sections of the last step, that of the body first, and the
+    /// clock in the phase [output](Phase::Output).
     ///
     /// # Errors
     /// [`OutputError`] when an archive cannot be written.
     ///
     /// # Panics
     /// When nothing has been recorded.
-    pub fn finish(mut self) -> Result<(Option<VerticalSection>, Clock), OutputError> {
+    pub fn finish(mut self) -> Result<(Vec<VerticalSection>, Clock), OutputError> {
         self.clock.turn(Phase::Output);
-        let OnGrid { fields, stresses, section, .. } = self.files.expect(BEGUN);
+        let OnGrid { fields, stresses, sections, .. } = self.files.expect(BEGUN);
         fields.map_or(Ok(()), ContactArchive::finish)?;
-        let written = stresses.map_or(Ok(None), StressArchive::finish)?;
-        Ok((written.or(section), self.clock))
+        let sections = stresses.map_or(Ok(sections), StressArchive::finish)?;
+        Ok((sections, self.clock))
     }
 }
 
@@ -218,18 +218,19 @@ impl Recorder for Recording<'_> {
         Some(self.clock.seconds())
     }
 
-    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
+    fn step(&mut self, step: &Step, record: &StepRecord, fields: Option<&StressFields>) -> Result<(), OutputError> {
         self.clock.turn(Phase::Output);
         let (files, mut left) = (self.files.as_mut().expect(BEGUN), Files::default());
         if let Some(fields) = &mut files.fields {
             left.append(fields.add(step, record.reading.mean_pressure)?);
         }
         let cut = self.stress.as_ref().and_then(|request| request.cut.as_ref());
-        match (field, &mut files.stresses, cut) {
-            (Some(field), Some(stresses), _) => left.append(stresses.add(field, &mut self.clock)?),
-            (Some(field), None, Some(cut)) => {
+        match (fields, &mut files.stresses, cut) {
+            (Some(fields), Some(stresses), _) => left.append(stresses.add(fields, &mut self.clock)?),
+            (Some(fields), None, Some(cut)) => {
                 self.clock.turn(Phase::Stress);
-                files.section = Some(field.section(&cut.line, &cut.depths(step.problem().half_space())));
+                let section = |field: &StressField| field.section(&cut.line, &cut.depths(field.half_space()));
+                files.sections = fields.each().map(section).collect();
                 self.clock.turn(Phase::Output);
             }
             _ => {}
@@ -271,7 +272,7 @@ mod tests {
         let mut recording = Recording::new(&claim, &run, "title = \"\"\n".to_owned(), Clock::start());
         run.solve(&mut recording).unwrap();
         assert_eq!((recording.steps(), recording.set_aside()), (2, None));
-        assert!(recording.finish().unwrap().0.is_none(), "no section was asked for");
+        assert!(recording.finish().unwrap().0.is_empty(), "no section was asked for");
         let files = ["case.toml", "contact.npz", "stress.npz", "steps.jsonl"].map(|name| claim.staging().join(name));
         assert!(files.iter().all(|file| file.is_file()));
         assert_eq!(std::fs::read_to_string(&files[3]).unwrap().lines().count(), 2);

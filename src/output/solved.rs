@@ -2,9 +2,11 @@
 
 use super::histograms::histograms;
 use super::plan::Plan;
+use super::stress::volume_name;
 use super::summary::{Summary, curve};
 use super::writer::Writer;
 use super::{OutputError, Timing, write_text};
+use crate::body::HalfSpace;
 use crate::case::Case;
 use crate::run::Outcome;
 use std::path::Path;
@@ -20,7 +22,8 @@ pub fn solved_plan(case: &Case, steps: usize, fields: bool) -> Plan {
         if let Some(stress) = &case.stress {
             names.push("stress.npz".to_owned());
             if stress.volume.is_some() {
-                names.extend((1..=steps).map(|step| format!("stress.{step:04}.vts")));
+                let sides = case.problem().bodies().each().map(HalfSpace::side);
+                names.extend(sides.flat_map(|side| (1..=steps).map(move |step| volume_name(side, step))));
             }
         }
     }

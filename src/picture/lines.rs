@@ -6,17 +6,29 @@ use super::chart::{Chart, plots};
 use super::curve::{Curve, Ink, NUMBERED_COLOURS, Style};
 use super::number::degrees;
 use super::snapshot::Snapshot;
+use crate::body::{HalfSpace, Side};
 use crate::reading::SectionMeasure;
 use crate::stress::VerticalSection;
 
 /// Number of interfaces from which on colours show depths, and both sides of an interface have one name.
 const MANY: usize = NUMBERED_COLOURS;
 
-/// The picture.
-pub fn lines(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
+/// The picture: the lines of the body, then those of the counterbody where it is elastic. `sections` are those of the bodies along
+/// one line, at least one.
+pub fn lines(snapshot: &Snapshot, sections: &[VerticalSection]) -> Canvas {
+    let bodies = snapshot.step.problem().bodies().each();
+    let charts: Vec<Chart> =
+        bodies.zip(sections).flat_map(|(half_space, section)| of_body(snapshot, half_space, section)).collect();
+    let what = format!("Lines along {} from the x axis.", degrees(sections[0].line.direction));
+    let many = sections.iter().any(|section| section.interfaces().len() >= MANY);
+    let sides = if many { " Solid: above an interface; dashed: below." } else { "" };
+    plots(&snapshot.caption(&(what + sides)), &charts)
+}
+
+/// The charts of one body.
+fn of_body(snapshot: &Snapshot, half_space: &HalfSpace, section: &VerticalSection) -> [Chart; 2] {
     let distances = section.line.distances();
     let interfaces = section.interfaces().len();
-    let half_space = snapshot.step.problem().half_space();
     // Whether a row lies on the lower side of an interface.
     let below = |row: usize| row > 0 && section.depths[row - 1].z == section.depths[row].z;
     let name = |row: usize| {
@@ -45,8 +57,8 @@ pub fn lines(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
         }
         points
     };
-    let chart = |title: &str, measure: SectionMeasure, y: Axis| Chart {
-        title: title.to_owned(),
+    let chart = |title: String, measure: SectionMeasure, y: Axis| Chart {
+        title,
         x: Axis::linear(snapshot.units.length_of("distance", "s")),
         y,
         curves: (1usize..)
@@ -65,11 +77,14 @@ pub fn lines(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
     };
     let along = Axis::linear(snapshot.units.pressure_of("stress along the section", "σₛ"));
     let tau1 = Axis::linear(snapshot.units.pressure_of("principal shear stress", "τ₁"));
-    let charts = [
-        chart("(a) tension and compression", SectionMeasure::Along, along),
-        chart("(b) principal shear stress", SectionMeasure::Tau1, tau1),
-    ];
-    let what = format!("Lines along {} from the x axis.", degrees(section.line.direction));
-    let sides = if interfaces >= MANY { " Solid: above an interface; dashed: below." } else { "" };
-    plots(&snapshot.caption(&(what + sides)), &charts)
+    let (letters, of) = match half_space.side() {
+        Some(Side::Counterbody) => (['c', 'd'], ", counterbody"),
+        Some(Side::Body) => (['a', 'b'], ", body"),
+        None => (['a', 'b'], ""),
+    };
+    let title = |number: usize, what: &str| format!("({}) {what}{of}", letters[number]);
+    [
+        chart(title(0, "tension and compression"), SectionMeasure::Along, along),
+        chart(title(1, "principal shear stress"), SectionMeasure::Tau1, tau1),
+    ]
 }

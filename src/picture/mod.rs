@@ -5,7 +5,7 @@
 //!
 //! - Any curves: [`Chart`], and [`Figure`] for several charts side by side.
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles()).
-//! - Its stresses under a line ([`Section`](crate::stress::VerticalSection)): [`section`](section()), [`lines`](lines()).
+//! - Its stresses under a line ([sections](crate::stress::VerticalSection)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
 //! - The rows of a sweep: [`sweep`](sweep()): curves over a key, maps over two.
 //! - Localized against spectral: [`comparison`](comparison()).

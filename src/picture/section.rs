@@ -12,6 +12,7 @@ use super::sheet::sheet;
 use super::snapshot::Snapshot;
 use super::tiling::images;
 use super::window::Window;
+use crate::body::{HalfSpace, Side};
 use crate::friction::Friction;
 use crate::reading::{Criterion, LargestInSection, SectionMeasure, Utilisation, Verdict, tears, tips};
 use crate::stress::{SurfaceLine, VerticalSection};
@@ -20,19 +21,27 @@ use ndarray::Array2;
 /// Height over width of a section that is not shown to scale, least and largest.
 const ASPECT: [f64; 2] = [0.4, 1.1];
 
+/// Signs of z in the body and in the counterbody, which is drawn above.
+const SIGNS: [f64; 2] = [1.0, -1.0];
+
+/// Width of the bar of a contact between the bodies, points.
+const BETWEEN: f64 = 2.4;
+
 /// Utilisation from which on a criterion is shown as failing: a limit load is known to 10⁻³.
 const FAILING: f64 = 0.998;
 
-/// The picture: the normal stress along the line, and the stress that governs failure, or the paper's τ₁.
-pub fn section(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
-    let picture = SectionPicture::new(snapshot, section);
-    let values = picture.measures.map(|measure| section.values(measure));
+/// The picture: the normal stress along the line, and the stress that governs failure, or the paper's τ₁; of the body, and above
+/// it of the counterbody where it is elastic. `sections` are those of the bodies along one line, at least one.
+pub fn section(snapshot: &Snapshot, sections: &[VerticalSection]) -> Canvas {
+    let picture = SectionPicture::new(snapshot, sections);
+    let values = picture.measures.map(|measure| SignedValues::new(sections, measure));
     let [along, governing] = [0, 1].map(|k| {
         let values = &values[k];
-        move |[s, z]: [f64; 2]| section.at(values, s, z)
+        move |place: [f64; 2]| values.at(place)
     });
-    let zero = section.zero_lines(&values[0]).into_iter().map(|points| line(points, 0.5, Dash::Solid, Colour::GREY));
-    let along_bar = Bar::signed(snapshot.units.pressure_of("", "σₛ"), span(&values[0], section.highest));
+    let zero = values[0].zero_lines().into_iter().map(|points| line(points, 0.5, Dash::Solid, Colour::GREY));
+    let highest = sections.iter().filter_map(|section| section.highest).map(|[_, value]| value);
+    let along_bar = Bar::signed(snapshot.units.pressure_of("", "σₛ"), values[0].span(highest));
     let apart = along_bar.apart;
     let (governing_bar, ink) = picture.governing_bar(&values[1]);
     let along = picture.panel('a', 0, Fill::Values(along_bar, &along), Colour::BLACK, zero.collect());
@@ -40,14 +49,48 @@ pub fn section(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
     sheet(&snapshot.caption(&picture.words(apart)), &[&along, &governing])
 }
 
+/// Values of a measure in the bodies; z < 0 in the counterbody.
+struct SignedValues<'a> {
+    parts: Vec<(&'a VerticalSection, Array2<f64>)>,
+}
+
+impl<'a> SignedValues<'a> {
+    fn new(sections: &'a [VerticalSection], measure: SectionMeasure) -> Self {
+        Self { parts: sections.iter().map(|section| (section, section.values(measure))).collect() }
+    }
+
+    /// The value at s, z; `None` outside.
+    fn at(&self, [s, z]: [f64; 2]) -> Option<f64> {
+        let above = self.parts.get(1).filter(|_| z < 0.0);
+        let (section, values) = above.or(self.parts.first())?;
+        section.at(values, s, if above.is_some() { -z } else { z })
+    }
+
+    /// Lines of points s, z on which values are zero.
+    fn zero_lines(&self) -> Vec<Vec<[f64; 2]>> {
+        let of = |(part, (section, values)): (usize, &(&VerticalSection, Array2<f64>))| {
+            let lines = section.zero_lines(values).into_iter();
+            lines.map(|line| line.into_iter().map(|[s, z]| [s, SIGNS[part] * z]).collect()).collect::<Vec<_>>()
+        };
+        self.parts.iter().enumerate().flat_map(of).collect()
+    }
+
+    /// Least and largest of the values, of zero and of `more` values.
+    fn span(&self, more: impl Iterator<Item = f64>) -> [f64; 2] {
+        let values = self.parts.iter().flat_map(|(_, values)| values.iter().copied());
+        values.chain(more).fold([0.0, 0.0], |[low, high], x| [x.min(low), x.max(high)])
+    }
+}
+
 /// The contents of both panels and of the caption.
 struct SectionPicture<'a> {
     snapshot: &'a Snapshot,
-    section: &'a VerticalSection,
+    /// That of the body, then that of the counterbody where it is elastic.
+    sections: &'a [VerticalSection],
     /// The stresses of both panels.
     measures: [SectionMeasure; 2],
-    /// Largest values of both, where they are finite.
-    largest: [Option<LargestInSection>; 2],
+    /// Largest values of both, where they are finite, with s and z; lengths.
+    largest: [Option<(f64, [f64; 2])>; 2],
     /// Whether the second stress is infinite at a tip in the section.
     singular: bool,
     /// Criteria that fail in the plane of the section, and where: s, z; lengths.
@@ -58,22 +101,26 @@ struct SectionPicture<'a> {
 }
 
 impl<'a> SectionPicture<'a> {
-    fn new(snapshot: &'a Snapshot, section: &'a VerticalSection) -> Self {
-        let half_space = snapshot.step.problem().half_space();
-        let governing = snapshot.governing().map(|criterion| section.governing_measure(criterion, half_space));
+    fn new(snapshot: &'a Snapshot, sections: &'a [VerticalSection]) -> Self {
+        let bodies = snapshot.step.problem().bodies();
+        let governing = snapshot.governing().and_then(|criterion| {
+            let half_space = bodies.on(criterion.side());
+            let own = bodies.each().position(|own| std::ptr::eq(own, half_space))?;
+            Some(sections.get(own)?.governing_measure(criterion, half_space))
+        });
         let measures = [SectionMeasure::Along, governing.unwrap_or(SectionMeasure::Tau1)];
-        let singular = is_singular(snapshot, measures[1]) && passes_tip(snapshot, section);
-        let [along, governing] = measures.map(|measure| section.largest(measure));
-        let [first, last] = section.line.span;
-        let scale = deepest(section) / (last - first);
+        let singular = is_singular(snapshot, measures[1]) && passes_tip(snapshot, &sections[0]);
+        let [along, governing] = measures.map(|measure| largest(sections, measure));
+        let [first, last] = sections[0].line.span;
+        let scale = sections.iter().map(deepest).sum::<f64>() / (last - first);
         let aspect = scale.clamp(ASPECT[0], ASPECT[1]);
         Self {
             snapshot,
-            section,
+            sections,
             measures,
             largest: [along, governing.filter(|_| !singular)],
             singular,
-            failures: failures(snapshot, section),
+            failures: failures(snapshot, sections),
             is_to_scale: aspect == scale,
             aspect,
         }
@@ -81,20 +128,27 @@ impl<'a> SectionPicture<'a> {
 
     /// One of both panels by its `number`: a field with the interfaces, the contacts, the largest value and the failures over it.
     fn panel<'f>(&self, letter: char, number: usize, fill: Fill<'f>, ink: Colour, below: Vec<Over>) -> Map<'f> {
-        let (section, units) = (self.section, &self.snapshot.units);
-        let [first, last] = section.line.span;
-        let interfaces = section.interfaces().into_iter().map(|z| vec![[first, z], [last, z]]);
+        let (sections, units) = (self.sections, &self.snapshot.units);
+        let [first, last] = sections[0].line.span;
+        let level = |z: f64| vec![[first, z], [last, z]];
+        let of = |(section, sign): (&VerticalSection, f64)| {
+            section.interfaces().into_iter().map(|z| level(sign * z)).collect::<Vec<_>>()
+        };
+        let interfaces: Vec<_> = sections.iter().zip(SIGNS).flat_map(of).collect();
         // The lines of many interfaces are thin.
         let width = if interfaces.len() < NUMBERED_COLOURS { 0.9 } else { 0.4 };
-        let interfaces = interfaces.map(|points| line(points, width, Dash::Dashed, ink));
-        let mark = self.largest[number].map(|largest| Over::Mark { at: [largest.s, largest.depth.z], colour: ink });
+        let interfaces = interfaces.into_iter().map(|points| line(points, width, Dash::Dashed, ink));
+        let surface = (sections.len() > 1).then(|| line(level(0.0), 0.6, Dash::Solid, ink));
+        let mark = self.largest[number].map(|(_, at)| Over::Mark { at, colour: ink });
         let rings = (1..).zip(&self.failures).map(|(number, &(_, at))| Over::Ring { at, number });
-        let over = below.into_iter().chain(interfaces).chain(contacts(self.snapshot, section)).chain(mark).chain(rings);
+        let over = below.into_iter().chain(interfaces).chain(surface);
+        let over = over.chain(contacts(self.snapshot, sections, ink)).chain(mark).chain(rings);
         let [name, symbol] = named(self.measures[number]);
+        let top = sections.get(1).map_or(0.0, |above| -deepest(above));
         Map {
             title: format!("({letter}) {name} {symbol}"),
             x: Axis::linear(units.length_of("distance", "s")).from_to(first, last),
-            y: Axis::linear(units.length_of("depth", "z")).from_to(deepest(section), 0.0),
+            y: Axis::linear(units.length_of("depth", "z")).from_to(deepest(&sections[0]), top),
             aspect: self.aspect,
             fill,
             over: over.collect(),
@@ -102,9 +156,9 @@ impl<'a> SectionPicture<'a> {
     }
 
     /// Colour bar of the second panel for its `values`, and the colour of lines over it.
-    fn governing_bar(&self, values: &Array2<f64>) -> (Bar, Colour) {
+    fn governing_bar(&self, values: &SignedValues<'_>) -> (Bar, Colour) {
         let [_, symbol] = named(self.measures[1]);
-        let (label, [least, most]) = (self.snapshot.units.pressure_of("", symbol), span(values, None));
+        let (label, [least, most]) = (self.snapshot.units.pressure_of("", symbol), values.span(std::iter::empty()));
         if matches!(self.measures[1], SectionMeasure::Tension | SectionMeasure::Opening) {
             (Bar::signed(label, [least, most]), Colour::BLACK)
         } else {
@@ -115,13 +169,18 @@ impl<'a> SectionPicture<'a> {
     /// Text of the caption; `apart`: whether tension and compression have scales of their own.
     fn words(&self, apart: bool) -> String {
         let problem = self.snapshot.step.problem();
-        let direction = self.section.line.direction;
+        let direction = self.sections[0].line.direction;
         let apart = if apart { "; tension and compression have scales of their own" } else { "" };
         let to_scale = if self.is_to_scale { "" } else { " Depth is stretched." };
-        let residual = problem.half_space().residual_stresses().any(|stress| stress != 0.0);
+        let residual = problem.bodies().each().flat_map(HalfSpace::residual_stresses).any(|stress| stress != 0.0);
         let residual = if residual { " Residual stress is in it." } else { "" };
+        let bodies = if self.sections.len() > 1 {
+            "; above z = 0 the counterbody, below it the body; bars between them: contacts"
+        } else {
+            "; bars on top: contacts"
+        };
         format!(
-            "Section along {} from the x axis{}; dashed: interface; bars on top: contacts; thin line in (a): \
+            "Section along {} from the x axis{}{bodies}; dashed: interface; thin line in (a): \
              {}{apart}.{to_scale}{residual} Crosses: the largest values here, {}.{}",
             degrees(direction),
             sliding_words(problem.friction(), direction),
@@ -135,10 +194,10 @@ impl<'a> SectionPicture<'a> {
     fn largest_words(&self) -> String {
         let units = &self.snapshot.units;
         let symbols = self.measures.map(|measure| named(measure)[1]);
-        let words = |(largest, symbol): (Option<LargestInSection>, &str)| {
-            largest.map(|LargestInSection { value, s, depth }| {
+        let words = |(largest, symbol): (Option<(f64, [f64; 2])>, &str)| {
+            largest.map(|(value, [s, z])| {
                 let length = |symbol: &str, x: f64| units.length_equals(symbol, &[rounded(x)]);
-                let place = [length("s", s), length("z", depth.z)].join(", ");
+                let place = [length("s", s), length("z", z)].join(", ");
                 format!("{} at {place}", units.pressure_equals(symbol, &[rounded(value)]))
             })
         };
@@ -177,7 +236,9 @@ fn named(measure: SectionMeasure) -> [&'static str; 2] {
 fn is_singular(snapshot: &Snapshot, measure: SectionMeasure) -> bool {
     match measure {
         SectionMeasure::Tau1 | SectionMeasure::Mises => true,
-        SectionMeasure::Tension => tears(&snapshot.step),
+        SectionMeasure::Tension => {
+            snapshot.step.problem().bodies().each().any(|half_space| tears(&snapshot.step, half_space))
+        }
         SectionMeasure::Shear => snapshot.step.problem().friction().is_some(),
         SectionMeasure::Along | SectionMeasure::Opening => false,
     }
@@ -201,20 +262,30 @@ fn deepest(section: &VerticalSection) -> f64 {
     section.depths.last().map_or(1.0, |depth| depth.z)
 }
 
+/// The largest value of a measure in the bodies, and where: s, z; lengths.
+fn largest(sections: &[VerticalSection], measure: SectionMeasure) -> Option<(f64, [f64; 2])> {
+    let of = |(section, sign): (&VerticalSection, f64)| {
+        let LargestInSection { value, s, depth } = section.largest(measure)?;
+        Some((value, [s, sign * depth.z]))
+    };
+    sections.iter().zip(SIGNS).filter_map(of).reduce(|best, next| if next.0 > best.0 { next } else { best })
+}
+
 /// Criteria that fail in the plane of the section, and where: s, z; lengths.
-fn failures(snapshot: &Snapshot, section: &VerticalSection) -> Vec<(Criterion, [f64; 2])> {
+fn failures(snapshot: &Snapshot, sections: &[VerticalSection]) -> Vec<(Criterion, [f64; 2])> {
     let (cell, near) = (snapshot.step.grid().cell(), snapshot.step.grid().spacing());
-    let SurfaceLine { origin, span: [first, last], .. } = section.line;
-    let [dx, dy] = section.line.unit();
-    let deepest = section.depths.last().map_or(0.0, |depth| depth.z);
-    let window = window_of(section, near);
+    let SurfaceLine { origin, span: [first, last], .. } = sections[0].line;
+    let [dx, dy] = sections[0].line.unit();
+    let window = window_of(&sections[0], near);
     let in_plane = |utilisation: &Utilisation| {
         let [x, y, z] = utilisation.position;
+        let part = usize::from(utilisation.criterion.side() == Some(Side::Counterbody));
+        let deepest = deepest(sections.get(part)?);
         let images = images(cell, cell.fractions([x, y]), window).into_iter();
         let away = images.map(|[x, y]| [x - origin[0], y - origin[1]]);
         let mut places = away.filter(|[x, y]| (x * dy - y * dx).abs() <= near).map(|[x, y]| x * dx + y * dy);
         let s = places.find(|s| (first..=last).contains(s)).filter(|_| z <= deepest)?;
-        Some((utilisation.criterion, [s, z]))
+        Some((utilisation.criterion, [s, SIGNS[part] * z]))
     };
     let fails = |own: &&Utilisation| own.value >= FAILING || snapshot.failing == Some(own.criterion);
     snapshot.strength.iter().filter(fails).filter_map(in_plane).collect()
@@ -236,14 +307,9 @@ fn passes_tip(snapshot: &Snapshot, section: &VerticalSection) -> bool {
     let window = window_of(section, near);
     let (along, length) = ([0, 1].map(|k| ends[1][k] - ends[0][k]), section.line.span[1] - section.line.span[0]);
     let aside = |[x, y]: [f64; 2]| ((x - ends[0][0]) * along[1] - (y - ends[0][1]) * along[0]).abs() / length;
-    let mut images = tips(&snapshot.step, &snapshot.reading).flat_map(|site| images(cell, site.place, window));
-    images.any(|place| aside(place) < near)
-}
-
-/// Least and largest of the values, of zero and of the `highest` value between them.
-fn span(values: &Array2<f64>, highest: Option<[f64; 2]>) -> [f64; 2] {
-    let highest = highest.map(|[_, value]| value);
-    values.iter().copied().chain(highest).fold([0.0, 0.0], |[low, high], x| [x.min(low), x.max(high)])
+    let bodies = snapshot.step.problem().bodies().each();
+    let tips = bodies.flat_map(|half_space| tips(&snapshot.step, &snapshot.reading, half_space));
+    tips.flat_map(|site| images(cell, site.place, window)).any(|place| aside(place) < near)
 }
 
 /// A number rounded to three digits, as a picture can show.
@@ -251,11 +317,16 @@ fn rounded(x: f64) -> f64 {
     format!("{x:.2e}").parse().unwrap_or(x)
 }
 
-/// The contacts along the section, as bars on the surface.
-fn contacts(snapshot: &Snapshot, section: &VerticalSection) -> Vec<Over> {
-    let [first, last] = section.line.span;
-    let stretches = snapshot.stretches(section.line.ends(), true).into_iter();
-    stretches.map(|ends| Over::Roof { from_to: ends.map(|part| first + (last - first) * part) }).collect()
+/// The contacts along the section, as bars on the surface: on top of the plot, or between the bodies.
+fn contacts(snapshot: &Snapshot, sections: &[VerticalSection], ink: Colour) -> Vec<Over> {
+    let [first, last] = sections[0].line.span;
+    let stretches = snapshot.stretches(sections[0].line.ends(), true).into_iter();
+    let stretches = stretches.map(|ends| ends.map(|part| first + (last - first) * part));
+    let over = |from_to: [f64; 2]| match sections.len() {
+        1 => Over::Roof { from_to },
+        _ => line(from_to.map(|s| [s, 0.0]).to_vec(), BETWEEN, Dash::Solid, ink),
+    };
+    stretches.map(over).collect()
 }
 
 #[cfg(test)]
@@ -283,7 +354,7 @@ mod tests {
             let line = SurfaceLine { origin: [-0.5, aside], direction: [1.0, 0.0], span: [0.0, 1.0], points: 21 };
             let depths = [0.0, 0.1, 0.2].map(|z| Depth { z, material: 1 });
             let field = StressField::new(snapshot.step.finest(), MeanStress::Confined);
-            let canvas = section(&snapshot, &field.section(&line, &depths));
+            let canvas = section(&snapshot, &[field.section(&line, &depths)]);
             let infinite = |mark: &Mark| matches!(mark, Mark::Text { text, .. } if text.contains("infinite"));
             assert_eq!(canvas.marks.iter().any(infinite), singular, "{aside}");
         }

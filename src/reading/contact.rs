@@ -168,16 +168,16 @@ mod both_names {
 /// The samples of a contact, with the edge of its body.
 fn samples<'a>(contact: &'a Contact, edge: &'a ContactEdge, errors: bool) -> ContactSamples<'a> {
     let [sample_area, spacing] = [contact.grid().sample_area(), contact.grid().spacing()];
-    let modulus = contact.problem().half_space().surface_material().contact_modulus();
+    let modulus = contact.problem().bodies().contact_modulus();
     ContactSamples { sample_area, spacing, pressure: contact.pressures(), gap: contact.gaps(), modulus, edge, errors }
 }
 
-/// Pressure and gap at an edge on the body of some contacts, at all distances that the fits of their boundaries use.
+/// Pressure and gap at an edge between the bodies of some contacts, at all distances that the fits of their boundaries use.
 pub(super) fn edge(contacts: &[&Contact]) -> ContactEdge {
     let distances = contacts.iter().map(|contact| ContactSamples::distances(contact.grid()));
     let [shortest, longest] = distances.fold([f64::INFINITY, 0.0], |[a, b], [c, d]| [f64::min(a, c), f64::max(b, d)]);
     let problem = contacts[0].problem();
-    ContactEdge::new(problem.half_space().response(), problem.friction(), shortest, longest)
+    ContactEdge::new(problem.bodies(), problem.friction(), shortest, longest)
 }
 
 /// Flat index of the sample with the largest pressure, the first of several; `None` without contact.

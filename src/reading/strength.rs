@@ -6,7 +6,7 @@
 
 use super::StressReading;
 use super::verdict::Verdict;
-use crate::body::{HalfSpace, InterfaceId, MaterialId, Name};
+use crate::body::{Bodies, HalfSpace, InterfaceId, MaterialId, Name, Side};
 use crate::numeric::serialised;
 use crate::stress::Peak;
 use serde::{Deserialize, Serialize};
@@ -27,8 +27,14 @@ pub enum Criterion {
 }
 
 impl Criterion {
-    /// All that a half-space has strengths for: yield and cracking from the surface down, then the interfaces.
-    pub fn all(half_space: &HalfSpace) -> Vec<Self> {
+    /// All that the bodies have strengths for, those of the body first: yield and cracking from the surface down, then the
+    /// interfaces.
+    pub fn all(bodies: &Bodies) -> Vec<Self> {
+        bodies.each().flat_map(Self::of).collect()
+    }
+
+    /// All that a half-space has strengths for.
+    fn of(half_space: &HalfSpace) -> Vec<Self> {
         let strengths = || (1..).zip(half_space.strengths());
         let yields = strengths().filter(|(_, strength)| strength.yielding.is_some());
         let cracks = strengths().filter(|(_, strength)| strength.tensile.is_some());
@@ -67,8 +73,8 @@ impl Criterion {
     /// It by number, as files have it: "yield of material 2".
     pub fn code(self) -> String {
         match self {
-            Self::Yield(own) | Self::Cracking(own) => format!("{} of material {}", self.name(), own.number),
-            Self::Delamination(own) => format!("{} of interface {}", self.name(), own.number),
+            Self::Yield(own) | Self::Cracking(own) => format!("{} of {}", self.name(), own.code()),
+            Self::Delamination(own) => format!("{} of {}", self.name(), own.code()),
         }
     }
 
@@ -100,14 +106,23 @@ impl Criterion {
 
     fn without_name(self) -> Self {
         match self {
-            Self::Yield(own) => Self::yield_of(own.number),
-            Self::Cracking(own) => Self::cracking_of(own.number),
-            Self::Delamination(own) => Self::delamination_of(own.number),
+            Self::Yield(own) => Self::Yield(own.without_name()),
+            Self::Cracking(own) => Self::Cracking(own.without_name()),
+            Self::Delamination(own) => Self::Delamination(own.without_name()),
+        }
+    }
+
+    /// The body whose material or interface fails; `None` where only one is elastic.
+    pub fn side(self) -> Option<Side> {
+        match self {
+            Self::Yield(material) | Self::Cracking(material) => material.side,
+            Self::Delamination(interface) => interface.side,
         }
     }
 
     /// Its strength, a pressure; 1 for an interface, whose utilisation is searched itself.
-    fn strength(self, half_space: &HalfSpace) -> Option<f64> {
+    fn strength(self, bodies: &Bodies) -> Option<f64> {
+        let half_space = bodies.on(self.side());
         match self {
             Self::Yield(material) => half_space.strengths().nth(material.number - 1)?.yielding,
             Self::Cracking(material) => half_space.strengths().nth(material.number - 1)?.tensile,
@@ -116,14 +131,15 @@ impl Criterion {
     }
 
     /// Utilisation by residual stress alone: in a layer under σ_r in both directions, von Mises is |σ_r|.
-    pub fn at_rest(self, half_space: &HalfSpace) -> f64 {
+    pub fn at_rest(self, bodies: &Bodies) -> f64 {
+        let half_space = bodies.on(self.side());
         let residual = |material: MaterialId| half_space.residual_stresses().nth(material.number - 1).unwrap_or(0.0);
         let stress = match self {
             Self::Yield(material) => residual(material).abs(),
             Self::Cracking(material) => residual(material).max(0.0),
             Self::Delamination(_) => 0.0,
         };
-        self.strength(half_space).map_or(0.0, |strength| stress / strength)
+        self.strength(bodies).map_or(0.0, |strength| stress / strength)
     }
 }
 
@@ -146,13 +162,12 @@ impl FromStr for Criterion {
             Some((own, name)) => (own, Some(name)),
             None => (text, None),
         };
-        let number = |start: &str| Some((own.strip_prefix(start)?.parse().ok()?, name.map(Name::new)));
-        let yields = number("yield of material ").map(|(number, name)| Self::Yield(MaterialId { number, name }));
-        let cracks =
-            || number("cracking of material ").map(|(number, name)| Self::Cracking(MaterialId { number, name }));
-        let parts = || {
-            number("delamination of interface ").map(|(number, name)| Self::Delamination(InterfaceId { number, name }))
-        };
+        let name = name.map(Name::new);
+        let material = |start: &str| Some(MaterialId { name, ..MaterialId::of_code(own.strip_prefix(start)?)? });
+        let interface = |start: &str| Some(InterfaceId { name, ..InterfaceId::of_code(own.strip_prefix(start)?)? });
+        let yields = material("yield of ").map(Self::Yield);
+        let cracks = || material("cracking of ").map(Self::Cracking);
+        let parts = || interface("delamination of ").map(Self::Delamination);
         yields.or_else(cracks).or_else(parts).ok_or_else(|| format!("criterion {text:?} is not known"))
     }
 }
@@ -197,15 +212,15 @@ impl Utilisation {
         self.value + self.error.unwrap_or(0.0)
     }
 
-    /// The utilisation of every criterion of a half-space by the largest stresses of a step.
-    pub fn all(half_space: &HalfSpace, stress: &StressReading) -> Vec<Self> {
+    /// The utilisation of every criterion of the bodies by the largest stresses of a step.
+    pub fn all(bodies: &Bodies, stress: &StressReading) -> Vec<Self> {
         let of = |criterion: Criterion| {
             let peak: Peak = match criterion {
-                Criterion::Yield(material) => stress.materials.get(material.number - 1)?.mises,
-                Criterion::Cracking(material) => stress.materials.get(material.number - 1)?.tension,
-                Criterion::Delamination(interface) => stress.interfaces.get(interface.number - 1)?.delamination?,
+                Criterion::Yield(material) => stress.in_material(material)?.mises,
+                Criterion::Cracking(material) => stress.in_material(material)?.tension,
+                Criterion::Delamination(interface) => stress.on_interface(interface)?.delamination?,
             };
-            let strength = criterion.strength(half_space)?;
+            let strength = criterion.strength(bodies)?;
             let error = peak.error.map(|error| error / strength);
             let taken = peak.value / strength;
             // Nothing fails by being pressed, and the error is that of what is above 0; what is not a number stays so.
@@ -214,7 +229,7 @@ impl Utilisation {
             let rival = peak.rival.map(|rival| rival.position);
             Some(Self { rival, ..Self::new(criterion, value, error, peak.position) })
         };
-        Criterion::all(half_space).into_iter().filter_map(of).collect()
+        Criterion::all(bodies).into_iter().filter_map(of).collect()
     }
 }
 
@@ -227,8 +242,8 @@ mod tests {
     fn a_code_is_read_back_with_its_name() {
         let name = Some(Name::new("TiN (PVD)"));
         let named = [
-            Criterion::Yield(MaterialId { number: 2, name }),
-            Criterion::Delamination(InterfaceId { number: 1, name }),
+            Criterion::Yield(MaterialId { name, ..MaterialId::numbered(2) }),
+            Criterion::Delamination(InterfaceId { name, ..InterfaceId::numbered(1) }),
         ];
         for own in named.into_iter().chain([Criterion::cracking_of(3)]) {
             let read: Criterion = own.code_with_name().parse().unwrap();
@@ -241,7 +256,8 @@ mod tests {
 
     #[test]
     fn criteria_of_several_cases_keep_a_name_that_all_have() {
-        let named = |name: &str| Criterion::Yield(MaterialId { number: 1, name: Some(Name::new(name)) });
+        let named =
+            |name: &str| Criterion::Yield(MaterialId { name: Some(Name::new(name)), ..MaterialId::numbered(1) });
         let texts =
             |all: &[Criterion]| Criterion::distinct(all.to_vec()).iter().map(Criterion::to_string).collect::<Vec<_>>();
         assert_eq!(
@@ -261,11 +277,11 @@ mod tests {
             layer.with_strengths(strength, bears).unwrap()
         };
         for (residual, known) in [(-3.0, [0.75, 0.0, 0.0]), (3.0, [0.75, 1.5, 0.0])] {
-            let half_space = HalfSpace::new(vec![layer(residual)], material);
-            let all = Criterion::all(&half_space);
+            let bodies = Bodies::from(HalfSpace::new(vec![layer(residual)], material));
+            let all = Criterion::all(&bodies);
             let expected = [Criterion::yield_of(1), Criterion::cracking_of(1), Criterion::delamination_of(1)];
             assert_eq!(all, expected);
-            assert_eq!(all.iter().map(|criterion| criterion.at_rest(&half_space)).collect::<Vec<_>>(), known);
+            assert_eq!(all.iter().map(|criterion| criterion.at_rest(&bodies)).collect::<Vec<_>>(), known);
         }
     }
 }

@@ -1,12 +1,14 @@
-//! The largest stresses of coating and substrate in a step, with their errors.
+//! The largest stresses of a step in coating and substrate of the body, and of the counterbody where it is elastic, with their
+//! errors.
 
 use super::Reading;
+use crate::body::{HalfSpace, InterfaceId, MaterialId};
 use crate::counterbody::Site;
 use crate::friction::Friction;
 use crate::numeric::serialised;
 use crate::spectral::Step;
 use crate::stress::maxima::{Carried, Extremes, Maxima};
-use crate::stress::{Peak, StressField};
+use crate::stress::{Peak, StressField, StressFields};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -16,11 +18,11 @@ pub struct StressReading {
     /// Over all materials.
     #[serde(flatten)]
     pub overall: Extremes,
-    /// Over each material, from the surface down.
+    /// Over each material, from the surface down; those of an elastic counterbody follow those of the body.
     pub materials: Vec<Extremes>,
-    /// On each face: the surface, then both sides of each interface.
+    /// On each face: the surface, then both sides of each interface; those of an elastic counterbody follow.
     pub faces: Vec<Extremes>,
-    /// Largest stresses that each interface carries, from the surface down.
+    /// Largest stresses that each interface carries, from the surface down; those of an elastic counterbody follow.
     pub interfaces: Vec<Carried>,
     /// Estimated relative error of the largest tension on the surface, see [`crate::stress::Crest::error`]; infinite where
     /// the samples do not show it.
@@ -29,46 +31,77 @@ pub struct StressReading {
 }
 
 impl StressReading {
-    /// The largest stresses of `field`, the stress field of a step that has contact and whose `reading` is known.
-    pub fn of(step: &Step, reading: &Reading, field: &StressField) -> Self {
-        Self::of_while(step, reading, field, &|| true).expect("a search that nothing interrupts ends")
+    /// The largest stresses of the `fields` of a step that has contact and whose `reading` is known.
+    pub fn of(step: &Step, reading: &Reading, fields: &StressFields) -> Self {
+        Self::of_while(step, reading, fields, &|| true).expect("a search that nothing interrupts ends")
     }
 
     /// Stress reading of a step; `None` when `goes_on`, called many times a second during the search, returns false.
-    pub fn of_while(step: &Step, reading: &Reading, field: &StressField, goes_on: &dyn Fn() -> bool) -> Option<Self> {
-        let radii = contact_radii(step, reading);
-        let coarser = step.coarser().first().map(|contact| field.of_other(contact));
-        let maxima = field.maxima_while(radii, goes_on)?;
-        let maxima = match &coarser {
-            Some(coarser) => maxima.with_errors_while(coarser, goes_on)?,
-            None => maxima,
-        };
-        let surface_error = maxima.surface_error();
-        let Maxima { mut materials, mut faces, mut interfaces, .. } = maxima;
-        for peak in peaks(&mut materials, &mut faces, &mut interfaces) {
-            peak.position = beside_site(step, peak.position);
-            peak.rival.iter_mut().for_each(|rival| rival.position = beside_site(step, rival.position));
-        }
-        // A tip is infinitely stressed, whatever a grid shows of it.
-        if let Some(tip) = tips(step, reading).next() {
-            let [x, y] = step.grid().cell().point(tip.place);
-            let first = [&mut materials, &mut faces].map(|all| all.first_mut());
-            let is_torn = tears(step);
-            for Extremes { tau1, mises, tension } in first.into_iter().flatten() {
-                for peak in [Some(tau1), Some(mises), Some(tension).filter(|_| is_torn)].into_iter().flatten() {
-                    *peak = Peak {
-                        value: f64::INFINITY,
-                        position: [x, y, 0.0],
-                        material: step.problem().half_space().material_id(1),
-                        error: None,
-                        rival: None,
-                        ..*peak
-                    };
-                }
-            }
+    pub fn of_while(step: &Step, reading: &Reading, fields: &StressFields, goes_on: &dyn Fn() -> bool) -> Option<Self> {
+        let coarser = step.coarser().first().map(|contact| fields.of_other(contact));
+        let (mut materials, mut faces, mut interfaces, mut surface_error) = (vec![], vec![], vec![], 0.0f64);
+        for field in fields.each() {
+            let coarser = coarser.as_ref().map(|coarser| coarser.on(field.half_space().side()));
+            let own = in_body(step, reading, field, coarser, goes_on)?;
+            let error = own.surface_error();
+            // A number that is none stays.
+            surface_error = if error > surface_error || error.is_nan() { error } else { surface_error };
+            materials.extend(own.materials);
+            faces.extend(own.faces);
+            interfaces.extend(own.interfaces);
         }
         Some(Self { overall: overall(&materials), materials, faces, interfaces, surface_error })
     }
+
+    /// Largest stresses in a material.
+    pub fn in_material(&self, material: MaterialId) -> Option<&Extremes> {
+        self.materials.iter().find(|own| own.tau1.material == material)
+    }
+
+    /// Largest stresses that an interface carries.
+    pub fn on_interface(&self, interface: InterfaceId) -> Option<&Carried> {
+        self.interfaces.iter().find(|own| own.interface == interface)
+    }
+}
+
+/// The largest stresses of one body by its field, with errors by that on a coarser grid; `None` when `goes_on` returns false.
+fn in_body(
+    step: &Step,
+    reading: &Reading,
+    field: &StressField,
+    coarser: Option<&StressField>,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Maxima> {
+    let maxima = field.maxima_while(contact_radii(step, reading), goes_on)?;
+    let mut maxima = match coarser {
+        Some(coarser) => maxima.with_errors_while(coarser, goes_on)?,
+        None => maxima,
+    };
+    let Maxima { materials, faces, interfaces, .. } = &mut maxima;
+    for peak in peaks(materials, faces, interfaces) {
+        peak.position = beside_site(step, peak.position);
+        peak.rival.iter_mut().for_each(|rival| rival.position = beside_site(step, rival.position));
+    }
+    // A tip is infinitely stressed, whatever a grid shows of it.
+    let half_space = field.half_space();
+    if let Some(tip) = tips(step, reading, half_space).next() {
+        let [x, y] = step.grid().cell().point(tip.place);
+        let first = [materials, faces].map(|all| all.first_mut());
+        let is_torn = tears(step, half_space);
+        for Extremes { tau1, mises, tension } in first.into_iter().flatten() {
+            for peak in [Some(tau1), Some(mises), Some(tension).filter(|_| is_torn)].into_iter().flatten() {
+                *peak = Peak {
+                    value: f64::INFINITY,
+                    position: [x, y, 0.0],
+                    material: half_space.material_id(1),
+                    error: None,
+                    rival: None,
+                    ..*peak
+                };
+            }
+        }
+    }
+    Some(maxima)
 }
 
 /// Every place of a largest stress.
@@ -95,18 +128,22 @@ fn overall(materials: &[Extremes]) -> Extremes {
     Extremes { tau1: largest(|own| own.tau1), tension: largest(|own| own.tension), mises: largest(|own| own.mises) }
 }
 
-/// Where τ₁ is infinite: at the tips in contact, unless the surface material is incompressible, as σ_z and σ_r are then
-/// infinite alike; then the traction of a counterbody that slides still is.
-pub fn tips<'a>(step: &'a Step, reading: &'a Reading) -> impl Iterator<Item = &'a Site> {
+/// Where τ₁ is infinite at the surface of one of the bodies: at the tips in contact, unless its material there is
+/// incompressible, as σ_z and σ_r are then infinite alike; then the traction of a counterbody that slides still is.
+pub fn tips<'a>(
+    step: &'a Step,
+    reading: &'a Reading,
+    half_space: &'a HalfSpace,
+) -> impl Iterator<Item = &'a Site> + use<'a> {
     let sites = step.surface().sites().iter().filter(|site| reading.levels[site.level - 1].singular());
     let slides = friction(step) > 0.0;
-    sites.filter(move |_| slides || step.problem().half_space().surface_material().poisson() < 0.5)
+    sites.filter(move |_| slides || half_space.surface_material().poisson() < 0.5)
 }
 
-/// Whether tension is infinite at a tip in contact: near it σ_z = −p, σ_x = −(½ + ν)p and τ = μp, so that there is tension
+/// Whether tension is infinite at the surface of one of the bodies at a tip in contact: near it σ_z = −p, σ_x = −(½ + ν)p and τ = μp, so that there is tension
 /// from μ² > ½ + ν on.
-pub fn tears(step: &Step) -> bool {
-    let (nu, mu) = (step.problem().half_space().surface_material().poisson(), friction(step));
+pub fn tears(step: &Step, half_space: &HalfSpace) -> bool {
+    let (nu, mu) = (half_space.surface_material().poisson(), friction(step));
     mu * mu > 0.5 + nu
 }
 

@@ -11,7 +11,6 @@ use super::resolution::{resolution, upper};
 use super::results::Results;
 use super::table::table;
 use super::units::{case_of, measured_in, units_of};
-use crate::case::Case;
 use crate::output::{Summary, table as tables};
 
 const PICTURES: [PictureText; 6] = [
@@ -60,7 +59,7 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         return Err(refused(format!("it has {} steps, and its case {loads} loads", steps.len())));
     }
     let units = units_of(&summary.units, read.as_ref());
-    let taken = tables::utilisations(steps, read.as_ref().map(Case::half_space), &units);
+    let taken = tables::utilisations(steps, read.as_ref().map(|case| case.problem().bodies()), &units);
     let fails = taken.as_ref().map(|taken| with("p", &[("class", "answer")], upper(&taken.words)));
     let mean = tables::mean_stress(mean_of(case));
     let mut sections = vec![

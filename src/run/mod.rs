@@ -48,7 +48,7 @@ use crate::load::Load;
 use crate::problem::Problem;
 use crate::reading::{Criterion, StressReading};
 use crate::spectral::{OtherGrids, Settings, Solver, Step};
-use crate::stress::{StressField, Tables};
+use crate::stress::{StressFields, Tables};
 use std::cell::Cell;
 use std::convert::Infallible;
 use std::error::Error;
@@ -172,7 +172,7 @@ impl Run {
 
     /// Convention for the mean lateral stress; `None` where neither stresses are computed nor strengths are given.
     fn mean_stress(&self) -> Option<MeanStress> {
-        let has_strengths = || !Criterion::all(self.problem.half_space()).is_empty();
+        let has_strengths = || !Criterion::all(self.problem.bodies()).is_empty();
         self.stress.as_ref().map(|request| request.mean).or_else(|| has_strengths().then(MeanStress::default))
     }
 
@@ -226,21 +226,21 @@ impl Run {
             }
         };
         let mut record = StepRecord::new(&step, step.reading());
-        let field = self.mean_stress().map(|mean| {
+        let fields = self.mean_stress().map(|mean| {
             recorder.stresses();
-            StressField::with_tables(step.finest(), mean, Arc::clone(tables))
+            StressFields::with_tables(step.finest(), mean, tables)
         });
-        if let Some(field) = field.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
+        if let Some(fields) = fields.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
             let ended = Cell::new(None);
             let goes_on = || recorder.searching().map_err(|error| ended.set(Some(error))).is_ok();
-            let stress = StressReading::of_while(&step, &record.reading, field, &goes_on);
+            let stress = StressReading::of_while(&step, &record.reading, fields, &goes_on);
             if let Some(error) = ended.into_inner() {
                 return Err(RunError::Recorder(error));
             }
-            record = record.with_stress(stress.expect("nothing has ended the search"), self.problem.half_space());
+            record = record.with_stress(stress.expect("nothing has ended the search"), self.problem.bodies());
         }
         record.seconds = recorder.clock().zip(began).map(|(now, began)| before + now - began);
-        recorder.step(&step, &record, field.as_ref()).map_err(RunError::Recorder)?;
+        recorder.step(&step, &record, fields.as_ref()).map_err(RunError::Recorder)?;
         Ok((record, step))
     }
 }

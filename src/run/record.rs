@@ -1,7 +1,7 @@
 //! The record of a load step: every scalar of it, written to `summary.json` and read back.
 
 use super::Tapered;
-use crate::body::HalfSpace;
+use crate::body::Bodies;
 use crate::numeric::serialised;
 use crate::reading::{
     Criterion, Governing, Reading, RoughReading, StressReading, Utilisation, stiffness, within_the_errors,
@@ -128,10 +128,10 @@ impl StepRecord {
         }
     }
 
-    /// The record with its largest stresses, and the utilisations of the strengths of a half-space.
+    /// The record with its largest stresses, and the utilisations of the strengths of the bodies.
     #[must_use]
-    pub fn with_stress(mut self, stress: StressReading, half_space: &HalfSpace) -> Self {
-        self.strength = Utilisation::all(half_space, &stress);
+    pub fn with_stress(mut self, stress: StressReading, bodies: &Bodies) -> Self {
+        self.strength = Utilisation::all(bodies, &stress);
         self.governing = Governing::of(&self.strength);
         self.stress = Some(stress);
         self.judged()

@@ -3,7 +3,7 @@
 use super::{EarlierRun, StepRecord};
 use crate::load::Load;
 use crate::spectral::{Checkpoint, Progress, Solver, Step};
-use crate::stress::StressField;
+use crate::stress::StressFields;
 use std::convert::Infallible;
 use std::error::Error;
 
@@ -65,11 +65,11 @@ pub trait Recorder: Send {
         Ok(())
     }
 
-    /// Called when a step is done, with its stress `field` where stresses are computed.
+    /// Called when a step is done, with its stress `fields` where stresses are computed.
     ///
     /// # Errors
     /// Ends the run.
-    fn step(&mut self, _step: &Step, _record: &StepRecord, _field: Option<&StressField>) -> Result<(), Self::Error> {
+    fn step(&mut self, _step: &Step, _record: &StepRecord, _fields: Option<&StressFields>) -> Result<(), Self::Error> {
         Ok(())
     }
 

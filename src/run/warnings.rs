@@ -162,7 +162,7 @@ fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 }
 
 fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<String> {
-    let modulus = problem.half_space().surface_material().contact_modulus();
+    let modulus = problem.bodies().contact_modulus();
     // Pressures that are infinite under a tip are left out.
     let peaks = steps.iter().filter_map(|(number, step)| Some((number, step.reading.finite_peak()?)));
     let high = peaks.filter(|(_, pressure)| *pressure > HIGH * modulus);

@@ -27,7 +27,7 @@ pub(super) struct GridLevel {
     mask: Option<Vec<bool>>,
     operator: LayeredOperator,
     unknowns: Unknowns,
-    /// E* of the material at the surface.
+    /// E* of the materials at the surfaces.
     modulus: f64,
 }
 
@@ -41,17 +41,17 @@ pub(super) struct Coarser {
 impl GridLevel {
     /// The problem on the grid of a surface.
     pub fn new(problem: &Problem, surface: Surface) -> Self {
-        let (grid, half_space) = (surface.grid(), problem.half_space());
+        let (grid, bodies) = (surface.grid(), problem.bodies());
         let operator = match problem.friction() {
-            Some(friction) => LayeredOperator::sliding(grid, half_space, friction),
-            None => LayeredOperator::new(grid, half_space),
+            Some(friction) => LayeredOperator::sliding(grid, bodies, friction),
+            None => LayeredOperator::new(grid, bodies),
         };
         Self {
             unknowns: Unknowns::new(grid.len()),
             largest_gap: surface.largest(),
             mask: None,
             operator,
-            modulus: half_space.surface_material().contact_modulus(),
+            modulus: bodies.contact_modulus(),
             surface: Arc::new(surface),
         }
     }

@@ -1,4 +1,4 @@
-//! The operator of a layered half-space: pressure on the cell → normal surface displacement.
+//! The operator of layered half-spaces: pressure on the cell → normal surface displacement.
 //!
 //! ŵ(q) = C(q) p̂(q) with the layered compliance C(q) at the shortest alias of each grid wavevector; its inverse makes the
 //! preconditioner. Both are diagonal in Fourier space. Under coupled friction the traction μ p **e** displaces too,
@@ -12,13 +12,13 @@ use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
 use super::convolution::{Convolution, Convolved};
 use super::multiplier::{Action, Multiplier, SkewRatio};
 use super::operator::{ElasticOperator, TractionUpdate, Workspace};
-use crate::body::{Compliances, HalfSpace};
+use crate::body::{Bodies, Compliances};
 use crate::friction::Friction;
 use crate::lattice::Grid;
 use crate::numeric::lanes::Real;
 use crate::numeric::rows::RowBlocks;
 
-/// Displacement operator of a layered half-space on a grid, with its inverse.
+/// Displacement operator of a layered half-space, or of two in contact, on a grid, with its inverse.
 #[derive(Debug)]
 pub struct LayeredOperator {
     double: Convolution<f64>,
@@ -32,20 +32,22 @@ pub struct LayeredOperator {
 }
 
 impl LayeredOperator {
-    /// Operator of a half-space on a grid, without friction.
-    pub fn new(grid: &Grid, half_space: &HalfSpace) -> Self {
-        let compliances = Compliances::new(half_space.response(), range(grid), grid.len() / 2);
-        Self::with(grid, half_space, &compliances)
+    /// Operator of the bodies on a grid, without friction.
+    pub fn new(grid: &Grid, bodies: impl Into<Bodies>) -> Self {
+        let bodies = bodies.into();
+        let compliances = Compliances::new(&bodies, range(grid), grid.len() / 2);
+        Self::with(grid, &bodies, &compliances)
     }
 
-    /// Operator of a half-space on a grid, under a counterbody that slides with `friction`.
-    pub fn sliding(grid: &Grid, half_space: &HalfSpace, friction: &Friction) -> Self {
+    /// Operator of the bodies on a grid, the counterbody sliding with `friction`.
+    pub fn sliding(grid: &Grid, bodies: impl Into<Bodies>, friction: &Friction) -> Self {
+        let bodies = bodies.into();
         let [x, y] = friction.traction();
         if !friction.couples() {
-            return Self::new(grid, half_space);
+            return Self::new(grid, bodies);
         }
-        let compliances = Compliances::coupled(half_space.response(), range(grid), grid.len() / 2);
-        let own = Self::with(grid, half_space, &compliances);
+        let compliances = Compliances::coupled(&bodies, range(grid), grid.len() / 2);
+        let own = Self::with(grid, &bodies, &compliances);
         let ratio = |component| match grid.mean_direction(component) {
             [0.0, 0.0] => 0.0,
             [nx, ny] => (x * nx + y * ny) * compliances.coupling_ratio(grid.wavenumber(component)),
@@ -57,9 +59,9 @@ impl LayeredOperator {
         Self { skew: Some((skew, largest)), ..own }
     }
 
-    fn with(grid: &Grid, half_space: &HalfSpace, compliances: &Compliances<'_>) -> Self {
+    fn with(grid: &Grid, bodies: &Bodies, compliances: &Compliances<'_>) -> Self {
         let (double, single) = (Convolution::new(grid.points()), Convolution::new(grid.points()));
-        let unit = half_space.response().compliance(grid.least_wavenumber());
+        let unit = bodies.compliance(grid.least_wavenumber());
         // The mean displacement of a loaded half-space is infinite: displacements have zero mean. The inverse must stay
         // positive: it takes the mean for a component of the least wavenumber.
         let compliance = double.multiplier(grid.cell().is_rectangular(), |first, values| {

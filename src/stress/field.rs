@@ -5,7 +5,7 @@ use super::regions::Regions;
 use super::series::{Response, Series};
 use super::tables::Tables;
 use super::tensor::StressState;
-use crate::body::{Depth, HalfSpace, Interface, InteriorTable, Layer, MeanStress};
+use crate::body::{Bodies, Depth, HalfSpace, Interface, InteriorTable, Layer, MeanStress, Side};
 use crate::friction::Friction;
 use crate::lattice::{Grid, NotOnGrid};
 use crate::notation::number;
@@ -16,7 +16,13 @@ use std::sync::Arc;
 
 pub(super) use crate::body::REACH;
 
-/// The stress field of one load step.
+/// The traction on a surface, and Dundurs' β of the materials that meet there.
+struct SurfaceTraction<'a> {
+    friction: Option<&'a Friction>,
+    beta: f64,
+}
+
+/// The stress field of one body in a load step.
 #[derive(Debug)]
 pub struct StressField {
     pub(super) series: Series,
@@ -35,20 +41,25 @@ pub struct StressField {
 }
 
 impl StressField {
-    /// Stress field under a solved contact.
+    /// Stress field of the body under a solved contact.
     pub fn new(contact: &Contact, mean: MeanStress) -> Self {
-        Self::with_tables(contact, mean, Arc::default())
+        Self::on_side(contact, Side::Body, mean, Arc::default())
     }
 
-    /// Stress field under a solved contact that shares the `tables` of other fields of a run.
-    pub(crate) fn with_tables(contact: &Contact, mean: MeanStress, tables: Arc<Tables>) -> Self {
-        let problem = contact.problem();
-        Self::of_samples(contact.grid(), contact.pressures(), problem.half_space(), problem.friction(), mean, tables)
-    }
-
-    /// The field under another contact of the same run, or of this step on another grid.
-    pub(crate) fn of_other(&self, contact: &Contact) -> Self {
-        Self::with_tables(contact, self.mean_stress, Arc::clone(&self.tables))
+    /// Stress field of the body or of the elastic counterbody under a solved contact, which shares the `tables` of other fields.
+    pub(super) fn on_side(contact: &Contact, side: Side, mean: MeanStress, tables: Arc<Tables>) -> Self {
+        let (problem, bodies) = (contact.problem(), contact.problem().bodies());
+        let friction = problem.friction().map(|friction| match side {
+            Side::Body => *friction,
+            Side::Counterbody => friction.reversed(),
+        });
+        // Reversed as the traction is, so that trailing edges stay trailing edges.
+        let beta = match side {
+            Side::Body => bodies.dundurs_beta(),
+            Side::Counterbody => -bodies.dundurs_beta(),
+        };
+        let surface = SurfaceTraction { friction: friction.as_ref(), beta };
+        Self::of_samples(contact.grid(), contact.pressures(), bodies.on(Some(side)), &surface, mean, tables)
     }
 
     /// Stress field under any `pressure` on a `half_space`, axes along a₁ and a₂, and under the traction of `friction`.
@@ -64,14 +75,15 @@ impl StressField {
     ) -> Result<Self, NotOnGrid> {
         grid.check(pressure.dim().into())?;
         let samples: Vec<f64> = pressure.iter().copied().collect();
-        Ok(Self::of_samples(grid, &samples, half_space, friction, mean, Arc::default()))
+        let beta = Bodies::from(half_space.clone()).dundurs_beta();
+        Ok(Self::of_samples(grid, &samples, half_space, &SurfaceTraction { friction, beta }, mean, Arc::default()))
     }
 
     fn of_samples(
         grid: &Arc<Grid>,
         pressure: &[f64],
         half_space: &HalfSpace,
-        friction: Option<&Friction>,
+        &SurfaceTraction { friction, beta }: &SurfaceTraction<'_>,
         mean: MeanStress,
         tables: Arc<Tables>,
     ) -> Self {
@@ -86,7 +98,7 @@ impl StressField {
             mean_stress: mean,
             regions: Regions::new(grid, pressure),
             traction,
-            edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(half_space.surface_material())),
+            edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(beta)),
             series,
         }
     }
@@ -114,6 +126,11 @@ impl StressField {
     /// Whether the surface has a shear traction.
     pub(super) fn slides(&self) -> bool {
         self.traction.is_some()
+    }
+
+    /// Tables that it shares with other fields.
+    pub(super) fn tables(&self) -> &Arc<Tables> {
+        &self.tables
     }
 
     /// Amplitudes of the grid's waves in the half-space.

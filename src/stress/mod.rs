@@ -29,6 +29,7 @@ mod depth_response;
 mod eight_waves;
 mod expansion;
 mod field;
+mod fields;
 pub mod maxima;
 mod measure;
 mod peak;
@@ -47,6 +48,7 @@ mod transform;
 
 pub use crest::Crest;
 pub use field::StressField;
+pub use fields::StressFields;
 pub use peak::{Peak, Rival};
 pub use plane::DepthPlane;
 pub use section::{SurfaceLine, VerticalSection};

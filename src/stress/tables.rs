@@ -4,8 +4,8 @@ use crate::body::{HalfSpace, InteriorTable, LayeredResponse};
 use crate::lattice::Grid;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Grids whose tables are kept: those of a step and its errors, and as many that replace them.
-const KEPT: usize = 4;
+/// Tables that are kept: those of both bodies on the grids of a step and of its errors, and as many that replace them.
+const KEPT: usize = 8;
 
 /// Tables of the interior that the stress fields of one run share.
 #[derive(Debug, Default)]

@@ -23,22 +23,24 @@ const LISTED: u64 = 16;
 
 /// Estimated bytes of the case and the results of a combination.
 pub(super) fn of_results(case: &Case, task: Task) -> u64 {
-    let half_space = case.half_space();
-    let criteria = Criterion::all(half_space).len();
+    let bodies = case.problem().bodies();
+    let criteria = Criterion::all(bodies).len();
+    let layers: usize = bodies.each().map(|own| own.layers().len()).sum();
     let scalars = match task {
         Task::Limit => STEP + PEAK * (criteria + 1),
         Task::Solve => {
-            let layers = half_space.layers().len();
             // τ₁, tension and von Mises of each material and face, normal and shear of each interface.
             let has_stress = case.stress.is_some() || criteria > 0;
-            let stress = if has_stress { PEAK * (3 * (3 * layers + 2) + 2 * layers + criteria) } else { 0 };
+            let stress = if has_stress {
+                PEAK * (3 * (3 * layers + 2 * bodies.each().count()) + 2 * layers + criteria)
+            } else {
+                0
+            };
             case.load.values().len() * (STEP + LEVEL * case.counterbody().levels().len() + stress)
         }
     };
     let sites: usize = case.levels.iter().flat_map(|level| &level.sites).map(Vec::len).sum();
     let stress = case.stress.as_ref().map_or(0, |own| 3 * own.points.len() + own.planes.len());
     let listed = 2 * sites + stress + case.load.values().len();
-    CASE + PART * (half_space.layers().len() + case.levels.len()) as u64
-        + LISTED * listed as u64
-        + SCALAR * scalars as u64
+    CASE + PART * (layers + case.levels.len()) as u64 + LISTED * listed as u64 + SCALAR * scalars as u64
 }

@@ -233,7 +233,8 @@ mod tests {
 
     #[test]
     fn a_limit_is_found_whatever_the_name_of_its_material() {
-        let named = |name: &str| Criterion::Yield(MaterialId { number: 2, name: Some(Name::new(name)) });
+        let named =
+            |name: &str| Criterion::Yield(MaterialId { name: Some(Name::new(name)), ..MaterialId::numbered(2) });
         let results = [("TiN", 0.2), ("CrN", 0.4)]
             .map(|(name, load)| SweepResult::Limits(vec![reached(named(name), load, 0.01)]));
         let criteria = SweepResult::criteria(results.iter());

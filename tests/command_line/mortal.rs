@@ -4,7 +4,7 @@ use percoat::case::{Case, Source};
 use percoat::output::{self, Clock, OutputError, Recording, RunFolder, solved_plan, write_scalars};
 use percoat::run::{EarlierRun, Outcome, Recorder, RunError, StepRecord};
 use percoat::spectral::Checkpoint;
-use percoat::{Solver, Step, StressField};
+use percoat::{Solver, Step, StressFields};
 use std::fmt;
 use std::path::Path;
 
@@ -67,8 +67,8 @@ impl Recorder for Mortal<'_> {
         self.lives(done)
     }
 
-    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), Death> {
-        let done = self.recording.step(step, record, field);
+    fn step(&mut self, step: &Step, record: &StepRecord, fields: Option<&StressFields>) -> Result<(), Death> {
+        let done = self.recording.step(step, record, fields);
         self.lives(done)
     }
 

@@ -11,7 +11,7 @@ use percoat::stress::Peak;
 use percoat::stress::maxima::Extremes;
 use percoat::{
     Cell, Depth, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Load, Material, MeanStress, Problem,
-    Settings, Solver, Step, StressField, StressReading, StressState,
+    Settings, Solver, Step, StressField, StressFields, StressReading, StressState,
 };
 use std::f64::consts::PI;
 
@@ -20,8 +20,9 @@ fn square(sites: Vec<Vec<[f64; 2]>>) -> Lattice {
 }
 
 fn largest(step: &Step) -> (StressReading, StressField) {
-    let field = StressField::new(step.finest(), MeanStress::default());
-    (StressReading::of(step, &step.reading(), &field), field)
+    let mean = MeanStress::default();
+    let stress = StressReading::of(step, &step.reading(), &StressFields::new(step.finest(), mean));
+    (stress, StressField::new(step.finest(), mean))
 }
 
 /// Beside the face, between it and the first plane, τ₁ is larger than on both.

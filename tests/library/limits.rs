@@ -8,7 +8,7 @@ use percoat::reading::Criterion;
 use percoat::run::{At, Limit, Limits, Recorder, RefinementEnd, RunError, StepRecord};
 use percoat::{
     Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, Material, Problem, Run, Sampling, Shape, Solver, Step,
-    StressField,
+    StressFields,
 };
 use std::convert::Infallible;
 
@@ -73,8 +73,10 @@ fn at_its_limit_each_criterion_is_one_at_the_place_that_is_told() {
     let shown = found.shown.as_ref().unwrap();
     assert_eq!((shown.limit, &shown.limit), (*first, first));
     assert!((shown.step.reading().mean_pressure / first.mean_pressure() - 1.0).abs() < 1e-12);
-    let section = found.section(&Run::new(problem, vec![Load::MeanPressure(0.1)], Sampling::Points([96; 2]))).unwrap();
-    assert_eq!(section.line.origin, [first.position().unwrap()[0], first.position().unwrap()[1]]);
+    let run = Run::new(problem, vec![Load::MeanPressure(0.1)], Sampling::Points([96; 2]));
+    let sections = found.sections(&run).unwrap();
+    assert_eq!(sections.len(), 1, "of the body alone under a rigid counterbody");
+    assert_eq!(sections[0].line.origin, [first.position().unwrap()[0], first.position().unwrap()[1]]);
 }
 
 #[test]
@@ -221,8 +223,8 @@ impl Recorder for Heard {
         Ok(())
     }
 
-    fn step(&mut self, _: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), Infallible> {
-        assert!(field.is_some() && !record.strength.is_empty());
+    fn step(&mut self, _: &Step, record: &StepRecord, fields: Option<&StressFields>) -> Result<(), Infallible> {
+        assert!(fields.is_some() && !record.strength.is_empty());
         self.steps += 1;
         Ok(())
     }

@@ -4,7 +4,7 @@ use crate::common;
 
 use common::{PAPER, one_level, paraboloid};
 use percoat::run::{Outcome, Recorder, RefinementEnd, Run, RunError, Sampling, StepRecord, StressRequest, change};
-use percoat::{Cell, Lattice, Load, Method, Problem, Settings, Solver, Step, Stop, StressField};
+use percoat::{Cell, Lattice, Load, Method, Problem, Settings, Solver, Step, Stop, StressFields};
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
@@ -49,8 +49,8 @@ impl Recorder for Diary {
         self.heard.push("stresses".to_owned());
     }
 
-    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), Full> {
-        assert_eq!(field.is_some(), record.stress.is_some());
+    fn step(&mut self, step: &Step, record: &StepRecord, fields: Option<&StressFields>) -> Result<(), Full> {
+        assert_eq!(fields.is_some(), record.stress.is_some());
         if self.fails == Some(self.heard.len()) {
             return Err(Full);
         }
@@ -154,7 +154,7 @@ fn stresses_that_are_no_number_are_neither_agreement_nor_converged() {
     let with = |value: f64| {
         let mut stress = steps[0].stress.clone().unwrap();
         stress.overall.tau1.value = value;
-        vec![steps[0].clone().with_stress(stress, stressed.problem.half_space())]
+        vec![steps[0].clone().with_stress(stress, stressed.problem.bodies())]
     };
     assert_eq!(change(&steps, &steps), 0.0);
     assert_eq!(change(&with(f64::INFINITY), &with(f64::INFINITY)), 0.0);

@@ -4,6 +4,7 @@ use crate::common;
 
 use common::{Hills, PAPER, Random, bare, coated, one_level, paraboloid, relative_difference, solve, solve_sharply};
 use ndarray::{Array2, Axis};
+use percoat::body::InterfaceId;
 use percoat::spectral::{LayeredOperator, Workspace};
 use percoat::{
     Cell, Friction, FrictionError, Grid, HalfSpace, Interface, Lattice, Load, Material, Problem, Route, Settings,
@@ -285,6 +286,6 @@ fn what_slides_must_be_held() {
         one_level(Lattice::square(1.0, 1).unwrap(), paraboloid(0.8, 0.0)),
         coated(2.0, 0.1, [0.2, 0.3], Interface::Frictionless),
     );
-    assert_eq!(rest.clone().sliding(friction(0.1, 0.0)), Err(FrictionError::Unheld(1)));
+    assert_eq!(rest.clone().sliding(friction(0.1, 0.0)), Err(FrictionError::Unheld(InterfaceId::numbered(1))));
     assert!(rest.sliding(friction(0.0, 0.0)).is_ok());
 }

@@ -7,7 +7,7 @@ use common::Random;
 use percoat::stress::Peak;
 use percoat::{
     Cell, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, MeanStress, Problem,
-    Reading, Settings, Shape, Solver, Step, StressField, StressReading,
+    Reading, Settings, Shape, Solver, Step, StressFields, StressReading,
 };
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -63,8 +63,8 @@ struct Stated {
 
 /// The largest stresses of each material and of the interface below it, over the largest τ₁ of that material.
 fn stated_stresses(step: &Step, reading: &Reading) -> Vec<Stated> {
-    let field = StressField::new(step.finest(), MeanStress::default());
-    let stress = StressReading::of(step, reading, &field);
+    let fields = StressFields::new(step.finest(), MeanStress::default());
+    let stress = StressReading::of(step, reading, &fields);
     let mut all = Vec::new();
     for (index, material) in stress.materials.iter().enumerate() {
         let size = material.tau1.value;

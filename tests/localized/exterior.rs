@@ -14,7 +14,7 @@ const POINTS: Mesh = Mesh { width: 3, size: 1e-6 };
 
 fn system(lattice: Lattice, half_space: &HalfSpace) -> System {
     let levels = vec![paraboloid(0.8, 0.0); lattice.sites().len()];
-    System::new(&Indenters::new(lattice, levels).unwrap(), half_space, 91)
+    System::new(&Indenters::new(lattice, levels).unwrap(), &half_space.into(), 91)
 }
 
 /// πE* times the displacement at `x` from site m by unit forces on all images of c, but for the force's own c/(2πr).

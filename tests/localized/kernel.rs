@@ -46,7 +46,7 @@ fn coefficients_are_the_double_integral_of_eq_7() {
         let h = half_space.layers()[0].thickness();
         for half in [0.05, 0.3] {
             let squares = Squares::new(&kernel, half);
-            let bare_kernel = PointKernel::new(&HalfSpace::new(vec![], surface), 20.0);
+            let bare_kernel = PointKernel::new(HalfSpace::new(vec![], surface), 20.0);
             let bare = Squares::new(&bare_kernel, half);
             for (x, y) in [(0.0, 0.0), (0.3, 0.1), (1.0, 0.7)] {
                 let (angles, steps) = (400, 6000);

@@ -9,7 +9,7 @@ use crate::load::Load;
 use crate::problem::Problem;
 use crate::reading::{Reading, StressReading};
 use crate::spectral::{Settings, Solver};
-use crate::stress::StressField;
+use crate::stress::StressFields;
 use ndarray::Array2;
 
 const POINTS: usize = 60;
@@ -36,7 +36,7 @@ fn solve(lattice: Lattice, degrees: f64) -> Result<Found, StudyError> {
         return Err(step.report.to_string().into());
     }
     let reading = Reading::of(step.finest());
-    let stress = StressReading::of(&step, &reading, &StressField::new(step.finest(), MeanStress::Confined));
+    let stress = StressReading::of(&step, &reading, &StressFields::new(step.finest(), MeanStress::Confined));
     let all = stress.materials.iter().chain(&stress.faces);
     let mut stresses: Vec<f64> =
         all.flat_map(|face| [face.tau1, face.tension, face.mises].map(|peak| peak.value)).collect();

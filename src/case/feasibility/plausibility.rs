@@ -1,7 +1,7 @@
 //! Warnings about a case that can be solved but is implausible: units mixed up, strains that are not small.
 
 use super::{si_sizes, sublayers};
-use crate::body::{Interface, Layer, Material, MeanStress};
+use crate::body::{HalfSpace, Interface, Layer, Material, MeanStress};
 use crate::case::{Case, LayerSection};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
@@ -16,6 +16,7 @@ const MODULI_APART: f64 = 1e3;
 const ROUGH: f64 = 2.0;
 
 const SUBSTRATE: &str = "the substrate";
+const COUNTERBODY: &str = "the counterbody";
 
 /// Warnings about a case before it is solved, a sentence each.
 pub fn of_case(case: &Case) -> Vec<String> {
@@ -40,24 +41,21 @@ pub fn of_case(case: &Case) -> Vec<String> {
     doubts
 }
 
-/// Names of the layers of the half-space in the case: `layers[0]`, or one of its sublayers.
-fn names(layers: &[LayerSection]) -> impl Iterator<Item = String> {
-    layers.iter().enumerate().flat_map(|(number, layer)| {
+/// Names of the layers of a half-space in the case: `layers[0]`, or one of its sublayers.
+fn names<'a>(layers: &'a [LayerSection], prefix: &'static str) -> impl Iterator<Item = String> + use<'a> {
+    layers.iter().enumerate().flat_map(move |(number, layer)| {
         let (of, graded) = (layer.sublayers(), layer.graded.is_some());
         let name = move |sublayer| match graded {
-            true => format!("layers[{number}], its sublayer {sublayer} of {of}"),
-            false => format!("layers[{number}]"),
+            true => format!("{prefix}layers[{number}], its sublayer {sublayer} of {of}"),
+            false => format!("{prefix}layers[{number}]"),
         };
         (1..=of).map(name)
     })
 }
 
 fn pressures(case: &Case) -> Option<String> {
-    let (half_space, loads) = (case.half_space(), case.load.mean_pressures()?);
-    let highest = loads.iter().copied().fold(0.0, f64::max);
-    let layers = half_space.layers().iter().map(|layer| layer.material());
-    let materials = layers.zip(names(&case.layers)).chain([(half_space.substrate(), SUBSTRATE.to_owned())]);
-    let (material, name) = materials.min_by(|a, b| a.0.young().total_cmp(&b.0.young()))?;
+    let highest = case.load.mean_pressures()?.iter().copied().fold(0.0, f64::max);
+    let (material, name) = materials(case).min_by(|a, b| a.0.young().total_cmp(&b.0.young()))?;
     let part = highest / material.young();
     (part > HIGH).then(|| {
         format!(
@@ -70,9 +68,12 @@ fn pressures(case: &Case) -> Option<String> {
     })
 }
 
-/// Every material with its name.
+/// Every material of both bodies with its name.
 fn materials(case: &Case) -> impl Iterator<Item = (Material, String)> {
-    case.half_space().materials().zip(names(&case.layers).chain([SUBSTRATE.to_owned()]))
+    let own = names(&case.layers, "").chain([SUBSTRATE.to_owned()]);
+    let above = case.counterbody.iter().flat_map(|above| names(&above.layers, "counterbody."));
+    let above = above.chain([COUNTERBODY.to_owned()]);
+    case.problem().bodies().each().flat_map(HalfSpace::materials).zip(own.chain(above))
 }
 
 /// Young's moduli whose largest ratio is implausible.
@@ -94,9 +95,9 @@ fn moduli(case: &Case) -> Option<String> {
 
 /// Strengths and residual stresses that are implausibly large beside Young's modulus.
 fn strengths(case: &Case) -> Vec<String> {
-    let half_space = case.half_space();
-    let stresses = half_space.residual_stresses().map(f64::abs);
-    let all = materials(case).zip(half_space.strengths()).zip(stresses);
+    let bodies = || case.problem().bodies().each();
+    let stresses = bodies().flat_map(HalfSpace::residual_stresses).map(f64::abs);
+    let all = materials(case).zip(bodies().flat_map(HalfSpace::strengths)).zip(stresses);
     let doubts = all.flat_map(|(((material, name), strength), residual)| {
         let of = [("yield_strength", strength.yielding), ("tensile_strength", strength.tensile)];
         let strengths = of.into_iter().filter_map(|(key, value)| Some((key, value?)));

@@ -127,11 +127,15 @@ fn of_heights(case: &Case, samples: u64) -> u64 {
 
 fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool, fields: bool) -> Needs {
     let steps = case.load.values().len() as u64;
-    let (stress, written, volume) =
-        case.stress.as_ref().map_or((0, 0, 0), |stress| of_stress(stress, case.half_space(), samples));
+    let bodies = case.problem().bodies();
+    let (stress, written, volume) = case.stress.as_ref().map_or((0, 0, 0), |stress| {
+        let each = bodies.each().map(|half_space| of_stress(stress, half_space, samples));
+        each.fold((0, 0, 0), |(a, b, c), (x, y, z)| (a + x, b + y, c + z))
+    });
+    let elastic = bodies.each().count() as u64;
     // Strengths need the largest stresses, also where the case has no [stress].
-    let stress = if Criterion::all(case.half_space()).is_empty() { stress } else { stress.max(STRESS * samples) };
-    let again = if stress > 0 && steps > 1 { AGAIN * samples } else { 0 };
+    let stress = if Criterion::all(bodies).is_empty() { stress } else { stress.max(elastic * STRESS * samples) };
+    let again = if stress > 0 && steps > 1 { elastic * AGAIN * samples } else { 0 };
     let stress = if stress > 0 { stress + again + of_shells(case, samples) } else { 0 };
     let drawn = if pictures { of_pictures(case) } else { 0 };
     let drawing = PROGRAM + KEPT * samples + heights + drawn;
@@ -157,7 +161,9 @@ fn of_keeping(case: &Case, samples: u64, grids: [u64; 3]) -> Needs {
 /// A search for limit loads: the solver, and the stresses of one load at a time.
 fn of_limits(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool) -> Needs {
     let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
-    let stress = (STRESS + SEARCH) * samples + of_shells(case, samples) + STATE * (SECTION[0] * SECTION[1]) as u64;
+    let elastic = case.problem().bodies().each().count() as u64;
+    let own = elastic * (STRESS * samples + STATE * (SECTION[0] * SECTION[1]) as u64);
+    let stress = own + SEARCH * samples + of_shells(case, samples);
     let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
     let disk = COMPARISON + if pictures { 2 * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
@@ -195,14 +201,16 @@ fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u
 /// wavenumber: on cells without the symmetry of a square or a hexagon.
 fn of_shells(case: &Case, samples: u64) -> u64 {
     let (slides, area) = (case.problem().friction().is_some(), case.problem().cell().area());
-    let kept = |together: f64| {
+    let of_body = |half_space: &HalfSpace, together: f64| {
         // On the grid, and on the coarser one of the error estimate; a wave and its conjugate count once.
         let of_grid = |samples: u64| {
             let count = |most: f64| (0.5 * samples as f64).min(area * most * most / (8.0 * PI)) / together;
-            InteriorTable::bytes(case.half_space(), slides, |most| count(most) as usize) as u64
+            InteriorTable::bytes(half_space, slides, |most| count(most) as usize) as u64
         };
         of_grid(samples) + of_grid(samples / 4)
     };
+    let bodies = case.problem().bodies();
+    let kept = |together: f64| bodies.each().map(|own| of_body(own, together)).sum::<u64>();
     let [a1, a2] = case.problem().cell().vectors();
     let [own, other, product] = [(a1, a1), (a2, a2), (a1, a2)].map(|(u, v)| u[0] * v[0] + u[1] * v[1]);
     let is = |x: f64, y: f64| (x - y).abs() <= 1e-9 * own;

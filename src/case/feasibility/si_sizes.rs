@@ -4,7 +4,7 @@
 //! 1 m. Interfaces bear no more than a third of the modulus beside them, whatever the unit.
 
 use crate::body::{Layer, Material};
-use crate::case::Case;
+use crate::case::{Case, LayerSection};
 use crate::counterbody::roughness::Statistics;
 use crate::counterbody::{Level, Shape, Topography};
 use crate::notation::number;
@@ -111,8 +111,12 @@ fn lengths(case: &Case) -> Vec<(String, f64)> {
         all.push(("the largest difference of levels.height".to_owned(), high - low));
     }
     all.extend(counterbody.topography().map(|own| ("the range of the surface's heights".to_owned(), range(own))));
-    let layers = case.layers.iter().enumerate();
-    all.extend(layers.map(|(number, layer)| (format!("layers[{number}].thickness"), layer.thickness)));
+    let thickness = |prefix: &'static str| {
+        move |(number, layer): (usize, &LayerSection)| (format!("{prefix}layers[{number}].thickness"), layer.thickness)
+    };
+    all.extend(case.layers.iter().enumerate().map(thickness("")));
+    let above = case.counterbody.iter().flat_map(|above| above.layers.iter().enumerate());
+    all.extend(above.map(thickness("counterbody.")));
     all
 }
 
@@ -122,7 +126,12 @@ fn range(topography: &Topography) -> f64 {
 
 /// Warnings about interface strengths that are implausible beside the softer material.
 fn interfaces(case: &Case, materials: &[(Material, String)]) -> Vec<String> {
-    let layers = case.half_space().layers().iter().zip(materials.windows(2));
+    let mut rest = materials;
+    let layers = case.problem().bodies().each().flat_map(|own| {
+        let (own_materials, other) = rest.split_at(own.layers().len() + 1);
+        rest = other;
+        own.layers().iter().zip(own_materials.windows(2))
+    });
     let strengths = layers.flat_map(|(layer, beside): (&Layer, _)| {
         let (softer, name) = beside.iter().min_by(|a, b| a.0.young().total_cmp(&b.0.young())).expect("two of them");
         let own = layer.interface_strength();

@@ -1,6 +1,6 @@
 //! Warnings about a case before it is solved, by the formulas of single contacts.
 
-use crate::body::HalfSpace;
+use crate::body::Bodies;
 use crate::case::Case;
 use crate::counterbody::{Level, Shape};
 use crate::lattice::Grid;
@@ -25,7 +25,7 @@ fn steep_flank(case: &Case) -> Option<String> {
     let load = loads.iter().copied().fold(0.0, f64::max);
     let sites: usize = lattice.sites().iter().map(Vec::len).sum();
     let force = load * lattice.cell().area() / sites as f64;
-    let modulus = stiffer_modulus(case.half_space());
+    let modulus = stiffer_modulus(case.problem().bodies());
     let levels = (1..).zip(indenters.levels().iter().map(Level::shape));
     let flanks = levels.filter(|(_, shape)| !matches!(shape, Shape::Cone { .. }));
     let mut estimates = flanks.map(|(number, shape)| (number, shape, radius(force, modulus, power_law(shape))));
@@ -53,7 +53,7 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
             let sites = lattice.sites().iter().enumerate().filter(|(level, _)| touching(*level));
             let sites = sites.map(|(_, sites)| sites.len()).sum::<usize>().max(1);
             let force = load * lattice.cell().area() / sites as f64;
-            (load, radius(force, stiffer_modulus(case.half_space()), (c, n)))
+            (load, radius(force, stiffer_modulus(case.problem().bodies()), (c, n)))
         }
         None => {
             let depth = lowest(case.load.values())?;
@@ -85,9 +85,9 @@ fn radius(force: f64, modulus: f64, (c, n): (f64, f64)) -> f64 {
     (force * (n + 1.0) / (2.0 * n * modulus * kappa(n) * c)).powf(1.0 / (n + 1.0))
 }
 
-/// The larger E* of surface and substrate, with which the radius is the smaller one.
-fn stiffer_modulus(half_space: &HalfSpace) -> f64 {
-    half_space.substrate().contact_modulus().max(half_space.surface_material().contact_modulus())
+/// The larger E* of surfaces and substrates, with which the radius is the smaller one.
+fn stiffer_modulus(bodies: &Bodies) -> f64 {
+    bodies.substrate_modulus().max(bodies.contact_modulus())
 }
 
 /// κ_n = √π Γ(n/2+1)/Γ((n+1)/2) = n ∫₀^{π/2} sinⁿ⁻¹θ dθ = ∫ (sin θ/θ)ⁿ⁻¹ dt over t = θⁿ, to a thousandth.

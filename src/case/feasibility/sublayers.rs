@@ -4,7 +4,7 @@
 //! the cell to a sixteenth of its shorter side, about the size of a contact spot; a wave shorter than a sublayer would depend on
 //! the uppermost one alone.
 
-use crate::body::HalfSpace;
+use crate::body::Bodies;
 use crate::case::{Case, layers};
 use crate::notation::number;
 use crate::numeric::search::largest;
@@ -21,17 +21,21 @@ const WORTH_SAYING: f64 = 0.1 / (FEW_SAMPLES * FEW_SAMPLES);
 
 /// Estimated largest relative error of the surface compliance by the sublayers of graded layers; `None` without any.
 pub fn sublayer_error(case: &Case) -> Option<f64> {
-    case.layers.iter().any(|layer| layer.graded.is_some()).then_some(())?;
-    let finer = layers::refined(&case.layers, &case.substrate)?;
+    let above = case.counterbody.iter().flat_map(|above| &above.layers);
+    case.layers.iter().chain(above).any(|layer| layer.graded.is_some()).then_some(())?;
+    let body = layers::refined(&case.layers, &case.substrate)?;
+    let finer = match &case.counterbody {
+        Some(above) => Bodies::elastic(body, above.refined()?),
+        None => Bodies::from(body),
+    };
     let cell = case.counterbody().cell();
     let longer = cell.reduced().longer_side();
     let shorter = cell.area() / longer;
-    Some(4.0 / 3.0 * difference(case.half_space(), &finer, [TAU / longer, TAU * WAVES / shorter]))
+    Some(4.0 / 3.0 * difference(case.problem().bodies(), &finer, [TAU / longer, TAU * WAVES / shorter]))
 }
 
 /// Largest relative difference of two surface compliances between two wavenumbers.
-fn difference(half_space: &HalfSpace, other: &HalfSpace, [least, most]: [f64; 2]) -> f64 {
-    let [own, other] = [half_space, other].map(HalfSpace::response);
+fn difference(own: &Bodies, other: &Bodies, [least, most]: [f64; 2]) -> f64 {
     let wavenumbers = (0..COUNT).map(|k| least * (most / least).powf(k as f64 / (COUNT - 1) as f64));
     largest(wavenumbers.map(|q| (own.compliance(q) / other.compliance(q) - 1.0).abs()))
 }
@@ -49,7 +53,7 @@ pub(super) fn doubt(case: &Case) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{Interface, Layer, Material};
+    use crate::body::{HalfSpace, Interface, Layer, Material};
     use crate::case::{Case, Source};
 
     fn case(graded: &str) -> Case {
@@ -101,7 +105,7 @@ mod tests {
         let (few, many) =
             (case(&format!("{{ {keys}, sublayers = 20 }}")), case(&format!("{{ {keys}, sublayers = 200 }}")));
         let told = sublayer_error(&few).unwrap();
-        let true_error = difference(few.half_space(), many.half_space(), [TAU / 4.0, TAU * WAVES / 4.0]);
+        let true_error = difference(few.problem().bodies(), many.problem().bodies(), [TAU / 4.0, TAU * WAVES / 4.0]);
         // The largest of them stands where a wave is few sublayers long: there the order is less clean.
         assert!((0.5..2.0).contains(&(told / true_error)), "{told} for {true_error}");
         assert_eq!(doubt(&few).is_some(), told > WORTH_SAYING);
@@ -115,7 +119,7 @@ mod tests {
         let material = Material::from_young(2.0, 0.2).unwrap();
         let layer = Layer::new(material, 1.0, Interface::Bonded).unwrap();
         let one = HalfSpace::new(vec![layer], plain.half_space().substrate());
-        assert!(difference(plain.half_space(), &one, [0.1, 30.0]) < 1e-12);
+        assert!(difference(plain.problem().bodies(), &one.into(), [0.1, 30.0]) < 1e-12);
         assert_eq!(plain.half_space().layers().len(), 7);
         assert!(sublayer_error(&plain).unwrap() < 1e-12);
     }

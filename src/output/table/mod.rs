@@ -48,7 +48,7 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     if let Some(largest) = &largest {
         text += &format!("\n{}\n\n", largest.fitted(width));
     }
-    let strength = utilisations(steps, Some(case.problem().half_space()), &units);
+    let strength = utilisations(steps, Some(case.problem().bodies()), &units);
     if let Some(strength) = &strength {
         text += &format!("\n{}\n\n", strength.fitted(width));
     }

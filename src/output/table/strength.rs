@@ -2,7 +2,7 @@
 
 use super::by_step::{Quantity, QuantityInStep, by_step, place};
 use super::{Table, Worded, in_unit};
-use crate::body::HalfSpace;
+use crate::body::Bodies;
 use crate::output::number::{number, with_error};
 use crate::reading::{Criterion, Utilisation, Verdict};
 use crate::run::{At, Limit, Limits, StepRecord};
@@ -10,7 +10,7 @@ use crate::units::{Prefixed, Unit, Units};
 
 /// Table of the utilisations, one row a criterion, the one that governs the last step first; `None` without strengths. With a
 /// half-space the words name a criterion that residual stress alone reaches.
-pub fn utilisations(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units) -> Option<Worded> {
+pub fn utilisations(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units) -> Option<Worded> {
     let last = steps.iter().rev().find(|step| !step.strength.is_empty())?;
     let mut governing: Vec<&Utilisation> = last.strength.iter().collect();
     governing.sort_by(|a, b| b.value.total_cmp(&a.value));
@@ -23,15 +23,15 @@ pub fn utilisations(steps: &[StepRecord], half_space: Option<&HalfSpace>, units:
     };
     let rows: Vec<Quantity> = governing.into_iter().map(row).collect();
     let table = by_step("utilisation", &Unit::None, units, steps, &rows)?;
-    Some(Worded { words: in_words(steps, half_space, units)?, table })
+    Some(Worded { words: in_words(steps, bodies, units)?, table })
 }
 
 /// The criterion that fails first, within the load steps and errors, else the one nearest to failing. Its load lies between the
 /// last step in which nothing fails for certain and the first in which one fails by more than its error; without the former,
 /// at or below the latter.
-fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units) -> Option<String> {
-    let at_rest = |body| Criterion::all(body).into_iter().find(|own| own.at_rest(body) >= 1.0);
-    if let Some(criterion) = half_space.and_then(at_rest) {
+fn in_words(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units) -> Option<String> {
+    let at_rest = |bodies| Criterion::all(bodies).into_iter().find(|own| own.at_rest(bodies) >= 1.0);
+    if let Some(criterion) = bodies.and_then(at_rest) {
         return Some(format!("first: {criterion}, without load, by residual stress alone"));
     }
     let taken = || steps.iter().flat_map(|step| step.strength.iter().map(move |own| (step.reading.mean_pressure, own)));

@@ -153,7 +153,7 @@ mod tests {
     fn located(fields: &Fields, spacing: f64) -> Option<Boundary> {
         let bare = HalfSpace::new(vec![], Material::from_young(1.0, 0.0).unwrap());
         let [shortest, longest] = ContactSamples::distances(&fields.grid);
-        let edge = ContactEdge::new(bare.response(), None, shortest, longest);
+        let edge = ContactEdge::new(&bare.into(), None, shortest, longest);
         let Fields { grid, pressure, gap, hole } = fields;
         let what = |index: usize| match (pressure[index] > 0.0, hole[index]) {
             (true, _) => Sample::Contact,

@@ -45,7 +45,7 @@ impl Run {
     }
 
     fn checked_for_limits<E: Error + 'static>(&self) -> Result<(), RunError<E>> {
-        if Criterion::all(self.problem.half_space()).is_empty() {
+        if Criterion::all(self.problem.bodies()).is_empty() {
             return Err(RunError::NoStrengths);
         }
         self.checked_sampling()?;

@@ -3,6 +3,7 @@
 use super::band::{Crossing, UtilisationBand};
 use super::limits::is_complete;
 use super::{At, Limit, LimitStep, Limits};
+use crate::body::{HalfSpace, Layer};
 use crate::load::Load;
 use crate::reading::{Criterion, Reading, Utilisation};
 use crate::run::{Recorder, Run, RunError, StepRecord};
@@ -53,9 +54,9 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let complete = complete.unwrap_or(f64::INFINITY);
         let mut search =
             Self { run, solver, tables: Arc::default(), complete, steps: Vec::new(), last: None, recorder };
-        let half_space = run.problem.half_space();
+        let bodies = run.problem.bodies();
         let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
-            Criterion::all(half_space).into_iter().partition(|criterion| criterion.at_rest(half_space) >= 1.0);
+            Criterion::all(bodies).into_iter().partition(|criterion| criterion.at_rest(bodies) >= 1.0);
         if !sought.is_empty() {
             search.scan(&sought)?;
             search.divide_touches(&sought)?;
@@ -73,7 +74,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             let at = if at_rest.contains(&criterion) { At::Rest } else { search.found(criterion) };
             Limit { criterion, at }
         };
-        let limits = Criterion::all(half_space).into_iter().map(limit).collect();
+        let limits = Criterion::all(bodies).into_iter().map(limit).collect();
         let mut limits =
             Limits { limits, steps: Vec::new(), shown: None, complete, change: None, end: None, warnings: Vec::new() };
         let is_load = |limit: &&&Limit| limit.mean_pressure() > 0.0 && limit.mean_pressure().is_finite();
@@ -114,9 +115,10 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         if self.complete.is_finite() {
             return START * self.complete;
         }
-        let half_space = self.run.problem.half_space();
-        let of_materials = half_space.strengths().flat_map(|strength| [strength.yielding, strength.tensile]);
-        let of_interfaces = half_space.layers().iter().map(|layer| layer.interface_strength());
+        let bodies = || self.run.problem.bodies().each();
+        let of_materials = bodies().flat_map(HalfSpace::strengths);
+        let of_materials = of_materials.flat_map(|strength| [strength.yielding, strength.tensile]);
+        let of_interfaces = bodies().flat_map(HalfSpace::layers).map(Layer::interface_strength);
         let of_interfaces = of_interfaces.flat_map(|strength| [strength.normal, strength.shear]);
         of_materials.chain(of_interfaces).flatten().fold(f64::INFINITY, f64::min)
     }
@@ -218,7 +220,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
 
     /// Utilisation of a criterion in a step; without contact that by residual stress.
     fn utilisation(&self, record: &StepRecord, criterion: Criterion) -> Utilisation {
-        let value = criterion.at_rest(self.run.problem.half_space());
+        let value = criterion.at_rest(self.run.problem.bodies());
         let at_rest = Utilisation::new(criterion, value, None, [0.0; 3]);
         record.utilisation(criterion).copied().unwrap_or(at_rest)
     }

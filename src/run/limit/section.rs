@@ -1,10 +1,11 @@
 //! The section of the stresses under the place that fails first.
 
 use super::{LimitStep, Limits};
+use crate::body::HalfSpace;
 use crate::friction::Friction;
 use crate::run::Run;
 use crate::run::places::SECTION;
-use crate::stress::{StressField, SurfaceLine, VerticalSection};
+use crate::stress::{StressFields, SurfaceLine, VerticalSection};
 use std::f64::consts::PI;
 
 /// Half the length of the section, in radii of a contact.
@@ -15,22 +16,23 @@ const LEAST_DEPTH: f64 = 2.0;
 const DEEPEST_COATING: f64 = 8.0;
 
 impl Limits {
-    /// Section of the stresses at the first limit that is reached under a load, through the place that fails: along the direction of
+    /// Sections of the stresses in each body at the first limit that is reached under a load, through the place that fails: along the direction of
     /// sliding, or along x without friction, a contact's width to both sides and deep enough to show the place; `None` without such
     /// a limit.
-    pub fn section(&self, run: &Run) -> Option<VerticalSection> {
+    pub fn sections(&self, run: &Run) -> Option<Vec<VerticalSection>> {
         let LimitStep { limit, step, .. } = self.shown.as_ref()?;
         let [x, y, z] = limit.position()?;
-        let (half_space, cell) = (run.problem.half_space(), run.problem.cell());
+        let (bodies, cell) = (run.problem.bodies(), run.problem.cell());
         let direction = run.problem.friction().map_or([1.0, 0.0], Friction::direction);
         let reading = step.reading();
         let radius = (reading.contact_fraction * cell.area() / (PI * reading.contact_spots.max(1) as f64)).sqrt();
         let reach = (HALF_LENGTH * radius).min(0.5 * cell.reduced().longer_side());
-        let coating = half_space.interface_depths().last().copied().unwrap_or(0.0);
+        let coating = bodies.each().flat_map(HalfSpace::interface_depths).fold(0.0, f64::max);
         let [rows, points] = SECTION;
         let line = SurfaceLine { origin: [x, y], direction, span: [-reach, reach], points };
         let depth = (LEAST_DEPTH * radius).max(1.5 * z).max(1.25 * coating.min(DEEPEST_COATING * radius));
         let mean = run.mean_stress().unwrap_or_default();
-        Some(StressField::new(step.finest(), mean).section(&line, &half_space.rows(depth, rows)))
+        let fields = StressFields::new(step.finest(), mean);
+        Some(fields.each().map(|field| field.section(&line, &field.half_space().rows(depth, rows))).collect())
     }
 }

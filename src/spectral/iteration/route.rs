@@ -154,7 +154,7 @@ mod tests {
         let cones = [0.02, 0.01, 0.0].map(|height| Level::new(Shape::Cone { slope: 0.1 }, height).unwrap());
         let indenters = Indenters::new(Lattice::hexagonal(1.0, 3).unwrap(), cones.to_vec()).unwrap();
         let surface = Surface::new(&Counterbody::from(indenters), [24, 24]).unwrap();
-        let mut operator = LayeredOperator::new(surface.grid(), &HalfSpace::new(vec![plate], substrate));
+        let mut operator = LayeredOperator::new(surface.grid(), HalfSpace::new(vec![plate], substrate));
         let penetration = part * surface.mean();
         let mut problem = ContactProblem {
             working: &mut Working::of_finest(&operator),

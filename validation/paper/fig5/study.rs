@@ -8,7 +8,7 @@ use crate::load::Load;
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::run::{Recorder, Run, Sampling, StepRecord};
 use crate::spectral::Step;
-use crate::stress::StressField;
+use crate::stress::{StressField, StressFields};
 use crate::validation::draw::{curve, figure, linear};
 use crate::validation::{Check, Data, Outcome, Study, StudyError, Tolerance};
 use std::convert::Infallible;
@@ -50,7 +50,7 @@ struct Search {
 impl Recorder for Search {
     type Error = Infallible;
 
-    fn step(&mut self, step: &Step, record: &StepRecord, _: Option<&StressField>) -> Result<(), Infallible> {
+    fn step(&mut self, step: &Step, record: &StepRecord, _: Option<&StressFields>) -> Result<(), Infallible> {
         if let (0, Some(radius)) = (self.steps % STRESSES, record.reading.levels[0].contact_radius) {
             let field = StressField::new(step.finest(), MeanStress::Confined);
             let peak = field.maxima([radius, radius]).materials[0].tau1;

@@ -1,0 +1,216 @@
+//! Two elastic bodies in contact: under one pressure their displacements add, wave by wave.
+//!
+//! A counterbody that is elastic has layers and a substrate of its own. Both surfaces bear the same pressure p, and where the
+//! counterbody slides the body bears the traction +μp**e** and the counterbody −μp**e**. Each displaces into itself, so that the
+//! gap opens by the sum of both displacements,
+//!
+//! ŵ = [(C₁ + C₂) − iμ cos θ (K₁ − K₂)] p̂,
+//!
+//! with C and K of the [`SurfaceResponse`](super::SurfaceResponse) of the body (1) and of the counterbody (2), θ between the
+//! wavevector and **e**. A rigid counterbody has C₂ = K₂ = 0; like bodies do not couple. At an edge of contact only the materials at
+//! the surfaces count: 1/E* = 1/E₁* + 1/E₂*, and Dundurs' β.
+
+use super::{HalfSpace, Layer, LayeredResponse, Material, Side};
+use std::fmt;
+use std::sync::Arc;
+
+/// The body, and the counterbody where it is elastic.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bodies {
+    body: HalfSpace,
+    counterbody: Option<HalfSpace>,
+}
+
+impl From<HalfSpace> for Bodies {
+    /// A body under a rigid counterbody.
+    fn from(body: HalfSpace) -> Self {
+        Self { body, counterbody: None }
+    }
+}
+
+impl From<&HalfSpace> for Bodies {
+    /// A copy of a body under a rigid counterbody.
+    fn from(body: &HalfSpace) -> Self {
+        body.clone().into()
+    }
+}
+
+impl From<&Self> for Bodies {
+    fn from(bodies: &Self) -> Self {
+        bodies.clone()
+    }
+}
+
+impl Bodies {
+    /// A body under an elastic counterbody, each from its own surface inward.
+    pub fn elastic(body: HalfSpace, counterbody: HalfSpace) -> Self {
+        Self { body: body.on_side(Side::Body), counterbody: Some(counterbody.on_side(Side::Counterbody)) }
+    }
+
+    /// The body.
+    pub fn body(&self) -> &HalfSpace {
+        &self.body
+    }
+
+    /// The counterbody; `None` where it is rigid.
+    pub fn counterbody(&self) -> Option<&HalfSpace> {
+        self.counterbody.as_ref()
+    }
+
+    /// The body, then the counterbody where it is elastic.
+    pub fn each(&self) -> impl Iterator<Item = &HalfSpace> {
+        [&self.body].into_iter().chain(&self.counterbody)
+    }
+
+    /// The half-space on one side; the body where the side has none.
+    pub fn on(&self, side: Option<Side>) -> &HalfSpace {
+        self.counterbody.as_ref().filter(|_| side == Some(Side::Counterbody)).unwrap_or(&self.body)
+    }
+
+    /// Whether neither has layers.
+    pub fn is_bare(&self) -> bool {
+        self.each().all(|own| own.layers().is_empty())
+    }
+
+    /// Compliance C₁ + C₂ = ŵ/p̂ at the wavenumber q > 0 (1/length): a length per pressure.
+    pub fn compliance(&self, wavenumber: f64) -> f64 {
+        self.each().map(|own| own.response().compliance(wavenumber)).sum()
+    }
+
+    /// Layer correction T = ½ E* q (C₁ + C₂) at the wavenumber q > 0 (1/length), with E* of [`Self::contact_modulus`]; 1 for
+    /// bodies without layers.
+    pub fn correction(&self, wavenumber: f64) -> f64 {
+        let own = self.body.response().correction(wavenumber);
+        let Some(counterbody) = &self.counterbody else { return own };
+        let [first, second] = [&self.body, counterbody].map(unit_compliance);
+        (first * own + second * counterbody.response().correction(wavenumber)) / (first + second)
+    }
+
+    /// Compliance at the wavenumber q > 0 (1/length) with the given [correction](Self::correction).
+    pub(super) fn compliance_of(&self, correction: f64, wavenumber: f64) -> f64 {
+        match &self.counterbody {
+            None => self.body.response().compliance_of(correction, wavenumber),
+            Some(_) => self.surface_compliance() * correction / wavenumber,
+        }
+    }
+
+    /// Coupling over compliance, (K₁ − K₂)/(C₁ + C₂), at the wavenumber q > 0 (1/length).
+    pub fn coupling_ratio(&self, wavenumber: f64) -> f64 {
+        let Some(counterbody) = &self.counterbody else { return self.body.response().coupling_ratio(wavenumber) };
+        let of =
+            |response: &Arc<LayeredResponse>| [response.compliance(wavenumber), response.coupling_ratio(wavenumber)];
+        let [[c1, ratio1], [c2, ratio2]] = [self.body.response(), counterbody.response()].map(of);
+        (c1 * ratio1 - c2 * ratio2) / (c1 + c2)
+    }
+
+    /// Compliance times wavenumber of the materials at the surfaces, Σ(1 − ν)/G = 2/E*; one over a pressure.
+    pub fn surface_compliance(&self) -> f64 {
+        self.each().map(unit_compliance).sum()
+    }
+
+    /// Thickness of the thinnest layer at a surface, a length; `None` without layers.
+    pub fn thinnest_first_layer(&self) -> Option<f64> {
+        self.each().filter_map(|own| own.layers().first()).map(Layer::thickness).reduce(f64::min)
+    }
+
+    /// Contact modulus E* of the materials at the surfaces, 1/E* = 1/E₁* + 1/E₂*, a pressure.
+    pub fn contact_modulus(&self) -> f64 {
+        composite(self.each().map(HalfSpace::surface_material))
+    }
+
+    /// Contact modulus E* of the substrates, by which waves longer than all layers are thick displace; a pressure.
+    pub fn substrate_modulus(&self) -> f64 {
+        composite(self.each().map(HalfSpace::substrate))
+    }
+
+    /// Dundurs' β of the materials at the surfaces,
+    /// [(1 − 2ν₁)/G₁ − (1 − 2ν₂)/G₂] / (2[(1 − ν₁)/G₁ + (1 − ν₂)/G₂]); (1 − 2ν)/(2(1 − ν)) under a rigid counterbody.
+    pub fn dundurs_beta(&self) -> f64 {
+        let tangential = |own: Material| (1.0 - 2.0 * own.poisson()) / own.shear();
+        let body = self.body.surface_material();
+        match &self.counterbody {
+            None => (1.0 - 2.0 * body.poisson()) / (2.0 * (1.0 - body.poisson())),
+            Some(counterbody) => {
+                (tangential(body) - tangential(counterbody.surface_material())) / (2.0 * self.surface_compliance())
+            }
+        }
+    }
+}
+
+/// (1 − ν)/G of the material at the surface: compliance times wavenumber of a bare half-space, one over a pressure.
+fn unit_compliance(half_space: &HalfSpace) -> f64 {
+    let material = half_space.surface_material();
+    (1.0 - material.poisson()) / material.shear()
+}
+
+/// E* of materials in contact; that of one alone, bit for bit.
+fn composite(mut materials: impl Iterator<Item = Material>) -> f64 {
+    let first = materials.next().map_or(f64::INFINITY, |material| material.contact_modulus());
+    materials.fold(first, |modulus, other| 1.0 / (1.0 / modulus + 1.0 / other.contact_modulus()))
+}
+
+impl fmt::Display for Bodies {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.body)?;
+        self.counterbody.iter().try_for_each(|own| write!(f, "\ncounterbody, from its surface inward:\n{own}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::Interface;
+
+    fn material(young: f64, poisson: f64) -> Material {
+        Material::from_young(young, poisson).unwrap()
+    }
+
+    fn bare(young: f64, poisson: f64) -> HalfSpace {
+        HalfSpace::new(vec![], material(young, poisson))
+    }
+
+    fn coated(young: f64) -> HalfSpace {
+        HalfSpace::new(vec![Layer::new(material(young, 0.2), 0.3, Interface::Bonded).unwrap()], material(1.0, 0.3))
+    }
+
+    #[test]
+    fn bare_bodies_are_one_on_the_composite_modulus() {
+        let bodies = Bodies::elastic(bare(1.0, 0.3), bare(1.4, 0.27));
+        let modulus = 1.0 / (0.91 / 1.0 + (1.0 - 0.27 * 0.27) / 1.4);
+        assert!((bodies.contact_modulus() / modulus - 1.0).abs() < 1e-15 && bodies.is_bare());
+        for q in [1e-3, 0.7, 40.0] {
+            assert!((bodies.compliance(q) * modulus * q / 2.0 - 1.0).abs() < 1e-14);
+            assert!((bodies.correction(q) - 1.0).abs() < 1e-15);
+            assert!((bodies.coupling_ratio(q) - bodies.dundurs_beta()).abs() < 1e-15);
+        }
+    }
+
+    /// Correction and compliance of two coated bodies are the sum of each; exchanged bodies couple the other way, like ones not.
+    #[test]
+    fn compliances_add_and_couplings_subtract() {
+        let [first, second] = [coated(4.0), coated(0.3)];
+        let bodies = Bodies::elastic(first.clone(), second.clone());
+        let exchanged = Bodies::elastic(second.clone(), first.clone());
+        for q in [1e-2, 1.0, 9.0, 100.0] {
+            let sum = first.response().compliance(q) + second.response().compliance(q);
+            assert!((bodies.compliance(q) / sum - 1.0).abs() < 1e-15);
+            assert!((bodies.compliance_of(bodies.correction(q), q) / sum - 1.0).abs() < 1e-14);
+            let coupling = first.response().surface(q).coupling - second.response().surface(q).coupling;
+            assert!((bodies.coupling_ratio(q) - coupling / sum).abs() < 1e-14);
+            assert!((bodies.coupling_ratio(q) + exchanged.coupling_ratio(q)).abs() < 1e-15);
+            assert_eq!(Bodies::elastic(first.clone(), first.clone()).coupling_ratio(q), 0.0);
+        }
+        assert_eq!(Bodies::elastic(first.clone(), first).dundurs_beta(), 0.0);
+    }
+
+    /// A counterbody of 1e6 times the modulus is rigid to 1e-6.
+    #[test]
+    fn a_stiff_counterbody_is_nearly_rigid() {
+        let (rigid, stiff) = (Bodies::from(coated(4.0)), Bodies::elastic(coated(4.0), bare(1e6, 0.3)));
+        for q in [1e-2, 1.0, 9.0, 100.0] {
+            assert!((stiff.compliance(q) / rigid.compliance(q) - 1.0).abs() < 4e-6);
+            assert!((stiff.coupling_ratio(q) - rigid.coupling_ratio(q)).abs() < 4e-6);
+        }
+        assert!((stiff.dundurs_beta() - rigid.dundurs_beta()).abs() < 4e-6);
+    }
+}

@@ -1,0 +1,60 @@
+//! `[counterbody]`: the elastic body that the indenters or the topography belong to.
+
+use super::error::Refusal;
+use super::grading::LAYERS;
+use super::keys::{Form, Key, Unit};
+use super::layers::{self, Body, LAYER, LayerSection, NAME, POISSON, SIZE, SubstrateSection, TENSILE, YIELD};
+use super::reader::TableAt;
+use super::section::section;
+use crate::body::HalfSpace;
+
+section! {
+    /// The section `[counterbody]`.
+    pub struct CounterbodySection = COUNTERBODY, misplaced [
+        ("shear_ratio", "`shear_ratio` relates a layer to its substrate, whose modulus is `young`"),
+        ("radius", "the shape of the counterbody stands in [[levels]] or [surface]"),
+    ] {
+        /// name of the material, used in place of its number in tables and pictures
+        pub name: Option<String> = NAME,
+        /// Young's modulus
+        pub young: f64 = Key::new(&[SIZE], "210.0").unit(Unit::Pressure),
+        /// Poisson's ratio
+        pub poisson: f64 = Key::new(&[POISSON], "0.3"),
+        /// yield strength, compared with the von Mises stress
+        pub yield_strength: Option<f64> = YIELD,
+        /// tensile strength, compared with the largest principal stress
+        pub tensile_strength: Option<f64> = TENSILE,
+        /// its coating, one section `[[counterbody.layers]]` a layer from its surface inward, with the keys of `[[layers]]`
+        pub layers: Vec<LayerSection> =
+            Key::new(&[Form::Sections(&LAYER, LAYERS)], "[{ thickness = 0.5, young = 300.0, poisson = 0.25 }]")
+                .otherwise("uncoated")
+                .rule("sublayers of graded layers count among the 200")
+                .omitted_as_nothing(),
+    }
+}
+
+impl CounterbodySection {
+    /// Its material below the layers.
+    pub fn substrate(&self) -> SubstrateSection {
+        SubstrateSection {
+            name: self.name.clone(),
+            young: self.young,
+            poisson: self.poisson,
+            yield_strength: self.yield_strength,
+            tensile_strength: self.tensile_strength,
+        }
+    }
+
+    /// It with twice the sublayers in graded layers; `None` without graded layers.
+    pub fn refined(&self) -> Option<HalfSpace> {
+        layers::refined(&self.layers, &self.substrate())
+    }
+}
+
+/// Reads `[counterbody]`, with the half-space and the sections of its layers.
+pub(super) fn read<'a>(section: &TableAt<'a>) -> Result<(CounterbodySection, Body<'a>), Refusal> {
+    let own = CounterbodySection::read_table(section)?;
+    let sections = section.sections("layers")?;
+    let body = layers::build_body(own.layers.clone(), sections, own.substrate(), section)?;
+    Ok((own, body))
+}

@@ -1,0 +1,64 @@
+//! The stress fields of both bodies under one contact.
+
+use super::field::StressField;
+use super::tables::Tables;
+use crate::body::{MeanStress, Side};
+use crate::spectral::Contact;
+use std::fmt;
+use std::sync::Arc;
+
+/// The stress field of the body, and that of the counterbody where it is elastic.
+///
+/// Each has its own z, from the common surface inward; x and y are those of the body. The counterbody bears the traction of
+/// friction in the opposite direction.
+#[derive(Debug)]
+pub struct StressFields {
+    body: StressField,
+    counterbody: Option<StressField>,
+}
+
+impl StressFields {
+    /// Stress fields under a solved contact.
+    pub fn new(contact: &Contact, mean: MeanStress) -> Self {
+        Self::with_tables(contact, mean, &Arc::default())
+    }
+
+    /// Stress fields under a solved contact that share the `tables` of other fields of a run.
+    pub(crate) fn with_tables(contact: &Contact, mean: MeanStress, tables: &Arc<Tables>) -> Self {
+        let of = |side: Side| StressField::on_side(contact, side, mean, Arc::clone(tables));
+        let counterbody = contact.problem().bodies().counterbody().map(|_| of(Side::Counterbody));
+        Self { body: of(Side::Body), counterbody }
+    }
+
+    /// The fields under another contact of the same run, or of this step on another grid.
+    pub(crate) fn of_other(&self, contact: &Contact) -> Self {
+        Self::with_tables(contact, self.body.mean_stress(), self.body.tables())
+    }
+
+    /// The field of the body.
+    pub fn body(&self) -> &StressField {
+        &self.body
+    }
+
+    /// The field of the counterbody; `None` where it is rigid.
+    pub fn counterbody(&self) -> Option<&StressField> {
+        self.counterbody.as_ref()
+    }
+
+    /// The field of the body, then that of the counterbody where it is elastic.
+    pub fn each(&self) -> impl Iterator<Item = &StressField> {
+        [&self.body].into_iter().chain(&self.counterbody)
+    }
+
+    /// The field on one side; that of the body where the side has none.
+    pub fn on(&self, side: Option<Side>) -> &StressField {
+        self.counterbody.as_ref().filter(|_| side == Some(Side::Counterbody)).unwrap_or(&self.body)
+    }
+}
+
+impl fmt::Display for StressFields {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.body)?;
+        self.counterbody.iter().try_for_each(|own| write!(f, "\ncounterbody: {own}"))
+    }
+}
