@@ -257,7 +257,7 @@ mod tests {
             let mut least = f64::INFINITY;
             for (m, place) in places.iter().enumerate().flat_map(|(m, p)| p.iter().map(move |x| (m, x))) {
                 for (i, j) in (-4..=4).flat_map(|i| (-4..=4).map(move |j| (f64::from(i), f64::from(j)))) {
-                    let [x, y] = cell.point([s[0] - place[0] + i, s[1] - place[1] + j]);
+                    let [x, y] = cell.vector([s[0] - place[0] + i, s[1] - place[1] + j]);
                     least = least.min(levels[m].shape().profile(x.hypot(y)) + 0.06 * m as f64);
                 }
             }

@@ -1,4 +1,4 @@
-//! The unit cell, and the reduced basis of its lattice.
+//! The unit cell, and the reduced basis of its lattice; or a window around an isolated contact.
 
 use super::LatticeError;
 use crate::notation::number;
@@ -7,11 +7,13 @@ use fearless_simd::Simd;
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// The unit cell of a doubly periodic system, spanned by two vectors.
+/// The unit cell of a doubly periodic system, spanned by two vectors; or a window around an isolated contact, a rectangle whose
+/// middle is the origin, beyond which the surface is free.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
     a1: [f64; 2],
     a2: [f64; 2],
+    isolated: bool,
 }
 
 /// Largest projection of one cell vector on the other, over the length of the other: multiples are kept in 32 bits.
@@ -29,7 +31,20 @@ impl Cell {
         if !(sine.is_finite() && sine.abs() > 1e-6 && along < MAX_SKEW) {
             return Err(LatticeError::FlatCell(a1, a2));
         }
-        Ok(Self { a1, a2 })
+        Ok(Self { a1, a2, isolated: false })
+    }
+
+    /// The window of these sides along x and y (lengths) around an isolated contact.
+    ///
+    /// # Errors
+    /// When a side is zero or not finite.
+    pub fn window([width, height]: [f64; 2]) -> Result<Self, LatticeError> {
+        Ok(Self { isolated: true, ..Self::new([width, 0.0], [0.0, height])? })
+    }
+
+    /// Whether it is a window around an isolated contact, and nothing is periodic.
+    pub fn is_isolated(&self) -> bool {
+        self.isolated
     }
 
     /// The 60° rhombus of the side `side`, a length.
@@ -63,7 +78,7 @@ impl Cell {
     #[must_use]
     pub fn dual(&self) -> Self {
         let [a1, a2] = self.reciprocal();
-        Self { a1, a2 }
+        Self { a1, a2, isolated: false }
     }
 
     /// Whether a₁ and a₂ are at right angles, exactly.
@@ -77,13 +92,30 @@ impl Cell {
         cross(self.a1, self.a2).abs()
     }
 
-    /// The point s₁ a₁ + s₂ a₂, lengths.
-    pub fn point(&self, [s1, s2]: [f64; 2]) -> [f64; 2] {
+    /// The corner of the cell from which fractions count, a point: 0, or that of a window whose middle is 0.
+    pub fn corner(&self) -> [f64; 2] {
+        if self.isolated { [0, 1].map(|k| -0.5 * (self.a1[k] + self.a2[k])) } else { [0.0; 2] }
+    }
+
+    /// The point at the fractions s₁, s₂ of a₁ and a₂ from the [corner](Self::corner), lengths.
+    pub fn point(&self, s: [f64; 2]) -> [f64; 2] {
+        let (vector, corner) = (self.vector(s), self.corner());
+        [corner[0] + vector[0], corner[1] + vector[1]]
+    }
+
+    /// The fractions s₁, s₂ of a [point](Self::point).
+    pub fn fractions(&self, x: [f64; 2]) -> [f64; 2] {
+        let corner = self.corner();
+        self.parts([x[0] - corner[0], x[1] - corner[1]])
+    }
+
+    /// The vector s₁ a₁ + s₂ a₂, lengths.
+    pub fn vector(&self, [s1, s2]: [f64; 2]) -> [f64; 2] {
         [s1 * self.a1[0] + s2 * self.a2[0], s1 * self.a1[1] + s2 * self.a2[1]]
     }
 
-    /// Fractions s₁, s₂ with s₁ a₁ + s₂ a₂ = `x`.
-    pub fn fractions(&self, x: [f64; 2]) -> [f64; 2] {
+    /// The parts s₁, s₂ of a [vector](Self::vector).
+    pub fn parts(&self, x: [f64; 2]) -> [f64; 2] {
         let determinant = cross(self.a1, self.a2);
         [cross(x, self.a2) / determinant, cross(self.a1, x) / determinant]
     }
@@ -107,7 +139,7 @@ impl Cell {
                 break;
             }
         }
-        ReducedBasis { cell: Self { a1: short.0, a2: long.0 }, matrix: [short.1, long.1] }
+        ReducedBasis { cell: Self { a1: short.0, a2: long.0, isolated: self.isolated }, matrix: [short.1, long.1] }
     }
 }
 
@@ -144,7 +176,7 @@ impl ReducedBasis {
     /// The lattice vectors, one of each pair ±r, whose perpendicular bisectors bound the Wigner–Seitz cell: r₁, r₂ and the shorter
     /// diagonal.
     pub fn facets(&self) -> [[f64; 2]; 3] {
-        let Cell { a1, a2 } = self.cell;
+        let Cell { a1, a2, .. } = self.cell;
         let sign = if dot(a1, a2) > 0.0 { -1.0 } else { 1.0 };
         [a1, a2, [a1[0] + sign * a2[0], a1[1] + sign * a2[1]]]
     }
@@ -157,13 +189,17 @@ impl ReducedBasis {
         candidates.into_iter().filter(|&(x, _)| norm(x) <= least * (1.0 + tolerance)).collect()
     }
 
-    /// One shortest vector equivalent to s₁a₁ + s₂a₂: in a reduced cell one of the four corners around it is nearest.
+    /// One shortest vector equivalent to s₁a₁ + s₂a₂: in a reduced cell one of the four corners around it is nearest. Of a window the
+    /// vector itself.
     pub fn nearest(&self, s: [f64; 2]) -> [f64; 2] {
         let t = self.fractions(s);
+        if self.cell.isolated {
+            return self.cell.vector(t);
+        }
         let [u, v] = t.map(|t| t - t.floor());
         let (mut nearest, mut least) = ([0.0; 2], f64::INFINITY);
         for corner in [[u, v], [u - 1.0, v], [u, v - 1.0], [u - 1.0, v - 1.0]] {
-            let x = self.cell.point(corner);
+            let x = self.cell.vector(corner);
             let square = x[0] * x[0] + x[1] * x[1];
             if square < least {
                 (nearest, least) = (x, square);
@@ -179,11 +215,16 @@ impl ReducedBasis {
 
     #[inline(always)]
     fn nearest_squares_by<S: Simd>(&self, _: S, [s, t]: [f64; 2], count: usize, squares: &mut [f64]) {
-        let Cell { a1, a2 } = self.cell;
+        let Cell { a1, a2, .. } = self.cell;
         let ([u0, v0], [du, dv]) = (self.fractions([s, t]), self.fractions([0.0, 1.0]));
         for (k, square) in squares.iter_mut().enumerate() {
             let part = k as f64 / count as f64;
             let [u, v] = [u0 + part * du, v0 + part * dv];
+            if self.cell.isolated {
+                let [x, y] = [u * a1[0] + v * a2[0], u * a1[1] + v * a2[1]];
+                *square = x * x + y * y;
+                continue;
+            }
             let [u, v] = [u - u.floor(), v - v.floor()];
             let mut least = f64::INFINITY;
             for [a, b] in [[u, v], [u - 1.0, v], [u, v - 1.0], [u - 1.0, v - 1.0]] {
@@ -199,7 +240,7 @@ impl ReducedBasis {
         // In a reduced basis |m₁r₁ + m₂r₂|² ≥ ½ (m₁²|r₁|² + m₂²|r₂|²).
         let most = [self.cell.a1, self.cell.a2].map(|r| (reach * 2f64.sqrt() / norm(r)).ceil() as i32);
         let multiples = (-most[0]..=most[0]).flat_map(|i| (-most[1]..=most[1]).map(move |j| [i, j].map(f64::from)));
-        multiples.map(|m| self.cell.point(m)).filter(|&x| norm(x) <= reach * (1.0 + 1e-9)).collect()
+        multiples.map(|m| self.cell.vector(m)).filter(|&x| norm(x) <= reach * (1.0 + 1e-9)).collect()
     }
 
     /// Fractions of r₁, r₂ of the vector s₁a₁ + s₂a₂: the inverse of an integer matrix of determinant ±1 is one too.
@@ -217,7 +258,7 @@ impl ReducedBasis {
             let shift = [whole[0] + (k / 3) as f64 - 1.0, whole[1] + (k % 3) as f64 - 1.0];
             let [n1, n2] = shift.map(|n| n as i32);
             let taken = [0, 1].map(|j| n1 * self.matrix[0][j] + n2 * self.matrix[1][j]);
-            (self.cell.point([t[0] - shift[0], t[1] - shift[1]]), taken)
+            (self.cell.vector([t[0] - shift[0], t[1] - shift[1]]), taken)
         })
     }
 }
@@ -226,6 +267,9 @@ impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([x1, y1], [x2, y2]) = (self.a1, self.a2);
         let [x1, y1, x2, y2, area] = [x1, y1, x2, y2, self.area()].map(number);
+        if self.isolated {
+            return write!(f, "window of {x1} × {y2} around an isolated contact");
+        }
         write!(f, "cell a₁ = ({x1}, {y1}), a₂ = ({x2}, {y2}), area {area}")
     }
 }
@@ -278,6 +322,19 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn the_middle_of_a_window_is_the_origin_and_nothing_in_it_is_periodic() {
+        let window = Cell::window([3.0, 2.0]).unwrap();
+        assert_eq!((window.point([0.5, 0.5]), window.point([0.0, 0.0])), ([0.0; 2], [-1.5, -1.0]));
+        assert_eq!((window.fractions([0.0; 2]), window.vector([0.5, 0.5])), ([0.5; 2], [1.5, 1.0]));
+        let reduced = window.reduced();
+        assert_eq!(reduced.nearest([0.9, -0.9]), [2.7, -1.8]);
+        let mut squares = [0.0; 2];
+        reduced.nearest_squares([-0.8, 0.0], 2, &mut squares);
+        assert!((squares[0] - 5.76).abs() < 1e-14 && (squares[1] - 6.76).abs() < 1e-14, "{squares:?}");
+        assert!(window != Cell::new([3.0, 0.0], [0.0, 2.0]).unwrap() && Cell::window([1.0, 0.0]).is_err());
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The doubly periodic grid on a cell, and its wavevectors.
 //!
-//! Samples lie at x = (i/N₁) **a**₁ + (j/N₂) **a**₂, sample (0, 0) at the origin; fields are stored row by row, j
+//! Samples lie at x = (i/N₁) **a**₁ + (j/N₂) **a**₂, sample (0, 0) at the [corner](Cell::corner) of the cell, the origin unless it
+//! is a window; fields are stored row by row, j
 //! (along **a**₂) fastest. The index (k₁, k₂) of a Fourier component means the wavevector k₁**b**₁ + k₂**b**₂ up to
 //! multiples of N₁**b**₁ and N₂**b**₂ (its aliases). The one of least length is taken: on an oblique cell the usual
 //! index range is a parallelogram that breaks the lattice's symmetry, the set of shortest aliases (the first Brillouin

@@ -40,6 +40,9 @@ pub fn annulus(grid: &Grid, centre: [f64; 2], [from, to]: [f64; 2]) -> Vec<Sampl
     let length = along[0].hypot(along[1]);
     let unit = along.map(|x| x / length);
     let cross = |[x, y]: [f64; 2]| x * unit[1] - y * unit[0];
+    let corner = grid.cell().corner();
+    // From the sample (0, 0).
+    let centre = [0, 1].map(|k| centre[k] - corner[k]);
     let middle = cross(centre) / cross(down);
     let rows = to / cross(down).abs();
     let mut runs = Vec::new();

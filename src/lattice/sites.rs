@@ -155,7 +155,7 @@ mod tests {
             let mut nearest = f64::INFINITY;
             for (s, t) in sites.iter().flat_map(|s| sites.iter().map(move |t| (s, t))) {
                 for (m1, m2) in (-2..=2).flat_map(|i| (-2..=2).map(move |j| (i, j))) {
-                    let d = cell.point([s[0] - t[0] + f64::from(m1), s[1] - t[1] + f64::from(m2)]);
+                    let d = cell.vector([s[0] - t[0] + f64::from(m1), s[1] - t[1] + f64::from(m2)]);
                     if norm(d) > 1e-9 {
                         nearest = nearest.min(norm(d));
                     }

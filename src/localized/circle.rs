@@ -148,7 +148,7 @@ mod tests {
         let mut inside = 0;
         for (i, j) in (-99..=99).flat_map(|i| (-12..=12).map(move |j| (f64::from(i), f64::from(j)))) {
             for site in &sites {
-                let x = cell.point([site[0] - sites[0][0] + i, site[1] - sites[0][1] + j]);
+                let x = cell.vector([site[0] - sites[0][0] + i, site[1] - sites[0][1] + j]);
                 inside += usize::from(x[0].hypot(x[1]) <= farthest * (1.0 + 1e-9));
             }
         }

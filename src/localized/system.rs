@@ -99,7 +99,7 @@ impl System {
     /// Vectors from each site to each other one of the cell, lengths.
     pub fn offsets(&self) -> Vec<Vec<[f64; 2]>> {
         let places = self.places();
-        let offset = |from: [f64; 2], to: [f64; 2]| self.cell().point([to[0] - from[0], to[1] - from[1]]);
+        let offset = |from: [f64; 2], to: [f64; 2]| self.cell().vector([to[0] - from[0], to[1] - from[1]]);
         places.iter().map(|&from| places.iter().map(|&to| offset(from, to)).collect()).collect()
     }
 

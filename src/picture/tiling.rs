@@ -4,9 +4,14 @@ use super::snapshot::Snapshot;
 use super::window::Window;
 use crate::lattice::{Cell, Grid};
 
-/// All places in a window that are periodic images of a place in fractions of a₁, a₂; lengths.
+/// All places in a window that are periodic images of a place in fractions of a₁, a₂, or the place itself where contact is
+/// isolated; lengths.
 pub fn images(cell: Cell, place: [f64; 2], window: Window) -> Vec<[f64; 2]> {
     let [[x0, x1], [y0, y1]] = window;
+    let is_inside = |[x, y]: &[f64; 2]| (x0..=x1).contains(x) && (y0..=y1).contains(y);
+    if cell.is_isolated() {
+        return [cell.point(place)].into_iter().filter(is_inside).collect();
+    }
     let reduced = cell.reduced().cell();
     let own = reduced.fractions(cell.point(place));
     let corners = [[x0, y0], [x0, y1], [x1, y0], [x1, y1]].map(|corner| reduced.fractions(corner));
@@ -18,7 +23,7 @@ pub fn images(cell: Cell, place: [f64; 2], window: Window) -> Vec<[f64; 2]> {
     };
     let multiples = range(0).flat_map(|i| range(1).map(move |j| [i as f64, j as f64]));
     let images = multiples.map(|[i, j]| reduced.point([own[0] + i, own[1] + j]));
-    images.filter(|[x, y]| (x0..=x1).contains(x) && (y0..=y1).contains(y)).collect()
+    images.filter(is_inside).collect()
 }
 
 /// The four samples around a place and their bilinear weights.

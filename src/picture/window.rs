@@ -21,8 +21,12 @@ pub struct View {
 }
 
 impl View {
-    /// A window of at least two by two cells around the middle of the unit cell, less for slender cells.
+    /// A window of at least two by two cells around the middle of the unit cell, less for slender cells; the window of an isolated
+    /// contact.
     pub fn cells(cell: Cell) -> Self {
+        if cell.is_isolated() {
+            return Self::one(cell);
+        }
         let long = cell.reduced().longer_side();
         // Rows of cells are area/long apart; of a slender cell several are shown.
         let apart = cell.area() / long;
@@ -42,7 +46,8 @@ impl View {
     /// A window of one cell: the rectangle around it.
     pub fn one(cell: Cell) -> Self {
         let [[x1, y1], [x2, y2]] = cell.vectors();
-        let window = [bounds(x1, x2), bounds(y1, y2)];
+        let corner = cell.corner();
+        let window = [bounds(x1, x2).map(|x| corner[0] + x), bounds(y1, y2).map(|y| corner[1] + y)];
         let area: f64 = window.iter().map(|[first, last]| last - first).product();
         // An oblique slender cell would be a line in the rectangle around it.
         if area > ROWS * cell.area() {

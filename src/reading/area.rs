@@ -200,7 +200,7 @@ mod tests {
             let depth: Vec<f64> = (0..grid.len())
                 .map(|index| {
                     let [s, t] = grid.fractions(index);
-                    let [x, y] = grid.cell().point([s - 0.5, t - 0.5]);
+                    let [x, y] = grid.cell().vector([s - 0.5, t - 0.5]);
                     inside * (1.0 - (x * x + y * y) / (radius * radius))
                 })
                 .collect();

@@ -108,7 +108,7 @@ impl StressField {
 impl<'a> LineField<'a> {
     fn new(field: &'a StressField, line: SurfaceLine) -> Self {
         let cell = field.grid().cell();
-        let trace = Trace::new(&field.series, cell.fractions(line.origin), cell.fractions(line.unit()));
+        let trace = Trace::new(&field.series, cell.fractions(line.origin), cell.parts(line.unit()));
         let smoothed = field
             .regions()
             .have_edges()

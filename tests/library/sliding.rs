@@ -161,7 +161,7 @@ fn the_certificate_bounds_the_elastic_energy_of_the_error() {
             };
             let sharp = solved(1e-12);
             assert!(sharp.report.stop.solved(), "{}", sharp.report);
-            let mut operator = LayeredOperator::new(sharp.grid(), &half_space());
+            let mut operator = LayeredOperator::new(sharp.grid(), half_space());
             let mut elastic = |field: Array2<f64>| {
                 let mut displacement: Vec<f64> = field.iter().copied().collect();
                 operator.displacement(&mut displacement, &mut Workspace::default());

@@ -44,12 +44,19 @@ impl<'a> PolarSpot<'a> {
     /// The spot around a `centre` (lengths), whose samples in contact are not farther from it than `farthest`, a length; `what`
     /// classifies a sample by its flat index.
     pub fn new(grid: &'a Grid, centre: [f64; 2], farthest: f64, what: &'a (dyn Fn(usize) -> Sample + Sync)) -> Self {
-        let reduced = grid.cell().reduced();
-        let [x, y] = reduced.short();
-        Self { grid, reduced, alone: 0.499 * x.hypot(y), centre, farthest, what }
+        let (cell, reduced) = (grid.cell(), grid.cell().reduced());
+        let alone = if cell.is_isolated() {
+            // To the border of the window.
+            let [width, height] = [cell.vectors()[0][0], cell.vectors()[1][1]];
+            (0.5 * width - centre[0].abs()).min(0.5 * height - centre[1].abs())
+        } else {
+            let [x, y] = reduced.short();
+            0.499 * x.hypot(y)
+        };
+        Self { grid, reduced, alone, centre, farthest, what }
     }
 
-    /// Whether no sample in contact is nearer to an image of the axis.
+    /// Whether no sample in contact is nearer to an image of the axis, or at the border of a window.
     pub fn stands_alone(&self) -> bool {
         self.farthest < self.alone
     }
@@ -59,11 +66,17 @@ impl<'a> PolarSpot<'a> {
         self.farthest
     }
 
-    /// Where a sample lies, given its `offset` from the axis (lengths): [`Sample::Other`] if an image of the axis is nearer.
+    /// Where a sample lies, given its `offset` from the axis (lengths): [`Sample::Other`] if an image of the axis is nearer, or
+    /// outside of a window.
     fn what(&self, index: usize, offset: [f64; 2]) -> Sample {
         let [x, y] = offset;
         if x * x + y * y > self.alone * self.alone {
-            let [own_x, own_y] = self.reduced.nearest(self.grid.cell().fractions(offset));
+            let cell = self.grid.cell();
+            if cell.is_isolated() {
+                let place = cell.fractions([self.centre[0] + x, self.centre[1] + y]);
+                return if place.iter().all(|s| (0.0..1.0).contains(s)) { (self.what)(index) } else { Sample::Other };
+            }
+            let [own_x, own_y] = self.reduced.nearest(cell.parts(offset));
             if (own_x - x).abs().max((own_y - y).abs()) > 1e-6 * self.alone {
                 return Sample::Other;
             }
