@@ -100,7 +100,7 @@ pub use body::{
 pub use counterbody::{Counterbody, CounterbodyError, IndenterError, Indenters, Level, Shape, Surface, Topography};
 pub use friction::{Friction, FrictionError};
 pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid};
-pub use load::Load;
+pub use load::{Load, LoadQuantity};
 pub use problem::Problem;
 pub use reading::{LevelReading, Reading, StressReading};
 pub use run::{Run, Sampling};

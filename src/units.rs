@@ -10,6 +10,7 @@
 
 use crate::body::HalfSpace;
 use crate::counterbody::{Level, Shape};
+use crate::load::LoadQuantity;
 use crate::problem::Problem;
 use std::ops::RangeInclusive;
 
@@ -51,6 +52,7 @@ pub struct Prefixed {
 pub struct Units {
     length: Unit,
     pressure: Unit,
+    quantity: LoadQuantity,
 }
 
 /// Prefixes from 10⁻¹² to 10¹² by thousands.
@@ -68,12 +70,13 @@ impl Units {
         };
         let pressure = is_one(half_space.substrate().young()).then(|| format!("E{}", substrate_index(half_space)));
         let relative = |symbol: Option<String>| symbol.map_or(Unit::None, Unit::Relative);
-        Self { length: relative(length.map(str::to_owned)), pressure: relative(pressure) }
+        let quantity = if problem.cell().is_isolated() { LoadQuantity::Force } else { LoadQuantity::MeanPressure };
+        Self { length: relative(length.map(str::to_owned)), pressure: relative(pressure), quantity }
     }
 
     /// Unknown units.
     pub fn unknown() -> Self {
-        Self { length: Unit::None, pressure: Unit::None }
+        Self { length: Unit::None, pressure: Unit::None, quantity: LoadQuantity::MeanPressure }
     }
 
     /// The units with names for lengths, for pressures or for both.
@@ -82,6 +85,26 @@ impl Units {
         Self {
             length: length.map_or(self.length, |name| Unit::called(name, "m")),
             pressure: pressure.map_or(self.pressure, |name| Unit::called(name, "Pa")),
+            quantity: self.quantity,
+        }
+    }
+
+    /// The units with loads stated in this quantity.
+    #[must_use]
+    pub fn with_loads_in(self, quantity: LoadQuantity) -> Self {
+        Self { quantity, ..self }
+    }
+
+    /// The quantity in which loads are stated.
+    pub fn quantity(&self) -> LoadQuantity {
+        self.quantity
+    }
+
+    /// Unit of loads in their [quantity](Self::quantity).
+    pub fn load(&self) -> Unit {
+        match self.quantity {
+            LoadQuantity::MeanPressure => self.pressure.clone(),
+            LoadQuantity::Force => self.force(),
         }
     }
 
@@ -98,6 +121,18 @@ impl Units {
     /// Unit of forces: a pressure times an area; [`Unit::None`] where one of both has no name.
     pub fn force(&self) -> Unit {
         self.pressure_times(2, "N", "²")
+    }
+
+    /// Unit of areas: a length squared; [`Unit::None`] where lengths have no name.
+    pub fn area(&self) -> Unit {
+        match &self.length {
+            Unit::Named(name) => Unit::Named(format!("{name}²")),
+            Unit::Si { exponent, .. } => {
+                let prefix = Unit::Si { base: "m", exponent: *exponent }.name().unwrap_or_default();
+                Unit::Named(format!("{prefix}²"))
+            }
+            Unit::None | Unit::Relative(_) => Unit::None,
+        }
     }
 
     /// Unit of energies: a pressure times a volume; [`Unit::None`] where one of both has no name.
@@ -235,9 +270,9 @@ mod tests {
     #[test]
     fn units_without_a_name_are_relative_where_something_is_one() {
         let relative = |symbol: &str| Unit::Relative(symbol.to_owned());
-        assert_eq!(units(1.0, 0.8, 1.0), Units { length: relative("l"), pressure: relative("E") });
+        assert_eq!(units(1.0, 0.8, 1.0), Units { length: relative("l"), pressure: relative("E"), ..Units::unknown() });
         assert_eq!(units(0.6, 1.0, 1.0).length, relative("r₁"));
-        assert_eq!(units(2e-5, 8e-5, 2.1e11), Units { length: Unit::None, pressure: Unit::None });
+        assert_eq!(units(2e-5, 8e-5, 2.1e11), Units::unknown());
         assert_eq!(units(1.0, 0.8, 1.0).force(), Unit::None);
     }
 

@@ -1,4 +1,4 @@
-//! `[load]`: the nominal pressures or penetrations to solve for, one after another.
+//! `[load]`: the nominal pressures, forces or penetrations to solve for, one after another.
 
 use serde::{Serialize, Serializer};
 
@@ -17,11 +17,15 @@ const SIZE_OR_ZERO: Form = Form::Number(Range::SizeOrZero);
 const LOADS: Form = Form::List { of: &SIZE_OR_ZERO, count: [1, STEPS] };
 
 section! {
-    /// The section `[load]`: one of the two keys, one value a load step.
+    /// The section `[load]`: one of the keys, one value a load step.
     pub struct LoadSection = LOAD, rules one {
         /// the nominal pressure p̄
         pub mean_pressure: Option<Steps> =
             Key::new(&[SIZE_OR_ZERO, LOADS, Form::Table(&PRESSURES)], "[0.01, 0.06]").unit(Unit::Pressure),
+        /// the force P on one cell, or on an isolated contact, in the unit of pressure times that of length squared
+        pub force: Option<Steps> = Key::new(&[SIZE_OR_ZERO, LOADS, Form::Table(&FORCES)], "[5.0]")
+            .unit(Unit::Force)
+            .instead_of("mean_pressure"),
         /// the penetration δ from first touch
         pub penetration: Option<Steps> =
             Key::new(&[SIZE_OR_ZERO, LOADS, Form::Table(&PENETRATIONS)], "[0.01, 0.05]")
@@ -31,6 +35,7 @@ section! {
 }
 
 static PRESSURES: Keys = Keys::new(&measured_in::<4>(RANGE.all, Unit::Pressure));
+static FORCES: Keys = Keys::new(&measured_in::<4>(RANGE.all, Unit::Force));
 static PENETRATIONS: Keys = Keys::new(&measured_in::<4>(RANGE.all, Unit::Length));
 
 section! {
@@ -80,7 +85,7 @@ impl KeyValue for Steps {
 }
 
 fn one(_: &LoadSection, section: &TableAt<'_>) -> Result<(), Refusal> {
-    section.one_of(["mean_pressure", "penetration"]).map(drop)
+    section.one_of(["mean_pressure", "force", "penetration"]).map(drop)
 }
 
 fn positive_ends(range: &LoadRange, section: &TableAt<'_>) -> Result<(), Refusal> {
@@ -96,9 +101,10 @@ fn positive_ends(range: &LoadRange, section: &TableAt<'_>) -> Result<(), Refusal
 impl LoadSection {
     /// The key, the kind of load that it prescribes, and its values.
     fn prescribed(&self) -> (&'static str, fn(f64) -> Load, &[f64]) {
-        match &self.mean_pressure {
-            Some(Steps(pressures)) => ("mean_pressure", Load::MeanPressure, pressures),
-            None => ("penetration", Load::Penetration, &demanded(self.penetration.as_ref()).0),
+        match (&self.mean_pressure, &self.force) {
+            (Some(Steps(pressures)), _) => ("mean_pressure", Load::MeanPressure, pressures),
+            (None, Some(Steps(forces))) => ("force", Load::Force, forces),
+            (None, None) => ("penetration", Load::Penetration, &demanded(self.penetration.as_ref()).0),
         }
     }
 
@@ -118,9 +124,10 @@ impl LoadSection {
         values.iter().map(|&value| load(value)).collect()
     }
 
-    /// The nominal pressures p̄; `None` where penetrations are prescribed.
-    pub fn mean_pressures(&self) -> Option<&[f64]> {
-        self.mean_pressure.as_ref().map(|Steps(values)| &values[..])
+    /// The nominal pressures p̄ on a cell of this area; `None` where penetrations are prescribed.
+    pub fn mean_pressures(&self, area: f64) -> Option<Vec<f64>> {
+        let forces = self.force.as_ref().map(|Steps(values)| values.iter().map(|force| force / area).collect());
+        self.mean_pressure.as_ref().map(|Steps(values)| values.clone()).or(forces)
     }
 }
 
@@ -161,7 +168,7 @@ mod tests {
 
     #[test]
     fn a_number_is_a_list_of_one() {
-        assert_eq!(read("0.5").unwrap().mean_pressures(), Some(&[0.5][..]));
-        assert_eq!(read("[0, 2]").unwrap().mean_pressures(), Some(&[0.0, 2.0][..]));
+        assert_eq!(read("0.5").unwrap().mean_pressures(1.0), Some(vec![0.5]));
+        assert_eq!(read("[0, 2]").unwrap().mean_pressures(1.0), Some(vec![0.0, 2.0]));
     }
 }

@@ -29,6 +29,7 @@ use super::{
 use crate::body::{Bodies, HalfSpace, MeanStress};
 use crate::comparison::ComparisonTask;
 use crate::counterbody::{Counterbody, Topography};
+use crate::load::LoadQuantity;
 use crate::problem::Problem;
 use crate::run::{Run, Sampling, StressRequest};
 use crate::spectral::Settings;
@@ -122,7 +123,13 @@ impl Case {
     /// Units of lengths and pressures: their names, or quantities of the problem where they have none.
     pub fn units(&self) -> Units {
         let name = |of: fn(&UnitsSection) -> &Option<String>| self.units.as_ref().and_then(|own| of(own).as_deref());
-        Units::of(&self.problem).named(name(|own| &own.length), name(|own| &own.pressure))
+        let units = Units::of(&self.problem).named(name(|own| &own.length), name(|own| &own.pressure));
+        if self.load.force.is_some() { units.with_loads_in(LoadQuantity::Force) } else { units }
+    }
+
+    /// The nominal pressures p̄; `None` where penetrations are prescribed.
+    pub fn mean_pressures(&self) -> Option<Vec<f64>> {
+        self.load.mean_pressures(self.problem.cell().area())
     }
 
     /// Warnings about its surface, a sentence each.

@@ -6,7 +6,7 @@ use super::error::Refusal;
 use super::keys::{Absent, Form, Key, Keys};
 use super::node::{Entry, Node, Table, Value};
 use super::span::Span;
-use super::suggestions::{alternatives, nearest};
+use super::suggestions::{alternatives, joined, nearest};
 use super::value::ValueAt;
 
 /// An empty table for an absent section.
@@ -145,17 +145,19 @@ impl<'a> TableAt<'a> {
     }
 
     /// Index and value of the one of two keys that is given; refused where both are, or none.
-    pub(super) fn one_of(&self, keys: [&str; 2]) -> Result<(usize, ValueAt<'a>), Refusal> {
-        let [a, b] = keys;
-        match (self.optional(a), self.optional(b)) {
-            (Some(value), None) => Ok((0, value)),
-            (None, Some(value)) => Ok((1, value)),
-            (Some(_), Some(second)) => Err(self.both(keys, second.node.span)),
-            (None, None) => {
-                let message = format!("`{}` or `{}` is missing", self.path(a), self.path(b));
-                let label = format!("either `{a}` or `{b}` is missing here");
+    pub(super) fn one_of<const N: usize>(&self, keys: [&str; N]) -> Result<(usize, ValueAt<'a>), Refusal> {
+        let mut given = keys.iter().enumerate().filter_map(|(index, key)| Some((index, self.optional(key)?)));
+        match (given.next(), given.next()) {
+            (Some(own), None) => Ok(own),
+            (Some((first, _)), Some((second, value))) => Err(self.both([keys[first], keys[second]], value.node.span)),
+            (None, _) => {
+                let paths: Vec<String> = keys.iter().map(|key| format!("`{}`", self.path(key))).collect();
+                let names: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
+                let (message, either) = (joined(&paths, "or"), joined(&names, "or"));
+                let label = format!("either {either} is missing here");
                 let told = keys.map(|key| format!("`{key}` ({})", self.keys.get(key).map_or("", |key| key.what)));
-                Err(Refusal::new(self.span, message, label).help(format!("add {}", told.join(" or "))))
+                let refusal = Refusal::new(self.span, format!("{message} is missing"), label);
+                Err(refusal.help(format!("add {}", joined(&told, "or"))))
             }
         }
     }

@@ -55,7 +55,7 @@ impl PictureOptions {
             return Ok(());
         }
         type Draw<'a> = &'a (dyn Fn() -> Option<Canvas> + Sync);
-        let touching = last.reading.mean_pressure > 0.0;
+        let touching = last.reading.touches();
         let sections = Some(sections).filter(|sections| touching && !sections.is_empty());
         let pictures: [(&str, Draw); 6] = [
             ("pressure", &|| touching.then(|| picture::pressure(last))),

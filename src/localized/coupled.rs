@@ -10,7 +10,7 @@ use super::patterns::Patterns;
 use super::solution::Stop;
 use super::system::System;
 use super::tables::InfluenceTables;
-use crate::load::Load;
+use crate::load::Control;
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
@@ -108,7 +108,7 @@ impl Coupled {
     /// (∂D/∂R = 2πR K(R)), p̄ itself under a prescribed penetration.
     pub(super) fn far_coupling(
         &self,
-        load: Load,
+        load: Control,
         rule: CircleRadius,
         m: usize,
         c: usize,
@@ -116,8 +116,8 @@ impl Coupled {
         under: f64,
     ) -> f64 {
         let share = match load {
-            Load::MeanPressure(_) => 0.0,
-            Load::Penetration(_) => 1.0 / self.system.cell().area(),
+            Control::MeanPressure(_) => 0.0,
+            Control::Penetration(_) => 1.0 / self.system.cell().area(),
         };
         match rule {
             CircleRadius::LatticeSum => 0.0,

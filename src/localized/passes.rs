@@ -19,7 +19,7 @@ use super::press::{SpotEnd, press, punch};
 use super::solution::{Solution, Stop};
 use super::spot::Spot;
 use super::tables::InfluenceTables;
-use crate::load::Load;
+use crate::load::{Control, Load};
 use crate::numeric::array::field;
 use std::sync::Arc;
 
@@ -42,7 +42,7 @@ const STIFFNESS_TOLERANCE: f64 = 1e-4;
 struct Passes<'a> {
     coupled: &'a Coupled,
     tables: &'a InfluenceTables,
-    load: Load,
+    load: Control,
     rule: CircleRadius,
     patterns: Patterns,
     /// Gap over each element of each spot, lengths; empty before the first pass.
@@ -76,7 +76,7 @@ struct PassEnd {
 impl Coupled {
     /// Solves one load step, from an earlier solution where there is one.
     pub fn solve(&self, load: Load, rule: CircleRadius, start: Option<&Solution>) -> Solution {
-        let mut iteration = Passes::new(self, load, rule, start);
+        let mut iteration = Passes::new(self, load.on(self.system.cell()), rule, start);
         let (mut stop, mut merged, mut passes) = (Stop::Stalled, vec![false; self.circles.len()], 0);
         while passes < MAX_PASSES && iteration.has_work_left() {
             passes += 1;
@@ -98,13 +98,13 @@ impl Coupled {
 
 impl<'a> Passes<'a> {
     /// Patterns of the `start`, without contact where there is none.
-    fn new(coupled: &'a Coupled, load: Load, rule: CircleRadius, start: Option<&Solution>) -> Self {
+    fn new(coupled: &'a Coupled, load: Control, rule: CircleRadius, start: Option<&Solution>) -> Self {
         let (mesh, count, tables) = (coupled.mesh, coupled.circles.len(), coupled.tables(rule));
         let mut patterns = Patterns::new(mesh, count, start);
         let mut first_depth = coupled.first_depth();
         match load {
-            Load::Penetration(penetration) => patterns.penetration = penetration,
-            Load::MeanPressure(pressure) => {
+            Control::Penetration(penetration) => patterns.penetration = penetration,
+            Control::MeanPressure(pressure) => {
                 let (cell, element) = (coupled.system.cell().area(), mesh.size * mesh.size);
                 let by_one_element = pressure * cell / element * tables.own(0).diagonal();
                 first_depth = first_depth.max(MIN_FIRST_DEPTH * by_one_element);
@@ -137,16 +137,16 @@ impl<'a> Passes<'a> {
     /// Whole load on the cell, a force, under a prescribed mean pressure.
     fn prescribed(&self) -> Option<f64> {
         match self.load {
-            Load::MeanPressure(pressure) => Some(pressure * self.coupled.system.cell().area()),
-            Load::Penetration(_) => None,
+            Control::MeanPressure(pressure) => Some(pressure * self.coupled.system.cell().area()),
+            Control::Penetration(_) => None,
         }
     }
 
     /// Presses every spot once.
     fn press_spots(&mut self) -> (LoadExchange, PassEnd) {
         self.mean_pressure = match self.load {
-            Load::MeanPressure(pressure) => pressure,
-            Load::Penetration(_) => self.patterns.loads.iter().sum::<f64>() / self.coupled.system.cell().area(),
+            Control::MeanPressure(pressure) => pressure,
+            Control::Penetration(_) => self.patterns.loads.iter().sum::<f64>() / self.coupled.system.cell().area(),
         };
         let mut exchange = LoadExchange::new(self.patterns.loads.clone());
         let mut end = PassEnd { met: true, unbounded: false };

@@ -1,8 +1,9 @@
-//! `limit.json`: the mean pressure at which each criterion is reached, the first of them, and every load that was solved.
+//! `limit.json`: the load at which each criterion is reached, the first of them, and every load that was solved.
 
 use super::json::{Unreadable, indented, read_back};
 use super::summary::{UnitNames, check};
 use crate::case::Case;
+use crate::load::LoadQuantity;
 use crate::reading::{Criterion, names};
 use crate::run::{Limit, Limits, StepRecord};
 use serde::{Deserialize, Serialize};
@@ -24,9 +25,9 @@ pub struct LimitFile {
     pub warnings: Vec<String>,
     /// The limit that is reached first; `None` where none is.
     pub first: Option<FirstLimit>,
-    /// The least and the largest mean pressure that were solved; `None` where none was.
+    /// The least and the largest load that were solved; `None` where none was.
     pub searched: Option<[f64; 2]>,
-    /// Mean pressure at which contact becomes complete; `None` where it never does.
+    /// Load at which contact becomes complete; `None` where it never does.
     pub complete_contact: Option<f64>,
     /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
     pub change: Option<f64>,
@@ -50,7 +51,7 @@ pub struct FirstLimit {
 impl LimitFile {
     /// The record of the limits of a case.
     pub fn new(limits: &Limits, case: &Case, warnings: &[String]) -> Self {
-        let pressure = |step: &StepRecord| step.reading.mean_pressure;
+        let load = |step: &StepRecord| step.reading.load(limits.quantity);
         let ends = limits.steps.first().zip(limits.steps.last());
         Self {
             percoat: env!("CARGO_PKG_VERSION").to_owned(),
@@ -59,7 +60,7 @@ impl LimitFile {
             units: UnitNames::of(case),
             warnings: warnings.to_vec(),
             first: limits.first().map(|limit| FirstLimit { limit: *limit, rivals: limits.rivals() }),
-            searched: ends.map(|(first, last)| [pressure(first), pressure(last)]),
+            searched: ends.map(|(first, last)| [load(first), load(last)]),
             complete_contact: Some(limits.complete).filter(|pressure| pressure.is_finite()),
             change: limits.change,
             limits: limits.limits.clone(),
@@ -88,6 +89,7 @@ impl LimitFile {
             limits: self.limits.clone(),
             steps: self.steps.clone(),
             shown: None,
+            quantity: self.limits.first().map_or(LoadQuantity::MeanPressure, |limit| limit.quantity),
             complete: self.complete_contact.unwrap_or(f64::INFINITY),
             change: self.change,
             end: None,

@@ -56,6 +56,7 @@ pub(super) struct StepIdentity {
 #[serde(rename_all = "snake_case")]
 pub(super) enum Prescribed {
     MeanPressure(f64),
+    Force(f64),
     Penetration(f64),
 }
 
@@ -63,6 +64,7 @@ impl From<Load> for Prescribed {
     fn from(load: Load) -> Self {
         match load {
             Load::MeanPressure(value) => Self::MeanPressure(value),
+            Load::Force(value) => Self::Force(value),
             Load::Penetration(value) => Self::Penetration(value),
         }
     }

@@ -1,6 +1,7 @@
 //! Labels of quantities on axes and in captions: words, symbol and unit.
 
 use super::number::short;
+use crate::load::LoadQuantity;
 use crate::units::{Prefixed, Unit, Units};
 
 /// The label of a quantity.
@@ -56,6 +57,21 @@ impl Units {
 
     pub(super) fn pressure_of(&self, words: &str, symbol: &str) -> Label {
         label(words, symbol, self.pressure(), "unit\u{a0}of\u{a0}E")
+    }
+
+    /// The quantity of loads, with its words.
+    pub(super) fn load_of(&self, words: &str) -> Label {
+        let (name, symbol) = (self.quantity().name(), self.quantity().symbol());
+        let words = if words.is_empty() { name.to_owned() } else { format!("{words}, {name}") };
+        match self.quantity() {
+            LoadQuantity::MeanPressure => self.pressure_of(&words, symbol),
+            LoadQuantity::Force => label(&words, symbol, &self.force(), "unit\u{a0}of\u{a0}force"),
+        }
+    }
+
+    /// Loads in a list of parameters, with their symbol.
+    pub(super) fn load_equals(&self, values: &[f64]) -> String {
+        equals_in(&self.load(), self.quantity().symbol(), values)
     }
 
     /// Lengths in a list of parameters: h/l = 0.5, h = 3 µm or h = 3.

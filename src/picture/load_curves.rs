@@ -1,4 +1,4 @@
-//! Load curves: the readings over the mean pressure of the steps of a run (Figs 4 and 5).
+//! Load curves: the readings over the load of the steps of a run (Figs 4 and 5).
 
 use super::axis::{Axis, log_spaced};
 use super::canvas::Canvas;
@@ -17,7 +17,7 @@ use crate::units::Units;
 
 /// The picture; `None` for less than two steps, or where none of them carries load.
 pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepRecord]) -> Option<Canvas> {
-    if steps.len() < 2 || !steps.iter().any(|step| step.reading.mean_pressure > 0.0) {
+    if steps.len() < 2 || !steps.iter().any(|step| step.reading.touches()) {
         return None;
     }
     let levels = problem.counterbody().levels().len();
@@ -50,9 +50,9 @@ struct LoadPath<'a> {
     /// Number of levels; 0 for a topography.
     levels: usize,
     units: &'a Units,
-    /// Whether the mean pressure and the quantities that grow with it have logarithmic axes.
+    /// Whether the load and the quantities that grow with it have logarithmic axes.
     logarithmic: bool,
-    /// Levels and the mean pressures at which they touch first.
+    /// Levels and the loads at which they touch first.
     touches: &'a [(usize, f64)],
 }
 
@@ -62,17 +62,18 @@ impl LoadPath<'_> {
     }
 
     fn chart(&self, title: &str, y: Axis, curves: Vec<Curve>) -> Chart {
-        let loads = self.steps.iter().map(|step| step.reading.mean_pressure);
+        let loads = self.steps.iter().map(|step| step.reading.load(self.units.quantity()));
         let last = loads.clone().fold(0.0, f64::max);
         let least = loads.fold(f64::INFINITY, f64::min);
         let (first, last) = if self.logarithmic { (least / 1.1, last * 1.1) } else { (0.0, 1.03 * last) };
-        let x = self.axis(self.units.pressure_of("mean pressure", "p̄")).from_to(first, last);
+        let x = self.axis(self.units.load_of("")).from_to(first, last);
         let marks = self.touches.iter().map(|(level, pressure)| (*pressure, level.to_string())).collect();
         Chart { title: title.to_owned(), x: Axis { marks, ..x }, y, curves }
     }
 
     fn curve(&self, label: &str, colour: Ink, value: impl Fn(&StepRecord) -> f64) -> Curve {
-        let points: Vec<[f64; 2]> = self.steps.iter().map(|step| [step.reading.mean_pressure, value(step)]).collect();
+        let points: Vec<[f64; 2]> =
+            self.steps.iter().map(|step| [step.reading.load(self.units.quantity()), value(step)]).collect();
         // Markers show the steps of short paths.
         let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
         Curve { label: label.to_owned(), points, errors: Vec::new(), style, colour }
@@ -188,7 +189,11 @@ impl LoadPath<'_> {
     fn utilisations(&self) -> Option<Chart> {
         let criteria: Vec<Criterion> =
             self.steps.iter().find(|step| !step.strength.is_empty())?.strength.iter().map(|u| u.criterion).collect();
-        Some(self.chart("utilisation", utilisation_axis(self.steps), utilisation_curves(self.steps, criteria)))
+        Some(self.chart(
+            "utilisation",
+            utilisation_axis(self.steps),
+            utilisation_curves(self.steps, self.units.quantity(), criteria),
+        ))
     }
 }
 

@@ -72,7 +72,7 @@ impl Snapshot {
     pub fn caption(&self, more: &str) -> String {
         let [n1, n2] = self.step.grid().points();
         let load = [
-            self.units.pressure_equals("p̄", &[self.reading.mean_pressure]),
+            self.units.load_equals(&[self.reading.load(self.units.quantity())]),
             self.units.length_equals("δ", &[self.step.penetration()]),
         ];
         let samples = format!("{n1}\u{a0}×\u{a0}{n2} samples");

@@ -6,6 +6,7 @@ use super::chart::{Chart, plots};
 use super::curve::{Curve, Ink, Style};
 use super::number::short;
 use super::snapshot::caption;
+use crate::load::LoadQuantity;
 use crate::problem::Problem;
 use crate::reading::{Criterion, Utilisation};
 use crate::run::{Limits, StepRecord};
@@ -19,19 +20,16 @@ const COLOURS: usize = 6;
 
 /// The picture; `None` where less than two loads were solved.
 pub fn utilisations(title: &str, problem: &Problem, units: &Units, limits: &Limits) -> Option<Canvas> {
-    let loads = || limits.steps.iter().map(|step| step.reading.mean_pressure);
+    let loads = || limits.steps.iter().map(|step| step.reading.load(limits.quantity));
     let (least, most) = (loads().next()?, loads().next_back()?);
     if least == most {
         return None;
     }
-    let curves = utilisation_curves(&limits.steps, limits.limits.iter().map(|limit| limit.criterion));
-    let x = Axis::log(units.pressure_of("mean pressure", "p̄")).from_to(least / 1.1, most * 1.1);
+    let curves = utilisation_curves(&limits.steps, limits.quantity, limits.limits.iter().map(|limit| limit.criterion));
+    let x = Axis::log(units.load_of("")).from_to(least / 1.1, most * 1.1);
     let chart = Chart { title: String::new(), x, y: utilisation_axis(&limits.steps), curves };
     let [n1, n2] = limits.steps[0].points;
-    let more = [
-        limits.in_words(|pressure| units.pressure().with_unit(pressure, short)),
-        format!("{n1}\u{a0}×\u{a0}{n2} samples"),
-    ];
+    let more = [limits.in_words(|load| units.load().with_unit(load, short)), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
     Some(plots(&format!("{} {BARS}", caption(title, problem, units, &more)), &[chart]))
 }
 
@@ -47,11 +45,15 @@ pub(super) fn utilisation_axis(steps: &[StepRecord]) -> Axis {
 
 /// A curve for each criterion with its errors, and the line of failure. Utilisations that are zero or infinite have no place on a
 /// logarithmic axis.
-pub(super) fn utilisation_curves(steps: &[StepRecord], criteria: impl IntoIterator<Item = Criterion>) -> Vec<Curve> {
+pub(super) fn utilisation_curves(
+    steps: &[StepRecord],
+    quantity: LoadQuantity,
+    criteria: impl IntoIterator<Item = Criterion>,
+) -> Vec<Curve> {
     let curve = |criterion: Criterion| {
         let point = |step: &StepRecord| {
             let own = step.utilisation(criterion).map(|own| own.value);
-            [step.reading.mean_pressure, own.filter(|value| value.is_finite()).unwrap_or(f64::NAN)]
+            [step.reading.load(quantity), own.filter(|value| value.is_finite()).unwrap_or(f64::NAN)]
         };
         let error = |step: &StepRecord| step.utilisation(criterion).and_then(|own| own.error).unwrap_or(f64::NAN);
         (steps.iter().map(point).collect(), steps.iter().map(error).collect())
@@ -62,7 +64,7 @@ pub(super) fn utilisation_curves(steps: &[StepRecord], criteria: impl IntoIterat
         let (points, errors) = curve(criterion);
         Curve { label: criterion.to_string(), points, errors, style, colour }
     });
-    let loads = steps.iter().map(|step| step.reading.mean_pressure).filter(|pressure| *pressure > 0.0);
+    let loads = steps.iter().map(|step| step.reading.load(quantity)).filter(|load| *load > 0.0);
     let (least, most) = loads.fold((f64::INFINITY, 0.0f64), |(least, most), p| (least.min(p), most.max(p)));
     let failure = Curve {
         label: "failure".to_owned(),

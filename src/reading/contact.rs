@@ -9,6 +9,7 @@ use super::level_spots::LevelSpots;
 use super::{Errors, LevelReading, peak, spots, topography};
 use crate::lattice::Grid;
 use crate::lattice::components::Component;
+use crate::load::LoadQuantity;
 use crate::notation::number;
 use crate::numeric::serialised;
 use crate::numeric::sums;
@@ -20,14 +21,21 @@ use std::fmt;
 /// Scalars of the contact of one load step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
-    /// Mean pressure p̄ over the cell, in the unit of Young's modulus.
+    /// Mean pressure p̄ over the cell, in the unit of Young's modulus; not a number for an isolated contact.
     #[serde(deserialize_with = "serialised::number")]
     pub mean_pressure: f64,
-    /// Penetration δ, a length: measured from the mean plane of the deformed surface, the additional displacement of Eq. (8).
+    /// Force P on the cell, or on the isolated contact, a pressure times an area.
+    #[serde(default = "unknown", deserialize_with = "serialised::number")]
+    pub force: f64,
+    /// Penetration δ, a length: measured from the mean plane of the deformed surface, the additional displacement of Eq. (8); of an
+    /// isolated contact the approach of points far away.
     #[serde(flatten, with = "both_names")]
     pub penetration: f64,
+    /// Area of contact in the cell, a length squared.
+    #[serde(default = "unknown", deserialize_with = "serialised::number")]
+    pub contact_area: f64,
     /// Fraction of the cell in contact: read between the samples, or counted and corrected by the perimeter where that errs
-    /// less, as on rough surfaces whose spots have few samples.
+    /// less, as on rough surfaces whose spots have few samples. Not a number for an isolated contact.
     #[serde(deserialize_with = "serialised::number")]
     pub contact_fraction: f64,
     /// Uncertainty of the fraction in contact, from the samples of this grid alone; not kept in files.
@@ -66,6 +74,27 @@ pub struct Reading {
 }
 
 impl Reading {
+    /// Whether there is any contact.
+    pub fn touches(&self) -> bool {
+        self.force > 0.0
+    }
+
+    /// The load in one of its quantities.
+    pub fn load(&self, quantity: LoadQuantity) -> f64 {
+        match quantity {
+            LoadQuantity::MeanPressure => self.mean_pressure,
+            LoadQuantity::Force => self.force,
+        }
+    }
+
+    /// Estimated error of the [load](Self::load).
+    pub fn load_error(&self, quantity: LoadQuantity) -> Option<f64> {
+        match quantity {
+            LoadQuantity::MeanPressure => self.errors.mean_pressure,
+            LoadQuantity::Force => self.errors.force,
+        }
+    }
+
     /// Whether the largest pressure is infinite: that of a level is.
     pub fn singular(&self) -> bool {
         self.max_pressure.is_infinite()
@@ -102,6 +131,7 @@ impl Reading {
         };
         let area = ContactArea::of(contact, &components, &spots, &topography);
         let mean_pressure = sums::mean(pressure);
+        let (cell, isolated) = (grid.cell(), grid.cell().is_isolated());
         let levels: Vec<LevelReading> = (1..=contact.problem().counterbody().levels().len())
             .map(|level| LevelSpots::new(contact, level, &spots).reading(&area, mean_pressure))
             .collect();
@@ -119,9 +149,11 @@ impl Reading {
         let resolved = levels.iter().map(LevelReading::grid_peak).fold(highest_peak, f64::max);
         let (max_pressure, resolved_peak) = LevelReading::peak_of(resolved, levels.iter().any(LevelReading::singular));
         Self {
-            mean_pressure,
+            mean_pressure: if isolated { f64::NAN } else { mean_pressure },
+            force: mean_pressure * cell.area(),
             penetration: contact.penetration(),
-            contact_fraction: fraction.value,
+            contact_area: fraction.value * cell.area(),
+            contact_fraction: if isolated { f64::NAN } else { fraction.value },
             contact_fraction_uncertainty: fraction.uncertainty,
             elastic_energy: contact.elastic_energy(),
             max_pressure,
@@ -137,7 +169,7 @@ impl Reading {
     }
 }
 
-/// The elastic energy of files of earlier versions, which do not have it.
+/// A number that files of earlier versions do not have.
 fn unknown() -> f64 {
     f64::NAN
 }
@@ -190,10 +222,18 @@ impl fmt::Display for Reading {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "mean pressure {}, penetration {}, contact fraction {}",
-            number(self.mean_pressure),
+            "{}, penetration {}, contact area {}",
+            if self.mean_pressure.is_nan() {
+                format!("force {}", number(self.force))
+            } else {
+                format!(
+                    "mean pressure {}, contact fraction {}",
+                    number(self.mean_pressure),
+                    number(self.contact_fraction)
+                )
+            },
             number(self.penetration),
-            number(self.contact_fraction)
+            number(self.contact_area)
         )?;
         for level in &self.levels {
             write!(

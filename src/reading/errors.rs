@@ -32,11 +32,17 @@ use serde::{Deserialize, Serialize};
 /// infinite and has none either.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Errors {
-    /// Error of the mean pressure, in the unit of pressure.
+    /// Error of the mean pressure, in the unit of pressure; `None` for an isolated contact.
     pub mean_pressure: Option<f64>,
+    /// Error of the force, a pressure times an area.
+    #[serde(default)]
+    pub force: Option<f64>,
     /// Error of the penetration, a length.
     pub penetration: Option<f64>,
-    /// Error of the fraction in contact.
+    /// Error of the area of contact, a length squared.
+    #[serde(default)]
+    pub contact_area: Option<f64>,
+    /// Error of the fraction in contact; `None` for an isolated contact.
     pub contact_fraction: Option<f64>,
     /// Error of the elastic energy, a pressure times a cubed length.
     #[serde(default)]

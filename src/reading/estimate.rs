@@ -82,7 +82,7 @@ impl Step {
             let coarser = coarser.iter().map(|coarse| Some(coarse.fractions.corrected()?.value));
             counted.error = Some(estimate(safety::AREA, corrected.uncertainty, corrected.value, coarser));
         }
-        if reading.mean_pressure > 0.0 {
+        if reading.touches() {
             let levels = self.problem().counterbody().levels();
             let exponents: Vec<f64> = levels.iter().map(|level| level.shape().exponent()).collect();
             let grids = Grids { fine: &reading, coarser: &coarser, load: self.load };
@@ -94,8 +94,16 @@ impl Step {
                 let coarser = coarser.iter().map(|coarse| Some(of(&coarse.fractions)?.value));
                 estimate(safety::AREA, own.uncertainty, own.value, coarser)
             });
-            (reading.contact_fraction, reading.contact_fraction_uncertainty) = (fraction.value, fraction.uncertainty);
-            reading.errors.contact_fraction = Some(error);
+            let cell = self.grid().cell();
+            reading.contact_fraction_uncertainty = fraction.uncertainty;
+            reading.contact_area = fraction.value * cell.area();
+            reading.errors.contact_area = Some(error * cell.area());
+            if cell.is_isolated() {
+                reading.errors.mean_pressure = None;
+            } else {
+                reading.contact_fraction = fraction.value;
+                reading.errors.contact_fraction = Some(error);
+            }
         }
         reading
     }
@@ -147,11 +155,12 @@ impl Grids<'_> {
     /// `exponents` of the levels' profiles.
     fn errors(&self, of_levels: &[LevelErrors], exponents: &[f64]) -> Errors {
         let fine = self.fine;
-        let by_load = self.load.is_mean_pressure();
+        let by_load = self.load.is_load_control();
         let [largest, smallest] = self.resolutions();
         let prescribed = |free: Option<f64>, prescribed: bool| if prescribed { Some(0.0) } else { free };
-        let load = fine.mean_pressure * load_law(largest);
-        let mean_pressure = self.error(safety::MEAN_PRESSURE, load, &|reading| Some(reading.mean_pressure));
+        let load = fine.force * load_law(largest);
+        let force = prescribed(self.error(safety::MEAN_PRESSURE, load, &|reading| Some(reading.force)), by_load);
+        let area = fine.force / fine.mean_pressure;
         let [depth, safety] = match fine.levels.is_empty() {
             true => [topography_law(largest), safety::TOPOGRAPHY],
             false => [penetration_law(largest), safety::PENETRATION],
@@ -167,8 +176,10 @@ impl Grids<'_> {
         let peaks = peaks.filter_map(|(own, errors)| Some(own.finite_peak()? + errors.max_pressure?));
         let beyond = peaks.fold(0.0, f64::max) - fine.grid_peak();
         Errors {
-            mean_pressure: prescribed(mean_pressure, by_load),
+            mean_pressure: force.map(|force| force / area),
+            force,
             penetration: prescribed(penetration, !by_load),
+            contact_area: None,
             contact_fraction: None,
             elastic_energy: energy,
             max_pressure: self
@@ -195,7 +206,7 @@ impl Grids<'_> {
         if own.load <= 0.0 {
             return LevelErrors::default();
         }
-        let by_load = self.load.is_mean_pressure();
+        let by_load = self.load.is_load_control();
         // The laws hold from one sample on.
         let samples = own.resolution.max(1.0);
         let of = |safety: f64, law: f64, value: fn(&LevelReading) -> Option<f64>| {

@@ -170,7 +170,7 @@ fn beside_site(step: &Step, [x, y, z]: [f64; 3]) -> [f64; 3] {
 /// area. The smallest is taken to have four samples at least.
 fn contact_radii(step: &Step, reading: &Reading) -> [f64; 2] {
     let grid = step.grid();
-    let whole = (reading.contact_fraction * grid.cell().area() / PI).sqrt();
+    let whole = (reading.contact_area / PI).sqrt();
     let touching = reading.levels.iter().filter(|level| level.load > 0.0);
     let radii: Vec<f64> = touching.filter_map(|level| level.contact_radius).collect();
     let least = radii.iter().copied().fold(whole, f64::min).max(4.0 * grid.spacing());

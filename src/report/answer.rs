@@ -11,33 +11,41 @@ use crate::units::Units;
 
 /// The first section of a run: a sentence on the last load step with contact, and a table of its numbers.
 pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
-    let number = steps.iter().rposition(|step| step.reading.mean_pressure > 0.0).map_or(steps.len(), |index| index + 1);
+    let number = steps.iter().rposition(|step| step.reading.touches()).map_or(steps.len(), |index| index + 1);
     let Some(step) = number.checked_sub(1).and_then(|index| steps.get(index)) else {
         return tag("p", "The case has no load step.");
     };
     let reading = &step.reading;
     let errors = &reading.errors;
-    let mean = with_unit(units.pressure(), reading.mean_pressure, errors.mean_pressure);
+    let quantity = units.quantity();
+    let load = with_unit(&units.load(), reading.load(quantity), reading.load_error(quantity));
     let penetration = with_unit(units.length(), reading.penetration, errors.penetration);
-    let fraction = percent_with_error(reading.contact_fraction, errors.contact_fraction);
+    let is_isolated = reading.contact_fraction.is_nan();
+    let contact = if is_isolated {
+        with_unit(&units.area(), reading.contact_area, errors.contact_area)
+    } else {
+        percent_with_error(reading.contact_fraction, errors.contact_fraction)
+    };
+    let of_what = if is_isolated { "is the area of contact" } else { "of the surface is in contact" };
     let peak = reading
         .finite_peak()
         .map_or("singular".to_owned(), |peak| with_unit(units.pressure(), peak, errors.max_pressure));
-    let sentence = if reading.mean_pressure > 0.0 {
+    let sentence = if reading.touches() {
         let highest = highest(&reading.levels);
         let under = highest.map_or(String::new(), |level| format!(" under level {}", level.level));
         let peak = if reading.singular() { "is infinite".to_owned() } else { format!("is {peak}") };
         format!(
-            "Under the mean pressure {mean} the penetration is {penetration}; {fraction} of the surface is in contact, and \
-             the largest pressure {peak}{under}."
+            "Under the {} {load} the penetration is {penetration}; {contact} {of_what}, and \
+             the largest pressure {peak}{under}.",
+            quantity.name()
         )
     } else {
         "Nothing touches: there is no load.".to_owned()
     };
     let mut rows: Vec<(&str, Markup)> = vec![
-        ("mean pressure", numbers(&mean)),
+        (quantity.name(), numbers(&load)),
         ("penetration", numbers(&penetration)),
-        ("part of the surface in contact", numbers(&fraction)),
+        (if is_isolated { "area of contact" } else { "part of the surface in contact" }, numbers(&contact)),
         ("peak pressure", numbers(&peak)),
         (
             "elastic energy of a cell",

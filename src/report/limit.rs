@@ -18,8 +18,8 @@ use crate::units::Units;
 const PICTURES: [PictureText; 2] = [
     (
         "limit",
-        "Curves of the utilisation of each criterion over the mean pressure",
-        "Utilisation of each criterion over the mean pressure; it fails where it reaches 1.",
+        "Curves of the utilisation of each criterion over the load",
+        "Utilisation of each criterion over the load; it fails where it reaches 1.",
     ),
     (
         "limit-section",
@@ -56,7 +56,7 @@ pub(super) fn part(results: &Results, file: &LimitFile) -> Result<Part, ReportEr
         section("pictures", "Pictures", vec![figures(results, "limit.json", &PICTURES)?]),
     ];
     if !limits.steps.is_empty() {
-        let caption = "Loads that were solved in the search, by ascending mean pressure";
+        let caption = "Loads that were solved in the search, by ascending load";
         sections.push(section("loads", "Loads solved", vec![table(caption, &tables::steps(&limits.steps, &units))]));
     }
     sections.push(section("warnings", "Warnings", vec![warnings(&file.warnings)]));
@@ -73,10 +73,10 @@ pub(super) fn part(results: &Results, file: &LimitFile) -> Result<Part, ReportEr
 /// The criterion that fails first with its load, where no other one may be first within the errors.
 fn first(limits: &Limits, units: &Units) -> Option<String> {
     let first = limits.first()?;
-    let At::Load { mean_pressure, error, .. } = first.at else { return None };
+    let At::Load { load, error, .. } = first.at else { return None };
     if !first.is_sharp() || !limits.contenders().is_empty() {
         return None;
     }
-    let load = with_unit(units.pressure(), mean_pressure, error);
-    Some(format!("First: {} at the mean pressure {load}.", first.criterion))
+    let load = with_unit(&units.load(), load, error);
+    Some(format!("First: {} at the {} {load}.", first.criterion, limits.quantity.name()))
 }

@@ -30,11 +30,7 @@ const PICTURES: [PictureText; 6] = [
         "Curves of the pressure through an indenter of each level",
         "Pressure through each level along the line of its largest extent; dashed: the same indenter alone under the same load.",
     ),
-    (
-        "curve",
-        "Curves of what the load steps say over the mean pressure",
-        "What the load steps say over the mean pressure.",
-    ),
+    ("curve", "Curves of what the load steps say over the load", "What the load steps say over the load."),
     (
         "section",
         "Maps of stresses in a vertical cut through coating and substrate",

@@ -161,7 +161,7 @@ fn step_change(coarse: &Reading, fine: &Reading) -> f64 {
     }
     let peak = if fine.singular() { 0.0 } else { (fine.grid_peak() - coarse.grid_peak()).abs() };
     let penetration = ((fine.penetration - coarse.penetration) / fine.penetration).abs();
-    let load = (fine.mean_pressure - coarse.mean_pressure).abs() / fine.mean_pressure;
+    let load = (fine.force - coarse.force).abs() / fine.force;
     let levels = coarse.levels.iter().zip(&fine.levels).flat_map(|(coarse, level)| {
         let peak = if level.singular() { 0.0 } else { (level.grid_peak() - coarse.grid_peak()).abs() };
         [peak / fine.grid_peak(), (level.load_share - coarse.load_share).abs()]

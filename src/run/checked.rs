@@ -17,9 +17,9 @@ impl StepRecord {
         }
         let reading = &self.reading;
         let Certificate { energy_gap, penetration, load } = self.certificate;
-        at_least_zero("mean_pressure", reading.mean_pressure)?;
+        at_least_zero("force", reading.force)?;
         finite("penetration", reading.penetration)?;
-        at_least_zero("contact_fraction", reading.contact_fraction)?;
+        at_least_zero("contact_area", reading.contact_area)?;
         peak("max_pressure", reading.max_pressure)?;
         // An iteration that could not begin has no certificate.
         if self.stop.solved() {

@@ -44,7 +44,7 @@ pub use tapered::Tapered;
 use crate::body::MeanStress;
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
-use crate::load::Load;
+use crate::load::{Load, LoadQuantity};
 use crate::problem::Problem;
 use crate::reading::{Criterion, StressReading};
 use crate::spectral::{OtherGrids, Settings, Solver, Step};
@@ -83,6 +83,12 @@ impl Run {
         Self { problem: problem.into(), loads, sampling, settings: Settings::default(), stress: None }
     }
 
+    /// The quantity in which its loads are stated: forces where one is prescribed, and for an isolated contact.
+    pub fn quantity(&self) -> LoadQuantity {
+        let by_force = self.loads.iter().any(|load| matches!(load, Load::Force(_)));
+        if by_force || self.problem.cell().is_isolated() { LoadQuantity::Force } else { LoadQuantity::MeanPressure }
+    }
+
     /// Checks that there are loads and a grid, and that every prescribed penetration can be reached: on the grid, or on a fine one of
     /// a refinement.
     ///
@@ -101,7 +107,7 @@ impl Run {
             return Err(RunError::NoLoads);
         }
         let points = self.checked_sampling()?;
-        if self.loads.iter().all(|load| load.is_mean_pressure()) {
+        if self.loads.iter().all(|load| load.is_load_control()) {
             return Ok(());
         }
         let complete = Surface::new(self.problem.counterbody(), points)?.mean();

@@ -171,9 +171,9 @@ impl StepRecord {
     }
 
     fn is_finite(&self) -> bool {
-        let Reading { mean_pressure, penetration, .. } = self.reading;
+        let Reading { force, penetration, .. } = self.reading;
         // Under a tip the pressure is infinite, also where that of the grid is finite.
-        let scalars = [mean_pressure, penetration, self.reading.grid_peak(), self.certificate.energy_gap];
+        let scalars = [force, penetration, self.reading.grid_peak(), self.certificate.energy_gap];
         // Stresses are infinite under a tip.
         let stresses = self.stress.iter().flat_map(|stress| {
             let [tau1, tension, mises] = [stress.overall.tau1, stress.overall.tension, stress.overall.mises];

@@ -10,7 +10,7 @@ use crate::counterbody::roughness::Window;
 use crate::notation::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
-use crate::reading::FEW_SAMPLES;
+use crate::reading::{FEW_SAMPLES, Reading};
 use crate::spectral::Stop;
 use std::f64::consts::PI;
 
@@ -95,13 +95,18 @@ fn small_spots(steps: &[Numbered]) -> Option<String> {
         reading.levels.is_empty()
             && 0.0 < reading.spot_resolution
             && reading.spot_resolution < FEW_SAMPLES
-            && reading.contact_fraction < 1.0
+            && !is_complete(reading)
     };
     let list = list(steps, rough)?;
     Some(format!(
         "half of the load lies on contact spots of less than {FEW_SAMPLES} samples to the radius in step {list}: contact area \
          and pressures are rough; give the topography on more points"
     ))
+}
+
+/// Whether contact is complete; that of an isolated contact never is.
+fn is_complete(reading: &Reading) -> bool {
+    reading.contact_fraction >= 1.0
 }
 
 fn not_accurate(end: RefinementEnd, change: Option<f64>) -> Option<String> {

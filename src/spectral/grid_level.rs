@@ -150,6 +150,7 @@ impl GridLevel {
         }
         let Self { surface, largest_gap, mask, operator, unknowns, .. } = self;
         let (samples, before) = (surface.grid().len(), operator.convolutions());
+        let load = load.on(surface.grid().cell());
         let report = ContactProblem {
             operator: &mut *operator,
             working,

@@ -89,7 +89,7 @@ mod tests {
     use super::*;
     use crate::body::{HalfSpace, Interface, Layer, Material};
     use crate::lattice::{Cell, Grid};
-    use crate::load::Load;
+    use crate::load::Control;
     use crate::spectral::LayeredOperator;
     use crate::spectral::iteration::{
         AdmissibleSet, ContactProblem, Method, Report, Settings, Stop, Unknowns, Working,
@@ -202,7 +202,7 @@ mod tests {
         }
     }
 
-    fn solved(operator: &mut impl ElasticOperator, gap: &[f64], load: Load, method: Method) -> (Report, Unknowns) {
+    fn solved(operator: &mut impl ElasticOperator, gap: &[f64], load: Control, method: Method) -> (Report, Unknowns) {
         let mut unknowns = Unknowns::new(gap.len());
         let report = ContactProblem {
             working: &mut Working::default(),
@@ -233,7 +233,7 @@ mod tests {
         };
         let gap: Vec<f64> = (0..grid.len()).map(wave).collect();
         for method in [Method::Preconditioned, Method::PolonskyKeer] {
-            for load in [Load::MeanPressure(0.02), Load::Penetration(0.01), Load::MeanPressure(2.0)] {
+            for load in [Control::MeanPressure(0.02), Control::Penetration(0.01), Control::MeanPressure(2.0)] {
                 let before = layered.convolutions();
                 let (own, convolved) = solved(&mut layered, &gap, load, method);
                 let (other, assembled) = solved(&mut dense, &gap, load, method);

@@ -168,7 +168,7 @@ impl Solver {
         let (mut report, work) = levels[0].solve(coarser, load, *settings, &mut working, progress);
         drop(working);
         if matches!(report.stop, Stop::Converged | Stop::Rounding)
-            && !load.is_mean_pressure()
+            && !load.is_load_control()
             && !levels[0].is_resolved()
         {
             report.stop = Stop::Unresolved;

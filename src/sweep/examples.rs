@@ -1,6 +1,7 @@
 //! Rows and results for tests.
 
 use super::{Axis, Combinations, Group, Row, Status, SweepResult};
+use crate::load::LoadQuantity;
 use crate::reading::{Criterion, Governing, Reading, Utilisation};
 use crate::run::{At, Limit, StepRecord};
 use crate::spectral::{Certificate, Route, Stop};
@@ -31,6 +32,8 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: f64) -> Ste
     StepRecord {
         reading: Reading {
             mean_pressure: 0.1,
+            force: 0.1,
+            contact_area: 0.1,
             penetration: max_pressure,
             contact_fraction,
             contact_fraction_uncertainty: 0.0,
@@ -71,15 +74,18 @@ pub fn strained(strength: Vec<Utilisation>) -> SweepResult {
 /// A limit at a mean pressure with its error.
 pub fn reached(criterion: Criterion, mean_pressure: f64, error: f64) -> Limit {
     let interval = [mean_pressure - error, mean_pressure + error];
-    Limit { criterion, at: At::Load { mean_pressure, error: Some(error), interval, position: [0.0; 3] } }
+    let at = At::Load { load: mean_pressure, error: Some(error), interval, position: [0.0; 3] };
+    Limit { criterion, quantity: LoadQuantity::MeanPressure, at }
 }
 
 /// A limit below a mean pressure.
 pub fn below(criterion: Criterion, mean_pressure: f64) -> Limit {
-    Limit { criterion, at: At::Below { mean_pressure, utilisation: 2.0, position: [0.0; 3] } }
+    let at = At::Below { load: mean_pressure, utilisation: 2.0, position: [0.0; 3] };
+    Limit { criterion, quantity: LoadQuantity::MeanPressure, at }
 }
 
 /// A limit that is not reached up to a mean pressure.
 pub fn never(criterion: Criterion, up_to: f64) -> Limit {
-    Limit { criterion, at: At::Never { up_to, complete: true, utilisation: 0.5, error: None, at: up_to } }
+    let at = At::Never { up_to, complete: true, utilisation: 0.5, error: None, at: up_to };
+    Limit { criterion, quantity: LoadQuantity::MeanPressure, at }
 }

@@ -30,7 +30,7 @@ pub enum Foremost {
     Nothing,
 }
 
-/// A limit, or a bound of it; mean pressures.
+/// A limit, or a bound of it; loads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LimitValue {
     /// The limit and its error.
@@ -204,8 +204,8 @@ impl From<&Limit> for LimitValue {
     fn from(limit: &Limit) -> Self {
         match limit.at {
             At::Rest | At::Tip { .. } => Self::At(0.0, Some(0.0)),
-            At::Load { mean_pressure, error, .. } => Self::At(mean_pressure, error),
-            At::Below { mean_pressure, .. } => Self::Below(mean_pressure),
+            At::Load { load, error, .. } => Self::At(load, error),
+            At::Below { load, .. } => Self::Below(load),
             At::Never { up_to, .. } => Self::Above(up_to),
             At::Undecided { .. } => Self::Undecided,
         }
@@ -230,6 +230,7 @@ mod tests {
     use super::super::examples::{below, never, reached};
     use super::*;
     use crate::body::{MaterialId, Name};
+    use crate::load::LoadQuantity;
 
     #[test]
     fn a_limit_is_found_whatever_the_name_of_its_material() {
@@ -255,7 +256,10 @@ mod tests {
         assert_eq!(told(vec![reached(parts, 0.006_646_1, 0.0025), never(yields, 3.5)], None), text("0.007 ± 0.003"));
         assert_eq!(told(vec![below(parts, 0.0012)], None), text("< 0.0012000"));
         assert_eq!(told(vec![never(yields, 3.5)], Some(yields)), text("> 3.5000"));
-        assert_eq!(told(vec![Limit { criterion: yields, at: At::Rest }], Some(yields)), text("0"));
+        assert_eq!(
+            told(vec![Limit { criterion: yields, quantity: LoadQuantity::default(), at: At::Rest }], Some(yields)),
+            text("0")
+        );
         assert_eq!(told(vec![never(yields, 3.5)], None), None);
     }
 

@@ -7,8 +7,8 @@ use percoat::body::{InterfaceStrength, Strength};
 use percoat::reading::Criterion;
 use percoat::run::{At, Limit, Limits, Recorder, RefinementEnd, RunError, StepRecord};
 use percoat::{
-    Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, Material, Problem, Run, Sampling, Shape, Solver, Step,
-    StressFields,
+    Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, LoadQuantity, Material, Problem, Run, Sampling, Shape,
+    Solver, Step, StressFields,
 };
 use std::convert::Infallible;
 
@@ -46,7 +46,7 @@ fn limits(problem: Problem, start: Load, points: usize) -> Limits {
 }
 
 fn loads(limits: &Limits) -> Vec<f64> {
-    limits.limits.iter().map(percoat::run::Limit::mean_pressure).collect()
+    limits.limits.iter().map(percoat::run::Limit::load).collect()
 }
 
 /// Solved afresh at its limit, a criterion is one: u grows as p̄ to some power below two.
@@ -59,7 +59,7 @@ fn at_its_limit_each_criterion_is_one_at_the_place_that_is_told() {
         [Criterion::yield_of(1), Criterion::yield_of(2), Criterion::cracking_of(1), Criterion::delamination_of(1)];
     assert_eq!(found.limits.iter().map(|limit| limit.criterion).collect::<Vec<_>>(), expected);
     for limit in &found.limits {
-        let At::Load { mean_pressure, position, error, .. } = limit.at else { panic!("{limit:?}") };
+        let At::Load { load: mean_pressure, position, error, .. } = limit.at else { panic!("{limit:?}") };
         let run = Run::new(problem.clone(), vec![Load::MeanPressure(mean_pressure)], Sampling::Points([96; 2]));
         let step = run.solve(&mut ()).unwrap().steps.remove(0);
         let own = step.strength.iter().find(|own| own.criterion == limit.criterion).unwrap();
@@ -69,10 +69,10 @@ fn at_its_limit_each_criterion_is_one_at_the_place_that_is_told() {
         assert!(error.is_some_and(|error| error > 0.0), "{limit:?}");
     }
     let first = found.first().unwrap();
-    assert_eq!(first.mean_pressure(), loads(&found).into_iter().fold(f64::INFINITY, f64::min));
+    assert_eq!(first.load(), loads(&found).into_iter().fold(f64::INFINITY, f64::min));
     let shown = found.shown.as_ref().unwrap();
     assert_eq!((shown.limit, &shown.limit), (*first, first));
-    assert!((shown.step.reading().mean_pressure / first.mean_pressure() - 1.0).abs() < 1e-12);
+    assert!((shown.step.reading().mean_pressure / first.load() - 1.0).abs() < 1e-12);
     let run = Run::new(problem, vec![Load::MeanPressure(0.1)], Sampling::Points([96; 2]));
     let sections = found.sections(&run).unwrap();
     assert_eq!(sections.len(), 1, "of the body alone under a rigid counterbody");
@@ -108,7 +108,7 @@ fn what_is_never_reached_or_at_once_is_said() {
     assert!(found.first().is_none() && found.shown.is_none());
 
     let (below, words, found) = at(bare(paraboloid, 1e-5));
-    let At::Below { mean_pressure, .. } = below else { panic!("{below:?}") };
+    let At::Below { load: mean_pressure, .. } = below else { panic!("{below:?}") };
     // Three samples along the radius, and the load is halved: 2^⅓ times as many at most.
     let samples = found.steps[0].reading.contact_fraction * 48.0 * 48.0;
     assert!(mean_pressure < 0.01 && (28.0..45.0).contains(&samples), "{below:?} {samples}");
@@ -127,7 +127,7 @@ fn what_is_never_reached_or_at_once_is_said() {
         limits(Problem::new(indenters, half_space), Load::MeanPressure(start), 48)
     };
     let [before, after] = [1e-4, 0.2].map(|start| match lower(start).limits[0].at {
-        At::Load { mean_pressure, error: None, .. } => mean_pressure,
+        At::Load { load: mean_pressure, error: None, .. } => mean_pressure,
         other => panic!("from {start}: {other:?}"),
     });
     assert!((before / after - 1.0).abs() < 2e-3 && before > 2e-4, "{before} {after}");
@@ -142,7 +142,7 @@ fn what_is_never_reached_or_at_once_is_said() {
     let rest = |residual| at(Problem::new(indenters(), HalfSpace::new(vec![layer(residual)], material))).2;
     let pressed = rest(-0.1);
     assert_eq!(pressed.limits[0].at, At::Rest);
-    assert!(pressed.limits[1].mean_pressure() > 0.0 && pressed.to_string().contains("residual stress alone"));
+    assert!(pressed.limits[1].load() > 0.0 && pressed.to_string().contains("residual stress alone"));
     let pulled = rest(0.1);
     assert_eq!(pulled.limits.iter().map(|limit| limit.at).collect::<Vec<_>>(), [At::Rest; 2]);
     assert!(pulled.steps.is_empty(), "nothing is left to be solved");
@@ -165,7 +165,9 @@ fn peeling(strength: f64) -> Problem {
 fn what_fails_at_lesser_loads_only_is_found_from_larger_ones() {
     let from = |start: f64| {
         let found = limits(peeling(1e-3), Load::MeanPressure(start), 96);
-        let At::Load { mean_pressure, position, .. } = found.limits[0].at else { panic!("from {start}: {found}") };
+        let At::Load { load: mean_pressure, position, .. } = found.limits[0].at else {
+            panic!("from {start}: {found}")
+        };
         assert_eq!(found.shown.as_ref().unwrap().limit.position(), Some(position));
         (mean_pressure, found.complete)
     };
@@ -194,7 +196,7 @@ fn a_largest_utilisation_is_found_between_the_loads() {
     // Between the best doubling and the top it is reached, where the fine path is.
     let strength = (doubled * top).sqrt();
     let found = limits(peeling(strength), start, 48);
-    let At::Load { mean_pressure, .. } = found.limits[0].at else { panic!("{found}") };
+    let At::Load { load: mean_pressure, .. } = found.limits[0].at else { panic!("{found}") };
     let (_, reached) = fine.iter().find(|(value, _)| *value >= strength).unwrap();
     assert!((mean_pressure..1.025 * mean_pressure).contains(reached), "{mean_pressure} {reached}");
     // Above the top nothing fails, and how near it comes is known to a hundredth.
@@ -293,7 +295,7 @@ fn the_limit_of_a_coarse_sliding_sphere_covers_the_closed_form() {
     let sliding = Friction::new(friction, [1.0, 0.0]).unwrap().uncoupled();
     let problem = Problem::new(one_level(Lattice::square(1.0, 1).unwrap(), level), body).sliding(sliding).unwrap();
     let found = limits(problem, Load::MeanPressure(load), 128);
-    let At::Load { mean_pressure, interval: [from, to], .. } = found.limits[0].at else { panic!("{found}") };
+    let At::Load { load: mean_pressure, interval: [from, to], .. } = found.limits[0].at else { panic!("{found}") };
     // The images of the lattice add some (a/l)³ to a load that grows as the cube of the stress.
     let images = 3.0 * f64::powi(radius, 3);
     println!("{:.5}: {:.5} to {:.5}", mean_pressure / load, from / load, to / load);
@@ -306,9 +308,10 @@ fn the_limit_of_a_coarse_sliding_sphere_covers_the_closed_form() {
 #[test]
 fn an_error_is_told_with_what_else_may_come_first() {
     let limit = |material: usize, mean_pressure: f64, error: f64| Limit {
+        quantity: LoadQuantity::MeanPressure,
         criterion: Criterion::cracking_of(material),
         at: At::Load {
-            mean_pressure,
+            load: mean_pressure,
             error: Some(error),
             interval: [mean_pressure - error, mean_pressure + error],
             position: [0.0; 3],
@@ -316,7 +319,9 @@ fn an_error_is_told_with_what_else_may_come_first() {
     };
     let words = |limits: Vec<Limit>| {
         let (steps, warnings) = (Vec::new(), Vec::new());
-        Limits { limits, steps, shown: None, complete: f64::INFINITY, change: None, end: None, warnings }.to_string()
+        let quantity = LoadQuantity::MeanPressure;
+        Limits { limits, steps, shown: None, quantity, complete: f64::INFINITY, change: None, end: None, warnings }
+            .to_string()
     };
     let sharp = [limit(1, 0.5, 1e-4), limit(2, 0.6, 1e-3)];
     assert_eq!(words(sharp.to_vec()), "first: cracking of material 1 at the mean pressure 0.50000");
@@ -340,7 +345,7 @@ fn the_first_failure_is_that_of_a_hump_below_the_load_of_the_case() {
         Problem::new(one_level(Lattice::square(1.0, 1).unwrap(), level), HalfSpace::new(vec![layer], material));
     let problem = problem.sliding(Friction::new(0.6, [1.0, 0.0]).unwrap()).unwrap();
     let found = limits(problem.clone(), Load::MeanPressure(0.1), 96);
-    let At::Load { mean_pressure, interval: [from, to], .. } = found.limits[0].at else { panic!("{found}") };
+    let At::Load { load: mean_pressure, interval: [from, to], .. } = found.limits[0].at else { panic!("{found}") };
     assert!((0.027..0.035).contains(&mean_pressure) && from < mean_pressure && mean_pressure < to, "{found}");
     // A fine path, solved on its own, first reaches 1 within the interval, and 1 − u is at least its error before.
     let loads = (0..40).map(|k| Load::MeanPressure(0.01 * 1.06f64.powi(k))).collect();

@@ -144,7 +144,7 @@ fn readings_and_limits_name_the_body() {
     assert!(codes.iter().zip(&criteria).all(|(code, own)| code.parse() == Ok(*own)));
     let run = Run::new(Arc::clone(step.problem()), vec![Load::MeanPressure(0.02)], Sampling::Points(POINTS));
     let limits = run.limits(&mut ()).unwrap();
-    let loads: Vec<f64> = limits.limits.iter().map(|limit| limit.mean_pressure()).collect();
+    let loads: Vec<f64> = limits.limits.iter().map(|limit| limit.load()).collect();
     assert_eq!(loads.len(), 2);
     // Bare and below a stiff coating: the counterbody bears the same pressure without a coating, and yields first.
     assert!(loads[1] < loads[0], "{loads:?}");

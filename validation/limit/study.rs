@@ -129,7 +129,7 @@ impl Slider {
     /// What is found of a criterion, against the contact that the closed form fails under.
     fn found(&self, limits: &[Limit], wanted: Criterion, exact: &Contact) -> Result<Found, StudyError> {
         let limit = limits.iter().find(|limit| limit.criterion == wanted).ok_or("a limit of each criterion")?;
-        let At::Load { mean_pressure, error, position: [x, y, z], .. } = limit.at else {
+        let At::Load { load: mean_pressure, error, position: [x, y, z], .. } = limit.at else {
             return Err(format!("{wanted}: {:?}", limit.at).into());
         };
         let cell = Cell::hexagonal(1.0)?;
@@ -379,7 +379,7 @@ fn at_rest() -> Result<f64, StudyError> {
     {
         let half_space = layered(slider.material, THICK, residual, strength, InterfaceStrength::default())?;
         let limits = slider.limits(half_space, &exact)?;
-        largest = limits.iter().map(Limit::mean_pressure).fold(largest, f64::max);
+        largest = limits.iter().map(Limit::load).fold(largest, f64::max);
     }
     Ok(largest)
 }

@@ -54,7 +54,7 @@ fn names<'a>(layers: &'a [LayerSection], prefix: &'static str) -> impl Iterator<
 }
 
 fn pressures(case: &Case) -> Option<String> {
-    let highest = case.load.mean_pressures()?.iter().copied().fold(0.0, f64::max);
+    let highest = case.mean_pressures()?.iter().copied().fold(0.0, f64::max);
     let (material, name) = materials(case).min_by(|a, b| a.0.young().total_cmp(&b.0.young()))?;
     let part = highest / material.young();
     (part > HIGH).then(|| {
@@ -209,7 +209,7 @@ fn topography(topography: &Topography) -> Option<String> {
 
 /// Springs that shear under the mean friction: the layers above them drift by μp̄/k_t against those below.
 fn drifting(case: &Case, cell: Cell) -> Vec<String> {
-    let (Some(friction), Some(loads)) = (case.problem().friction(), case.load.mean_pressures()) else {
+    let (Some(friction), Some(loads)) = (case.problem().friction(), case.mean_pressures()) else {
         return Vec::new();
     };
     let traction = friction.coefficient() * loads.iter().copied().fold(0.0, f64::max);

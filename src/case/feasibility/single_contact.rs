@@ -18,7 +18,7 @@ pub fn foreseen(case: &Case, touches: &[Option<f64>]) -> Vec<String> {
 
 /// A flank that is steep at the highest load; cones are not checked.
 fn steep_flank(case: &Case) -> Option<String> {
-    let (Some(indenters), Some(loads)) = (case.counterbody().indenters(), case.load.mean_pressures()) else {
+    let (Some(indenters), Some(loads)) = (case.counterbody().indenters(), case.mean_pressures()) else {
         return None;
     };
     let lattice = indenters.lattice();
@@ -45,9 +45,9 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
         (1..).zip(indenters.levels()).max_by(|a, b| a.1.height().total_cmp(&b.1.height()))?;
     let (c, n) = power_law(highest.shape());
     let lowest = |values: &[f64]| values.iter().copied().filter(|load| *load > 0.0).reduce(f64::min);
-    let (load, radius) = match case.load.mean_pressures() {
+    let (load, radius) = match case.mean_pressures() {
         Some(loads) => {
-            let load = lowest(loads)?;
+            let load = lowest(&loads)?;
             let touching =
                 |level: usize| touches.get(level).is_none_or(|touch| touch.is_some_and(|touch| touch <= load));
             let sites = lattice.sites().iter().enumerate().filter(|(level, _)| touching(*level));

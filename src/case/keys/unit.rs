@@ -7,6 +7,8 @@ pub(in crate::case) enum Unit {
     Pure,
     Length,
     Pressure,
+    /// Unit of forces: a pressure times an area.
+    Force,
     /// Unit of stiffnesses of springs.
     PressurePerLength,
     /// Unit of the coefficient of a power law.
@@ -19,6 +21,7 @@ impl Unit {
             Self::Pure => "none",
             Self::Length => "length, the same in the whole case; units.length names it",
             Self::Pressure => "pressure, as Young's modulus; units.pressure names it",
+            Self::Force => "pressure times length squared: mN in a case of GPa and µm, N in one of MPa and mm",
             Self::PressurePerLength => "pressure per length",
             Self::LengthToOneMinusN => "length to the power 1 − n",
         }
@@ -30,6 +33,7 @@ impl Unit {
             Self::Pure | Self::LengthToOneMinusN => "number",
             Self::Length => "length",
             Self::Pressure => "pressure",
+            Self::Force => "force",
             Self::PressurePerLength => "pressure per length",
         }
     }

@@ -34,13 +34,12 @@ pub(super) fn by_step(
 ) -> Option<Table> {
     let last = (0..steps.len()).rev().find(|&step| rows.iter().any(|row| row.found[step].is_some()))?;
     let shown = if steps.len() <= DETAILED { 0..steps.len() } else { last..last + 1 };
-    let pressures = steps[shown.clone()].iter().map(|step| step.reading.mean_pressure);
-    let pressures = pressures.map(|pressure| format!("p̄ = {}", units.pressure().with_unit(pressure, number)));
+    let loads = steps[shown.clone()].iter().map(|step| step.reading.load(units.quantity()));
+    let loads = loads.map(|load| format!("{} = {}", units.quantity().symbol(), units.load().with_unit(load, number)));
     let place_of = if shown.len() > 1 { "place (x, y, z) in the last" } else { "place (x, y, z)" };
     let unit = unit.suited(rows.iter().flat_map(|row| &row.found[shown.clone()]).flatten().map(|found| found.value));
     let length = units.length().suited(rows.iter().filter_map(|row| row.found[last]).flat_map(|found| found.position));
-    let header: Vec<String> =
-        [unit.headed(head)].into_iter().chain(pressures).chain([length.headed(place_of)]).collect();
+    let header: Vec<String> = [unit.headed(head)].into_iter().chain(loads).chain([length.headed(place_of)]).collect();
     let line = |row: &Quantity| {
         let of = |found: &Option<QuantityInStep>| {
             found.map_or("–".to_owned(), |found| finite(&unit, found.value, found.error))

@@ -98,23 +98,24 @@ pub fn compared(case: &Case, comparison: &Comparison, width: usize) -> String {
     text + &stresses(comparison, &units).map_or(String::new(), |stresses| format!("{stresses}\n{mean}"))
 }
 
-/// The units of the mean pressure and the penetration.
+/// The units of the load and the penetration.
 fn units_of_loads(steps: &[StepRecord], units: &Units) -> [Prefixed; 2] {
     let readings = || steps.iter().map(|step| &step.reading);
     [
-        units.pressure().suited(readings().map(|reading| reading.mean_pressure)),
+        units.load().suited(readings().map(|reading| reading.load(units.quantity()))),
         units.length().suited(readings().map(|reading| reading.penetration)),
     ]
 }
 
 fn detailed(steps: &[StepRecord], units: &Units) -> Table {
     let levels = || steps.iter().flat_map(|step| &step.reading.levels);
-    let [mean, penetration] = units_of_loads(steps, units);
+    let [load_unit, penetration] = units_of_loads(steps, units);
+    let quantity = units.quantity();
     let load = units.force().suited(levels().map(|level| level.load));
     let pressure = units.pressure().suited(levels().filter_map(|level| level.finite_peak()));
     let length = units.length().suited(levels().filter_map(|level| level.contact_radius));
     let header = [
-        mean.headed("mean pressure"),
+        load_unit.headed(units.quantity().name()),
         penetration.headed("penetration"),
         "contact".to_owned(),
         "level".to_owned(),
@@ -127,9 +128,9 @@ fn detailed(steps: &[StepRecord], units: &Units) -> Table {
     let mut rows = Vec::new();
     for step in steps {
         let mut lead = [
-            in_unit(&mean, step.reading.mean_pressure, step.reading.errors.mean_pressure),
+            in_unit(&load_unit, step.reading.load(quantity), step.reading.load_error(quantity)),
             in_unit(&penetration, step.reading.penetration, step.reading.errors.penetration),
-            percent_with_error(step.reading.contact_fraction, step.reading.errors.contact_fraction),
+            contact(&step.reading, units),
         ];
         for level in &step.reading.levels {
             let radius = match level.contact_radius {
@@ -163,9 +164,11 @@ fn detailed(steps: &[StepRecord], units: &Units) -> Table {
 
 fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
     let readings = || steps.iter().map(|step| &step.reading);
-    let [mean, penetration] = units_of_loads(steps, units);
+    let [load_unit, penetration] = units_of_loads(steps, units);
+    let quantity = units.quantity();
     let pressure = units.pressure().suited(readings().filter_map(Reading::finite_peak));
-    let mut header = vec![mean.headed("mean pressure"), penetration.headed("penetration"), "contact".to_owned()];
+    let mut header =
+        vec![load_unit.headed(units.quantity().name()), penetration.headed("penetration"), "contact".to_owned()];
     header.extend((1..=levels).map(|level| pressure.headed(&format!("peak {level}"))));
     header.extend((1..=levels).map(|level| format!("share {level}")));
     let energy = units.energy().suited(readings().map(|reading| reading.elastic_energy));
@@ -174,9 +177,9 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
     }
     let row = |reading: &Reading| {
         let mut row = vec![
-            in_unit(&mean, reading.mean_pressure, reading.errors.mean_pressure),
+            in_unit(&load_unit, reading.load(quantity), reading.load_error(quantity)),
             in_unit(&penetration, reading.penetration, reading.errors.penetration),
-            percent_with_error(reading.contact_fraction, reading.errors.contact_fraction),
+            contact(reading, units),
         ];
         let peak = |level: &LevelReading| finite(&pressure, level.finite_peak(), level.errors.max_pressure);
         row.extend(reading.levels.iter().map(peak));
@@ -188,6 +191,15 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
         row
     };
     Table::new(&header, readings().map(row).collect(), 0)
+}
+
+/// The fraction in contact, or the area of an isolated one.
+fn contact(reading: &Reading, units: &Units) -> String {
+    if reading.contact_fraction.is_nan() {
+        let area = units.area().suited([reading.contact_area]);
+        return area.behind(&in_unit(&area, reading.contact_area, reading.errors.contact_area));
+    }
+    percent_with_error(reading.contact_fraction, reading.errors.contact_fraction)
 }
 
 /// Two decimals; no sign for zero.

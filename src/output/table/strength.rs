@@ -30,12 +30,14 @@ pub fn utilisations(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units
 /// last step in which nothing fails for certain and the first in which one fails by more than its error; without the former,
 /// at or below the latter.
 fn in_words(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units) -> Option<String> {
+    let (quantity, symbol) = (units.quantity(), units.quantity().symbol());
     let at_rest = |bodies| Criterion::all(bodies).into_iter().find(|own| own.at_rest(bodies) >= 1.0);
     if let Some(criterion) = bodies.and_then(at_rest) {
         return Some(format!("first: {criterion}, without load, by residual stress alone"));
     }
-    let taken = || steps.iter().flat_map(|step| step.strength.iter().map(move |own| (step.reading.mean_pressure, own)));
-    let told = |pressure: f64| units.pressure().with_unit(pressure, number);
+    let taken =
+        || steps.iter().flat_map(|step| step.strength.iter().map(move |own| (step.reading.load(quantity), own)));
+    let told = |load: f64| units.load().with_unit(load, number);
     let least = |loads: &mut dyn Iterator<Item = f64>| loads.min_by(f64::total_cmp);
     let fails = least(&mut taken().filter(|(_, own)| own.verdict == Verdict::Fails).map(|(load, _)| load));
     let Some(above) = fails else {
@@ -46,7 +48,7 @@ fn in_words(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units) -> Opt
         let step = with_strength.max_by(|a, b| reach(a).total_cmp(&reach(b)))?;
         let words = step.governing_in_words(with_error)?;
         let begins = if open { "undecided by the errors whether anything fails" } else { "nothing fails" };
-        return Some(format!("{begins}: at p̄ = {} {words}", told(step.reading.mean_pressure)));
+        return Some(format!("{begins}: at {symbol} = {} {words}", told(step.reading.load(quantity))));
     };
     // Every criterion that may fail up to there may be the first, also between the steps; the one of least load, and at that
     // load of largest value, is named first.
@@ -64,18 +66,18 @@ fn in_words(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units) -> Opt
     }
     let undecided = if names.len() > 1 { ", undecided which," } else { "" };
     // No step of a lesser load fails.
-    let loads = steps.iter().map(|step| step.reading.mean_pressure);
+    let loads = steps.iter().map(|step| step.reading.load(quantity));
     let below = loads.filter(|&load| 0.0 < load && load < open).max_by(f64::total_cmp);
     let first = format!("first: {}{undecided}", names.join(" or "));
     Some(match below {
-        Some(below) => format!("{first} between p̄ = {} and {}", told(below), told(above)),
-        None => format!("{first} at or below p̄ = {}", told(above)),
+        Some(below) => format!("{first} between {symbol} = {} and {}", told(below), told(above)),
+        None => format!("{first} at or below {symbol} = {}", told(above)),
     })
 }
 
 /// The interval of a limit; open at an unknown end.
-fn range(pressure: &Prefixed, [from, to]: [f64; 2]) -> String {
-    let shown = |load: f64| number(pressure.shown(load));
+fn range(unit: &Prefixed, [from, to]: [f64; 2]) -> String {
+    let shown = |load: f64| number(unit.shown(load));
     match (from > 0.0, to.is_finite()) {
         (true, true) => format!("{} … {}", shown(from), shown(to)),
         (true, false) => format!("from {}", shown(from)),
@@ -86,42 +88,42 @@ fn range(pressure: &Prefixed, [from, to]: [f64; 2]) -> String {
 
 /// Table of the limit loads, the first limit in the first row.
 pub fn limits(limits: &Limits, units: &Units) -> Worded {
-    let pressures = limits.limits.iter().map(|limit| match limit.at {
+    let loads = limits.limits.iter().map(|limit| match limit.at {
         At::Never { up_to, .. } | At::Undecided { up_to, .. } => up_to,
-        _ => limit.mean_pressure(),
+        _ => limit.load(),
     });
     let places = limits.limits.iter().filter_map(Limit::position).flatten();
-    let (pressure, length) = (units.pressure().suited(pressures), units.length().suited(places));
+    let (load_unit, length) = (units.load().suited(loads), units.length().suited(places));
     let place = |position: [f64; 3]| place(&length, position);
     let most = |utilisation: f64, error: Option<f64>, at: f64| {
         let utilisation = with_error(utilisation, error);
-        format!("takes up {utilisation} at p̄ = {}", units.pressure().with_unit(at, number))
+        format!("takes up {utilisation} at {} = {}", limits.quantity.symbol(), units.load().with_unit(at, number))
     };
     let row = |limit: &&Limit| {
-        let (pressure, place) = match limit.at {
+        let (load, place) = match limit.at {
             At::Rest => ("0".to_owned(), "by residual stress alone".to_owned()),
             At::Tip { position } => ("0".to_owned(), format!("{}, a tip", place(position))),
-            At::Load { mean_pressure, error, interval: [from, to], position } => {
-                let range = || format!("{} ({})", number(pressure.shown(mean_pressure)), range(&pressure, [from, to]));
-                let shown = if limit.is_sharp() { in_unit(&pressure, mean_pressure, error) } else { range() };
+            At::Load { load, error, interval: [from, to], position } => {
+                let range = || format!("{} ({})", number(load_unit.shown(load)), range(&load_unit, [from, to]));
+                let shown = if limit.is_sharp() { in_unit(&load_unit, load, error) } else { range() };
                 (shown, place(position))
             }
-            At::Below { mean_pressure, position, .. } => (
-                format!("< {}", number(pressure.shown(mean_pressure))),
+            At::Below { load, position, .. } => (
+                format!("< {}", number(load_unit.shown(load))),
                 format!("{}, a contact of a few samples", place(position)),
             ),
             At::Never { up_to, utilisation, error, at, .. } => {
-                (format!("> {}", number(pressure.shown(up_to))), most(utilisation, error, at))
+                (format!("> {}", number(load_unit.shown(up_to))), most(utilisation, error, at))
             }
             At::Undecided { from, utilisation, error, at, .. } => {
-                let range = range(&pressure, [from, f64::INFINITY]);
+                let range = range(&load_unit, [from, f64::INFINITY]);
                 (format!("undecided ({range})"), most(utilisation, error, at))
             }
         };
-        vec![limit.criterion.to_string(), pressure, place]
+        vec![limit.criterion.to_string(), load, place]
     };
     let rows = limits.ordered().iter().map(row).collect();
-    let header = ["criterion".to_owned(), pressure.headed("mean pressure"), length.headed("place (x, y, z)")];
-    let words = limits.in_words(|x| units.pressure().with_unit(x, number));
+    let header = ["criterion".to_owned(), load_unit.headed(limits.quantity.name()), length.headed("place (x, y, z)")];
+    let words = limits.in_words(|x| units.load().with_unit(x, number));
     Worded { words, table: Table::new(&header, rows, 1) }
 }

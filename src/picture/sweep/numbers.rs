@@ -88,10 +88,7 @@ impl Number {
 
 /// The numbers that the rows have.
 pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
-    let limit = |words: &str, of: Option<Criterion>| {
-        let quantity = units.pressure_of(&format!("{words}, mean pressure"), "p̄");
-        Number { quantity, of: Of::Limit(of) }
-    };
+    let limit = |words: &str, of: Option<Criterion>| Number { quantity: units.load_of(words), of: Of::Limit(of) };
     let mut all = vec![
         limit("first limit", None),
         Number::scalar(units.pressure_of("peak pressure", "p"), "peak pressure"),

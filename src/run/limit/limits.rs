@@ -1,5 +1,6 @@
 //! The limit loads that were found, with their intervals and their order.
 
+use crate::load::LoadQuantity;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
 use crate::reading::Criterion;
@@ -21,32 +22,32 @@ pub enum At {
         /// x, y, z of the tip; lengths.
         position: [f64; 3],
     },
-    /// At a mean pressure.
+    /// At a load.
     Load {
-        /// Mean pressure p̄, in the unit of Young's modulus.
-        mean_pressure: f64,
-        /// Estimated error of the mean pressure by the grid, a pressure: the distance to the farther end of the interval; `None` where
+        /// The load, in the quantity of the limit.
+        load: f64,
+        /// Estimated error of the load by the grid: the distance to the farther end of the interval; `None` where
         /// a utilisation jumps, or the interval has no end.
         error: Option<f64>,
-        /// The least mean pressures at which u + e and u − e reach 1, u the utilisation and e its error: 0 where u + e does at
+        /// The least loads at which u + e and u − e reach 1, u the utilisation and e its error: 0 where u + e does at
         /// the least load that was solved, infinite where u − e never does.
         interval: [f64; 2],
         /// x, y, z of the place that fails; lengths.
         position: [f64; 3],
     },
-    /// Below a mean pressure: by the error of the utilisation the criterion may be reached under the least load that was solved, whose
+    /// Below a load: by the error of the utilisation the criterion may be reached under the least load that was solved, whose
     /// contact is a few samples wide.
     Below {
-        /// The least mean pressure p̄ at which u − e ≥ 1.
-        mean_pressure: f64,
-        /// Utilisation u at this mean pressure.
+        /// The least load at which u − e ≥ 1.
+        load: f64,
+        /// Utilisation u at this load.
         utilisation: f64,
-        /// x, y, z of the place that fails at this mean pressure; lengths.
+        /// x, y, z of the place that fails at this load; lengths.
         position: [f64; 3],
     },
     /// Not reached up to complete contact, or up to the largest load that was solved.
     Never {
-        /// Mean pressure up to which the criterion holds.
+        /// Load up to which the criterion holds.
         up_to: f64,
         /// Whether contact is complete there.
         complete: bool,
@@ -54,21 +55,21 @@ pub enum At {
         utilisation: f64,
         /// Estimated error of the largest utilisation.
         error: Option<f64>,
-        /// Mean pressure of the largest utilisation.
+        /// Load of the largest utilisation.
         at: f64,
     },
     /// Undecided: the utilisation stays below 1, or cannot be distinguished from 1 at any load, and the
     /// utilisation plus its error reaches 1.
     Undecided {
-        /// The least mean pressure at which u + e may reach 1; 0 where it does at the least load that was solved.
+        /// The least load at which u + e may reach 1; 0 where it does at the least load that was solved.
         from: f64,
-        /// The largest mean pressure that was solved.
+        /// The largest load that was solved.
         up_to: f64,
         /// The largest utilisation u.
         utilisation: f64,
         /// Its estimated error e.
         error: Option<f64>,
-        /// Mean pressure of the largest utilisation.
+        /// Load of the largest utilisation.
         at: f64,
         /// x, y, z of the place of the largest utilisation; lengths.
         position: [f64; 3],
@@ -80,6 +81,8 @@ pub enum At {
 pub struct Limit {
     /// The criterion.
     pub criterion: Criterion,
+    /// The quantity of its loads: pressures in the unit of Young's modulus, or forces, pressures times areas.
+    pub quantity: LoadQuantity,
     /// How it is reached.
     pub at: At,
 }
@@ -89,11 +92,13 @@ pub struct Limit {
 pub struct Limits {
     /// The limit of each criterion: yield and cracking from the surface down, then the interfaces.
     pub limits: Vec<Limit>,
-    /// All loads that were solved on the last grid, by ascending mean pressure.
+    /// All loads that were solved on the last grid, by ascending load.
     pub steps: Vec<StepRecord>,
     /// The first limit that is reached above the load 0, with the step there, its record and its fields; `None` without such a limit.
     pub shown: Option<LimitStep>,
-    /// Mean pressure at which contact becomes complete on the last grid.
+    /// The quantity of all loads.
+    pub quantity: LoadQuantity,
+    /// Load at which contact becomes complete on the last grid; infinite for an isolated contact.
     pub complete: f64,
     /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
     pub change: Option<f64>,
@@ -115,21 +120,21 @@ pub struct LimitStep {
 }
 
 impl Limit {
-    /// Mean pressure up to which the criterion holds; infinite where it is never reached, or undecided.
-    pub fn mean_pressure(&self) -> f64 {
+    /// Load up to which the criterion holds, in its [quantity](Self::quantity); infinite where it is never reached, or undecided.
+    pub fn load(&self) -> f64 {
         match self.at {
             At::Rest | At::Tip { .. } => 0.0,
-            At::Load { mean_pressure, .. } | At::Below { mean_pressure, .. } => mean_pressure,
+            At::Load { load, .. } | At::Below { load, .. } => load,
             At::Never { .. } | At::Undecided { .. } => f64::INFINITY,
         }
     }
 
-    /// Mean pressures between which the criterion is reached, by its error; infinite where it is never reached.
+    /// Loads between which the criterion is reached, by its error; infinite where it is never reached.
     pub fn interval(&self) -> [f64; 2] {
         match self.at {
             At::Rest | At::Tip { .. } => [0.0; 2],
             At::Load { interval, .. } => interval,
-            At::Below { mean_pressure, .. } => [0.0, mean_pressure],
+            At::Below { load, .. } => [0.0, load],
             At::Undecided { from, .. } => [from, f64::INFINITY],
             At::Never { .. } => [f64::INFINITY; 2],
         }
@@ -143,8 +148,8 @@ impl Limit {
 
     /// Distance to the farther end of the interval over the load; `None` of a criterion that is not reached at a load.
     pub(super) fn spread(&self) -> Option<f64> {
-        let At::Load { mean_pressure, interval: [from, to], .. } = self.at else { return None };
-        Some((mean_pressure - from).max(to - mean_pressure) / mean_pressure)
+        let At::Load { load, interval: [from, to], .. } = self.at else { return None };
+        Some((load - from).max(to - load) / load)
     }
 
     /// Place x, y, z (lengths) that fails, or may fail; `None` where none does, or all of a material.
@@ -172,9 +177,7 @@ impl Limit {
     fn change_from(&self, coarse: &Self) -> f64 {
         match (self.at, coarse.at) {
             (At::Rest, At::Rest) | (At::Tip { .. }, At::Tip { .. }) | (At::Never { .. }, At::Never { .. }) => 0.0,
-            (At::Load { mean_pressure: fine, .. }, At::Load { mean_pressure: coarse, .. }) => {
-                (fine - coarse).abs() / fine
-            }
+            (At::Load { load: fine, .. }, At::Load { load: coarse, .. }) => (fine - coarse).abs() / fine,
             (At::Undecided { from: fine, .. }, At::Undecided { from: coarse, .. }) => {
                 if fine == coarse {
                     0.0
@@ -187,13 +190,13 @@ impl Limit {
         }
     }
 
-    /// Order of failure: the least mean pressure first; of two bounds the larger utilisation; undecided limits before those that
+    /// Order of failure: the least load first; of two bounds the larger utilisation; undecided limits before those that
     /// are never reached.
     fn order(&self, other: &Self) -> Ordering {
         let excess = |limit: &Self| if let At::Below { utilisation, .. } = limit.at { -utilisation } else { 0.0 };
-        let loads = self.mean_pressure().total_cmp(&other.mean_pressure());
+        let loads = self.load().total_cmp(&other.load());
         let starts = self.interval()[0].total_cmp(&other.interval()[0]);
-        let starts = if self.mean_pressure().is_infinite() { starts } else { Ordering::Equal };
+        let starts = if self.load().is_infinite() { starts } else { Ordering::Equal };
         loads.then(excess(self).total_cmp(&excess(other))).then(starts)
     }
 }
@@ -207,7 +210,7 @@ fn ordered(limits: &[Limit]) -> Vec<&Limit> {
 
 /// The one of some limits that is reached first; `None` where nothing fails.
 pub fn first(limits: &[Limit]) -> Option<&Limit> {
-    ordered(limits).into_iter().next().filter(|limit| limit.mean_pressure().is_finite())
+    ordered(limits).into_iter().next().filter(|limit| limit.load().is_finite())
 }
 
 fn contenders(limits: &[Limit]) -> Vec<&Limit> {
@@ -223,9 +226,9 @@ pub fn rivals(limits: &[Limit]) -> Vec<Criterion> {
     contenders(limits).iter().map(|limit| limit.criterion).collect()
 }
 
-/// Whether contact is complete under a mean pressure that is read off a step, to rounding; it becomes so at `complete`.
-pub(super) fn is_complete(mean_pressure: f64, complete: f64) -> bool {
-    mean_pressure >= complete * (1.0 - 1e-9)
+/// Whether contact is complete under a load that is read off a step, to rounding; it becomes so at `complete`.
+pub(super) fn is_complete(load: f64, complete: f64) -> bool {
+    load >= complete * (1.0 - 1e-9)
 }
 
 impl Limits {
@@ -260,11 +263,11 @@ impl Limits {
     pub(super) fn doubts(&self, problem: &Problem) -> Vec<String> {
         let all: Vec<Numbered> = (1..).zip(&self.steps).collect();
         let is_limit = |(_, step): &Numbered| {
-            let from = |limit: &Limit, step: &StepRecord| (step.reading.mean_pressure - limit.mean_pressure()).abs();
+            let from = |limit: &Limit, step: &StepRecord| (step.reading.load(self.quantity) - limit.load()).abs();
             let nearest = |limit: &Limit| self.steps.iter().all(|other| from(limit, step) <= from(limit, other));
             self.limits.iter().any(|limit| match limit.at {
                 At::Load { .. } | At::Below { .. } => nearest(limit),
-                At::Never { at, .. } | At::Undecided { at, .. } => step.reading.mean_pressure == at,
+                At::Never { at, .. } | At::Undecided { at, .. } => step.reading.load(self.quantity) == at,
                 At::Rest | At::Tip { .. } => false,
             })
         };

@@ -70,7 +70,7 @@ impl Run {
     /// let limits = run.limits(&mut ())?;
     /// println!("{limits}"); // first: cracking of material 1 at the mean pressure …
     /// let first = limits.first().expect("something fails");
-    /// assert!(limits.converged() && limits.limits.len() == 3 && first.mean_pressure() > 0.0);
+    /// assert!(limits.converged() && limits.limits.len() == 3 && first.load() > 0.0);
     /// # Ok(())
     /// # }
     /// ```

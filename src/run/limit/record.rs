@@ -2,6 +2,7 @@
 //! reached.
 
 use super::limits::{At, Limit};
+use crate::load::LoadQuantity;
 use crate::reading::Criterion;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -31,6 +32,9 @@ struct Keys {
     #[serde(flatten)]
     criterion: Criterion,
     mean_pressure: Option<f64>,
+    /// Of a limit in force the load is here, and the mean pressure null.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    force: Option<Option<f64>>,
     error: Option<f64>,
     /// An end that is null is infinite.
     interval: Option<[Option<f64>; 2]>,
@@ -71,6 +75,7 @@ impl From<Limit> for Keys {
         let own = Self {
             criterion: limit.criterion,
             mean_pressure: None,
+            force: (limit.quantity == LoadQuantity::Force).then_some(None),
             error: None,
             interval,
             x,
@@ -83,16 +88,18 @@ impl From<Limit> for Keys {
             utilisation_error: None,
             utilisation_at: None,
         };
-        let no_load = |reached| Self { mean_pressure: Some(0.0), error: Some(0.0), reached, ..own.clone() };
+        let with_load = |load: f64| match limit.quantity {
+            LoadQuantity::MeanPressure => Self { mean_pressure: Some(load), ..own.clone() },
+            LoadQuantity::Force => Self { force: Some(Some(load)), ..own.clone() },
+        };
+        let no_load = |reached| Self { error: Some(0.0), reached, ..with_load(0.0) };
         match limit.at {
             At::Rest => no_load(Reached::ResidualStressAlone),
             At::Tip { .. } => no_load(Reached::TipAtAnyLoad),
-            At::Load { mean_pressure, error, .. } => {
-                Self { mean_pressure: Some(mean_pressure), error, reached: Reached::UnderLoad, ..own }
-            }
-            At::Below { mean_pressure, utilisation, .. } => Self {
+            At::Load { load, error, .. } => Self { error, reached: Reached::UnderLoad, ..with_load(load) },
+            At::Below { load, utilisation, .. } => Self {
                 reached: Reached::ContactOfFewSamples,
-                below: Some(mean_pressure),
+                below: Some(load),
                 utilisation: Some(finite(utilisation)),
                 ..own
             },
@@ -121,14 +128,16 @@ impl TryFrom<Keys> for Limit {
 
     fn try_from(keys: Keys) -> Result<Self, String> {
         let criterion = keys.criterion;
+        let quantity = keys.force.map_or(LoadQuantity::MeanPressure, |_| LoadQuantity::Force);
         let at = keys.at().ok_or_else(|| format!("the limit of {criterion} lacks a number, or one is below zero"))?;
-        Ok(Self { criterion, at })
+        Ok(Self { criterion, quantity, at })
     }
 }
 
 impl Keys {
     fn at(&self) -> Option<At> {
-        let sizes = [self.mean_pressure, self.error, self.below, self.up_to, self.utilisation_at];
+        let load = self.force.map_or(self.mean_pressure, |force| force);
+        let sizes = [load, self.error, self.below, self.up_to, self.utilisation_at];
         if sizes.into_iter().flatten().any(|size| size < 0.0) {
             return None;
         }
@@ -139,12 +148,11 @@ impl Keys {
             Reached::ResidualStressAlone => At::Rest,
             Reached::TipAtAnyLoad => At::Tip { position: position()? },
             Reached::UnderLoad => {
-                let (mean_pressure, error) = (self.mean_pressure?, self.error);
-                At::Load { mean_pressure, error, interval: interval()?, position: position()? }
+                At::Load { load: load?, error: self.error, interval: interval()?, position: position()? }
             }
             Reached::ContactOfFewSamples => {
                 let utilisation = utilisation.unwrap_or(f64::INFINITY);
-                At::Below { mean_pressure: self.below?, utilisation, position: position()? }
+                At::Below { load: self.below?, utilisation, position: position()? }
             }
             Reached::NotUpToCompleteContact | Reached::NotUpToLargestLoad => At::Never {
                 up_to: self.up_to?,
@@ -174,15 +182,16 @@ mod tests {
         let all = [
             At::Rest,
             At::Tip { position },
-            At::Load { mean_pressure: 0.2, error: None, interval: [0.0, f64::INFINITY], position },
-            At::Load { mean_pressure: 0.2, error, interval: [0.19, 0.21], position },
-            At::Below { mean_pressure: 0.1, utilisation: f64::INFINITY, position },
+            At::Load { load: 0.2, error: None, interval: [0.0, f64::INFINITY], position },
+            At::Load { load: 0.2, error, interval: [0.19, 0.21], position },
+            At::Below { load: 0.1, utilisation: f64::INFINITY, position },
             At::Never { up_to: 1.0, complete: true, utilisation: 0.5, error, at: 0.7 },
             At::Never { up_to: 1.0, complete: false, utilisation: 0.5, error: None, at: 0.7 },
             At::Undecided { from: 0.0, up_to: 1.0, utilisation: 0.5, error, at: 0.7, position },
         ];
-        for at in all {
-            let limit = Limit { criterion: Criterion::delamination_of(1), at };
+        let quantities = [LoadQuantity::MeanPressure, LoadQuantity::Force];
+        for (at, quantity) in all.into_iter().flat_map(|at| quantities.map(|quantity| (at, quantity))) {
+            let limit = Limit { criterion: Criterion::delamination_of(1), quantity, at };
             let text = serde_json::to_string(&limit).unwrap();
             assert_eq!(serde_json::from_str::<Limit>(&text).unwrap(), limit, "{text}");
             // A key that a limit has is written where it is null, too.

@@ -4,7 +4,7 @@ use super::band::{Crossing, UtilisationBand};
 use super::limits::is_complete;
 use super::{At, Limit, LimitStep, Limits};
 use crate::body::{HalfSpace, Layer};
-use crate::load::Load;
+use crate::load::LoadQuantity;
 use crate::reading::{Criterion, Reading, Utilisation};
 use crate::run::{Recorder, Run, RunError, StepRecord};
 use crate::spectral::{Solver, Step};
@@ -26,7 +26,7 @@ const SAME_LOAD: f64 = 1e-12;
 const START: f64 = 1.0 / 1024.0;
 /// Largest ratio of the load on an indenter with a shape of its own between neighbouring loads.
 const GROWTH: f64 = 4.0;
-/// Relative difference of mean pressures below which they are not divided where a level begins to touch.
+/// Relative difference of loads below which they are not divided where a level begins to touch.
 const TOUCHING: f64 = 1e-3;
 
 /// A search on one grid.
@@ -35,9 +35,11 @@ pub(super) struct LimitSearch<'a, R: Recorder> {
     solver: Solver,
     /// Tables that the stresses of all loads share.
     tables: Arc<Tables>,
-    /// Mean pressure at which contact becomes complete; infinite for a flat surface.
+    /// The quantity of all loads.
+    quantity: LoadQuantity,
+    /// Load at which contact becomes complete; infinite for a flat surface and for an isolated contact.
     complete: f64,
-    /// The solved loads, by ascending mean pressure.
+    /// The solved loads, by ascending load.
     steps: Vec<StepRecord>,
     /// The step of the load that was solved last.
     last: Option<Step>,
@@ -51,9 +53,11 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         recorder.begin(&solver).map_err(RunError::Recorder)?;
         // A flat surface is in complete contact under any load, but its stresses grow with the load all the same.
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
-        let complete = complete.unwrap_or(f64::INFINITY);
-        let mut search =
-            Self { run, solver, tables: Arc::default(), complete, steps: Vec::new(), last: None, recorder };
+        let (quantity, area) = (run.quantity(), run.problem.cell().area());
+        let per_pressure = if quantity == LoadQuantity::Force { area } else { 1.0 };
+        let complete = complete.map_or(f64::INFINITY, |pressure| pressure * per_pressure);
+        let (tables, steps) = (Arc::default(), Vec::new());
+        let mut search = Self { run, solver, tables, quantity, complete, steps, last: None, recorder };
         let bodies = run.problem.bodies();
         let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
             Criterion::all(bodies).into_iter().partition(|criterion| criterion.at_rest(bodies) >= 1.0);
@@ -72,16 +76,24 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         }
         let limit = |criterion: Criterion| {
             let at = if at_rest.contains(&criterion) { At::Rest } else { search.found(criterion) };
-            Limit { criterion, at }
+            Limit { criterion, quantity, at }
         };
         let limits = Criterion::all(bodies).into_iter().map(limit).collect();
-        let mut limits =
-            Limits { limits, steps: Vec::new(), shown: None, complete, change: None, end: None, warnings: Vec::new() };
-        let is_load = |limit: &&&Limit| limit.mean_pressure() > 0.0 && limit.mean_pressure().is_finite();
+        let mut limits = Limits {
+            limits,
+            steps: Vec::new(),
+            shown: None,
+            quantity,
+            complete,
+            change: None,
+            end: None,
+            warnings: Vec::new(),
+        };
+        let is_load = |limit: &&&Limit| limit.load() > 0.0 && limit.load().is_finite();
         let first = limits.ordered().iter().find(is_load).map(|limit| **limit);
         let shown = match first {
             Some(limit) => {
-                let record = search.solve(limit.mean_pressure())?.clone();
+                let record = search.solve(limit.load())?.clone();
                 // Rounding decides between places that are equal by symmetry: the place is that of the step that is shown.
                 let limit = limit.moved_to(search.utilisation(&record, limit.criterion).position);
                 limits.limits.iter_mut().filter(|own| own.criterion == limit.criterion).for_each(|own| *own = limit);
@@ -93,23 +105,24 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     }
 
     /// Solves a load and keeps its record.
-    fn solve(&mut self, mean_pressure: f64) -> Result<&StepRecord, RunError<R::Error>> {
+    fn solve(&mut self, load: f64) -> Result<&StepRecord, RunError<R::Error>> {
         // The memory of a step is freed before the next one needs as much.
         self.last = None;
-        let load = Load::MeanPressure(mean_pressure);
-        let (record, step) = self.run.solve_load(&mut self.solver, &self.tables, load, None, self.recorder)?;
+        let prescribed = self.quantity.load(load);
+        let (record, step) = self.run.solve_load(&mut self.solver, &self.tables, prescribed, None, self.recorder)?;
         self.last = Some(step);
-        // The mean pressure of a reading is the load to rounding.
-        let before = |other: &StepRecord| other.reading.mean_pressure < mean_pressure * (1.0 - SAME_LOAD);
+        // The load of a reading is the prescribed one to rounding.
+        let quantity = self.quantity;
+        let before = |other: &StepRecord| other.reading.load(quantity) < load * (1.0 - SAME_LOAD);
         let place = self.steps.partition_point(before);
         match self.steps.get_mut(place) {
-            Some(same) if same.reading.mean_pressure <= mean_pressure * (1.0 + SAME_LOAD) => *same = record,
+            Some(same) if same.reading.load(quantity) <= load * (1.0 + SAME_LOAD) => *same = record,
             _ => self.steps.insert(place, record),
         }
         Ok(&self.steps[place])
     }
 
-    /// Mean pressure of the first load: a part of that of complete contact, or the least strength where contact is complete under any
+    /// The first load: a part of that of complete contact, or the least strength where contact is complete under any
     /// load and stresses are proportional to it.
     fn start(&self) -> f64 {
         if self.complete.is_finite() {
@@ -120,7 +133,11 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let of_materials = of_materials.flat_map(|strength| [strength.yielding, strength.tensile]);
         let of_interfaces = bodies().flat_map(HalfSpace::layers).map(Layer::interface_strength);
         let of_interfaces = of_interfaces.flat_map(|strength| [strength.normal, strength.shear]);
-        of_materials.chain(of_interfaces).flatten().fold(f64::INFINITY, f64::min)
+        let least = of_materials.chain(of_interfaces).flatten().fold(f64::INFINITY, f64::min);
+        match self.quantity {
+            LoadQuantity::MeanPressure => least,
+            LoadQuantity::Force => least * self.run.problem.cell().area(),
+        }
     }
 
     /// Solves loads a factor of two apart, from the least whose contact has samples enough on, until every criterion has
@@ -158,8 +175,8 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
 
     /// Whether the contact of the best resolved level, or that of a topography, has enough samples for its stresses.
     fn is_readable(&self, reading: &Reading) -> bool {
-        let [n1, n2] = self.solver.grid().points();
-        let whole = (reading.contact_fraction * (n1 * n2) as f64 / PI).sqrt();
+        let samples = reading.contact_area / self.solver.grid().sample_area();
+        let whole = (samples / PI).sqrt();
         let of_levels = reading.levels.iter().map(|level| level.resolution).reduce(f64::max);
         of_levels.unwrap_or(whole) >= LEAST_SAMPLES
     }
@@ -175,7 +192,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             };
             let rough = (1..self.steps.len()).find(|&above| holds(above - 1) && self.grows_apart(above));
             let Some(above) = rough else { break };
-            let [low, high] = [above - 1, above].map(|index| self.steps[index].reading.mean_pressure);
+            let [low, high] = [above - 1, above].map(|index| self.load_of(index));
             self.solve((low * high).sqrt())?;
         }
         Ok(())
@@ -185,7 +202,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     /// the level has a shape that no higher one has.
     fn grows_apart(&self, above: usize) -> bool {
         let [before, after] = [above - 1, above].map(|index| &self.steps[index].reading);
-        if after.mean_pressure <= before.mean_pressure * (1.0 + TOUCHING) {
+        if after.load(self.quantity) <= before.load(self.quantity) * (1.0 + TOUCHING) {
             return false;
         }
         let Some(indenters) = self.run.problem.counterbody().indenters() else { return false };
@@ -203,11 +220,16 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         (0..levels.len()).any(|own| drops[own] > 0.0 && is_new(own) && grows(own))
     }
 
+    /// The load of a solved step by its index.
+    fn load_of(&self, index: usize) -> f64 {
+        self.steps[index].reading.load(self.quantity)
+    }
+
     /// Utilisation of a criterion under the loads that were solved.
     fn band(&self, criterion: Criterion) -> UtilisationBand {
         UtilisationBand::new(self.steps.iter().map(|record| {
             let Utilisation { value, error, .. } = self.utilisation(record, criterion);
-            [record.reading.mean_pressure, value, error.unwrap_or(0.0)]
+            [record.reading.load(self.quantity), value, error.unwrap_or(0.0)]
         }))
     }
 
@@ -239,9 +261,9 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     fn found(&self, criterion: Criterion) -> At {
         let band = self.band(criterion);
         let taken = |index: usize| self.utilisation(&self.steps[index], criterion);
-        let load = |index: usize| self.steps[index].reading.mean_pressure;
+        let load = |index: usize| self.load_of(index);
         let up_to = load(self.steps.len() - 1);
-        let Crossing { from, at: mean_pressure, to } = band.crossing();
+        let Crossing { from, at: crossing, to } = band.crossing();
         let undecided = |at: usize| {
             let Utilisation { value: utilisation, error, position, .. } = taken(at);
             // At another load it may be larger still.
@@ -264,7 +286,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
                     if sure == 0 && value.is_infinite() && self.first_is_tip() {
                         return At::Tip { position };
                     }
-                    At::Below { mean_pressure: load(sure), utilisation: value, position }
+                    At::Below { load: load(sure), utilisation: value, position }
                 }
             },
             Some(above) => {
@@ -273,9 +295,9 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
                 // The error of a jump by the grid is not known; its place is that of the load that fails.
                 let jumps = enclosure.slope().is_none();
                 let position = if jumps { taken(above).position } else { nearest.position };
-                let error = (mean_pressure - from).max(to - mean_pressure);
+                let error = (crossing - from).max(to - crossing);
                 let error = Some(error).filter(|error| error.is_finite() && !jumps && nearest.error.is_some());
-                At::Load { mean_pressure, error, interval: [from, to], position }
+                At::Load { load: crossing, error, interval: [from, to], position }
             }
         }
     }

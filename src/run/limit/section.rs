@@ -25,7 +25,7 @@ impl Limits {
         let (bodies, cell) = (run.problem.bodies(), run.problem.cell());
         let direction = run.problem.friction().map_or([1.0, 0.0], Friction::direction);
         let reading = step.reading();
-        let radius = (reading.contact_fraction * cell.area() / (PI * reading.contact_spots.max(1) as f64)).sqrt();
+        let radius = (reading.contact_area / (PI * reading.contact_spots.max(1) as f64)).sqrt();
         let reach = (HALF_LENGTH * radius).min(0.5 * cell.reduced().longer_side());
         let coating = bodies.each().flat_map(HalfSpace::interface_depths).fold(0.0, f64::max);
         let [rows, points] = SECTION;

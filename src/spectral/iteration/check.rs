@@ -3,7 +3,7 @@
 use super::certificate::Certificate;
 use super::fields::Unknowns;
 use super::problem::ContactProblem;
-use crate::load::Load;
+use crate::load::Control;
 use crate::numeric::lanes::{LANES, Real, lowest, splat, total, vectorised};
 use crate::numeric::rows::{self, Totals, next};
 use crate::numeric::search::largest;
@@ -60,8 +60,8 @@ impl ConvergenceCheck {
         let (load_control, len) = (problem.load.is_mean_pressure(), problem.initial_gap.len() as f64);
         let [load, energy, work, open] = displaced_gap(problem, unknowns);
         let (penetration, deviation) = match problem.load {
-            Load::MeanPressure(mean) => (relative(work, load), relative((load / len - mean).abs(), mean)),
-            Load::Penetration(given) => (given, relative((work - load * given).abs(), load * given)),
+            Control::MeanPressure(mean) => (relative(work, load), relative((load / len - mean).abs(), mean)),
+            Control::Penetration(given) => (given, relative((work - load * given).abs(), load * given)),
         };
         unknowns.penetration = penetration;
         let (p, g) = (&unknowns.pressure[..], Arc::make_mut(&mut unknowns.gap));
@@ -132,7 +132,7 @@ fn displaced_gap<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknow
         unknowns.gap = Arc::new(vec![0.0; p.len()]);
     }
     let g = Arc::make_mut(&mut unknowns.gap);
-    let uniform = if let Load::MeanPressure(mean) = problem.load { mean } else { 0.0 };
+    let uniform = if let Control::MeanPressure(mean) = problem.load { mean } else { 0.0 };
     let blocks = problem.operator.blocks();
     let mut totals = blocks.totals();
     let fields = blocks.of(p).zip(blocks.of(f)).zip(blocks.of_mut(g)).zip(&mut totals);

@@ -16,7 +16,7 @@
 
 use super::admissible::AdmissibleSet;
 use super::certificate::Certificate;
-use crate::load::Load;
+use crate::load::Control;
 use crate::numeric::lanes::{LANES, all_zero, vectorised};
 use crate::numeric::rows::{self, Totals};
 use crate::numeric::sums::{self, BLOCK};
@@ -53,12 +53,12 @@ impl Unknowns {
 
     /// Clips the pressure at zero and, under load control, scales it to the mean; uniform on the admissible samples when
     /// nothing is left.
-    pub(super) fn admit(&mut self, load: Load, admissible: AdmissibleSet<'_>) {
+    pub(super) fn admit(&mut self, load: Control, admissible: AdmissibleSet<'_>) {
         let pressure = Arc::make_mut(&mut self.pressure);
         admissible.restrict(pressure);
         let Totals { sums: [sum], least: [] } =
             rows::row_totals(BLOCK, pressure.par_chunks_mut(BLOCK), |_, p| vectorised!(simd => clipped(simd, p)));
-        let Load::MeanPressure(mean) = load else { return };
+        let Control::MeanPressure(mean) = load else { return };
         let total = mean * pressure.len() as f64;
         if sum > 0.0 {
             let scale = total / sum;

@@ -6,7 +6,7 @@ use super::direction;
 use super::fields::{Fields, Unknowns};
 use super::problem::ContactProblem;
 use super::update::{self, ActiveSet};
-use crate::load::Load;
+use crate::load::Control;
 use crate::numeric::rows::{RowBlocks, Totals};
 use crate::spectral::by_rows::{ResultRows, rows_of, rows_to};
 use crate::spectral::extension;
@@ -125,7 +125,7 @@ impl InnerIteration {
     }
 
     /// Mean that r is freed of.
-    fn mean(&self, load: Load) -> f64 {
+    fn mean(&self, load: Control) -> f64 {
         if load.is_mean_pressure() { self.active.mean() } else { 0.0 }
     }
 
@@ -257,9 +257,9 @@ impl InnerIteration {
 }
 
 /// Factor that restores the mean of a pressure whose sum is `load`; `None` where nothing is left of it.
-fn scale_to_mean(prescribed: Load, load: f64, samples: usize) -> Option<f64> {
+fn scale_to_mean(prescribed: Control, load: f64, samples: usize) -> Option<f64> {
     match prescribed {
-        Load::MeanPressure(mean) => (load > 0.0).then(|| mean * samples as f64 / load),
-        Load::Penetration(_) => Some(1.0),
+        Control::MeanPressure(mean) => (load > 0.0).then(|| mean * samples as f64 / load),
+        Control::Penetration(_) => Some(1.0),
     }
 }

@@ -3,7 +3,7 @@
 
 use super::inner_iteration::{Continuation, MAX_BACKTRACK, MAX_BACKTRACKS, MIN_BACKTRACK, Variant};
 use super::preconditioned::OUTER_REDUCTION;
-use crate::load::Load;
+use crate::load::Control;
 use crate::spectral::LayeredOperator;
 use crate::spectral::extension::{DECAY, FADE, WIDTH};
 use crate::spectral::operator::{ElasticOperator, TractionUpdate, Workspace};
@@ -18,7 +18,7 @@ pub(super) struct Plain {
     pub symmetric: LayeredOperator,
     /// f ≥ 0, a length.
     pub initial_gap: Field,
-    pub load: Load,
+    pub load: Control,
     pub variant: Variant,
 }
 
@@ -83,8 +83,8 @@ impl Plain {
         self.body.displace(&mut w, &mut Workspace::default());
         let g: Field = w.iter().zip(&self.initial_gap).map(|(w, f)| w + f).collect();
         let penetration = match self.load {
-            Load::MeanPressure(_) => dot(p, &g) / p.iter().sum::<f64>(),
-            Load::Penetration(given) => given,
+            Control::MeanPressure(_) => dot(p, &g) / p.iter().sum::<f64>(),
+            Control::Penetration(given) => given,
         };
         (g.into_iter().map(|g| g - penetration).collect(), penetration)
     }
@@ -121,7 +121,7 @@ impl Plain {
             let mut end: Field = p.iter().zip(t).map(|(p, t)| p - tau * t).collect();
             let is_clipped = end.iter().any(|&p| p < 0.0);
             end.iter_mut().for_each(|p| *p = p.max(0.0));
-            if let (Load::MeanPressure(mean), true) = (self.load, is_clipped || backtracks > 0) {
+            if let (Control::MeanPressure(mean), true) = (self.load, is_clipped || backtracks > 0) {
                 let scale = mean * p.len() as f64 / end.iter().sum::<f64>();
                 end.iter_mut().for_each(|p| *p *= scale);
             }
@@ -224,7 +224,7 @@ mod tests {
 
     /// The fused loops against the plain lines, pressure by pressure, in `iterations` under a `load` over the pressure
     /// (or penetration) that displaces by the largest f.
-    fn compare(cell: Cell, points: [usize; 2], is_rough: bool, load: Load, friction: f64, variant: Variant) {
+    fn compare(cell: Cell, points: [usize; 2], is_rough: bool, load: Control, friction: f64, variant: Variant) {
         let iterations = 14;
         let grid = Grid::new(cell, points).unwrap();
         let layer = Layer::new(Material::from_shear(3.0, 0.2).unwrap(), 0.1, Interface::Bonded).unwrap();
@@ -239,11 +239,11 @@ mod tests {
         let length = initial_gap.iter().copied().fold(0.0, f64::max);
         let unit = length / operator().unit();
         let load = match load {
-            Load::MeanPressure(part) => Load::MeanPressure(part * unit),
-            Load::Penetration(part) => Load::Penetration(part * length),
+            Control::MeanPressure(part) => Control::MeanPressure(part * unit),
+            Control::Penetration(part) => Control::Penetration(part * length),
         };
         // More pressure where the surface is higher.
-        let mean = if let Load::MeanPressure(mean) = load { mean } else { 0.1 * unit };
+        let mean = if let Control::MeanPressure(mean) = load { mean } else { 0.1 * unit };
         let heights: Field = initial_gap.iter().map(|f| length - f).collect();
         let scale = mean * grid.len() as f64 / heights.iter().sum::<f64>();
         let start: Field = heights.into_iter().map(|height| scale * height).collect();
@@ -289,31 +289,31 @@ mod tests {
 
     #[test]
     fn smooth_contact_is_iterated_as_in_plain_lines() {
-        compare(Cell::square(1.0).unwrap(), [40, 36], false, Load::MeanPressure(0.1), 0.0, UPDATED);
+        compare(Cell::square(1.0).unwrap(), [40, 36], false, Control::MeanPressure(0.1), 0.0, UPDATED);
         let without = Variant { continuation: Continuation::Zero, ..UPDATED };
-        compare(Cell::square(1.0).unwrap(), [40, 36], false, Load::MeanPressure(0.1), 0.0, without);
+        compare(Cell::square(1.0).unwrap(), [40, 36], false, Control::MeanPressure(0.1), 0.0, without);
     }
 
     #[test]
     fn rough_contact_is_iterated_as_in_plain_lines() {
-        compare(Cell::square(1.0).unwrap(), [48, 48], true, Load::MeanPressure(0.05), 0.0, UPDATED);
+        compare(Cell::square(1.0).unwrap(), [48, 48], true, Control::MeanPressure(0.05), 0.0, UPDATED);
     }
 
     #[test]
     fn contact_on_an_oblique_cell_is_iterated_as_in_plain_lines() {
         let cell = Cell::new([1.0, 0.1], [0.4, 0.8]).unwrap();
-        compare(cell, [36, 45], false, Load::MeanPressure(0.2), 0.0, UPDATED);
+        compare(cell, [36, 45], false, Control::MeanPressure(0.2), 0.0, UPDATED);
     }
 
     #[test]
     fn contact_under_a_given_penetration_is_iterated_as_in_plain_lines() {
-        compare(Cell::hexagonal(1.0).unwrap(), [36, 36], false, Load::Penetration(0.2), 0.0, UPDATED);
+        compare(Cell::hexagonal(1.0).unwrap(), [36, 36], false, Control::Penetration(0.2), 0.0, UPDATED);
     }
 
     #[test]
     fn sliding_contact_is_iterated_as_in_plain_lines() {
         for (friction, variant) in [(0.3, UPDATED), (0.3, LAGGED), (0.8, LAGGED)] {
-            compare(Cell::square(1.0).unwrap(), [36, 40], false, Load::MeanPressure(0.1), friction, variant);
+            compare(Cell::square(1.0).unwrap(), [36, 40], false, Control::MeanPressure(0.1), friction, variant);
         }
     }
 }

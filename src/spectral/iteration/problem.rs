@@ -3,7 +3,7 @@
 use super::admissible::AdmissibleSet;
 use super::fields::Working;
 use super::report::Progress;
-use crate::load::Load;
+use crate::load::Control;
 use crate::spectral::operator::ElasticOperator;
 use serde::Serialize;
 use std::fmt;
@@ -52,7 +52,7 @@ pub struct ContactProblem<'a, O> {
     /// Where contact may occur.
     pub admissible: AdmissibleSet<'a>,
     /// Prescribed mean pressure or penetration.
-    pub load: Load,
+    pub load: Control,
     /// Tolerance and limits.
     pub settings: Settings,
     /// Outer iterations so far, see [`Report::outer`](super::Report::outer).
@@ -72,8 +72,8 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
     pub(super) fn length(&self) -> f64 {
         match self.load {
             _ if self.largest_gap > 0.0 => self.largest_gap,
-            Load::MeanPressure(mean) => mean * self.operator.unit(),
-            Load::Penetration(penetration) => penetration,
+            Control::MeanPressure(mean) => mean * self.operator.unit(),
+            Control::Penetration(penetration) => penetration,
         }
     }
 }

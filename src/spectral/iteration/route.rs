@@ -12,7 +12,7 @@ use super::fields::Unknowns;
 use super::problem::{ContactProblem, Method, Settings};
 use super::report::{Report, Route, Stop};
 use super::stopping::unless_rounding;
-use crate::load::Load;
+use crate::load::Control;
 use crate::numeric::sums;
 use crate::spectral::operator::ElasticOperator;
 use std::sync::Arc;
@@ -47,14 +47,14 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
             return done(Stop::NoContact, 0.0);
         }
         match self.load {
-            Load::MeanPressure(mean) if everywhere && gap.iter().all(|f| *f == gap[0]) => {
+            Control::MeanPressure(mean) if everywhere && gap.iter().all(|f| *f == gap[0]) => {
                 // A flat counterbody: complete contact at once.
                 unknowns.pressure = Arc::new(vec![mean; gap.len()]);
                 ConvergenceCheck::new(self, unknowns);
                 done(Stop::Converged, 0.0)
             }
-            Load::MeanPressure(_) => iterate(self, 0, unknowns),
-            Load::Penetration(penetration) => {
+            Control::MeanPressure(_) => iterate(self, 0, unknowns),
+            Control::Penetration(penetration) => {
                 if everywhere && penetration >= sums::mean(gap) {
                     // Nothing of the step before is an answer.
                     unknowns.clear();
@@ -103,7 +103,7 @@ fn search_load<O: ElasticOperator>(
         let mut trial = ContactProblem {
             operator: &mut *problem.operator,
             working: &mut *problem.working,
-            load: Load::MeanPressure(pressure),
+            load: Control::MeanPressure(pressure),
             settings: sharper,
             progress: &mut *problem.progress,
             ..*problem
@@ -162,7 +162,7 @@ mod tests {
             initial_gap: surface.gaps(),
             largest_gap: surface.largest(),
             admissible: AdmissibleSet::default(),
-            load: Load::Penetration(penetration),
+            load: Control::Penetration(penetration),
             settings: Settings { max_iterations, ..Settings::default() },
             outer: 0,
             progress: &mut |_| ControlFlow::Continue(()),
