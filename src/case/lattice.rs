@@ -5,6 +5,7 @@ use super::keys::{Form, Key, Range, Unit};
 use super::levels::LevelSection;
 use super::reader::TableAt;
 use super::section::{Words, demanded, section, words};
+use super::surface::Sides;
 use crate::lattice::{Cell, Lattice, LatticeError};
 
 const COORDINATE: Form = Form::Number(Range::Coordinate);
@@ -19,6 +20,8 @@ words! {
         Square = "square",
         /// Any cell.
         Oblique = "oblique",
+        /// No lattice: one contact in a window, with nothing around it.
+        Isolated = "isolated",
     }
 }
 
@@ -28,9 +31,10 @@ section! {
     pub struct LatticeSection = LATTICE, misplaced [
         ("a1", "the cell of a hexagonal or square lattice follows from `period`"),
         ("a2", "the cell of a hexagonal or square lattice follows from `period`"),
-        ("period", "the cell of an oblique lattice is given by `a1` and `a2`"),
+        ("period", "the cell of an oblique lattice is given by `a1` and `a2`, the window of an isolated contact by `size`"),
+        ("size", "`size` is that of the window of an isolated contact"),
     ] {
-        /// lattice of equilateral triangles, of squares, or any cell
+        /// lattice of equilateral triangles, of squares, or any cell; or one isolated contact in a window, with nothing around it
         pub kind: LatticeKind = Key::new(&[Form::Word(LatticeKind::WORDS)], "\"hexagonal\""),
         /// the distance of neighbouring indenters whatever their level
         pub period: Option<f64> = Key::new(&[Form::Number(Range::Size)], "1.0")
@@ -47,6 +51,11 @@ section! {
             .unit(Unit::Length)
             .of(&["oblique"])
             .rule("not parallel to `a1`"),
+        /// the sides of the window around the contact, whose middle is the origin
+        pub size: Option<Sides> = Key::new(&[Form::Number(Range::Size), Form::Tuple("two of them, [w1, w2]", &[Form::Number(Range::Size); 2])], "2.0")
+            .unit(Unit::Length)
+            .of(&["isolated"])
+            .rule("contact must stay inside; nothing depends on it otherwise"),
     }
 }
 
@@ -61,17 +70,18 @@ impl LatticeSection {
     pub(super) fn rectangle([side1, side2]: [f64; 2]) -> Self {
         let (square, oblique) = (LatticeKind::Square, LatticeKind::Oblique);
         match side1 == side2 {
-            true => Self { kind: square, period: Some(side1), a1: None, a2: None },
-            false => Self { kind: oblique, period: None, a1: Some([side1, 0.0]), a2: Some([0.0, side2]) },
+            true => Self { kind: square, period: Some(side1), a1: None, a2: None, size: None },
+            false => Self { kind: oblique, period: None, a1: Some([side1, 0.0]), a2: Some([0.0, side2]), size: None },
         }
     }
 
-    /// The cell of side `period`, or of the vectors `a1` and `a2`.
+    /// The cell of side `period`, or of the vectors `a1` and `a2`, or the window.
     pub(super) fn cell(&self) -> Result<Cell, LatticeError> {
         match self.kind {
             LatticeKind::Hexagonal => Cell::hexagonal(demanded(self.period)),
             LatticeKind::Square => Cell::square(demanded(self.period)),
             LatticeKind::Oblique => Cell::new(demanded(self.a1), demanded(self.a2)),
+            LatticeKind::Isolated => Cell::window(demanded(self.size).0),
         }
     }
 
@@ -79,6 +89,15 @@ impl LatticeSection {
     pub(super) fn build(&self, levels: &[LevelSection]) -> Result<Lattice, LatticeError> {
         let sites: Option<Vec<_>> = levels.iter().map(|level| level.sites.clone()).collect();
         match (sites, self.kind) {
+            (Some(sites), LatticeKind::Isolated) => {
+                // Sites count from the middle of the window.
+                let moved = |sites: Vec<[f64; 2]>| sites.into_iter().map(|site| site.map(|s| s + 0.5)).collect();
+                Lattice::new(self.cell()?, sites.into_iter().map(moved).collect())
+            }
+            (None, LatticeKind::Isolated) if levels.len() == 1 => Lattice::new(self.cell()?, vec![vec![[0.5; 2]]]),
+            (None, LatticeKind::Isolated) => {
+                Err(LatticeError::NoStandardSites { lattice: "isolated", levels: levels.len(), standard: "1" })
+            }
             (Some(sites), _) => Lattice::new(self.cell()?, sites),
             (None, LatticeKind::Hexagonal) => Lattice::hexagonal(demanded(self.period), levels.len()),
             (None, LatticeKind::Square) => Lattice::square(demanded(self.period), levels.len()),
@@ -113,6 +132,9 @@ pub(super) fn build(
         }
     }
     build_cell(lattice, section)?;
+    if lattice.kind == LatticeKind::Isolated {
+        inside(levels, level_sections)?;
+    }
     lattice.build(levels).map_err(|error| match error {
         LatticeError::NoStandardSites { .. } if lattice.kind == LatticeKind::Oblique => {
             Refusal::new(level_sections[0].span, "`levels[0].sites` is missing", "no `sites` in this level")
@@ -136,6 +158,20 @@ pub(super) fn build(
         }
         LatticeError::FlatCell(..) | LatticeError::NoPoints(..) | LatticeError::Site(_) => flat(section, &error),
     })
+}
+
+/// Refuses sites outside of the window of an isolated contact.
+fn inside(levels: &[LevelSection], sections: &[TableAt<'_>]) -> Result<(), Refusal> {
+    for (index, (level, section)) in levels.iter().zip(sections).enumerate() {
+        let outside = level.sites.iter().flatten().find(|site| site.iter().any(|s| s.abs() >= 0.5));
+        if let Some([s1, s2]) = outside {
+            let span = section.optional("sites").map_or(section.span, |sites| sites.node.span);
+            let message = format!("`levels[{index}].sites`: [{s1}, {s2}] is not inside the window");
+            return Err(Refusal::new(span, message, "between -0.5 and 0.5")
+                .help("sites of an isolated contact are fractions of the window's sides from its middle; or enlarge lattice.size"));
+        }
+    }
+    Ok(())
 }
 
 /// The cell, or a refusal of vectors that are nearly parallel or of a size beyond double precision.

@@ -43,7 +43,7 @@ section! {
         pub exponent: Option<f64> = Key::new(&[SIZE], "3.0").of(&["power"]),
         /// protrusion of the apices, of which only differences matter
         pub height: f64 = Key::new(&[COORDINATE], "0.02").unit(Unit::Length).default("0"),
-        /// places of its indenters, in fractions of a₁ and a₂
+        /// places of its indenters, in fractions of a₁ and a₂; in the window of an isolated contact from its middle
         pub sites: Option<Vec<[f64; 2]>> = Key::new(
             &[Form::List { of: &Form::Tuple("a site [s1, s2]", &[COORDINATE; 2]), count: [1, 10_000] }],
             "[[0.0, 0.0], [0.5, 0.5]]",
