@@ -13,7 +13,8 @@ use std::fmt;
 pub struct Cell {
     a1: [f64; 2],
     a2: [f64; 2],
-    isolated: bool,
+    /// Of a window its corner, a point; `None` of a periodic cell.
+    corner: Option<[f64; 2]>,
 }
 
 /// Largest projection of one cell vector on the other, over the length of the other: multiples are kept in 32 bits.
@@ -31,7 +32,7 @@ impl Cell {
         if !(sine.is_finite() && sine.abs() > 1e-6 && along < MAX_SKEW) {
             return Err(LatticeError::FlatCell(a1, a2));
         }
-        Ok(Self { a1, a2, isolated: false })
+        Ok(Self { a1, a2, corner: None })
     }
 
     /// The window of these sides along x and y (lengths) around an isolated contact.
@@ -39,12 +40,20 @@ impl Cell {
     /// # Errors
     /// When a side is zero or not finite.
     pub fn window([width, height]: [f64; 2]) -> Result<Self, LatticeError> {
-        Ok(Self { isolated: true, ..Self::new([width, 0.0], [0.0, height])? })
+        Self::window_at([-0.5 * width, -0.5 * height], [width, height])
+    }
+
+    /// The window of these sides (lengths) with its corner at a point.
+    ///
+    /// # Errors
+    /// When a side is zero or not finite.
+    pub(crate) fn window_at(corner: [f64; 2], [width, height]: [f64; 2]) -> Result<Self, LatticeError> {
+        Ok(Self { corner: Some(corner), ..Self::new([width, 0.0], [0.0, height])? })
     }
 
     /// Whether it is a window around an isolated contact, and nothing is periodic.
     pub fn is_isolated(&self) -> bool {
-        self.isolated
+        self.corner.is_some()
     }
 
     /// The 60° rhombus of the side `side`, a length.
@@ -78,7 +87,7 @@ impl Cell {
     #[must_use]
     pub fn dual(&self) -> Self {
         let [a1, a2] = self.reciprocal();
-        Self { a1, a2, isolated: false }
+        Self { a1, a2, corner: None }
     }
 
     /// Whether a₁ and a₂ are at right angles, exactly.
@@ -94,7 +103,7 @@ impl Cell {
 
     /// The corner of the cell from which fractions count, a point: 0, or that of a window whose middle is 0.
     pub fn corner(&self) -> [f64; 2] {
-        if self.isolated { [0, 1].map(|k| -0.5 * (self.a1[k] + self.a2[k])) } else { [0.0; 2] }
+        self.corner.unwrap_or_default()
     }
 
     /// The point at the fractions s₁, s₂ of a₁ and a₂ from the [corner](Self::corner), lengths.
@@ -139,7 +148,7 @@ impl Cell {
                 break;
             }
         }
-        ReducedBasis { cell: Self { a1: short.0, a2: long.0, isolated: self.isolated }, matrix: [short.1, long.1] }
+        ReducedBasis { cell: Self { a1: short.0, a2: long.0, corner: self.corner }, matrix: [short.1, long.1] }
     }
 }
 
@@ -193,7 +202,7 @@ impl ReducedBasis {
     /// vector itself.
     pub fn nearest(&self, s: [f64; 2]) -> [f64; 2] {
         let t = self.fractions(s);
-        if self.cell.isolated {
+        if self.cell.is_isolated() {
             return self.cell.vector(t);
         }
         let [u, v] = t.map(|t| t - t.floor());
@@ -220,7 +229,7 @@ impl ReducedBasis {
         for (k, square) in squares.iter_mut().enumerate() {
             let part = k as f64 / count as f64;
             let [u, v] = [u0 + part * du, v0 + part * dv];
-            if self.cell.isolated {
+            if self.cell.is_isolated() {
                 let [x, y] = [u * a1[0] + v * a2[0], u * a1[1] + v * a2[1]];
                 *square = x * x + y * y;
                 continue;
@@ -267,7 +276,7 @@ impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([x1, y1], [x2, y2]) = (self.a1, self.a2);
         let [x1, y1, x2, y2, area] = [x1, y1, x2, y2, self.area()].map(number);
-        if self.isolated {
+        if self.is_isolated() {
             return write!(f, "window of {x1} × {y2} around an isolated contact");
         }
         write!(f, "cell a₁ = ({x1}, {y1}), a₂ = ({x2}, {y2}), area {area}")

@@ -21,7 +21,7 @@ const SCALARS: [&str; 10] =
 ///
 /// - **Points**: [n₁ + 1, n₂ + 1, `depths`] along a₁, a₂ and upwards (the last depth first, so that the grid is
 ///   right-handed), a₁ fastest. `points` are the samples [n₁, n₂] of [`StressField::plane`], at least 1 each; the border
-///   i = n₁, j = n₂ repeats i = 0, j = 0, so that the cell closes. A depth on an interface that is given once for each
+///   i = n₁, j = n₂ repeats i = 0, j = 0, so that the cell closes; around an isolated contact there is no such border. A depth on an interface that is given once for each
 ///   side makes a layer of cells without thickness, across which the field jumps. Coordinates x, y, −z are lengths.
 /// - **Values at points**, 64-bit: `sigma_xx`, `sigma_yy`, `sigma_zz`, `sigma_xy`, `sigma_xz`, `sigma_yz`, the
 ///   principal shear stress `tau1`, the von Mises stress `mises` and the largest tension `sigma1`, all in the unit of
@@ -55,8 +55,9 @@ pub(super) fn added_volume(
         }
         let upwards: Vec<Depth> = depths.iter().rev().copied().collect();
         let states: Vec<StressState> = upwards.iter().flat_map(|&depth| closed_plane(field, depth, points)).collect();
-        let per_layer = (n1 + 1) * (n2 + 1);
-        head(writer, [n1, n2, depths.len() - 1], states.len())?;
+        let [last1, last2] = last(field, points);
+        let per_layer = (last1 + 1) * (last2 + 1);
+        head(writer, [last1, last2, depths.len() - 1], states.len())?;
         for c in 0..SCALARS.len() {
             let value = |(index, state): (usize, &StressState)| values(state, upwards[index / per_layer].material)[c];
             block(writer, states.len(), states.iter().enumerate().map(value))?;
@@ -67,7 +68,7 @@ pub(super) fn added_volume(
         });
         block(writer, 3 * states.len(), displacement)?;
         let place = |(index, _): (usize, &StressState)| {
-            let (i, j) = (index % (n1 + 1), index / (n1 + 1) % (n2 + 1));
+            let (i, j) = (index % (last1 + 1), index / (last1 + 1) % (last2 + 1));
             let [x, y] = field.grid().cell().point([i as f64 / n1 as f64, j as f64 / n2 as f64]);
             [x, y, -upwards[index / per_layer].z]
         };
@@ -77,10 +78,16 @@ pub(super) fn added_volume(
     Ok(sum)
 }
 
-/// States of a plane, a₁ fastest, its border repeated.
+/// Indices of the last points along a₁ and a₂: the first ones again, unless contact is isolated.
+fn last(field: &StressField, points: [usize; 2]) -> [usize; 2] {
+    points.map(|n| if field.grid().cell().is_isolated() { n - 1 } else { n })
+}
+
+/// States of a plane, a₁ fastest, its border repeated in a periodic system.
 fn closed_plane(field: &StressField, depth: Depth, points: [usize; 2]) -> Vec<StressState> {
     let ([n1, n2], plane) = (points, field.plane(depth, points));
-    (0..=n2).flat_map(|j| (0..=n1).map(move |i| (i, j))).map(|(i, j)| plane.state([i % n1, j % n2])).collect()
+    let [last1, last2] = last(field, points);
+    (0..=last2).flat_map(|j| (0..=last1).map(move |i| (i, j))).map(|(i, j)| plane.state([i % n1, j % n2])).collect()
 }
 
 /// Writes the XML before the numbers: extents, and the offset of each array's block.

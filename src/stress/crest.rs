@@ -138,7 +138,7 @@ impl StressField {
     fn read_surface(&self, measures: &[StressMeasure]) -> SurfaceReading {
         let response = Arc::new(self.depth_response(Depth::SURFACE, REACH));
         let smoothed = SmoothedSurface::new(self, &response, 1.0);
-        let (transform, mut buffer) = (Transform::new(self.grid().points()), Vec::new());
+        let (transform, mut buffer) = (Transform::new(self.series_grid().points()), Vec::new());
         let (edges, band) = self.edges(&smoothed, &transform, &mut buffer);
         let (edges, band) = self.along_edges(&smoothed, &transform, &mut buffer, edges, band);
         let (samples, pressed) = self.highest_samples(&smoothed, &transform, buffer, &band, measures);
@@ -190,7 +190,7 @@ impl StressField {
         transform: &Transform,
         buffer: &mut Vec<f64>,
     ) -> (Vec<EdgePoint>, EdgeBand<[f64; 3]>) {
-        let (grid, regions) = (self.grid(), self.regions());
+        let (grid, regions) = (self.series_grid(), self.regions());
         let ([_, n2], cell, len) = (grid.points(), grid.cell(), grid.len());
         let mut fields = vec![0.0; 3 * len];
         let columns = self.series.on_plane(transform, std::mem::take(buffer), &smoothed.near);
@@ -224,7 +224,7 @@ impl StressField {
         mut edges: Vec<EdgePoint>,
         band: EdgeBand<[f64; 3]>,
     ) -> (Vec<EdgePoint>, EdgeBand<Sharp>) {
-        let (points, cell) = (self.grid().points(), self.grid().cell());
+        let (points, cell) = (self.series_grid().points(), self.series_grid().cell());
         // Weights with which each row adds to the edges.
         let places: Vec<CubicInterpolation> =
             edges.iter().map(|edge| CubicInterpolation::new(points, cell.fractions(edge.place))).collect();
@@ -279,7 +279,7 @@ impl StressField {
         let place = |measure: usize| {
             let (i, _) = first_largest(rows.iter().map(|(best, _)| best[measure].1)).unwrap_or_default();
             let (j, _) = rows[i].0[measure];
-            self.grid().cell().point(self.grid().fractions(i * self.grid().points()[1] + j))
+            self.series_grid().cell().point(self.series_grid().fractions(i * self.series_grid().points()[1] + j))
         };
         ((0..measures.len()).map(place).collect(), largest(rows.iter().map(|&(_, pressed)| pressed)))
     }

@@ -1,5 +1,6 @@
 //! Stresses and displacements at one depth by the waves of the pressure and of the traction proportional to it.
 
+use super::far_field::FarPlane;
 use super::series::Response;
 use super::tensor::StressState;
 use crate::body::{Amplitudes, Antiplane, Depth, InPlane, InteriorTable};
@@ -17,6 +18,8 @@ pub(super) struct DepthResponse {
     /// Wavelengths of the shells over 2π.
     pub lengths: Vec<f64>,
     pub mean: StressState,
+    /// What a free field has beside the periodic one.
+    pub far: Option<FarPlane<9>>,
 }
 
 /// Amplitudes at one depth under the shear traction.
@@ -58,7 +61,13 @@ impl DepthResponse {
             tangential,
             lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(),
             mean,
+            far: None,
         }
+    }
+
+    /// The response with what a free field has beside the periodic one.
+    pub fn with_far(self, far: Option<FarPlane<9>>) -> Self {
+        Self { far, ..self }
     }
 
     /// Largest difference of the amplitudes of a shell at the surface from those of a bare half-space with this ν, over the
@@ -132,6 +141,10 @@ impl Response<9> for DepthResponse {
     fn mean(&self) -> [f64; 9] {
         self.mean.components()
     }
+
+    fn far(&self) -> Option<FarPlane<9>> {
+        self.far.clone()
+    }
 }
 impl Response<6> for StressComponents<'_> {
     fn shells(&self) -> usize {
@@ -147,6 +160,10 @@ impl Response<6> for StressComponents<'_> {
     fn mean(&self) -> [f64; 6] {
         let [stresses @ .., _, _, _] = self.0.mean();
         stresses
+    }
+
+    fn far(&self) -> Option<FarPlane<6>> {
+        Some(self.0.far.as_ref()?.map(|[stresses @ .., _, _, _]| stresses))
     }
 }
 
@@ -164,5 +181,9 @@ impl Response<3> for DisplacementComponents<'_> {
     fn mean(&self) -> [f64; 3] {
         let [.., ux, uy, uz] = self.0.mean();
         [ux, uy, uz]
+    }
+
+    fn far(&self) -> Option<FarPlane<3>> {
+        Some(self.0.far.as_ref()?.map(|[.., ux, uy, uz]| [ux, uy, uz]))
     }
 }

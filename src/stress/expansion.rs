@@ -7,6 +7,7 @@
 //! expanded because they are smooth; a measure of them, as a principal stress, need not be.
 
 use super::eight_waves::{EightWaves, STRESSES, TERMS, TaylorTerms};
+use super::far_field::FarPlane;
 use super::field::StressField;
 use super::plane_search::SEARCH_REACH;
 use super::series::{PARALLEL_WAVES, Phases};
@@ -82,7 +83,7 @@ impl StressField {
             tangential,
         };
         let rows = waves.rows_within(wavenumbers.len());
-        let [s, t] = self.grid().cell().fractions(place);
+        let [s, t] = self.series_grid().cell().fractions(place);
         let (along, across) = (Phases::along(&rows, [s]), Phases::across(&rows, [t]));
         let of_row = |row: &WaveRow| {
             let &[[re], [im]] = across.of(row);
@@ -102,7 +103,57 @@ impl StressField {
         }
         let mean = self.mean(depth).components();
         terms[0].iter_mut().zip(mean).for_each(|(term, mean)| *term += mean);
+        self.add_far(depth, place, &mut terms);
         Expansion { depth, place, terms }
+    }
+}
+
+impl StressField {
+    /// Adds the terms of what a free field has beside the periodic one: it changes over the window, so that differences of a
+    /// hundredth of it are its derivatives.
+    fn add_far(&self, depth: Depth, place: [f64; 2], terms: &mut TaylorTerms) {
+        let step = 0.005 * self.series_grid().cell().reduced().longer_side();
+        let at = |offset: f64| self.far(Depth { z: depth.z + offset, ..depth });
+        let [Some(above), Some(here), Some(below)] = [-step, 0.0, step].map(at) else { return };
+        let cell = self.series_grid().cell();
+        let value = |plane: &FarPlane<9>, [x, y]: [f64; 2]| -> [f64; STRESSES] {
+            let [stresses @ .., _, _, _] = plane.at(cell.fractions([place[0] + x * step, place[1] + y * step]));
+            stresses
+        };
+        let combined = |parts: &[(f64, [f64; STRESSES])]| -> [f64; STRESSES] {
+            std::array::from_fn(|k| parts.iter().map(|(weight, own)| weight * own[k]).sum())
+        };
+        let (one, two) = (0.5 / step, 1.0 / (step * step));
+        let v = |x: f64, y: f64| value(&here, [x, y]);
+        let (middle, up, down) = (v(0.0, 0.0), value(&above, [0.0; 2]), value(&below, [0.0; 2]));
+        let second =
+            |a: [f64; STRESSES], b: [f64; STRESSES]| combined(&[(0.5 * two, a), (-two, middle), (0.5 * two, b)]);
+        let mixed = |a, b, c, d| combined(&[(0.25 * two, a), (0.25 * two, b), (-0.25 * two, c), (-0.25 * two, d)]);
+        let far: TaylorTerms = [
+            middle,
+            combined(&[(one, v(1.0, 0.0)), (-one, v(-1.0, 0.0))]),
+            combined(&[(one, v(0.0, 1.0)), (-one, v(0.0, -1.0))]),
+            second(v(1.0, 0.0), v(-1.0, 0.0)),
+            mixed(v(1.0, 1.0), v(-1.0, -1.0), v(1.0, -1.0), v(-1.0, 1.0)),
+            second(v(0.0, 1.0), v(0.0, -1.0)),
+            combined(&[(one, down), (-one, up)]),
+            mixed(
+                value(&below, [1.0, 0.0]),
+                value(&above, [-1.0, 0.0]),
+                value(&below, [-1.0, 0.0]),
+                value(&above, [1.0, 0.0]),
+            ),
+            mixed(
+                value(&below, [0.0, 1.0]),
+                value(&above, [0.0, -1.0]),
+                value(&below, [0.0, -1.0]),
+                value(&above, [0.0, 1.0]),
+            ),
+            second(down, up),
+        ];
+        for (term, far) in terms.iter_mut().flatten().zip(far.iter().flatten()) {
+            *term += far;
+        }
     }
 }
 

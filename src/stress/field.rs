@@ -1,13 +1,14 @@
 //! The stress field under a solved contact, and its states at points.
 
 use super::depth_response::DepthResponse;
+use super::far_field::{FarField, FarPlane};
 use super::regions::Regions;
 use super::series::{Response, Series};
 use super::tables::Tables;
 use super::tensor::StressState;
 use crate::body::{Bodies, Depth, HalfSpace, Interface, InteriorTable, Layer, MeanStress, Side};
 use crate::friction::Friction;
-use crate::lattice::{Grid, NotOnGrid};
+use crate::lattice::{Cell, Grid, NotOnGrid};
 use crate::notation::number;
 use crate::spectral::Contact;
 use ndarray::ArrayView2;
@@ -26,7 +27,12 @@ struct SurfaceTraction<'a> {
 #[derive(Debug)]
 pub struct StressField {
     pub(super) series: Series,
+    /// The grid of the pressure.
     grid: Arc<Grid>,
+    /// The grid of the series: that of the pressure, or of an isolated contact one of twice its window.
+    series_grid: Arc<Grid>,
+    /// What the free field of an isolated contact has beside the periodic one of the series.
+    far: Option<FarField>,
     half_space: HalfSpace,
     interiors: Arc<InteriorTable>,
     tables: Arc<Tables>,
@@ -38,6 +44,32 @@ pub struct StressField {
     traction: Option<[f64; 2]>,
     /// η of the exponents ½ ± η with which the pressure vanishes at edges.
     edge_exponent: f64,
+}
+
+/// The grid of the series of a pressure, and the pressure on it.
+struct Surroundings {
+    grid: Arc<Grid>,
+    /// `None` where it is that of the contact.
+    pressure: Option<Vec<f64>>,
+}
+
+impl Surroundings {
+    /// Those of a pressure on the grid of a cell; of a window on one of twice its sides, without pressure around.
+    fn new(grid: &Arc<Grid>, pressure: &[f64]) -> Self {
+        let (cell, [n1, n2]) = (grid.cell(), grid.points());
+        if !cell.is_isolated() {
+            return Self { grid: Arc::clone(grid), pressure: None };
+        }
+        let (before, steps) = ([n1 / 2, n2 / 2], grid.steps());
+        let corner = [0, 1].map(|axis| cell.corner()[axis] - before[axis] as f64 * steps[axis][axis]);
+        let sides = [0, 1].map(|axis| 2.0 * cell.vectors()[axis][axis]);
+        let wide = Cell::window_at(corner, sides).and_then(|wide| Grid::new(wide, [2 * n1, 2 * n2]));
+        let mut spread = vec![0.0; 4 * n1 * n2];
+        for (i, row) in pressure.chunks_exact(n2).enumerate() {
+            spread[(before[0] + i) * 2 * n2 + before[1]..][..n2].copy_from_slice(row);
+        }
+        Self { grid: Arc::new(wide.expect("twice a window is one")), pressure: Some(spread) }
+    }
 }
 
 impl StressField {
@@ -87,16 +119,25 @@ impl StressField {
         mean: MeanStress,
         tables: Arc<Tables>,
     ) -> Self {
-        let series = Series::new(grid, pressure);
+        let around = Surroundings::new(grid, pressure);
+        let (series_grid, spread) = (&around.grid, around.pressure.as_deref().unwrap_or(pressure));
+        let mut series = Series::new(series_grid, spread);
         let traction = friction.map(Friction::traction).filter(|traction| *traction != [0.0; 2]);
+        let far = grid.cell().is_isolated().then(|| {
+            // The free field has no mean.
+            series.mean = 0.0;
+            FarField::new(tables.far(grid.cell(), half_space, traction), grid, pressure, series_grid.cell())
+        });
         Self {
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
-            interiors: tables.interiors(grid, half_space, traction.is_some()),
+            interiors: tables.interiors(series_grid, half_space, traction.is_some()),
+            far,
             tables,
             mean: mean_states(half_space, mean, series.mean, traction.unwrap_or_default()),
             mean_stress: mean,
-            regions: Regions::new(grid, pressure),
+            regions: Regions::new(series_grid, spread),
+            series_grid: Arc::clone(series_grid),
             traction,
             edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(beta)),
             series,
@@ -163,6 +204,16 @@ impl StressField {
         &self.grid
     }
 
+    /// The grid of the series.
+    pub(super) fn series_grid(&self) -> &Arc<Grid> {
+        &self.series_grid
+    }
+
+    /// What the free field has beside the periodic one at a depth; `None` where the system is periodic.
+    pub(super) fn far(&self, depth: Depth) -> Option<FarPlane<9>> {
+        self.far.as_ref().map(|far| far.plane(depth))
+    }
+
     /// Wavenumbers of the shells with qz up to `reach` at a depth.
     pub(super) fn wavenumbers_within(&self, depth: Depth, reach: f64) -> &[f64] {
         let waves = &self.series.waves;
@@ -178,6 +229,7 @@ impl StressField {
             self.traction,
             self.mean(depth),
         )
+        .with_far(self.far.as_ref().map(|far| far.plane(depth)))
     }
 
     /// State under the mean pressure at a depth.
@@ -199,7 +251,7 @@ impl StressField {
 
     /// Components of a response at the points (x, y), lengths.
     pub(super) fn at<const K: usize>(&self, places: &[[f64; 2]], response: &impl Response<K>) -> Vec<[f64; K]> {
-        let fractions: Vec<[f64; 2]> = places.iter().map(|&place| self.grid.cell().fractions(place)).collect();
+        let fractions: Vec<[f64; 2]> = places.iter().map(|&place| self.series_grid.cell().fractions(place)).collect();
         self.series.at(&fractions, response)
     }
 }

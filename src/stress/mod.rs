@@ -28,6 +28,7 @@ mod cubic;
 mod depth_response;
 mod eight_waves;
 mod expansion;
+mod far_field;
 mod field;
 mod fields;
 pub mod maxima;

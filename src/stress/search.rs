@@ -90,7 +90,7 @@ impl StressField {
             }
         }
         let crest = of_measure(&crests, StressMeasure::Tension).map(|&(_, crest)| crest);
-        Some(Maxima::new(all, crest, self.regions().least_resolution(), self.grid().spacing()))
+        Some(Maxima::new(all, crest, self.regions().least_resolution(), self.series_grid().spacing()))
     }
 
     /// The largest samples of a plane, and the contenders on a face; on the surface they are the `crests`.
@@ -126,7 +126,7 @@ impl StressField {
         measure: StressMeasure,
         goes_on: &dyn Fn() -> bool,
     ) -> Option<Vec<Contender>> {
-        let near = SHALLOW * self.grid().spacing();
+        let near = SHALLOW * self.series_grid().spacing();
         let candidate = |index: usize| planes[index].candidate(measure);
         let shallow = (0..depths.len()).filter(|&i| depths[i] < near && planes[i].on_face.is_empty());
         let shallow = shallow.map(candidate).reduce(|a, b| if b.value > a.value { b } else { a });
@@ -177,7 +177,7 @@ impl StressField {
 
     /// Whether the candidates of two planes lie beside the same local maximum, judged by the distance of their samples.
     fn are_beside(&self, one: &Candidate, other: &Candidate) -> bool {
-        let cell = self.grid().cell();
+        let cell = self.series_grid().cell();
         let [s, t] = [one, other].map(|own| cell.fractions(own.place));
         let [x, y] = cell.reduced().nearest([s[0] - t[0], s[1] - t[1]]);
         x.hypot(y) <= 4.0 * one.step.max(other.step)
@@ -187,7 +187,7 @@ impl StressField {
     /// depth `near`.
     pub(super) fn value_beside(&self, contender: &Contender, measure: StressMeasure, near: f64) -> f64 {
         let Peak { position: [x, y, z], material, .. } = contender.peak;
-        let (depth, step) = (Depth { z, material: material.number }, self.grid().spacing());
+        let (depth, step) = (Depth { z, material: material.number }, self.series_grid().spacing());
         if z < near {
             let states = self.stresses_at(&self.depth_response(depth, REACH), &self.samples_around([x, y]));
             return states.iter().map(|state| measure.of(state)).fold(f64::NEG_INFINITY, f64::max);
@@ -198,7 +198,7 @@ impl StressField {
 
     /// The 4 × 4 samples around a point, lengths.
     fn samples_around(&self, place: [f64; 2]) -> Vec<[f64; 2]> {
-        let (cell, points) = (self.grid().cell(), self.grid().points());
+        let (cell, points) = (self.series_grid().cell(), self.series_grid().points());
         let [s, t] = cell.fractions(place);
         let [i, j] = [s * points[0] as f64, t * points[1] as f64].map(|k| (k + 1e-9).floor());
         let sample = |k: usize| {
@@ -212,7 +212,7 @@ impl StressField {
     /// where the series converges slowly.
     fn on_face(&self, candidate: &Candidate, measure: StressMeasure) -> (Candidate, StressState) {
         let z = candidate.depth.z;
-        if z < SHALLOW * self.grid().spacing() {
+        if z < SHALLOW * self.series_grid().spacing() {
             (*candidate, self.state_at(candidate))
         } else {
             self.local_maximum(candidate, 0.0, [z, z], measure)

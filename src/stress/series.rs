@@ -4,6 +4,7 @@
 //! the same sum with c times a complex factor of **q**: a [`Response`]. It is summed over the points of a plane by transforms,
 //! and at single points term by term.
 
+use super::far_field::FarPlane;
 use super::transform::{FieldColumn, FieldColumns, Transform};
 use crate::lattice::Grid;
 use crate::lattice::waves::{WaveRow, Waves};
@@ -21,6 +22,10 @@ pub(super) trait Response<const K: usize>: Sync {
     fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; K];
     /// Response to the mean pressure.
     fn mean(&self) -> [f64; K];
+    /// What a free field has beside the periodic one of the series; `None` where the system is periodic.
+    fn far(&self) -> Option<FarPlane<K>> {
+        None
+    }
 }
 
 /// Plane waves of a periodic pressure.
@@ -70,6 +75,17 @@ impl Series {
         buffer: Vec<f64>,
         response: &R,
     ) -> FieldColumns<'t, K> {
+        self.on_plane_from([0.0; 2], transform, buffer, response)
+    }
+
+    /// Components at the points of the transform, the first of which is at the fractions `start` of a₁ and a₂.
+    pub fn on_plane_from<'t, const K: usize, R: Response<K>>(
+        &self,
+        start: [f64; 2],
+        transform: &'t Transform,
+        buffer: Vec<f64>,
+        response: &R,
+    ) -> FieldColumns<'t, K> {
         let [n1, n2] = transform.points().map(|n| n as i32);
         let rows = self.waves.rows_within(response.shells());
         // Re C e^{iq·x} is half the wave and half its conjugate; each belongs to one column or to its mirror image.
@@ -86,15 +102,21 @@ impl Series {
             &placed[first..end]
         };
         let occupied = |columns: Range<usize>| columns.start == 0 || !of(columns).is_empty();
-        transform.columns(buffer, occupied, |k2, column: &mut FieldColumn<'_, K>| {
+        let is_moved = start != [0.0; 2];
+        let columns = transform.columns(buffer, occupied, |k2, column: &mut FieldColumn<'_, K>| {
             if k2 == 0 {
                 column.add(0, mean.map(Complex64::from));
             }
             for &(_, sign, row) in of(k2..k2 + 1) {
                 let side = f64::from(sign);
                 let mut bin = (sign * row.first).rem_euclid(n1);
-                for (q, shell, c) in self.of(row) {
-                    let waves = response.times(q, shell, 0.5 * c);
+                for (k, (q, shell, c)) in self.of(row).enumerate() {
+                    let mut c = 0.5 * c;
+                    if is_moved {
+                        let turns = f64::from(row.first + k as i32) * start[0] + f64::from(row.across) * start[1];
+                        c *= Complex64::cis(std::f64::consts::TAU * turns.fract());
+                    }
+                    let waves = response.times(q, shell, c);
                     column.add(bin as usize, waves.map(|wave| Complex64::new(wave.re, side * wave.im)));
                     bin += sign;
                     if bin == n1 {
@@ -104,7 +126,8 @@ impl Series {
                     }
                 }
             }
-        })
+        });
+        columns.with_far(response.far(), start)
     }
 
     /// Components at points, given as fractions of a₁ and a₂, by the exact sum.
@@ -115,7 +138,13 @@ impl Series {
         let rest: Vec<[f64; K]> = rest.collect();
         let lanes =
             |places: &[[f64; 2]]| self.lanes::<K, LANES, R>(&rows, std::array::from_fn(|p| places[p]), response);
-        together.flat_map(lanes).chain(rest).collect()
+        let mut all: Vec<[f64; K]> = together.flat_map(lanes).chain(rest).collect();
+        if let Some(far) = response.far() {
+            for (own, &place) in all.iter_mut().zip(places) {
+                own.iter_mut().zip(far.at(place)).for_each(|(own, far)| *own += far);
+            }
+        }
+        all
     }
 
     fn lanes<const K: usize, const P: usize, R: Response<K>>(

@@ -22,6 +22,7 @@
 
 use super::constants::{BLEND, EDGE_WIDTH, OPEN_WIDTH, WIDTH_GROWTH};
 use super::depth_response::DepthResponse;
+use super::far_field::FarPlane;
 use super::field::StressField;
 use super::series::Response;
 use super::smoothed_edge::SmoothedEdge;
@@ -92,6 +93,11 @@ impl Response<4> for SurfaceStresses {
         let StressState { xx, yy, zz, .. } = self.surface.mean;
         [xx, yy, 0.0, -zz]
     }
+
+    fn far(&self) -> Option<FarPlane<4>> {
+        // As smooth as it is, it is the same smoothed.
+        Some(self.surface.far.as_ref()?.map(|[xx, yy, zz, xy, ..]| [xx, yy, xy, -zz]))
+    }
 }
 
 impl Response<3> for SmoothedPressure {
@@ -115,7 +121,7 @@ impl Response<3> for SmoothedPressure {
 impl SmoothedSurface {
     /// Smoothed surface of a field with the response `surface`, with `scale` times the usual widths.
     pub fn new(field: &StressField, surface: &Arc<DepthResponse>, scale: f64) -> Self {
-        let most = field.grid().least_aliased();
+        let most = field.series_grid().least_aliased();
         let (from, power) = WIDTH_GROWTH;
         let growth = (field.regions().least_resolution() / from).max(1.0).powf(power);
         let [width, open] = [EDGE_WIDTH * growth, OPEN_WIDTH].map(|c| scale * c / most);

@@ -1,7 +1,8 @@
 //! Tables of the interior on the grids of a run, set up once for all loads.
 
+use super::far_field::FarTables;
 use crate::body::{HalfSpace, InteriorTable, LayeredResponse};
-use crate::lattice::Grid;
+use crate::lattice::{Cell, Grid};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Tables that are kept: those of both bodies on the grids of a step and of its errors, and as many that replace them.
@@ -9,7 +10,10 @@ const KEPT: usize = 8;
 
 /// Tables of the interior that the stress fields of one run share.
 #[derive(Debug, Default)]
-pub(crate) struct Tables(Mutex<Vec<Entry>>);
+pub(crate) struct Tables {
+    interiors: Mutex<Vec<Entry>>,
+    far: Mutex<Vec<Arc<FarTables>>>,
+}
 
 #[derive(Debug)]
 struct Entry {
@@ -22,7 +26,7 @@ struct Entry {
 impl Tables {
     /// Table of a half-space for the wavenumbers of a grid, set up unless there is one already.
     pub fn interiors(&self, grid: &Arc<Grid>, half_space: &HalfSpace, slides: bool) -> Arc<InteriorTable> {
-        let mut entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut entries = self.interiors.lock().unwrap_or_else(PoisonError::into_inner);
         let response = half_space.response();
         let is_own = |own: &&Entry| Arc::ptr_eq(&own.grid, grid) && own.slides == slides && own.response == *response;
         if let Some(own) = entries.iter().find(is_own) {
@@ -35,6 +39,21 @@ impl Tables {
         }
         entries.push(Entry { grid, response, slides, table: Arc::clone(&table) });
         table
+    }
+
+    /// Tables of the free field around an isolated contact in a window.
+    pub(super) fn far(&self, window: Cell, half_space: &HalfSpace, traction: Option<[f64; 2]>) -> Arc<FarTables> {
+        let mut entries = self.far.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(own) = entries.iter().find(|own| own.are_of(window, half_space, traction)) {
+            return Arc::clone(own);
+        }
+        let own = FarTables::new(window, half_space, traction).expect("multiples of a window are windows");
+        let own = Arc::new(own);
+        if entries.len() == KEPT {
+            entries.remove(0);
+        }
+        entries.push(Arc::clone(&own));
+        own
     }
 }
 
@@ -55,6 +74,6 @@ mod tests {
         assert!(!Arc::ptr_eq(&first, &tables.interiors(&grids[0], &body(0.2), false)));
         assert!(!Arc::ptr_eq(&first, &tables.interiors(&grids[0], &body(0.1), true)));
         grids.iter().for_each(|grid| drop(tables.interiors(grid, &body(0.1), false)));
-        assert_eq!(tables.0.lock().unwrap().len(), KEPT);
+        assert_eq!(tables.interiors.lock().unwrap().len(), KEPT);
     }
 }

@@ -71,7 +71,16 @@ impl<'a> Trace<'a> {
             }
         }
         let mean = response.mean();
-        waves.real_parts().into_iter().map(|sums| std::array::from_fn(|k| mean[k] + sums[k])).collect()
+        let mut all: Vec<[f64; K]> =
+            waves.real_parts().into_iter().map(|sums| std::array::from_fn(|k| mean[k] + sums[k])).collect();
+        if let Some(far) = response.far() {
+            for (i, own) in all.iter_mut().enumerate() {
+                let s = first + i as f64 * step;
+                let place = [0, 1].map(|axis| self.origin[axis] + s * self.unit[axis]);
+                own.iter_mut().zip(far.at(place)).for_each(|(own, far)| *own += far);
+            }
+        }
+        all
     }
 
     /// Terms of the waves of a row at a point, by the phases of its fractions of a₁ and a₂.

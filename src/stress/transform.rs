@@ -6,6 +6,7 @@
 //! groups of eight, which may be processed one by one without being kept. A tile or a group is the work of one thread, so that
 //! the result does not depend on the number of threads.
 
+use super::far_field::FarPlane;
 use crate::numeric::fourier::{self, Buffers, LINE, Rows};
 use crate::numeric::lanes::LANES;
 use ndarray::ArrayView3;
@@ -30,6 +31,8 @@ pub(super) struct Transform {
 pub(super) struct FieldColumns<'a, const K: usize> {
     transform: &'a Transform,
     values: Vec<f64>,
+    /// What is added to the fields, and the fractions of the first point.
+    far: Option<(FarPlane<K>, [f64; 2])>,
 }
 
 /// One column of K fields, in its tile.
@@ -132,7 +135,7 @@ impl Transform {
                 }
             },
         );
-        FieldColumns { transform: self, values }
+        FieldColumns { transform: self, values, far: None }
     }
 }
 
@@ -149,6 +152,11 @@ impl<const K: usize> FieldColumn<'_, K> {
 }
 
 impl<const K: usize> FieldColumns<'_, K> {
+    /// The columns of fields to which the `far` one is added; the first point is at the fractions `start`.
+    pub fn with_far(self, far: Option<FarPlane<K>>, start: [f64; 2]) -> Self {
+        Self { far: far.map(|far| (far, start)), ..self }
+    }
+
     /// Buffers of one thread for groups of rows.
     fn buffers(&self) -> [Buffers<f64>; K] {
         std::array::from_fn(|_| self.transform.rows.buffers())
@@ -162,7 +170,17 @@ impl<const K: usize> FieldColumns<'_, K> {
         for (k, buffers) in buffers.iter_mut().enumerate() {
             let lines = k * tile + first * LINE..k * tile + (first + count) * LINE;
             let tiles = self.values.chunks_exact(K * tile).map(|fields| &fields[lines.clone()]);
-            rows.back(count, tiles, buffers, &mut |_| ());
+            let mut row = first;
+            rows.back(count, tiles, buffers, &mut |samples: &mut [f64]| {
+                if let Some((far, start)) = &self.far {
+                    let line = far.along(start[0] + row as f64 / n1 as f64);
+                    let step = 1.0 / samples.len() as f64;
+                    for (j, sample) in samples.iter_mut().enumerate() {
+                        *sample += far.on(&line, start[1] + j as f64 * step)[k];
+                    }
+                }
+                row += 1;
+            });
         }
         count
     }
