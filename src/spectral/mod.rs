@@ -14,6 +14,7 @@ mod contact;
 mod convolution;
 mod extension;
 mod field_error;
+mod free_space;
 mod grid_level;
 mod iteration;
 mod layered_operator;
