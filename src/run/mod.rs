@@ -107,7 +107,8 @@ impl Run {
             return Err(RunError::NoLoads);
         }
         let points = self.checked_sampling()?;
-        if self.loads.iter().all(|load| load.is_load_control()) {
+        // An isolated contact is never complete.
+        if self.loads.iter().all(|load| load.is_load_control()) || self.problem.cell().is_isolated() {
             return Ok(());
         }
         let complete = Surface::new(self.problem.counterbody(), points)?.mean();

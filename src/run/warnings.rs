@@ -48,6 +48,7 @@ pub(super) fn of_judged(
     let warnings = [
         unresolved(all),
         not_converged(all),
+        at_window(problem, all),
         few_samples(judged),
         small_spots(judged),
         end.and_then(|end| not_accurate(end, change)),
@@ -74,8 +75,20 @@ fn unresolved(steps: &[Numbered]) -> Option<String> {
 }
 
 fn not_converged(steps: &[Numbered]) -> Option<String> {
-    let list = list(steps, |step| !step.converged() && step.stop != Stop::Unresolved)?;
+    let list = list(steps, |step| !step.converged() && !matches!(step.stop, Stop::Unresolved | Stop::AtBorder))?;
     Some(format!("not converged: step {list}; judge it by its certificate"))
+}
+
+/// Isolated contact that reaches the border of its window.
+fn at_window(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let list = list(steps, |step| step.stop == Stop::AtBorder)?;
+    let [[width, _], [_, height]] = problem.cell().vectors();
+    Some(format!(
+        "contact reaches the border of the window of {} × {} in step {list}, and would go on beyond it: enlarge lattice.size, \
+         to twice that or more",
+        number(width),
+        number(height)
+    ))
 }
 
 fn few_samples(steps: &[Numbered]) -> Option<String> {

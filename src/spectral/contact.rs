@@ -79,10 +79,12 @@ impl Contact {
     /// plane, and of E(p) = ½⟨p, Cp⟩ + ⟨p, f − δ⟩ the minimum over p ≥ 0 is −½⟨p, Cp⟩, whose derivative by δ is −P. Under
     /// coupled friction it is the energy stored by the pressure, without the work of the traction.
     pub fn elastic_energy(&self) -> f64 {
-        let mean = sums::mean(&self.pressure);
+        // Far from an isolated contact nothing is displaced: no pressure is uniform.
+        let mean = if self.grid().cell().is_isolated() { 0.0 } else { sums::mean(&self.pressure) };
+        let shift = if self.grid().cell().is_isolated() { self.penetration } else { 0.0 };
         // w = g − f + δ; a uniform part of the pressure does no work with a displacement without mean, and would add rounding alone.
         let f = self.surface.gaps();
-        let [sum] = sums::of(f.len(), |i| [(self.pressure[i] - mean) * (self.gap[i] - f[i])]);
+        let [sum] = sums::of(f.len(), |i| [(self.pressure[i] - mean) * (self.gap[i] - f[i] + shift)]);
         0.5 * sum * self.grid().sample_area()
     }
 

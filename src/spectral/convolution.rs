@@ -10,10 +10,14 @@
 //! blocks: neither the number of threads nor their order reaches the result, and nothing of the size of a field is allocated.
 //! Groups of rows whose samples are all zero, and groups whose result is not used ([`ResultRows::some_rows`]), are not transformed.
 //! Rows come from a source and go to a sink, one after the other in each block (`by_rows`).
+//!
+//! **Padded**, the samples are a window of those that are transformed, the first of each row and the first rows; the others are
+//! zero before and not used after. Rows of zeros have no place between the passes: a column gets them while it is transformed.
 //! The factor 1/(N₁N₂) of the inverse transform is applied in one place: [`Convolution::multiplier`] puts it into K.
 
 use super::by_rows::{ByRows, ResultRows};
-use super::multiplier::{Action, Multiplier, SkewRatio};
+use super::multiplier::{Action, Multiplier, SkewPart, SkewRatio};
+use crate::numeric::aligned::Aligned;
 use crate::numeric::fourier::{Columns, Rows, line};
 use crate::numeric::lanes::{LANES, Real};
 use crate::numeric::rows::RowBlocks;
@@ -25,6 +29,9 @@ use std::ops::Range;
 /// Plans for the transforms of N₁ × N₂ real samples of one precision.
 #[derive(Clone)]
 pub struct Convolution<T: Real> {
+    /// [N₁, N₂].
+    points: [usize; 2],
+    /// The rows of the window, all of the samples unless they are padded.
     blocks: RowBlocks,
     rows: Rows<T>,
     columns: Columns<T>,
@@ -42,8 +49,13 @@ pub struct Convolved<'a, T: Real> {
 impl<T: Real> Convolution<T> {
     /// Plans for `points` = [N₁, N₂].
     pub fn new(points: [usize; 2]) -> Self {
+        Self::padded(points, points)
+    }
+
+    /// Plans for `points` = [N₁, N₂], the samples outside a `window` of the first ones along each axis being zero.
+    pub fn padded(window: [usize; 2], points: [usize; 2]) -> Self {
         let ([n1, n2], columns) = (points, Columns::new(points[0]));
-        Self { blocks: RowBlocks::new(points), rows: Rows::new(n2), order: columns.order(n1), columns }
+        Self { points, blocks: RowBlocks::new(window), rows: Rows::new(n2), order: columns.order(n1), columns }
     }
 
     /// The blocks of the rows that sources and sinks are for.
@@ -51,13 +63,9 @@ impl<T: Real> Convolution<T> {
         self.blocks
     }
 
-    fn points(&self) -> [usize; 2] {
-        self.blocks.points()
-    }
-
     /// Components of a row, N₂/2 + 1.
     fn half(&self) -> usize {
-        self.points()[1] / 2 + 1
+        self.points[1] / 2 + 1
     }
 
     /// Tiles of columns.
@@ -65,9 +73,9 @@ impl<T: Real> Convolution<T> {
         self.half().div_ceil(T::WIDTH)
     }
 
-    /// Numbers of a tile.
+    /// Numbers of a tile: the rows of the window.
     fn tile(&self) -> usize {
-        self.points()[0] * line::<T>()
+        self.blocks.points()[0] * line::<T>()
     }
 
     /// Numbers between two passes.
@@ -92,8 +100,7 @@ impl<T: Real> Convolution<T> {
     /// They must be even under (k₁, k₂) → (−k₁, −k₂): then real fields stay real. Where they are also even in k₁ alone
     /// (`mirrored`), half of them are computed.
     pub fn multiplier(&self, mirrored: bool, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> Multiplier {
-        let [n1, n2] = self.points();
-        let normalisation = 1.0 / (n1 as f64 * n2 as f64);
+        let ([n1, _], normalisation) = (self.points, self.normalisation());
         let table = self.table(1.0, mirrored, |first, values| {
             fill(first, values);
             values.iter_mut().for_each(|value| *value *= normalisation);
@@ -110,9 +117,23 @@ impl<T: Real> Convolution<T> {
         SkewRatio::new(self.table(0.0, false, fill))
     }
 
+    /// The odd multiplier of the values that `fill([k₁, k₂], values)` gives, as [`skew_ratio`](Self::skew_ratio) has them.
+    pub fn skew_part(&self, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> SkewPart {
+        SkewPart::new(self.table(0.0, false, |first, values| {
+            fill(first, values);
+            values.iter_mut().for_each(|value| *value *= self.normalisation());
+        }))
+    }
+
+    /// 1/(N₁N₂).
+    fn normalisation(&self) -> f64 {
+        let [n1, n2] = self.points;
+        1.0 / (n1 as f64 * n2 as f64)
+    }
+
     /// Values in the order of the column pass, eight columns at a time, padded to whole tiles.
     fn table(&self, padding: f64, mirrored: bool, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> Vec<f64> {
-        let n1 = self.points()[0];
+        let n1 = self.points[0];
         let mut table = vec![padding; self.eights() * n1 * LANES];
         table.par_chunks_mut(n1 * LANES).enumerate().for_each(|(eight, table)| {
             let k2 = eight * LANES;
@@ -146,7 +167,7 @@ impl<T: Real> Convolution<T> {
         memory: &'a mut [f64],
         sources: impl ByRows<T>,
     ) -> Convolved<'a, T> {
-        assert_eq!(multiplier.len(), self.eights() * self.points()[0] * LANES, "multiplier of a convolution");
+        assert_eq!(multiplier.len(), self.eights() * self.points[0] * LANES, "multiplier of a convolution");
         let spectrum = &mut bytemuck::cast_slice_mut(memory)[..self.size()];
         self.rows_forward(sources.into_par_iter(), spectrum);
         self.column_pass(action, multiplier, spectrum);
@@ -165,9 +186,15 @@ impl<T: Real> Convolution<T> {
         }
         assert_eq!(sources.len(), blocks.len(), "sources of a convolution");
         let blocks = blocks.into_par_iter().zip(sources);
+        let [_, columns] = self.blocks.points();
         blocks.for_each_init(
             || self.rows.buffers(),
             |buffers, (mut runs, mut source)| {
+                let mut source = |row: &mut [T]| {
+                    let (window, beyond) = row.split_at_mut(columns);
+                    source(window);
+                    beyond.fill(T::zero());
+                };
                 for lines in self.groups(runs[0].len()) {
                     let tiles = runs.iter_mut().map(|run| &mut run[lines.clone()]);
                     self.rows.forward(lines.len() / line::<T>(), &mut source, buffers, tiles);
@@ -183,10 +210,18 @@ impl<T: Real> Convolution<T> {
     }
 
     fn column_pass(&self, action: Action<'_>, multiplier: &Multiplier, spectrum: &mut [T]) {
-        let scratch = || vec![Complex64::ZERO; self.columns.scratch(self.points()[0])];
-        spectrum.par_chunks_exact_mut(self.tile()).enumerate().for_each_init(scratch, |scratch, (tile, lines)| {
+        let (own, whole) = (self.tile(), self.points[0] * line::<T>());
+        let padded = if own < whole { whole } else { 0 };
+        let scratch = || (vec![Complex64::ZERO; self.columns.scratch(self.points[0])], Aligned::new(padded));
+        spectrum.par_chunks_exact_mut(own).enumerate().for_each_init(scratch, |(scratch, padded), (tile, lines)| {
             let multiply = |first: usize, lines: &mut [T]| action.multiply(multiplier, tile, first, lines);
-            self.columns.there_and_back(lines, scratch, &multiply);
+            if padded.is_empty() {
+                return self.columns.there_and_back(lines, scratch, &multiply);
+            }
+            padded[..own].copy_from_slice(lines);
+            padded[own..].fill(T::zero());
+            self.columns.there_and_back(padded, scratch, &multiply);
+            lines.copy_from_slice(&padded[..own]);
         });
     }
 }
@@ -194,12 +229,13 @@ impl<T: Real> Convolution<T> {
 impl<T: Real> ResultRows<T> for Convolved<'_, T> {
     fn some_rows(self, needed: impl Fn(usize) -> bool + Sync, sinks: impl ByRows<T>) {
         let (Self { convolution, spectrum }, sinks) = (self, sinks.into_par_iter());
-        let (blocks, [n1, _]) = (convolution.blocks, convolution.points());
+        let (blocks, [rows, columns]) = (convolution.blocks, convolution.blocks.points());
         assert_eq!(sinks.len(), blocks.count(), "sinks of a convolution");
         sinks.enumerate().for_each_init(
             || convolution.rows.buffers(),
             |buffers, (block, mut sink)| {
-                let (first, last) = (block * blocks.rows(), n1.min((block + 1) * blocks.rows()));
+                let (first, last) = (block * blocks.rows(), rows.min((block + 1) * blocks.rows()));
+                let mut sink = |row: &mut [T]| sink(&mut row[..columns]);
                 let run = first * line::<T>()..last * line::<T>();
                 for lines in convolution.groups(run.len()) {
                     let (count, before) = (lines.len() / line::<T>(), first + lines.start / line::<T>());
@@ -217,13 +253,13 @@ impl<T: Real> ResultRows<T> for Convolved<'_, T> {
 
 impl<T: Real> fmt::Debug for Convolved<'_, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Convolved").field("points", &self.convolution.points()).finish_non_exhaustive()
+        f.debug_struct("Convolved").field("points", &self.convolution.points).finish_non_exhaustive()
     }
 }
 
 impl<T: Real> fmt::Debug for Convolution<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Convolution").field("points", &self.points()).finish_non_exhaustive()
+        f.debug_struct("Convolution").field("points", &self.points).finish_non_exhaustive()
     }
 }
 

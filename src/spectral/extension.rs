@@ -8,6 +8,9 @@
 //! where S is a smoothing over 15 samples each way (along a₁ and a₂ the mean over 16 samples of the mean over 16), χ is 1 on
 //! I and 0 outside, S r/c is then the mean of the residual near by, D and c₀ how much of it is kept at the edge
 //! and how far out. S is symmetric, so that Eᵀ = P_I + P_I S W (1 − P_I), and M is symmetric and positive.
+//!
+//! S goes on periodically over the border of the samples. In free space a contact within 30 samples of it is continued on the
+//! other side too, as the periodic C⁻¹ there would have it: M stays symmetric and positive, and what is solved does not change.
 
 use crate::numeric::lanes::{LANES, own_group, vectorised};
 use crate::numeric::rows::{RowBlocks, next};

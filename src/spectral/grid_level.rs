@@ -1,13 +1,14 @@
 //! One of the nested grids of a problem: surface, operator and unknowns.
 
 use super::Contact;
+use super::free_space::FreeSpaceOperator;
 use super::iteration::{AdmissibleSet, ContactProblem, Progress, Report, Settings, Unknowns, Working};
 use super::layered_operator::LayeredOperator;
-use super::operator::Workspace;
+use super::operator::{ElasticOperator, Workspace};
 use super::prolongation::prolonged;
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
-use crate::load::Load;
+use crate::load::{Control, Load};
 use crate::numeric::sums;
 use crate::problem::Problem;
 use ndarray::Array2;
@@ -18,6 +19,32 @@ use std::sync::Arc;
 /// around it with any load from zero on.
 const MAX_UNRESOLVED: usize = 4;
 
+/// The operator of the bodies: on a periodic cell, or in the window of an isolated contact.
+#[derive(Debug)]
+enum BodyOperator {
+    Periodic(LayeredOperator),
+    FreeSpace(FreeSpaceOperator),
+}
+
+impl BodyOperator {
+    fn new(problem: &Problem, grid: &Grid) -> Self {
+        let bodies = problem.bodies();
+        match (grid.cell().is_isolated(), problem.friction()) {
+            (false, Some(friction)) => Self::Periodic(LayeredOperator::sliding(grid, bodies, friction)),
+            (false, None) => Self::Periodic(LayeredOperator::new(grid, bodies)),
+            (true, Some(friction)) => Self::FreeSpace(FreeSpaceOperator::sliding(grid, bodies, friction)),
+            (true, None) => Self::FreeSpace(FreeSpaceOperator::new(grid, bodies)),
+        }
+    }
+
+    fn convolutions(&self) -> f64 {
+        match self {
+            Self::Periodic(operator) => operator.convolutions(),
+            Self::FreeSpace(operator) => ElasticOperator::convolutions(operator),
+        }
+    }
+}
+
 /// A problem on one grid.
 #[derive(Debug)]
 pub(super) struct GridLevel {
@@ -25,7 +52,7 @@ pub(super) struct GridLevel {
     largest_gap: f64,
     /// Whether contact may occur, one value per sample; `None`: everywhere.
     mask: Option<Vec<bool>>,
-    operator: LayeredOperator,
+    operator: BodyOperator,
     unknowns: Unknowns,
     /// E* of the materials at the surfaces.
     modulus: f64,
@@ -38,14 +65,43 @@ pub(super) struct Coarser {
     pub after: Unknowns,
 }
 
+/// A load step on one grid, for any operator.
+struct ContactOf<'a> {
+    surface: &'a Surface,
+    largest_gap: f64,
+    mask: Option<&'a [bool]>,
+    load: Control,
+    settings: Settings,
+}
+
+impl ContactOf<'_> {
+    fn solve<O: ElasticOperator>(
+        self,
+        operator: &mut O,
+        working: &mut Working,
+        progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
+        unknowns: &mut Unknowns,
+    ) -> Report {
+        ContactProblem {
+            operator,
+            working,
+            initial_gap: self.surface.gaps(),
+            largest_gap: self.largest_gap,
+            admissible: AdmissibleSet::new(self.mask),
+            load: self.load,
+            settings: self.settings,
+            outer: 0,
+            progress,
+        }
+        .solve(unknowns)
+    }
+}
+
 impl GridLevel {
     /// The problem on the grid of a surface.
     pub fn new(problem: &Problem, surface: Surface) -> Self {
         let (grid, bodies) = (surface.grid(), problem.bodies());
-        let operator = match problem.friction() {
-            Some(friction) => LayeredOperator::sliding(grid, bodies, friction),
-            None => LayeredOperator::new(grid, bodies),
-        };
+        let operator = BodyOperator::new(problem, grid);
         Self {
             unknowns: Unknowns::new(grid.len()),
             largest_gap: surface.largest(),
@@ -108,14 +164,23 @@ impl GridLevel {
 
     /// Working memory for this grid and all coarser ones.
     pub fn working_memory(&self) -> Working {
-        Working::of_finest(&self.operator)
+        match &self.operator {
+            BodyOperator::Periodic(operator) => Working::of_finest(operator),
+            BodyOperator::FreeSpace(operator) => Working::of_finest(operator),
+        }
     }
 
     /// Least mean pressure of complete contact: that of the pressure which displaces the surface by mean f − f.
     pub fn full_contact_pressure(&mut self) -> f64 {
         let mean = self.surface.mean();
         let mut pressure: Vec<f64> = self.surface.gaps().iter().map(|f| f - mean).collect();
-        self.operator.pressure(&mut pressure, &mut Workspace::default());
+        match &mut self.operator {
+            BodyOperator::Periodic(operator) => operator.pressure(&mut pressure, &mut Workspace::default()),
+            // Of the window repeated: a pressure of the order at which contact fills it.
+            BodyOperator::FreeSpace(operator) => {
+                operator.symmetric_pressure(&mut pressure, &mut Workspace::default());
+            }
+        }
         -sums::least(pressure.len(), |i| -pressure[i])
     }
 
@@ -123,6 +188,15 @@ impl GridLevel {
     pub fn contact(&self, problem: &Arc<Problem>) -> Contact {
         let Unknowns { pressure, gap, penetration, .. } = &self.unknowns;
         Contact::new(problem, &self.surface, Arc::clone(pressure), Arc::clone(gap), *penetration)
+    }
+
+    /// Whether an isolated contact reaches the border of its window.
+    pub fn reaches_border(&self) -> bool {
+        let grid = self.surface.grid();
+        let ([n1, n2], pressure) = (grid.points(), &self.unknowns.pressure);
+        let rows = || (0..n2).flat_map(|j| [j, (n1 - 1) * n2 + j]);
+        let columns = || (0..n1).flat_map(|i| [i * n2, i * n2 + n2 - 1]);
+        grid.cell().is_isolated() && rows().chain(columns()).any(|index| pressure[index] > 0.0)
     }
 
     /// Whether contact is wider than the grid's spacing, on the average of the indenters that touch.
@@ -150,19 +224,17 @@ impl GridLevel {
         }
         let Self { surface, largest_gap, mask, operator, unknowns, .. } = self;
         let (samples, before) = (surface.grid().len(), operator.convolutions());
-        let load = load.on(surface.grid().cell());
-        let report = ContactProblem {
-            operator: &mut *operator,
-            working,
-            initial_gap: surface.gaps(),
+        let with = ContactOf {
+            surface,
             largest_gap: *largest_gap,
-            admissible: AdmissibleSet::new(mask.as_deref()),
-            load,
+            mask: mask.as_deref(),
+            load: load.on(surface.grid().cell()),
             settings,
-            outer: 0,
-            progress,
-        }
-        .solve(unknowns);
+        };
+        let report = match operator {
+            BodyOperator::Periodic(operator) => with.solve(operator, working, progress, unknowns),
+            BodyOperator::FreeSpace(operator) => with.solve(operator, working, progress, unknowns),
+        };
         (report, (operator.convolutions() - before) * samples as f64)
     }
 

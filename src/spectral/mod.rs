@@ -1,6 +1,7 @@
 //! The spectral method: the whole cell on a doubly periodic grid, the half-space exact in Fourier space.
 //!
-//! - [`operator`]: the elastic body as the iteration uses it, a trait; `layered_operator`: the layered half-space;
+//! - [`operator`]: the elastic body as the iteration uses it, a trait; `layered_operator`: the layered half-space, periodic; `free_space`: one
+//!   contact without images;
 //!   `convolution`, `multiplier`, `by_rows`: transforms there and back in one fused pass;
 //! - `iteration`: conjugate gradients on one grid, with the certificate of their result; `extension`: the residual continued
 //!   beyond the contact, for the preconditioner;
@@ -14,6 +15,7 @@ mod contact;
 mod convolution;
 mod extension;
 mod field_error;
+mod free_space;
 mod grid_level;
 mod iteration;
 mod layered_operator;
@@ -26,6 +28,7 @@ mod step;
 pub use checkpoint::{Checkpoint, OtherGrids};
 pub use contact::Contact;
 pub use field_error::FieldError;
+pub use free_space::{Coupling, FreeSpaceOperator, OfWavenumber};
 pub use iteration::{Certificate, Method, Progress, Report, Route, Settings, Stop, Unknowns};
 pub use layered_operator::LayeredOperator;
 pub use operator::Workspace;

@@ -1,10 +1,13 @@
 //! Multiplication in Fourier space: by an even, positive multiplier K, or by K(1 − iT) with an odd T, the ratio of a skew part.
+//!
+//! The multiplier of a kernel in free space, of which a window alone is used, may be zero or negative: there H, or H − iG with
+//! an odd G, the skew part itself.
 
 use crate::numeric::fourier::line;
 use crate::numeric::lanes::{LANES, Real, vectorised};
 use fearless_simd::{f64x8, prelude::*};
 
-/// A positive, even multiplier K(k₁, k₂), k₂ ≤ N₂/2, in the order of the column pass.
+/// A positive, even multiplier K(k₁, k₂), k₂ ≤ N₂/2, in the order of the column pass; of any sign where nothing is divided by it.
 #[derive(Debug, Clone)]
 pub struct Multiplier {
     /// K/(N₁N₂), eight columns at a time, padded with ones.
@@ -44,7 +47,20 @@ impl SkewRatio {
     }
 }
 
-/// Use of the multiplier K in a convolution.
+/// Skew part G(k₁, k₂) of a multiplier H − iG, odd, k₂ ≤ N₂/2, in the order of the column pass.
+#[derive(Debug, Clone)]
+pub struct SkewPart {
+    /// G/(N₁N₂), eight columns at a time, padded with zeros.
+    table: Vec<f64>,
+}
+
+impl SkewPart {
+    pub(super) fn new(table: Vec<f64>) -> Self {
+        Self { table }
+    }
+}
+
+/// Use of the multiplier K, or H, in a convolution.
 #[derive(Debug, Clone, Copy)]
 pub enum Action<'a> {
     /// u = F⁻¹[cK · F p] with a factor c, of zero mean: the component (0, 0) is dropped.
@@ -55,6 +71,10 @@ pub enum Action<'a> {
     MultiplySkewed(f64, &'a SkewRatio),
     /// u = F⁻¹[c F p / K(1 − iT)].
     DivideSkewed(f64, &'a SkewRatio),
+    /// u = F⁻¹[cH · F p], with its mean.
+    Apply(f64),
+    /// u = F⁻¹[c(H − iG) · F p], with its mean.
+    ApplySkewed(f64, &'a SkewPart),
 }
 
 impl Action<'_> {
@@ -67,7 +87,7 @@ impl Action<'_> {
             let own = (whole + first) * LANES..(whole + first + rows) * LANES;
             let (table, normalisation) = (&multiplier.table[own.clone()], multiplier.normalisation);
             match self {
-                Self::Multiply(factor) | Self::MultiplySkewed(factor, _) => {
+                Self::Multiply(factor) | Self::MultiplySkewed(factor, _) | Self::Apply(factor) => {
                     vectorised!(simd => times(simd, factor, table, lines, lane));
                 }
                 Self::Divide(factor) | Self::DivideSkewed(factor, _) => {
@@ -75,9 +95,13 @@ impl Action<'_> {
                     let (numerator, common) = (normalisation, 1.0 / (factor * normalisation));
                     vectorised!(simd => over(simd, numerator, common, table, lines, lane));
                 }
+                Self::ApplySkewed(factor, skew) => {
+                    let skew = &skew.table[own.clone()];
+                    vectorised!(simd => times_complex(simd, factor, [table, skew], lines, lane));
+                }
             }
             match self {
-                Self::Multiply(_) | Self::Divide(_) => {}
+                Self::Multiply(_) | Self::Divide(_) | Self::Apply(_) | Self::ApplySkewed(..) => {}
                 Self::MultiplySkewed(_, ratio) => {
                     vectorised!(simd => multiply_skew(simd, &ratio.table[own], lines, lane))
                 }
@@ -102,6 +126,19 @@ fn parts<T: Real>(line: &mut [T], lane: usize) -> [&mut [T]; 2] {
 fn times<S: Simd, T: Real>(simd: S, common: f64, table: &[f64], lines: &mut [T], lane: usize) {
     for (line, factors) in lines.chunks_exact_mut(line::<T>()).zip(table.chunks_exact(LANES)) {
         multiply(simd, T::lanes(f64x8::from_slice(simd, factors) * common), parts(line, lane));
+    }
+}
+
+/// Each component times H − iG and a common factor.
+#[inline(always)]
+fn times_complex<S: Simd, T: Real>(simd: S, common: f64, [even, odd]: [&[f64]; 2], lines: &mut [T], lane: usize) {
+    let factors = even.chunks_exact(LANES).zip(odd.chunks_exact(LANES));
+    for (line, (even, odd)) in lines.chunks_exact_mut(line::<T>()).zip(factors) {
+        let [even, odd] = [even, odd].map(|factors| T::lanes(f64x8::from_slice(simd, factors) * common));
+        let [re, im] = parts(line, lane);
+        let (x, y) = (T::Lanes::<S>::from_slice(simd, re), T::Lanes::<S>::from_slice(simd, im));
+        (x * even + y * odd).store_slice(re);
+        (y * even - x * odd).store_slice(im);
     }
 }
 

@@ -173,6 +173,9 @@ impl Solver {
         {
             report.stop = Stop::Unresolved;
         }
+        if report.stop.solved() && levels[0].reaches_border() {
+            report.stop = Stop::AtBorder;
+        }
         let part = |index: &usize| left_out.iter().all(|(out, _)| out != index);
         let coarser = (1..levels.len()).take(COARSER_KEPT).take_while(part).count();
         let step = self.step(load, report, convolutions + work / finest, coarser);

@@ -57,11 +57,8 @@ impl StressField {
             .on_plane_from(around.start, &transform, columns.into_buffer(), &DisplacementComponents(&response))
             .write(displacements);
         let components = Array3::from_shape_vec([9, n1, n2], components).expect("nine fields");
-        let components = if around.points == points {
-            components
-        } else {
-            first_of(components.view(), points).to_owned()
-        };
+        let components =
+            if around.points == points { components } else { first_of(components.view(), points).to_owned() };
         DepthPlane { depth, components }
     }
 

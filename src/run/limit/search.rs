@@ -7,7 +7,7 @@ use crate::body::{HalfSpace, Layer};
 use crate::load::LoadQuantity;
 use crate::reading::{Criterion, Reading, Utilisation};
 use crate::run::{Recorder, Run, RunError, StepRecord};
-use crate::spectral::{Solver, Step};
+use crate::spectral::{Solver, Step, Stop};
 use crate::stress::Tables;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -39,6 +39,10 @@ pub(super) struct LimitSearch<'a, R: Recorder> {
     quantity: LoadQuantity,
     /// Load at which contact becomes complete; infinite for a flat surface and for an isolated contact.
     complete: f64,
+    /// A load of the order at which contact fills the cell or the window; infinite for a flat surface.
+    filling: f64,
+    /// The largest load to be solved: that of complete contact, or the last one under which an isolated contact has room.
+    largest: f64,
     /// The solved loads, by ascending load.
     steps: Vec<StepRecord>,
     /// The step of the load that was solved last.
@@ -55,9 +59,13 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
         let (quantity, area) = (run.quantity(), run.problem.cell().area());
         let per_pressure = if quantity == LoadQuantity::Force { area } else { 1.0 };
-        let complete = complete.map_or(f64::INFINITY, |pressure| pressure * per_pressure);
+        let filling = complete.map_or(f64::INFINITY, |pressure| pressure * per_pressure);
+        // An isolated contact is never complete, but fills its window under a load of this order.
+        let complete = if run.problem.cell().is_isolated() { f64::INFINITY } else { filling };
         let (tables, steps) = (Arc::default(), Vec::new());
-        let mut search = Self { run, solver, tables, quantity, complete, steps, last: None, recorder };
+        let last = None;
+        let mut search =
+            Self { run, solver, tables, quantity, complete, filling, largest: complete, steps, last, recorder };
         let bodies = run.problem.bodies();
         let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
             Criterion::all(bodies).into_iter().partition(|criterion| criterion.at_rest(bodies) >= 1.0);
@@ -125,8 +133,8 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     /// The first load: a part of that of complete contact, or the least strength where contact is complete under any
     /// load and stresses are proportional to it.
     fn start(&self) -> f64 {
-        if self.complete.is_finite() {
-            return START * self.complete;
+        if self.filling.is_finite() {
+            return START * self.filling;
         }
         let bodies = || self.run.problem.bodies().each();
         let of_materials = bodies().flat_map(HalfSpace::strengths);
@@ -150,7 +158,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             // Where contact is complete under any load, loads are halved until everything holds.
             let holds = |search: &Self| {
                 let failed = |&criterion: &Criterion| search.band(criterion).upper.first_failure() == Some(0);
-                search.complete.is_infinite() && !sought.iter().any(failed)
+                search.filling.is_infinite() && !sought.iter().any(failed)
             };
             if !self.is_readable(&self.steps[0].reading) || holds(self) {
                 break;
@@ -161,11 +169,17 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         for _ in 0..DOUBLINGS {
             let has_samples = self.steps.iter().any(|step| self.is_readable(&step.reading));
             let holds = |&criterion: &Criterion| !self.band(criterion).fails();
-            if highest >= self.complete || has_samples && !sought.iter().any(holds) {
+            if highest >= self.largest || has_samples && !sought.iter().any(holds) {
                 break;
             }
-            highest = (2.0 * highest).min(self.complete);
-            self.solve(highest)?;
+            let before = highest;
+            highest = (2.0 * highest).min(self.largest);
+            if self.solve(highest)?.stop == Stop::AtBorder {
+                // Contact has no room in its window: the load says nothing.
+                self.steps.pop();
+                self.largest = before;
+                break;
+            }
         }
         let readable = self.steps.iter().position(|step| self.is_readable(&step.reading));
         let least = readable.unwrap_or(self.steps.len() - 1);

@@ -9,7 +9,8 @@
 //! other p ≥ 0 of at most the same load has less energy ½⟨p, Cp⟩ + ⟨p, f − δ⟩ than by Σ p (g − min(0, min g)).
 //!
 //! In complete contact a uniform pressure is free, and the rounding of g under it would rule the gap. Without p ≥ 0 the
-//! minimum is at Cp + f = δ, so that the excess is at most ½⟨g, C⁻¹g⟩ there: the smaller of the two bounds is taken.
+//! minimum is at Cp + f = δ, so that the excess is at most ½⟨g, C⁻¹g⟩ there: the smaller of the two bounds is taken. (In free
+//! space contact is never complete, C⁻¹ is not known, and the first bound alone is taken.)
 //!
 //! **Under coupled friction** there is no energy: C is the symmetric part of the operator A = C + B, ⟨p, Bp⟩ = 0. Both
 //! bounds hold (under displacement control while p* has at most the load of p) for the elastic energy of the error, ½⟨d, Cd⟩ with d = p − p*, which without friction is at most E(p) − E*:

@@ -9,7 +9,7 @@ use crate::numeric::rows::{self, Totals, next};
 use crate::numeric::search::largest;
 use crate::numeric::sums::{self, BLOCK};
 use crate::spectral::by_rows::{ResultRows, rows_of};
-use crate::spectral::operator::ElasticOperator;
+use crate::spectral::operator::{ElasticOperator, Surroundings};
 use fearless_simd::prelude::*;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -76,7 +76,8 @@ impl ConvergenceCheck {
         let gap = GapSums { load, work, complementarity, least, outside };
         let mut check = Self::of(gap, penetration, energy / len, load_control, len);
         check.certificate.load = deviation;
-        if load_control && open == 0.0 {
+        let has_inverse = problem.operator.surroundings() == Surroundings::Periodic;
+        if load_control && open == 0.0 && has_inverse {
             // Without p ≥ 0 the excess is ½⟨g, C⁻¹g⟩, whatever friction adds to C.
             let mut free = g.clone();
             problem.operator.symmetric_pressure(&mut free, &mut problem.working.transforms);
@@ -125,14 +126,17 @@ impl ConvergenceCheck {
     }
 }
 
-/// g ← w + f for the pressure of `unknowns`; Σ p, ½ Σ (p − p̄) w, Σ p (w + f) and the number of samples without pressure.
+/// g ← w + f for the pressure of `unknowns`; Σ p, ½ Σ p w, Σ p (w + f) and the number of samples without pressure.
 fn displaced_gap<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> [f64; 4] {
     let (p, f) = (&unknowns.pressure[..], problem.initial_gap);
     if Arc::get_mut(&mut unknowns.gap).is_none() {
         unknowns.gap = Arc::new(vec![0.0; p.len()]);
     }
     let g = Arc::make_mut(&mut unknowns.gap);
-    let uniform = if let Control::MeanPressure(mean) = problem.load { mean } else { 0.0 };
+    let uniform = match (problem.load, problem.operator.surroundings()) {
+        (Control::MeanPressure(mean), Surroundings::Periodic) => mean,
+        _ => 0.0,
+    };
     let blocks = problem.operator.blocks();
     let mut totals = blocks.totals();
     let fields = blocks.of(p).zip(blocks.of(f)).zip(blocks.of_mut(g)).zip(&mut totals);
@@ -152,7 +156,7 @@ fn relative(part: f64, scale: f64) -> f64 {
     if scale <= 0.0 || part <= 0.0 { 0.0 } else { part / scale }
 }
 
-/// g ← w + f; Σ p, ½ Σ (p − `uniform`) w, Σ p (w + f) and the number of samples without pressure. As ⟨1, w⟩ = 0, a
+/// g ← w + f; Σ p, ½ Σ (p − `uniform`) w, Σ p (w + f) and the number of samples without pressure. Where ⟨1, w⟩ = 0, a
 /// uniform part of p would add nothing but rounding to the elastic energy.
 #[inline(always)]
 fn deformed<S: Simd>(simd: S, w: &[f64], p: &[f64], f: &[f64], g: &mut [f64], uniform: f64) -> Totals<4, 0> {

@@ -30,6 +30,8 @@ pub enum Stop {
     /// reaches it.
     #[serde(alias = "beyond full contact")]
     BeyondFullContact,
+    /// Contact reaches the border of the window of an isolated contact, beyond which it would go on.
+    AtBorder,
     /// The progress callback has ended the step.
     Interrupted,
     /// A number of the result is not finite.
@@ -54,6 +56,7 @@ impl fmt::Display for Stop {
             Self::NoContact => "no contact",
             Self::Unresolved => "unresolved",
             Self::BeyondFullContact => "beyond full contact",
+            Self::AtBorder => "at the border of the window",
             Self::Interrupted => "interrupted",
             Self::NotANumber => "not a number",
         })

@@ -14,7 +14,7 @@ use super::report::{Report, Route, Stop};
 use super::stopping::unless_rounding;
 use crate::load::Control;
 use crate::numeric::sums;
-use crate::spectral::operator::ElasticOperator;
+use crate::spectral::operator::{ElasticOperator, Surroundings};
 use std::sync::Arc;
 
 /// Trials of the mean pressure after which the search counts as stalled.
@@ -35,7 +35,8 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
             Method::PolonskyKeer => Route::Baseline,
         };
         let done = |stop, residual| Report::new(stop, route, 0, residual);
-        let (gap, everywhere) = (self.initial_gap, self.admissible.is_everywhere());
+        let gap = self.initial_gap;
+        let may_be_complete = self.admissible.is_everywhere() && self.operator.surroundings() == Surroundings::Periodic;
         if !self.load.value().is_finite() {
             unknowns.clear();
             ConvergenceCheck::new(self, unknowns);
@@ -47,7 +48,7 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
             return done(Stop::NoContact, 0.0);
         }
         match self.load {
-            Control::MeanPressure(mean) if everywhere && gap.iter().all(|f| *f == gap[0]) => {
+            Control::MeanPressure(mean) if may_be_complete && gap.iter().all(|f| *f == gap[0]) => {
                 // A flat counterbody: complete contact at once.
                 unknowns.pressure = Arc::new(vec![mean; gap.len()]);
                 ConvergenceCheck::new(self, unknowns);
@@ -55,7 +56,7 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
             }
             Control::MeanPressure(_) => iterate(self, 0, unknowns),
             Control::Penetration(penetration) => {
-                if everywhere && penetration >= sums::mean(gap) {
+                if may_be_complete && penetration >= sums::mean(gap) {
                     // Nothing of the step before is an answer.
                     unknowns.clear();
                     ConvergenceCheck::new(self, unknowns);

@@ -1,0 +1,460 @@
+//! The operator of one contact in free space: pressure on a window of samples → normal displacement of the surfaces there.
+//!
+//! w(x_i) = Σ_j K_{i−j} p_j with the [kernel](super::kernel), by a convolution on a grid at least twice as wide that is padded
+//! with zeros: no image, and w → 0 far away. What the window's pressures displace does not depend on the window.
+//!
+//! K is symmetric and positive on any set of samples. Its inverse is not known in closed form: the preconditioner is the C⁻¹ of
+//! the window repeated periodically at the same spacings, which is near to it for waves shorter than the contact.
+
+use super::kernel::{OfWavenumber, Window};
+use super::quadrant::{Parity, transformed};
+use crate::body::{Bodies, Compliances};
+use crate::friction::Friction;
+use crate::lattice::Grid;
+use crate::numeric::fourier::fast_points;
+use crate::numeric::lanes::Real;
+use crate::numeric::rows::RowBlocks;
+use crate::spectral::by_rows::{ByRows, ResultRows, rows_of, rows_to};
+use crate::spectral::convolution::{Convolution, Convolved};
+use crate::spectral::multiplier::{Action, Multiplier, SkewPart};
+use crate::spectral::operator::{ElasticOperator, Surroundings, TractionUpdate, Workspace};
+use ndarray::Array2;
+use std::fmt;
+
+/// Least wavenumber, over the largest of the grid, at which the bodies are asked: below, their compliance is that of the
+/// substrates to rounding.
+const LEAST_WAVENUMBER: f64 = 1e-11;
+/// Wavenumbers at which a kernel asks for a compliance, in order of magnitude.
+const EVALUATIONS: usize = 100_000;
+
+/// How a shear traction that goes with the pressure displaces the surfaces.
+#[derive(Clone, Copy)]
+pub struct Coupling<'a> {
+    /// Traction on the body over the pressure, μ**e**.
+    pub traction: [f64; 2],
+    /// b(k) = kB̂(k), lengths per pressure times wavenumber, finite at k = 0: ŵ = (Ĉ − i(**t**·**k**/k)B̂) p̂ for the traction **t**.
+    pub response: OfWavenumber<'a>,
+    /// Largest |b/c| over the wavenumbers of the grid.
+    pub largest_ratio: f64,
+}
+
+impl fmt::Debug for Coupling<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { traction, largest_ratio, .. } = self;
+        f.debug_struct("Coupling")
+            .field("traction", traction)
+            .field("largest_ratio", largest_ratio)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Displacement operator of one contact in free space.
+pub struct FreeSpaceOperator {
+    double: Convolution<f64>,
+    single: Convolution<f32>,
+    /// The window repeated periodically, for the preconditioner.
+    periodic: (Convolution<f64>, Convolution<f32>),
+    compliance: Multiplier,
+    /// Transform H of the kernel, and G of the odd one under coupled friction.
+    kernel: Multiplier,
+    skew: Option<SkewPart>,
+    /// Largest |C⁻¹(A − C)|.
+    coupling: f64,
+    /// Compliance at the least wavenumber of the window.
+    unit: f64,
+    convolutions: f64,
+}
+
+impl FreeSpaceOperator {
+    /// Operator of the bodies, without friction.
+    ///
+    /// # Panics
+    /// When the cell of the grid, the window, is not a rectangle.
+    pub fn new(grid: &Grid, bodies: impl Into<Bodies>) -> Self {
+        let bodies = bodies.into();
+        let compliances = Compliances::new(&bodies, range(grid), EVALUATIONS);
+        Self::with(grid, &|k| k * compliances.at(k), None)
+    }
+
+    /// Operator of the bodies, the counterbody sliding with `friction`.
+    ///
+    /// # Panics
+    /// When the cell of the grid, the window, is not a rectangle.
+    pub fn sliding(grid: &Grid, bodies: impl Into<Bodies>, friction: &Friction) -> Self {
+        let bodies = bodies.into();
+        if !friction.couples() {
+            return Self::new(grid, bodies);
+        }
+        let compliances = Compliances::coupled(&bodies, range(grid), EVALUATIONS);
+        let c = |k: f64| k * compliances.at(k);
+        let [n1, n2] = grid.points();
+        let components = (0..=n1 / 2).flat_map(|k1| (0..=n2 / 2).map(move |k2| [k1, k2])).skip(1);
+        let ratios = components.map(|component| compliances.coupling_ratio(grid.wavenumber(component)).abs());
+        let coupling = Coupling {
+            traction: friction.traction(),
+            response: &|k| c(k) * compliances.coupling_ratio(k),
+            largest_ratio: ratios.fold(0.0, f64::max),
+        };
+        Self::with(grid, &c, Some(coupling))
+    }
+
+    /// Operator of bodies with c(k) = kĈ(k), the compliance of both together times the wavenumber, a length per pressure times
+    /// 1/length, finite at k = 0; with the coupling of both where friction couples.
+    ///
+    /// # Panics
+    /// When the cell of the grid, the window, is not a rectangle.
+    pub fn with(grid: &Grid, c: OfWavenumber<'_>, coupling: Option<Coupling<'_>>) -> Self {
+        assert!(grid.cell().is_rectangular(), "the window of a contact in free space is a rectangle");
+        let steps = grid.steps();
+        let window = Window { spacings: steps.map(|[x, y]| x.hypot(y)), points: grid.points() };
+        let padded = padded(window.points);
+        let double = Convolution::padded(window.points, padded);
+        let skew = coupling.map(|coupling| {
+            let along = [0, 1].map(|axis| {
+                let [x, y] = steps[axis];
+                (coupling.traction[0] * x + coupling.traction[1] * y) / window.spacings[axis]
+            });
+            skew_part(&double, window, along, coupling.response)
+        });
+        Self {
+            kernel: multiplier(&double, window, c),
+            skew,
+            coupling: coupling
+                .map_or(0.0, |Coupling { traction: [x, y], largest_ratio, .. }| x.hypot(y) * largest_ratio),
+            single: Convolution::padded(window.points, padded),
+            periodic: (Convolution::new(window.points), Convolution::new(window.points)),
+            compliance: periodic_compliance(grid, c),
+            unit: c(grid.least_wavenumber()) / grid.least_wavenumber(),
+            convolutions: 0.0,
+            double,
+        }
+    }
+
+    /// Memory that an operator on a window of `points` keeps, bytes per sample: the transforms of the kernel and, `coupled`, of
+    /// the odd one, 16 each where no padding beyond twice the window is needed, and the periodic compliance, 4. The
+    /// [`Workspace`] has 16 further ones. While a kernel is made, three tables of 8 live besides.
+    pub fn bytes_per_sample(points: [usize; 2], coupled: bool) -> f64 {
+        let components = |[n1, n2]: [usize; 2]| (n1 * (n2 / 2 + 1).next_multiple_of(f32::WIDTH)) as f64;
+        let tables = components(padded(points)) * f64::from(1 + u8::from(coupled)) + components(points);
+        8.0 * tables / (points[0] * points[1]) as f64
+    }
+
+    /// p → w: displacement into the body (a length), from pressure and the traction that goes with it.
+    pub fn displacement(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        // On the threads that share the work, where no pass has to wake them.
+        rayon::scope(|_| self.displace(field, workspace));
+    }
+
+    /// Use of the kernel times a common factor, and of the odd one under coupled friction.
+    fn applied(&self, factor: f64) -> Action<'_> {
+        self.skew.as_ref().map_or(Action::Apply(factor), |skew| Action::ApplySkewed(factor, skew))
+    }
+}
+
+impl ElasticOperator for FreeSpaceOperator {
+    type Rows<'a, T: Real> = Convolved<'a, T>;
+
+    fn blocks(&self) -> RowBlocks {
+        self.double.blocks()
+    }
+
+    fn surroundings(&self) -> Surroundings {
+        Surroundings::FreeSpace
+    }
+
+    fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    fn coupling(&self) -> f64 {
+        self.coupling
+    }
+
+    fn convolutions(&self) -> f64 {
+        self.convolutions
+    }
+
+    fn split<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
+        let [n1, n2] = self.blocks().points();
+        let single = self.single.memory().max(self.periodic.1.memory());
+        let double = self.double.memory().max(self.periodic.0.memory());
+        let (memory, rest) = workspace.of(double.max(single + (n1 * n2).div_ceil(2))).split_at_mut(single);
+        (memory, &mut bytemuck::cast_slice_mut(rest)[..n1 * n2])
+    }
+
+    fn displaced<'a>(&'a mut self, workspace: &'a mut Workspace, pressure: impl ByRows<f64>) -> Convolved<'a, f64> {
+        self.convolutions += 1.0;
+        let memory = workspace.of(self.double.memory());
+        self.double.convolve(self.applied(1.0), &self.kernel, memory, pressure)
+    }
+
+    fn displaced_single<'a>(
+        &'a mut self,
+        traction: TractionUpdate,
+        memory: &'a mut [f64],
+        pressure: impl ByRows<f32>,
+    ) -> Convolved<'a, f32> {
+        self.convolutions += 0.5;
+        let factor = 1.0 / self.unit;
+        let action = match traction {
+            TractionUpdate::Updated => self.applied(factor),
+            TractionUpdate::Lagged => Action::Apply(factor),
+        };
+        self.single.convolve(action, &self.kernel, memory, pressure)
+    }
+
+    fn preconditioned<'a>(&'a mut self, memory: &'a mut [f64], residual: impl ByRows<f32>) -> Convolved<'a, f32> {
+        self.convolutions += 0.5;
+        self.periodic.1.convolve(Action::Divide(self.unit), &self.compliance, memory, residual)
+    }
+
+    fn symmetric_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        self.convolutions += 1.0;
+        let convolution = &self.periodic.0;
+        let (blocks, memory) = (convolution.blocks(), workspace.of(convolution.memory()));
+        let convolved = convolution.convolve(Action::Divide(1.0), &self.compliance, memory, rows_of(blocks, field));
+        convolved.rows(rows_to(blocks, field));
+    }
+}
+
+impl fmt::Debug for FreeSpaceOperator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FreeSpaceOperator").field("window", &self.blocks().points()).finish_non_exhaustive()
+    }
+}
+
+/// Wavenumbers at which a grid asks the bodies, from its spacings alone, so that every window has the same compliance.
+fn range(grid: &Grid) -> [f64; 2] {
+    let largest = grid.largest_wavenumber();
+    [LEAST_WAVENUMBER * largest, largest]
+}
+
+/// Samples of the transforms for a window: at least 2Nᵢ − 1, even, and with small prime factors.
+fn padded(points: [usize; 2]) -> [usize; 2] {
+    points.map(|n| 2 * fast_points(n))
+}
+
+/// H, the transform of the kernel.
+fn multiplier(convolution: &Convolution<f64>, window: Window, c: OfWavenumber<'_>) -> Multiplier {
+    let values = transformed(&window.kernel(c), padded(window.points), [Parity::Even; 2]);
+    convolution.multiplier(true, |[k1, k2], to| {
+        to.iter_mut().zip(k2..).for_each(|(to, k2)| *to = values[[k2, k1]]);
+    })
+}
+
+/// G, the transform of the odd kernel of a traction with the components `along` the axes of the grid.
+fn skew_part(convolution: &Convolution<f64>, window: Window, along: [f64; 2], b: OfWavenumber<'_>) -> SkewPart {
+    let padded = padded(window.points);
+    let values: [Option<Array2<f64>>; 2] = [0, 1].map(|axis| {
+        let mut parities = [Parity::Even; 2];
+        parities[axis] = Parity::Odd;
+        (along[axis] != 0.0).then(|| along[axis] * transformed(&window.coupling_kernel(b, axis), padded, parities))
+    });
+    convolution.skew_part(|[k1, k2], to| {
+        // Odd along the first axis, and even.
+        let (k1, sign) = if 2 * k1 <= padded[0] { (k1, 1.0) } else { (padded[0] - k1, -1.0) };
+        for (to, k2) in to.iter_mut().zip(k2..) {
+            let [first, second] =
+                values.each_ref().map(|values| values.as_ref().map_or(0.0, |values| values[[k2, k1]]));
+            *to = sign * first + second;
+        }
+    })
+}
+
+/// Ĉ of the window repeated periodically, the mean taken for a component of the least wavenumber.
+fn periodic_compliance(grid: &Grid, c: OfWavenumber<'_>) -> Multiplier {
+    Convolution::<f64>::new(grid.points()).multiplier(true, |first, values| {
+        grid.wavenumbers(first, values);
+        if first == [0, 0] {
+            values[0] = grid.least_wavenumber();
+        }
+        values.iter_mut().for_each(|k| *k = c(*k) / *k);
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Interface, Layer, Material};
+    use crate::lattice::Cell;
+
+    fn coated() -> HalfSpace {
+        let layer = Layer::new(Material::from_shear(3.0, 0.2).unwrap(), 0.8, Interface::Bonded).unwrap();
+        HalfSpace::new(vec![layer], Material::from_shear(1.0, 0.3).unwrap())
+    }
+
+    /// A window of spacings d₁, d₂.
+    fn grid([d1, d2]: [f64; 2], points: [usize; 2]) -> Grid {
+        let sides = [d1 * points[0] as f64, d2 * points[1] as f64];
+        Grid::new(Cell::new([sides[0], 0.0], [0.0, sides[1]]).unwrap(), points).unwrap()
+    }
+
+    fn noise(len: usize) -> Vec<f64> {
+        (0..len).map(|k| ((k * k * 7919 + k * 131) % 1009) as f64 / 1009.0 - 0.3).collect()
+    }
+
+    fn largest(field: &[f64]) -> f64 {
+        field.iter().fold(0.0, |largest, value| value.abs().max(largest))
+    }
+
+    /// Σ_j (K + t₁K¹ + t₂K²)_{i−j} p_j.
+    fn direct(window: &Window, half_space: &HalfSpace, traction: [f64; 2], p: &[f64]) -> Vec<f64> {
+        let response = half_space.response();
+        let c = |k: f64| k * response.compliance(k);
+        let b = |k: f64| k * response.surface(k).coupling;
+        let (even, odd) = (window.kernel(&c), [0, 1].map(|axis| window.coupling_kernel(&b, axis)));
+        let [_, n2] = window.points;
+        let at = |i: usize, j: usize| {
+            let offsets = [(i / n2) as f64 - (j / n2) as f64, (i % n2) as f64 - (j % n2) as f64];
+            let place = offsets.map(|offset| offset.abs() as usize);
+            let skew = [0, 1].map(|axis| traction[axis] * offsets[axis].signum() * odd[axis][place]);
+            even[place] + skew[0] + skew[1]
+        };
+        (0..p.len()).map(|i| (0..p.len()).map(|j| at(i, j) * p[j]).sum()).collect()
+    }
+
+    #[test]
+    fn a_convolution_is_its_direct_double_sum() {
+        let half_space = coated();
+        for (spacings, points) in
+            [([0.5, 0.3], [12, 9]), ([0.3, 0.4], [7, 22]), ([0.2, 0.2], [130, 2]), ([1.0, 1.0], [1, 17])]
+        {
+            for friction in [None, Some([1.0, 0.0]), Some([0.0, -1.0]), Some([0.6, -0.8])] {
+                let friction = friction.map(|direction| Friction::new(0.7, direction).unwrap());
+                let grid = grid(spacings, points);
+                let mut operator = match &friction {
+                    Some(friction) => FreeSpaceOperator::sliding(&grid, &half_space, friction),
+                    None => FreeSpaceOperator::new(&grid, &half_space),
+                };
+                let traction = friction.map_or([0.0; 2], |friction| friction.traction());
+                let p = noise(grid.len());
+                let expected = direct(&Window { spacings, points }, &half_space, traction, &p);
+                let mut workspace = Workspace::default();
+                let mut w = p.clone();
+                operator.displacement(&mut w, &mut workspace);
+                let error = |w: &[f64]| {
+                    largest(&w.iter().zip(&expected).map(|(a, b)| a - b).collect::<Vec<_>>()) / largest(&expected)
+                };
+                assert!(error(&w) < 1e-14, "{points:?}, {traction:?}: {:e}", error(&w));
+                let single: Vec<f32> = p.iter().map(|&p| p as f32).collect();
+                let (blocks, mut w, unit) = (operator.blocks(), vec![0.0f32; p.len()], operator.unit());
+                rayon::scope(|_| {
+                    let (memory, _) = operator.split(&mut workspace);
+                    let displaced =
+                        operator.displaced_single(TractionUpdate::Updated, memory, rows_of(blocks, &single));
+                    displaced.rows(rows_to(blocks, &mut w));
+                });
+                let w: Vec<f64> = w.into_iter().map(|w| unit * f64::from(w)).collect();
+                assert!(error(&w) < 1e-6, "{points:?}, {traction:?}, single: {:e}", error(&w));
+            }
+        }
+    }
+
+    #[test]
+    fn a_pressure_displaces_the_same_in_every_window() {
+        let half_space = coated();
+        let friction = Friction::new(0.5, [1.0, 2.0]).unwrap();
+        let displaced = |points: [usize; 2]| {
+            let grid = grid([0.25, 0.5], points);
+            let mut w = vec![0.0; grid.len()];
+            for (k, p) in noise(20 * 30).into_iter().enumerate() {
+                w[k / 30 * points[1] + k % 30] = p;
+            }
+            let mut operator = FreeSpaceOperator::sliding(&grid, &half_space, &friction);
+            operator.displacement(&mut w, &mut Workspace::default());
+            (0..20 * 30).map(|k| w[k / 30 * points[1] + k % 30]).collect::<Vec<_>>()
+        };
+        let first = displaced([20, 30]);
+        for points in [[48, 48], [64, 64], [60, 96], [31, 45]] {
+            let other = displaced(points);
+            let difference: Vec<f64> = first.iter().zip(&other).map(|(a, b)| a - b).collect();
+            assert!(largest(&difference) < 2e-15 * largest(&first), "{points:?}: {:e}", largest(&difference));
+        }
+    }
+
+    #[test]
+    fn every_pressure_does_positive_work_and_the_operator_is_symmetric() {
+        let grid = grid([0.2, 0.3], [30, 24]);
+        let stiff = Layer::new(Material::from_shear(1e3, 0.2).unwrap(), 0.05, Interface::Bonded).unwrap();
+        for half_space in [coated(), HalfSpace::new(vec![stiff], Material::from_shear(1.0, 0.3).unwrap())] {
+            let mut operator = FreeSpaceOperator::new(&grid, &half_space);
+            let mut displaced = |p: &[f64]| {
+                let mut w = p.to_vec();
+                operator.displacement(&mut w, &mut Workspace::default());
+                w
+            };
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            // A uniform, a random, and the most wavy pressure.
+            let wavy: Vec<f64> = (0..grid.len()).map(|k| if (k / 24 + k % 24) % 2 == 0 { 1.0 } else { -1.0 }).collect();
+            let pressures = [vec![1.0; grid.len()], noise(grid.len()), wavy];
+            for p in &pressures {
+                for q in &pressures {
+                    let (wp, wq) = (displaced(p), displaced(q));
+                    let scale = (dot(p, &wp) * dot(q, &wq)).sqrt();
+                    assert!(dot(p, &wp) > 0.0 && (dot(p, &wq) - dot(q, &wp)).abs() < 1e-14 * scale);
+                }
+            }
+        }
+    }
+
+    /// Zero rows are not transformed, and rows that are not needed neither: others keep their bits.
+    #[test]
+    fn rows_that_are_left_out_change_no_other() {
+        let grid = grid([0.2, 0.3], [150, 40]);
+        let mut operator = FreeSpaceOperator::new(&grid, &coated());
+        let is_used = |row: usize| (20..45).contains(&row);
+        let mut p = noise(grid.len());
+        p.chunks_mut(40).enumerate().filter(|(row, _)| !is_used(*row)).for_each(|(_, row)| row.fill(0.0));
+        let (blocks, mut workspace) = (operator.blocks(), Workspace::default());
+        let (mut some, mut all) = (vec![0.0; p.len()], vec![0.0; p.len()]);
+        let displaced = operator.displaced(&mut workspace, rows_of(blocks, &p));
+        displaced.some_rows(is_used, rows_to(blocks, &mut some));
+        p.iter_mut().filter(|p| **p == 0.0).for_each(|p| *p = 1e-300);
+        operator.displaced(&mut workspace, rows_of(blocks, &p)).rows(rows_to(blocks, &mut all));
+        assert_eq!(some[20 * 40..45 * 40], all[20 * 40..45 * 40]);
+        assert!(some[..8 * 40].iter().all(|w| *w == 0.0) && all.iter().all(|w| *w != 0.0));
+    }
+
+    #[test]
+    fn the_memory_is_that_of_its_tables() {
+        for (points, most) in [([64, 64], 26.0), ([60, 96], 24.1), ([512, 512], 21.0)] {
+            let operator = FreeSpaceOperator::new(&grid([1.0, 1.0], points), &coated());
+            let numbers = (operator.kernel.len() + operator.compliance.len()) as f64;
+            let bytes = FreeSpaceOperator::bytes_per_sample(points, false);
+            assert_eq!(bytes, 8.0 * numbers / (points[0] * points[1]) as f64);
+            assert!(bytes <= most, "{points:?}: {bytes}");
+        }
+    }
+
+    /// A Hertz-shaped traction q₀√(1 − r²/a²) along x on a bare half-space displaces by
+    /// w = (1−2ν)/(2G) q₀ (a²x/3r²)(1 − (1 − r²/a²)^{3/2}), r ≤ a.
+    #[test]
+    fn a_shear_traction_displaces_by_its_closed_form() {
+        let (n, a) = (128, 30.3);
+        let grid = grid([1.0, 1.0], [n, n]);
+        let operators = [1.0, 0.5].map(|b| {
+            let coupling = Coupling { traction: [b, 0.0], response: &|_| 1.0, largest_ratio: 0.5 };
+            FreeSpaceOperator::with(&grid, &|_| 2.0, Some(coupling))
+        });
+        let place = |k: usize| [(k / n) as f64 - 64.0, (k % n) as f64 - 64.0];
+        let part = |k: usize| (1.0 - (place(k)[0].hypot(place(k)[1]) / a).powi(2)).max(0.0);
+        let p: Vec<f64> = (0..n * n).map(|k| part(k).sqrt()).collect();
+        // The symmetric part drops out of the difference.
+        let [one, half] = operators.map(|mut operator| {
+            let mut w = p.clone();
+            operator.displacement(&mut w, &mut Workspace::default());
+            w
+        });
+        let exact = |k: usize| {
+            let [x, y] = place(k);
+            let square = x * x + y * y;
+            if square > 0.0 { a * a * x / (3.0 * square) * (1.0 - part(k).powf(1.5)) } else { 0.0 }
+        };
+        let size = (0..n * n).map(exact).fold(0.0, f64::max);
+        let error = |k: usize| (2.0 * (one[k] - half[k]) - exact(k)).abs() / size;
+        let inside = (0..n * n).filter(|&k| part(k) > 0.19);
+        let (inside, everywhere) = (inside.map(error).fold(0.0, f64::max), (0..n * n).map(error).fold(0.0, f64::max));
+        // 4e-4 and 1.5e-3 in an independent program.
+        assert!(inside < 5e-4 && everywhere < 1.6e-3, "{inside:e}, {everywhere:e}");
+    }
+}
