@@ -16,13 +16,19 @@ const SIZE: Form = Form::Number(Range::Size);
 const POISSON: Form = Form::Number(Range::between(0.0, 0.5));
 
 // Keys of layers and of the substrate.
-const NAME: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its number");
+const MATERIAL: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"")
+    .otherwise("none")
+    .rule("needs units.pressure; where both moduli are given it is a name alone")
+    .fills(&["name", "young", "poisson", "yield_strength", "tensile_strength"]);
+const NAME: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its `material`, or its number");
 const YIELD: Key = Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("never reached");
 const TENSILE: Key = Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("never reached");
 
 section! {
     /// One section of `[[layers]]`, from the surface down.
     pub struct LayerSection = LAYER, rules consistent {
+        /// material of `percoat materials` or of the file `materials`, for moduli, strengths and name that are not given
+        pub material: Option<String> = MATERIAL,
         /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
         /// the thickness of the layer
@@ -64,6 +70,8 @@ section! {
     pub struct SubstrateSection = SUBSTRATE, misplaced [
         ("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")
     ] {
+        /// material of `percoat materials` or of the file `materials`, for moduli, strengths and name that are not given
+        pub material: Option<String> = MATERIAL,
         /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
         /// Young's modulus

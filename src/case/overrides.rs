@@ -136,7 +136,7 @@ fn set_in_table(
             Node { value: Value::Table(created), span: step.span }
         }
     };
-    keys.excluded(&step.name).into_iter().for_each(|other| table.remove(other));
+    keys.replaced(&step.name).into_iter().for_each(|other| table.remove(other));
     table.insert(Entry { key: step.name.clone(), key_span: step.span, node: next });
     Ok(())
 }
@@ -255,6 +255,16 @@ mod tests {
         let root = set("[[levels]]\ncoefficient = 1\nexponent = 3\nheight = 1\n", "levels.0.slope=0.1").unwrap();
         assert_eq!(value(&root, &["levels", "0", "exponent"]), None);
         assert_eq!(value(&root, &["levels", "0", "height"]), Some(&Value::Integer(1)));
+    }
+
+    #[test]
+    fn a_material_drives_out_the_numbers_of_the_one_before() {
+        let layer = "[[layers]]\nthickness = 1\nname = \"a\"\nshear_ratio = 1\npoisson = 0.3\nyield_strength = 1\n";
+        let root = set(layer, "layers.0.material=TiN").unwrap();
+        for key in ["name", "shear_ratio", "poisson", "yield_strength"] {
+            assert_eq!(value(&root, &["layers", "0", key]), None, "{key}");
+        }
+        assert_eq!(value(&root, &["layers", "0", "thickness"]), Some(&Value::Integer(1)));
     }
 
     /// Faults are reported, not repaired.
