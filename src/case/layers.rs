@@ -21,8 +21,8 @@ const MATERIAL: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"")
     .rule("needs units.pressure; where both moduli are given it is a name alone")
     .fills(&["name", "young", "poisson", "yield_strength", "tensile_strength"]);
 const NAME: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its `material`, or its number");
-const YIELD: Key = Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("never reached");
-const TENSILE: Key = Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("never reached");
+const YIELD: Key = Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
+const TENSILE: Key = Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
 
 section! {
     /// One section of `[[layers]]`, from the surface down.

@@ -184,7 +184,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     for (number, text) in (1 + source.set.len()..).zip(overrides) {
         overrides::apply(text, number, &mut root, &CASE)?;
     }
-    materials::fill(&mut root, source)?;
+    materials::fill(&mut root, &CASE, source)?;
     let end = source.text.trim_end().len();
     let root = TableAt::root(&root, &CASE, Span::new(0, end..end));
     root.only()?;

@@ -101,10 +101,12 @@ fn is_decimal_comma(value: &str) -> bool {
     value.trim_start_matches(['-', '+']).split_once(',').is_some_and(|(whole, part)| digits(whole) && digits(part))
 }
 
-/// Whether a value that is not TOML is read as text: it begins like a word or a path and has no TOML punctuation.
+/// Whether a value that is not TOML is read as text: it begins like a word or a path and has no TOML punctuation, or is a word
+/// with digits at its beginning, such as 100Cr6.
 fn is_bare_word(value: &str) -> bool {
-    value.starts_with(|c: char| c.is_alphabetic() || "_./~\\".contains(c))
-        && !value.contains(['"', '[', '{', '\n', '='])
+    let begins = value.starts_with(|c: char| c.is_alphabetic() || "_./~\\".contains(c))
+        && !value.contains(['"', '[', '{', '\n', '=']);
+    begins || (value.contains(char::is_alphabetic) && value.chars().all(char::is_alphanumeric))
 }
 
 /// Sets a value inside a `table` that has these `keys`.
@@ -225,6 +227,13 @@ mod tests {
         assert_eq!(value(&root, &["layers", "0", "poisson"]), Some(&Value::Float(0.2)));
         let root = set(case, "grid.points=[64, 32]").unwrap();
         assert_eq!(value(&root, &["grid", "points", "1"]), Some(&Value::Integer(32)));
+    }
+
+    #[test]
+    fn a_bare_word_may_begin_with_digits() {
+        let root = set("", "substrate.material=100Cr6").unwrap();
+        assert_eq!(value(&root, &["substrate", "material"]), Some(&Value::Text("100Cr6".to_owned())));
+        assert!(set("", "substrate.young=1 a").is_err());
     }
 
     #[test]

@@ -219,7 +219,9 @@ impl Arguments {
             Command::Merge { saying, .. } => Some((None, saying.quiet)),
             Command::Report { quiet, .. } => Some((None, *quiet)),
             Command::Kernel { .. } | Command::Cases { .. } => Some((None, false)),
-            Command::Materials { .. } | Command::Explain { .. } | Command::Completions { .. } | Command::Man { .. } => None,
+            Command::Materials { .. } | Command::Explain { .. } | Command::Completions { .. } | Command::Man { .. } => {
+                None
+            }
         }
     }
 }

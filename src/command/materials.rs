@@ -24,14 +24,26 @@ pub fn run(name: Option<&str>, file: Option<&Path>) -> Result<Ending, Failure> {
 }
 
 fn listed<'a>(materials: impl Iterator<Item = &'a LibraryMaterial>) -> String {
-    let head = ["material", "kind", "Young's modulus", "Poisson", "hardness", "strength"];
-    let table = Table::new(&head, materials.map(row).collect(), 2);
-    format!(
-        "{}\n\nModuli with their range, hardness and strengths in GPa; ~ assumed. percoat materials NAME prints sources and what \
-         the numbers\ndepend on; material = \"NAME\" takes them into a layer or the substrate of a case.\n",
-        table.fitted(terminal::width())
-    )
+    let head = ["material", "Young's modulus", "Poisson", "hardness", "strength"];
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    let mut last = None;
+    for own in materials {
+        // A row of its own for each kind.
+        let kind = own.kind.as_deref().unwrap_or("other");
+        if last.replace(kind) != Some(kind) {
+            let blank = vec![String::new(); head.len()];
+            rows.extend((!rows.is_empty()).then(|| blank.clone()));
+            rows.push([&[kind.to_owned()], &blank[1..]].concat());
+        }
+        rows.push(row(own));
+    }
+    format!("{}\n\n{LEGEND}", Table::new(&head, rows, 1).fitted(terminal::width()))
 }
+
+const LEGEND: &str = "\
+GPa; moduli with their range, ~ assumed. percoat materials NAME prints sources
+and what the numbers depend on; material = \"NAME\" takes them into a case.
+";
 
 fn row(own: &LibraryMaterial) -> Vec<String> {
     let young = match own.young.range {
@@ -41,8 +53,7 @@ fn row(own: &LibraryMaterial) -> Vec<String> {
     let strengths = [("yield", &own.yield_strength), ("tensile", &own.tensile_strength)];
     let strengths = strengths.iter().filter_map(|(what, own)| Some(format!("{what} {}", value(own.as_ref()?))));
     vec![
-        own.name.clone(),
-        own.kind.clone().unwrap_or_default(),
+        format!("  {}", own.name),
         young,
         value(&own.poisson),
         own.hardness.as_ref().map_or_else(String::new, value),

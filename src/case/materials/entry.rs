@@ -126,6 +126,7 @@ impl LibraryMaterial {
     /// It as TOML, the form of a file of materials.
     pub fn to_toml(&self) -> String {
         let file = MaterialFile { material: vec![self.clone()] };
-        crate::plain::toml(&file).expect("numbers and texts under names")
+        let text = crate::plain::toml(&file).expect("numbers and texts under names");
+        format!("{}\n", text.trim_end())
     }
 }

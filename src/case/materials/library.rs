@@ -85,3 +85,73 @@ pub(super) fn read(source: &Source) -> Result<Vec<LibraryMaterial>, Refusal> {
     }
     Ok(all)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::entry::{Certainty, Property};
+    use super::*;
+    use crate::body::Material;
+
+    fn properties(own: &LibraryMaterial) -> Vec<(&'static str, &Property)> {
+        let strengths = [
+            ("hardness", &own.hardness),
+            ("yield_strength", &own.yield_strength),
+            ("tensile_strength", &own.tensile_strength),
+            ("ultimate_strength", &own.ultimate_strength),
+        ];
+        let given = strengths.into_iter().filter_map(|(key, property)| Some((key, property.as_ref()?)));
+        [("young", &own.young), ("poisson", &own.poisson)].into_iter().chain(given).collect()
+    }
+
+    #[test]
+    fn every_number_of_the_library_has_its_source_and_no_strength_is_assumed() {
+        assert!(library().len() >= 40);
+        for own in library() {
+            assert!(own.kind.is_some() && own.about.as_ref().is_some_and(|text| text.ends_with('.')), "{}", own.name);
+            for (key, property) in properties(own) {
+                let of = format!("{key} of {}", own.name);
+                assert!(property.source.is_some() && property.certainty.is_some(), "{of}");
+                let is_modulus = ["young", "poisson"].contains(&key);
+                assert!(is_modulus || property.certainty == Some(Certainty::Sourced), "{of}");
+                assert!(is_modulus == property.what.is_none() && (property.range.is_some() || !is_modulus), "{of}");
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_of_the_library_agree_with_each_other() {
+        for own in library() {
+            let young = own.young.value;
+            assert!(Material::from_young(young, own.poisson.value).is_ok() && (1e-3..1300.0).contains(&young));
+            let hardness = own.hardness.as_ref().map(|hardness| hardness.value);
+            assert!(hardness.is_none_or(|hardness| hardness < young / 6.0), "hardness of {}", own.name);
+            // Metals harden by strain, and a polymer yields at nearly half its hardness.
+            let yielding = own.yield_strength.as_ref().map(|own| own.value);
+            assert!(
+                yielding.zip(hardness).is_none_or(|(yielding, hardness)| yielding < 0.45 * hardness),
+                "{}",
+                own.name
+            );
+            let ultimate = own.ultimate_strength.as_ref().map(|own| own.value);
+            assert!(yielding.zip(ultimate).is_none_or(|(yielding, ultimate)| yielding <= ultimate), "{}", own.name);
+        }
+    }
+
+    #[test]
+    fn materials_are_sorted_by_kind() {
+        let mut kinds: Vec<_> = library().iter().map(|own| own.kind.as_deref()).collect();
+        kinds.dedup();
+        let mut distinct = kinds.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        assert_eq!(kinds.len(), distinct.len());
+    }
+
+    #[test]
+    fn a_printed_material_is_a_file_of_one() {
+        for own in library() {
+            let source = Source { text: own.to_toml(), ..Source::default() };
+            assert_eq!(source.read(&[], read).unwrap(), std::slice::from_ref(own));
+        }
+    }
+}
