@@ -302,7 +302,7 @@ mod tests {
     #[test]
     fn pressures_have_their_pascals() {
         for (name, expected) in
-            [("GPa", 1e9), ("mPa", 1e-3), ("N/mm²", 1e6), ("bar", 1e5), ("psi", 6894.757_293_168_361)]
+            [("GPa", 1e9), ("mPa", 1e-3), ("N/mm²", 1e6), ("bar", 1e5), ("psi", 6_894.757_293_168_361)]
         {
             assert!((pascals(name).unwrap() / expected - 1.0).abs() < 1e-12, "{name}");
         }

@@ -40,7 +40,7 @@ impl HalfSpace {
             Err(_) => half_space(&source).map_err(refused)?,
         };
         let mut sections = source.values.map_or_else(|| toml::from_str(&source.text), Ok).map_err(refused)?;
-        sections.retain(|key, _| ["layers", "substrate", "units", "materials"].contains(&&**key));
+        sections.retain(|key, _| ["layers", "substrate", "units", "materials"].contains(&key));
         Ok(Self { own, sections })
     }
 

@@ -263,7 +263,7 @@ mod tests {
         for (own, words) in [
             (
                 entry("young = \"a\"\npoisson = 0.3\n"),
-                &["own.toml:3:9", "`material[0].young` must be a number", "the text \"a\""][..],
+                &["own.toml:3:9", "`material[0].young` must be a finite number greater than 0", "the text \"a\""][..],
             ),
             (entry("young = 0\npoisson = 0.3\n"), &["own.toml:3:9", "not 0"]),
             (entry("young = 1\npoisson = 0.6\n"), &["own.toml:4:11", "between 0 and 0.5", "not 0.6"]),
