@@ -161,9 +161,35 @@ pub fn is_length(name: &str) -> bool {
 
 /// Whether a name is that of a pascal with a prefix, or of another pressure of engineers.
 pub fn is_pressure(name: &str) -> bool {
-    let others = ["hPa", "bar", "psi", "ksi", "Msi", "N/mm²", "N/mm2", "N/mm^2", "N/m²", "N/m2", "N/m^2", "atm"];
-    matches!(Unit::called(name, "Pa"), Unit::Si { .. }) || others.contains(&name)
+    pascals(name).is_some()
 }
+
+/// Pascals of a unit of pressure by its name; `None` for a name that is not known.
+pub fn pascals(name: &str) -> Option<f64> {
+    match Unit::called(name, "Pa") {
+        Unit::Si { exponent, .. } => Some(10f64.powi(exponent)),
+        _ => PRESSURES.iter().find(|(own, _)| *own == name).map(|(_, pascals)| *pascals),
+    }
+}
+
+/// Pressures of engineers beside the pascal, Pa.
+const PRESSURES: [(&str, f64); 12] = [
+    ("hPa", 1e2),
+    ("bar", 1e5),
+    ("psi", PSI),
+    ("ksi", 1e3 * PSI),
+    ("Msi", 1e6 * PSI),
+    ("N/mm²", 1e6),
+    ("N/mm2", 1e6),
+    ("N/mm^2", 1e6),
+    ("N/m²", 1.0),
+    ("N/m2", 1.0),
+    ("N/m^2", 1.0),
+    ("atm", 101_325.0),
+];
+
+/// A pound-force a square inch, Pa.
+const PSI: f64 = 4.448_221_615_260_5 / (0.0254 * 0.0254);
 
 /// Whether a name is that of a newton with a prefix.
 pub fn is_force(name: &str) -> bool {
@@ -306,6 +332,16 @@ mod tests {
         let told = [("µm", "GPa"), ("mm", "MPa"), ("m", "Pa"), ("in", "psi")].map(|(l, p)| energy(l, p));
         // GPa·µm³ = nJ, MPa·mm³ = mJ.
         assert_eq!(told.map(|text| text.replace('\u{a0}', " ")), ["2 nJ", "2 mJ", "2 J", "2 psi·in³"]);
+    }
+
+    #[test]
+    fn pressures_have_their_pascals() {
+        for (name, expected) in
+            [("GPa", 1e9), ("mPa", 1e-3), ("N/mm²", 1e6), ("bar", 1e5), ("psi", 6_894.757_293_168_361)]
+        {
+            assert!((pascals(name).unwrap() / expected - 1.0).abs() < 1e-12, "{name}");
+        }
+        assert!(["GPA", "mm", "N", ""].iter().all(|name| pascals(name).is_none()));
     }
 
     #[test]

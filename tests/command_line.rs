@@ -40,6 +40,8 @@ mod inspection;
 mod interruption;
 #[path = "command_line/limit.rs"]
 mod limit;
+#[path = "command_line/materials.rs"]
+mod materials;
 #[path = "command_line/mortal.rs"]
 mod mortal;
 #[path = "command_line/numpy.rs"]

@@ -16,7 +16,7 @@ points into the body, pressures are positive, stresses positive in tension.
 
 from __future__ import annotations
 
-from percoat._case import Check, case, cases, check, explain, schema
+from percoat._case import Check, case, cases, check, explain, materials, schema
 from percoat._compare import Comparison, compare
 from percoat._core import CaseError, Progress, __version__
 from percoat._half_space import HalfSpace, kernel
@@ -51,6 +51,7 @@ __all__ = [
     "explain",
     "kernel",
     "limit",
+    "materials",
     "mises",
     "principal",
     "s1",

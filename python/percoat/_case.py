@@ -104,6 +104,30 @@ def explain(key: Optional[str] = None) -> None:
     print(_core.explain(key), end="")
 
 
+def materials(file: Union[None, str, PathLike[str]] = None) -> dict[str, dict[str, Any]]:
+    """The library of materials by their names, those of a file of one's own before them; moduli and strengths in GPa.
+
+    Parameters
+    ----------
+    file
+        A file of ``[[material]]`` entries, as ``percoat materials NAME`` prints them.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> tin = percoat.materials()["TiN"]
+    >>> tin["young"]["value"], tin["young"]["range"], tin["young"]["certainty"]
+    (430.0, [300.0, 600.0], 'sourced')
+    >>> case = percoat.case("tin-on-steel", set={"layers.0.material": "CrN"})  # in its unit, Pa
+    >>> case["layers"][0]["young"]
+    375000000000.0
+    """
+    named: dict[str, dict[str, Any]] = {}
+    for own in _core.materials(file):
+        named.setdefault(own["name"], own)
+    return named
+
+
 def schema() -> dict[str, Any]:
     """The JSON schema of a case.
 

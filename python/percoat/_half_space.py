@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Optional, Sequence
+from os import PathLike, fspath
+from typing import Any, Mapping, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,6 +22,10 @@ class HalfSpace:
         Dicts with the keys of ``[[layers]]``, from the surface down; none: uncoated.
     substrate
         A dict with the keys of ``[substrate]``.
+    units
+        A dict with the keys of ``[units]``: where a ``material`` is given, ``{"pressure": "GPa"}`` or another unit.
+    materials
+        A file of one's own materials.
 
     Examples
     --------
@@ -36,11 +41,20 @@ class HalfSpace:
     """
 
     def __init__(
-        self, layers: Sequence[Mapping[str, Any]] = (), substrate: Optional[Mapping[str, Any]] = None
+        self,
+        layers: Sequence[Mapping[str, Any]] = (),
+        substrate: Optional[Mapping[str, Any]] = None,
+        *,
+        units: Optional[Mapping[str, Any]] = None,
+        materials: Union[None, str, PathLike[str]] = None,
     ) -> None:
         sections: dict[str, Any] = {"layers": list(layers)} if len(layers) > 0 else {}
         if substrate is not None:
             sections["substrate"] = substrate
+        if units is not None:
+            sections["units"] = units
+        if materials is not None:
+            sections["materials"] = fspath(materials)
         self._core = _core.HalfSpace(sections)
 
     @classmethod

@@ -17,7 +17,7 @@ use toml::Table;
 #[derive(Debug)]
 pub struct HalfSpace {
     own: percoat::HalfSpace,
-    /// The sections `layers` and `substrate` of a case.
+    /// The sections `layers`, `substrate`, `units` and `materials` of a case.
     sections: Table,
 }
 
@@ -31,7 +31,7 @@ fn checked(wavenumbers: &[f64]) -> PyResult<()> {
 
 #[pymethods]
 impl HalfSpace {
-    /// The half-space of a case, or of a dict with the sections `layers` and `substrate` alone.
+    /// The half-space of a case, or of a dict with the sections of a half-space alone.
     #[new]
     fn new(sections: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (source, _) = case::source(sections)?;
@@ -40,7 +40,7 @@ impl HalfSpace {
             Err(_) => half_space(&source).map_err(refused)?,
         };
         let mut sections = source.values.map_or_else(|| toml::from_str(&source.text), Ok).map_err(refused)?;
-        sections.retain(|key, _| ["layers", "substrate"].contains(&key));
+        sections.retain(|key, _| ["layers", "substrate", "units", "materials"].contains(&key));
         Ok(Self { own, sections })
     }
 

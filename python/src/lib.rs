@@ -10,6 +10,7 @@ mod errors;
 mod half_space;
 mod interior;
 mod limit;
+mod materials;
 mod progress;
 mod record;
 mod solve;
@@ -32,6 +33,8 @@ mod _core {
     use super::half_space::HalfSpace;
     #[pymodule_export]
     use super::limit::{limit, limit_text};
+    #[pymodule_export]
+    use super::materials::materials;
     #[pymodule_export]
     use super::progress::Progress;
     #[pymodule_export]

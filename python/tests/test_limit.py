@@ -117,8 +117,8 @@ def test_limits_of_what_has_not_converged_are_told() -> None:
 
 
 def test_limits_print_their_table(limits: percoat.Limits) -> None:
-    assert str(limits).startswith(limits.title) and "delamination of interface 2" in str(limits)
-    assert repr(limits).startswith(f"<percoat.Limits {limits.title!r}: yield of material 2 at 0.04")
+    assert str(limits).startswith(limits.title) and "delamination of chromium/steel" in str(limits)
+    assert repr(limits).startswith(f"<percoat.Limits {limits.title!r}: yield of chromium at 0.04")
 
 
 def test_names_of_materials_stand_in_the_place_of_their_numbers() -> None:

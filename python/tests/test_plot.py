@@ -228,7 +228,7 @@ def test_a_curve_has_error_bars_and_does_not_fall_by_less_than_its_errors() -> N
     result = percoat.solve("dlc-on-steel", set=settings)
     ax = plot.curve(result, "mean_pressure", "strength.utilisation")
     strengths = [step.strength for step in result]
-    assert ax.lines[0].get_label() == "yield of material 1" and len(ax.lines) == len(strengths[0])
+    assert ax.lines[0].get_label() == "yield of DLC" and len(ax.lines) == len(strengths[0])
     (bars,) = ax.containers[1][2]  # of the second criterion, yield of the chromium
     for (low, high), own in zip((bar[:, 1] for bar in bars.get_segments()), (step[1] for step in strengths)):
         assert (low, high) == (own.utilisation - own.error, own.utilisation + own.error)

@@ -3,7 +3,7 @@
 use super::error::Refusal;
 use super::grading::LAYERS;
 use super::keys::{Form, Key, Unit};
-use super::layers::{self, Body, LAYER, LayerSection, NAME, POISSON, SIZE, SubstrateSection, TENSILE, YIELD};
+use super::layers::{self, Body, LAYER, LayerSection, MATERIAL, NAME, POISSON, SIZE, SubstrateSection, TENSILE, YIELD};
 use super::reader::TableAt;
 use super::section::section;
 use crate::body::HalfSpace;
@@ -14,6 +14,8 @@ section! {
         ("shear_ratio", "`shear_ratio` relates a layer to its substrate, whose modulus is `young`"),
         ("radius", "the shape of the counterbody stands in [[levels]] or [surface]"),
     ] {
+        /// material of `percoat materials` or of the file `materials`, for moduli, strengths and name that are not given
+        pub material: Option<String> = MATERIAL,
         /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
         /// Young's modulus
@@ -37,6 +39,7 @@ impl CounterbodySection {
     /// Its material below the layers.
     pub fn substrate(&self) -> SubstrateSection {
         SubstrateSection {
+            material: self.material.clone(),
             name: self.name.clone(),
             young: self.young,
             poisson: self.poisson,

@@ -15,17 +15,25 @@ pub(super) struct Refusal {
     message: String,
     label: String,
     help: Option<String>,
+    /// Name and text of the file into which the span points, where it is none of the sources of the case.
+    file: Option<Box<[String; 2]>>,
 }
 
 impl Refusal {
     /// A refusal of the text at `span`; `message` names the key and the fault, `label` is shown at the excerpt.
     pub(super) fn new(span: Span, message: impl Into<String>, label: impl Into<String>) -> Self {
-        Self { span, message: message.into(), label: label.into(), help: None }
+        Self { span, message: message.into(), label: label.into(), help: None, file: None }
     }
 
     /// Adds advice.
     pub(super) fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
+        self
+    }
+
+    /// The refusal of the text of another file than the case.
+    pub(super) fn in_file(mut self, name: &str, text: &str) -> Self {
+        self.file = Some(Box::new([name.to_owned(), text.to_owned()]));
         self
     }
 
@@ -51,10 +59,11 @@ struct Excerpt {
 }
 
 impl CaseError {
-    /// The error of a refusal, with an excerpt of the text: of the file of this `name`, or of a `--set`. A span over several
-    /// lines is cut to its first one; control characters are escaped.
+    /// The error of a refusal, with an excerpt of the text: of the file of this `name`, or of a `--set`, unless the refusal has a
+    /// file of its own. A span over several lines is cut to its first one; control characters are escaped.
     pub(super) fn new(name: &str, text: &str, refusal: Refusal) -> Self {
-        let Refusal { span, message, label, help } = refusal;
+        let Refusal { span, message, label, help, file } = refusal;
+        let [name, text] = file.as_ref().map_or([name, text], |file| [&file[0], &file[1]]);
         let Span { start, end, .. } = span;
         let boundary = |at: usize| (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
         let start = boundary(start);
@@ -68,7 +77,7 @@ impl CaseError {
             name: plain::line(name).into_owned(),
             text: plain::lines(text).into_owned(),
             span: shown[0]..shown[1],
-            refusal: Refusal { span, message, label, help },
+            refusal: Refusal { span, message, label, help, file: None },
         }))
     }
 

@@ -1,14 +1,15 @@
-//! A half-space alone: layers and substrate without a case around them.
+//! A half-space alone: layers and substrate without a case around them, with what materials need.
 
 use super::Source;
 use super::error::{CaseError, Refusal};
 use super::layers;
+use super::materials;
 use super::model::CASE;
 use super::reader::TableAt;
 use super::span::Span;
 use crate::body::HalfSpace;
 
-/// Reads the sections `[[layers]]` and `[substrate]` in the form of a case.
+/// Reads the sections `[[layers]]` and `[substrate]` in the form of a case, which may have `[units]` and `materials` for them.
 ///
 /// # Errors
 /// [`CaseError`] as for a case, and for any other section.
@@ -16,14 +17,20 @@ pub fn half_space(source: &Source) -> Result<HalfSpace, CaseError> {
     source.read(&[], read)
 }
 
+/// Keys of a case that a half-space has.
+const KEYS: [&str; 4] = ["layers", "substrate", "units", "materials"];
+
 fn read(source: &Source) -> Result<HalfSpace, Refusal> {
-    let root = source.tree(&CASE)?;
+    let mut root = source.tree(&CASE)?;
+    materials::fill(&mut root, &CASE, source)?;
     let end = source.text.trim_end().len();
     let root = TableAt::root(&root, &CASE, Span::new(0, end..end));
     root.only()?;
-    if let Some(entry) = root.table.entries.iter().find(|entry| !["layers", "substrate"].contains(&&entry.key[..])) {
+    if let Some(entry) = root.table.entries.iter().find(|entry| !KEYS.contains(&&entry.key[..])) {
         let message = format!("`{}` has no place in a half-space", entry.key);
-        return Err(Refusal::new(entry.key_span, message, "not used here").help("allowed here: layers, substrate"));
+        return Err(
+            Refusal::new(entry.key_span, message, "not used here").help(format!("allowed here: {}", KEYS.join(", ")))
+        );
     }
     layers::read(&root).map(|body| body.half_space)
 }
@@ -46,6 +53,12 @@ mod tests {
         let alone = read(&toml::to_string(&sections.collect::<toml::Table>()).unwrap()).unwrap();
         assert_eq!(&alone, case.half_space());
         assert!(alone.layers().len() == 2);
+    }
+
+    #[test]
+    fn its_materials_may_be_those_of_the_library() {
+        let alone = read("[substrate]\nmaterial = \"TiN\"\n[units]\npressure = \"MPa\"\n").unwrap();
+        assert_eq!(alone.substrate().young(), 430e3);
     }
 
     #[test]

@@ -16,13 +16,22 @@ pub(super) const SIZE: Form = Form::Number(Range::Size);
 pub(super) const POISSON: Form = Form::Number(Range::between(0.0, 0.5));
 
 // Keys of layers, of the substrate and of the counterbody.
-pub(super) const NAME: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its number");
-pub(super) const YIELD: Key = Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("never reached");
-pub(super) const TENSILE: Key = Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("never reached");
+pub(super) const MATERIAL: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"")
+    .otherwise("none")
+    .rule("needs units.pressure; where both moduli are given it is a name alone")
+    .fills(&["name", "young", "poisson", "yield_strength", "tensile_strength"]);
+pub(super) const NAME: Key =
+    Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its `material`, or its number");
+pub(super) const YIELD: Key =
+    Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
+pub(super) const TENSILE: Key =
+    Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
 
 section! {
     /// One section of `[[layers]]`, from the surface down.
     pub struct LayerSection = LAYER, rules consistent {
+        /// material of `percoat materials` or of the file `materials`, for moduli, strengths and name that are not given
+        pub material: Option<String> = MATERIAL,
         /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
         /// the thickness of the layer
@@ -64,6 +73,8 @@ section! {
     pub struct SubstrateSection = SUBSTRATE, misplaced [
         ("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")
     ] {
+        /// material of `percoat materials` or of the file `materials`, for moduli, strengths and name that are not given
+        pub material: Option<String> = MATERIAL,
         /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
         /// Young's modulus

@@ -16,11 +16,17 @@ pub(super) fn distinct(names: &[Option<&str>]) -> Vec<Option<String>> {
 
 #[cfg(test)]
 mod tests {
-    use crate::case::{Case, embedded};
+    use crate::case::{Case, Source, embedded};
 
     fn case(settings: &[&str]) -> Case {
         let settings: Vec<String> = settings.iter().map(|&text| text.to_owned()).collect();
-        Case::read(&embedded::source("dlc-on-steel").unwrap(), &settings).unwrap_or_else(|error| panic!("{error}"))
+        Case::read(&nameless(), &settings).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn nameless() -> Source {
+        let source = embedded::source("dlc-on-steel").unwrap();
+        let lines = source.text.lines().filter(|line| !line.starts_with("name = "));
+        Source { text: lines.collect::<Vec<_>>().join("\n"), ..source }
     }
 
     fn named(settings: &[&str]) -> Vec<String> {
@@ -56,7 +62,7 @@ mod tests {
     fn a_name_is_written_and_read_again_and_no_blank_one_is_admitted() {
         let own = case(&["layers.0.name=TiN", "layers.1.name=TiN"]);
         assert_eq!(own.to_toml().matches("name = \"TiN\"").count(), 2);
-        let source = embedded::source("dlc-on-steel").unwrap();
+        let source = nameless();
         for name in ["\"\"", "\" \"", "\" TiN\"", "\"a\\tb\"", "7", &format!("\"{}\"", "m".repeat(41))] {
             let error = Case::read(&source, &[format!("substrate.name={name}")]).unwrap_err();
             assert!(error.message().starts_with("`substrate.name` must be a name of 1 to 40 characters"), "{error}");

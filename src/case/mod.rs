@@ -5,7 +5,7 @@
 //!
 //! One file a section: lattice, levels, surface, layers (with the substrate, `interface` and `grading`), elastic counterbody, load, grid, solver,
 //! friction, units, stress, localized; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
-//! makes of them the texts of `percoat explain` and the schema. A document is parsed to a tree (`node`), changed by `overrides`,
+//! makes of them the texts of `percoat explain` and the schema; `materials` is the library. A document is parsed to a tree (`node`), changed by `overrides`,
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
 //!
 //! ```
@@ -33,6 +33,7 @@ mod load;
 mod localized;
 mod lookup;
 mod material_names;
+mod materials;
 mod model;
 mod named_pipes;
 mod node;
@@ -68,6 +69,9 @@ pub use levels::{LevelSection, ShapeKind};
 pub use load::{LoadSection, Steps};
 pub use localized::LocalizedSection;
 pub use lookup::{NoCase, find};
+pub use materials::{
+    Certainty, LibraryMaterial, MaterialsError, Property, UnknownMaterial, library, materials_of_file,
+};
 pub use model::Case;
 pub use named_pipes::Pipes;
 pub use source::Source;

@@ -13,6 +13,7 @@ use super::layers::{self, Body, LAYER, SUBSTRATE};
 use super::levels::LEVELS;
 use super::load::LOAD;
 use super::localized::LOCALIZED;
+use super::materials;
 use super::overrides;
 use super::reader::TableAt;
 use super::section::{KeyValue, section};
@@ -54,6 +55,9 @@ section! { whole
         /// one period of any topography
         pub surface: Option<SurfaceSection> =
             Key::new(&[Form::Table(&SURFACE)], "{ heights = \"surface.npy\", period = 10.0 }").instead_of("levels"),
+        /// a file of one's own materials, which come before those of `percoat materials`
+        pub materials: Option<String> =
+            Key::new(&[Form::Text("the path of a file")], "\"own.toml\"").otherwise("those of `percoat materials`"),
         /// the coating, one section `[[layers]]` a layer from the surface down
         pub layers: Vec<LayerSection> =
             Key::new(&[Form::Sections(&LAYER, LAYERS)], "[{ thickness = 0.5, shear_ratio = 2.0, poisson = 0.2 }]")
@@ -190,6 +194,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     for (number, text) in (1 + source.set.len()..).zip(overrides) {
         overrides::apply(text, number, &mut root, &CASE)?;
     }
+    materials::fill(&mut root, &CASE, source)?;
     let end = source.text.trim_end().len();
     let root = TableAt::root(&root, &CASE, Span::new(0, end..end));
     root.only()?;
@@ -227,6 +232,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     }
     Ok(Case {
         title,
+        materials: materials::path(&root, source)?,
         lattice,
         grid: sampling,
         solver: settings,

@@ -101,10 +101,12 @@ fn is_decimal_comma(value: &str) -> bool {
     value.trim_start_matches(['-', '+']).split_once(',').is_some_and(|(whole, part)| digits(whole) && digits(part))
 }
 
-/// Whether a value that is not TOML is read as text: it begins like a word or a path and has no TOML punctuation.
+/// Whether a value that is not TOML is read as text: it begins like a word or a path and has no TOML punctuation, or is a word
+/// with digits at its beginning, such as 100Cr6.
 fn is_bare_word(value: &str) -> bool {
-    value.starts_with(|c: char| c.is_alphabetic() || "_./~\\".contains(c))
-        && !value.contains(['"', '[', '{', '\n', '='])
+    let begins = value.starts_with(|c: char| c.is_alphabetic() || "_./~\\".contains(c))
+        && !value.contains(['"', '[', '{', '\n', '=']);
+    begins || (value.contains(char::is_alphabetic) && value.chars().all(char::is_alphanumeric))
 }
 
 /// Sets a value inside a `table` that has these `keys`.
@@ -136,7 +138,7 @@ fn set_in_table(
             Node { value: Value::Table(created), span: step.span }
         }
     };
-    keys.excluded(&step.name).into_iter().for_each(|other| table.remove(other));
+    keys.replaced(&step.name).into_iter().for_each(|other| table.remove(other));
     table.insert(Entry { key: step.name.clone(), key_span: step.span, node: next });
     Ok(())
 }
@@ -228,6 +230,13 @@ mod tests {
     }
 
     #[test]
+    fn a_bare_word_may_begin_with_digits() {
+        let root = set("", "substrate.material=100Cr6").unwrap();
+        assert_eq!(value(&root, &["substrate", "material"]), Some(&Value::Text("100Cr6".to_owned())));
+        assert!(set("", "substrate.young=1 a").is_err());
+    }
+
+    #[test]
     fn a_bare_word_is_text_and_the_rest_is_toml() {
         for (text, expected) in [
             ("solver.method=polonsky-keer", "polonsky-keer"),
@@ -255,6 +264,16 @@ mod tests {
         let root = set("[[levels]]\ncoefficient = 1\nexponent = 3\nheight = 1\n", "levels.0.slope=0.1").unwrap();
         assert_eq!(value(&root, &["levels", "0", "exponent"]), None);
         assert_eq!(value(&root, &["levels", "0", "height"]), Some(&Value::Integer(1)));
+    }
+
+    #[test]
+    fn a_material_drives_out_the_numbers_of_the_one_before() {
+        let layer = "[[layers]]\nthickness = 1\nname = \"a\"\nshear_ratio = 1\npoisson = 0.3\nyield_strength = 1\n";
+        let root = set(layer, "layers.0.material=TiN").unwrap();
+        for key in ["name", "shear_ratio", "poisson", "yield_strength"] {
+            assert_eq!(value(&root, &["layers", "0", key]), None, "{key}");
+        }
+        assert_eq!(value(&root, &["layers", "0", "thickness"]), Some(&Value::Integer(1)));
     }
 
     /// Faults are reported, not repaired.

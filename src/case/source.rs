@@ -57,6 +57,12 @@ impl Source {
         Self::of("standard input".to_owned(), PathBuf::new(), io::stdin().lock())
     }
 
+    /// The text of another file of the case, by its name there.
+    pub(super) fn text_of(&self, name: &str) -> io::Result<Self> {
+        let shown = self.path(name).map_or_else(|| name.to_owned(), |path| plain::path(&path));
+        Self::of(shown, PathBuf::new(), self.open(name)?.0)
+    }
+
     fn is_in_memory(&self, name: &str) -> bool {
         self.files.contains_key(name) || self.arrays.contains_key(name)
     }

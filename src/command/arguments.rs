@@ -144,6 +144,15 @@ pub enum Command {
         #[command(flatten)]
         changes: Changes,
     },
+    /// List the library of materials, or print one with ranges and sources
+    #[command(after_help = help::MATERIALS)]
+    Materials {
+        /// Name of the material to print as TOML
+        name: Option<String>,
+        /// A file of one's own materials, which come before those of the library
+        #[arg(long, value_name = "FILE")]
+        file: Option<PathBuf>,
+    },
     /// Explain the keys of a case: type, unit, range, default and an example (without KEY: the sections)
     #[command(after_help = help::EXPLAIN)]
     Explain {
@@ -210,7 +219,9 @@ impl Arguments {
             Command::Merge { saying, .. } => Some((None, saying.quiet)),
             Command::Report { quiet, .. } => Some((None, *quiet)),
             Command::Kernel { .. } | Command::Cases { .. } => Some((None, false)),
-            Command::Explain { .. } | Command::Completions { .. } | Command::Man { .. } => None,
+            Command::Materials { .. } | Command::Explain { .. } | Command::Completions { .. } | Command::Man { .. } => {
+                None
+            }
         }
     }
 }

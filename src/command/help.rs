@@ -71,6 +71,14 @@ help!(
     "cases fig5 --set grid.points=256"
 );
 help!(
+    MATERIALS,
+    "0 done; 2 refused; 4 output failed",
+    "materials",
+    "materials \"DLC a-C:H\"" => "moduli, hardness, strengths, their ranges and sources",
+    "materials TiN > own.toml" => "an entry to change; then materials = \"own.toml\" in a case",
+    "materials --file own.toml"
+);
+help!(
     EXPLAIN,
     "0 done; 2 refused; 4 output failed",
     "explain",

@@ -12,6 +12,7 @@ mod interruption;
 mod kernel;
 mod limit;
 mod manual;
+mod materials;
 mod merge;
 mod options;
 mod pictures;
@@ -72,6 +73,7 @@ fn carry_out(command: &Command) -> Result<Ending, Failure> {
         }
         Command::Check { case, output, changes, .. } => check::run(case, output.as_deref(), &changes.set),
         Command::Cases { name, changes } => cases::run(name.as_deref(), &changes.set),
+        Command::Materials { name, file } => materials::run(name.as_deref(), file.as_deref()),
         Command::Explain { schema: true, .. } => explain::schema(),
         Command::Explain { key, .. } => explain::run(key.as_deref()),
         #[cfg(feature = "validate")]

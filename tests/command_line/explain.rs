@@ -19,7 +19,7 @@ fn a_key_is_told_with_type_range_unit_default_and_an_example_that_runs() {
     let desk = Desk::new();
     let told = |key: &str| desk.percoat(&["explain", key]).out;
     let poisson = told("layers.poisson");
-    for line in ["type      number", "range     0 to 0.5", "unit      none", "it or graded must be given"] {
+    for line in ["type      number", "range     0 to 0.5", "unit      none", "it, graded or material must be given"] {
         assert!(poisson.contains(line), "{line} does not stand in\n{poisson}");
     }
     let set = poisson.split("--set ").nth(1).unwrap().trim();

@@ -34,7 +34,7 @@ fn without_a_case_a_coating_in_service_is_answered_with_what_fails_first() {
     }
     let steps = limits["steps"].as_array().unwrap().len();
     assert_eq!(fs::read_to_string(desk.path("out/limit.csv")).unwrap().lines().count(), steps + 1);
-    for words in ["first: yield of material 2 at the mean pressure", "delamination of interface 1", "loads solved"] {
+    for words in ["first: yield of chromium at the mean pressure", "delamination of DLC/chromium", "loads solved"] {
         assert!(out.contains(words), "\"{words}\" does not stand in\n{out}");
     }
     assert!(out.lines().all(|line| line.chars().count() <= 80), "wider than a terminal:\n{out}");
@@ -47,7 +47,7 @@ fn a_solved_case_with_strengths_says_what_governs() {
     let answer = desk.percoat(&["solve", "dlc-on-steel", "-o", "out", "--no-pictures", "--set", "grid.points=96"]);
     assert_eq!(answer.code, 0, "{}", answer.err);
     assert!(
-        answer.out.contains("\nfirst: yield of material 2 between p̄ = 0.020000\u{a0}GPa and 0.050397\u{a0}GPa\n"),
+        answer.out.contains("\nfirst: yield of chromium between p̄ = 0.020000\u{a0}GPa and 0.050397\u{a0}GPa\n"),
         "{}",
         answer.out
     );

@@ -34,6 +34,8 @@ pub(in crate::case) struct Key {
     pub(in crate::case) instead_of: Option<&'static str>,
     /// Further keys that it excludes.
     pub(in crate::case) and_of: &'static [&'static str],
+    /// Keys of its table that it gives where they are absent; an override with it removes those of the case.
+    pub(in crate::case) fills: &'static [&'static str],
     pub(in crate::case) written: Written,
 }
 
@@ -112,6 +114,7 @@ impl Key {
             kinds: &[],
             instead_of: None,
             and_of: &[],
+            fills: &[],
             written: Written::WhereGiven,
         }
     }
@@ -154,6 +157,10 @@ impl Key {
 
     pub(in crate::case) const fn and_of(self, others: &'static [&'static str]) -> Self {
         Self { and_of: others, ..self }
+    }
+
+    pub(in crate::case) const fn fills(self, others: &'static [&'static str]) -> Self {
+        Self { fills: others, ..self }
     }
 
     /// Keys of its table, or of each table of its list; empty for other values.
@@ -207,7 +214,14 @@ impl Keys {
         self.all.iter().filter(|other| key.excludes(other)).map(|other| other.name).collect()
     }
 
-    /// Alternatives to the key `name`; without any of them it is required.
+    /// Keys that an override with the key `name` removes: those that it excludes, those that it fills, and what these exclude.
+    pub(in crate::case) fn replaced(&self, name: &str) -> Vec<&'static str> {
+        let fills = self.get(name).map_or(&[][..], |key| key.fills);
+        let filled = fills.iter().flat_map(|other| std::iter::once(*other).chain(self.excluded(other)));
+        self.excluded(name).into_iter().chain(filled).collect()
+    }
+
+    /// Alternatives to the key `name`, the one that fills it included; without any of them it is required.
     pub(in crate::case) fn instead(&self, name: &str) -> Vec<&'static str> {
         let root = |mut key: &'static Key| {
             while let Some(other) = key.instead_of.and_then(|other| self.get(other)) {
@@ -218,7 +232,10 @@ impl Keys {
         let Some(key) = self.get(name).filter(|key| key.kinds.is_empty()) else { return Vec::new() };
         let is = |other: &&Key| other.excludes(key);
         let stands = |other: &&'static Key| root(other) == root(key) || other.and_of.contains(&key.name);
-        self.all.iter().filter(is).filter(stands).map(|other| other.name).collect()
+        let mut names: Vec<&'static str> = self.all.iter().filter(is).filter(stands).map(|other| other.name).collect();
+        let fills = |other: &&Key| other.fills.iter().any(|own| *own == name || names.contains(own));
+        names.extend(self.all.iter().filter(fills).map(|other| other.name).collect::<Vec<_>>());
+        names
     }
 
     /// The required keys, of alternatives the first; all keys where none is required.

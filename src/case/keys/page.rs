@@ -80,7 +80,10 @@ impl Explanation {
         match &self.default {
             Some(default) => default.clone(),
             None if !self.kinds.is_empty() || self.instead.is_empty() => "none, it must be given".to_owned(),
-            None => format!("none, it or {} must be given", joined(&self.instead, "or")),
+            None => {
+                let names = [&["it".to_owned()], &self.instead[..]].concat();
+                format!("none, {} must be given", joined(&names, "or"))
+            }
         }
     }
 

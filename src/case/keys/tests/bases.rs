@@ -39,6 +39,8 @@ impl Bases {
         let values: Vec<u8> = (0..64u32).flat_map(|k| f64::from(k * k % 7).to_le_bytes()).collect();
         let npy = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &values].concat();
         std::fs::write(folder.path().join("surface.npy"), npy).unwrap();
+        let own = "[[material]]\nname = \"own\"\nyoung = 210.0\npoisson = 0.3\n";
+        std::fs::write(folder.path().join("own.toml"), own).unwrap();
         let linear = RICH.replace("\"log\"", "\"linear\"");
         let plain =
             "lattice = { kind = \"hexagonal\", period = 1.0 }\nlevels = [{ shape = \"paraboloid\", radius = 1.0 }]\n";
