@@ -45,10 +45,21 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
         format!("period = 1, random = {{ {random}, rms_height = 0.1 }}"),
     ]
     .map(|own| surface(&own));
+    // The layers of the rich case on its counterbody, and graded ones.
+    let above = |layers: &str| {
+        let mut case: toml::Table = RICH.parse().unwrap();
+        let mut own: toml::Table = case["substrate"].as_table().unwrap().clone();
+        own.insert("layers".to_owned(), layers.parse::<toml::Table>().unwrap()["layers"].clone());
+        case.insert("counterbody".to_owned(), toml::Value::Table(own));
+        toml::to_string(&case).unwrap()
+    };
+    let bodies = [above(RICH), above(&graded)];
+    let isolated = "lattice = { kind = \"isolated\", size = 2 }\nlevels = [{ shape = \"sphere\", radius = 1 }]\n\
+                    substrate = { young = 1, poisson = 0.3 }\nload = { force = { from = 1, to = 2, steps = 2, spacing = \"log\" } }\n";
     let mut found = BTreeSet::new();
-    for text in
-        embedded::all().iter().map(|(_, text)| *text).chain([RICH, &other]).chain(surfaces.iter().map(String::as_str))
-    {
+    let texts = [RICH, &other, isolated];
+    let texts = texts.into_iter().chain(surfaces.iter().chain(&bodies).map(String::as_str));
+    for text in embedded::all().iter().map(|(_, text)| *text).chain(texts) {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };
         Case::read(&source, &[]).unwrap_or_else(|error| panic!("{error}"));
         collect(&node::Value::Table(node::Table::parse(text).unwrap()), "", &mut found);

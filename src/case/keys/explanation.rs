@@ -63,8 +63,13 @@ pub fn explain(path: &str) -> Result<Vec<Explanation>, UnknownKey> {
     let parts = parts(path);
     let all = all();
     let ends = |whole: &str| whole.split('.').collect::<Vec<_>>().ends_with(&parts);
-    let found: Vec<_> =
-        all.iter().filter(|at| !parts.is_empty() && ends(&at.path)).map(PlacedKey::explanation).collect();
+    // A whole path names one key, a part of it every key whose path ends so.
+    let whole = parts.join(".");
+    let is_whole = |at: &&PlacedKey| at.path == whole;
+    let is_meant = |at: &&PlacedKey| {
+        if all.iter().any(|at| is_whole(&at)) { is_whole(at) } else { !parts.is_empty() && ends(&at.path) }
+    };
+    let found: Vec<_> = all.iter().filter(is_meant).map(PlacedKey::explanation).collect();
     if found.is_empty() { Err(unknown(path, &parts, &all)) } else { Ok(found) }
 }
 
@@ -146,7 +151,10 @@ impl PlacedKey {
 
     /// Lines of a case with the key.
     fn example(&self) -> String {
-        let Some((section, rest)) = self.path.split_once('.') else { return self.key.example_lines() };
+        if !self.path.contains('.') {
+            return self.key.example_lines();
+        }
+        let (section, rest) = self.section();
         let brackets = |name: &str| match is_list(section) {
             true => format!("[[{name}]]"),
             false => format!("[{name}]"),
@@ -155,19 +163,36 @@ impl PlacedKey {
             let own = self.key.example_lines();
             return own.replacen(&format!("[{}]", self.key.name), &format!("[{}]", self.path), 1);
         }
+        if let [Form::Sections(..)] = self.key.forms {
+            return self.key.example_lines().replacen(
+                &format!("[[{}]]", self.key.name),
+                &format!("[[{}]]", self.path),
+                1,
+            );
+        }
         let kind = self.key.kinds.first().map(|kind| format!("{} = \"{kind}\"\n", self.table.all[0].name));
         format!("{}\n{}{rest} = {}", brackets(section), kind.unwrap_or_default(), self.key.example)
     }
 
+    /// The path of the innermost section around the key that can stand in brackets, a list if there is one, and the rest.
+    fn section(&self) -> (&str, &str) {
+        let dots: Vec<usize> = self.path.match_indices('.').map(|(at, _)| at).collect();
+        let list = dots.iter().rev().find(|&&at| is_list(&self.path[..at]));
+        let at = *list.or(dots.first()).unwrap_or(&self.path.len());
+        (&self.path[..at], self.path.get(at + 1..).unwrap_or(""))
+    }
+
     /// `layers.0.poisson=0.25`, as a shell takes it.
     fn set(&self) -> Option<String> {
-        let (section, rest) = match self.path.split_once('.') {
-            Some((section, rest)) => (section, rest),
-            None if self.key.holds().all.is_empty() => (&self.path[..], ""),
-            None => return None,
-        };
-        let item = if is_list(section) { ".0" } else { "" };
-        let key = format!("{section}{item}.{rest}").trim_end_matches('.').to_owned();
+        if !self.path.contains('.') && !self.key.holds().all.is_empty() {
+            return None;
+        }
+        let mut key = String::new();
+        for name in self.path.split('.') {
+            let is_item = is_list(key.trim_start_matches('.').replace(".0", "").as_str());
+            key += &format!("{}.{name}", if is_item { ".0" } else { "" });
+        }
+        let key = key.trim_start_matches('.').to_owned();
         let example = self.key.example;
         let bare = example.trim_matches('"');
         let is_plain = |text: &str| text.chars().all(|c| c.is_ascii_alphanumeric() || "._-+".contains(c));
@@ -175,7 +200,9 @@ impl PlacedKey {
     }
 }
 
-/// Whether a section of the case may be repeated.
-fn is_list(section: &str) -> bool {
-    CASE.get(section).is_some_and(|key| matches!(key.forms, [Form::Sections(..)]))
+/// Whether the section at a path may be repeated.
+fn is_list(path: &str) -> bool {
+    let (within, name) = path.rsplit_once('.').unwrap_or(("", path));
+    let keys = within.split('.').filter(|part| !part.is_empty()).fold(&CASE, |keys, part| keys.within(part));
+    keys.get(name).is_some_and(|key| matches!(key.forms, [Form::Sections(..)]))
 }

@@ -47,15 +47,35 @@ impl Bases {
         let layer = |own: &str| format!("layers = [{{ thickness = 1.0, {own} }}]\n");
         let graded = layer("graded = { shear_ratio = [2, 1], poisson = [0.2, 0.3], sublayers = 5 }");
         let uniform = layer("shear_ratio = 2.0, poisson = 0.2");
+        let window =
+            "lattice = { kind = \"isolated\", size = 2.0 }\nlevels = [{ shape = \"paraboloid\", radius = 1.0 }]\n";
+        // The counterbody has the layers of the rich case, and a graded one.
+        let rich: Table = linear.parse().unwrap();
+        let above = |layers: Value| {
+            let mut own: Table =
+                "young = 2e11\npoisson = 0.3\nyield_strength = 1e9\ntensile_strength = 2e9\nname = \"ball\"\n"
+                    .parse()
+                    .unwrap();
+            own.insert("layers".to_owned(), layers);
+            let mut case = rich.clone();
+            case.insert("counterbody".to_owned(), Value::Table(own));
+            toml::to_string(&case).unwrap()
+        };
+        let elastic = above(rich["layers"].clone());
+        let graded_above = above(graded.parse::<Table>().unwrap()["layers"].clone());
         let spectrum = "hurst = 0.5, shortest = 0.3, longest = 1.0, rolloff = 0.6, rms_slope = 0.2";
         let texts = [
             format!("{plain}{BODY}{uniform}friction = {{ coefficient = 0.1 }}\n"),
             linear.clone(),
             linear.replace("mean_pressure =", "penetration ="),
+            linear.replace("mean_pressure =", "force ="),
             format!("{plain}{BODY}{graded}"),
             format!("surface = {{ heights = \"surface.npy\", period = 20.0 }}\n{BODY}"),
             format!("surface = {{ heights = \"surface.npy\", pixel = 0.5 }}\n{BODY}"),
             format!("surface = {{ period = 1.0, random = {{ {spectrum} }} }}\n{BODY}"),
+            elastic,
+            graded_above,
+            format!("{window}{}", BODY.replace("mean_pressure", "force")),
             BODY.to_owned(),
         ];
         Self { folder, cases: texts.iter().map(|text| text.parse().unwrap()).collect() }

@@ -20,13 +20,18 @@ fn is(key: &Key) -> String {
     }
 }
 
-/// One row a key; those of a range are listed under the first key that admits one.
+/// One row a key; those of a range are listed under the first key that admits one, those of a layer under `layers`.
 fn rows(keys: &Keys, path: &str) -> String {
+    let is_of_case = |key: &Key| CASE.all.iter().any(|own| std::ptr::eq(own.holds(), key.holds()));
     let names = |key: &Key| key.holds().all.iter().map(|key| key.name).collect::<Vec<_>>();
     let row = |(index, key): (usize, &Key)| {
         let name = format!("{path}{}", key.name);
         let told = keys.all[..index].iter().any(|before| !names(key).is_empty() && names(before) == names(key));
-        let inside = if told { String::new() } else { rows(key.holds(), &format!("{name}.")) };
+        let inside = if told || is_of_case(key) && !key.holds().all.is_empty() {
+            String::new()
+        } else {
+            rows(key.holds(), &format!("{name}."))
+        };
         format!("| `{name}` | {} | {} | {} |\n{inside}", is(key), key.value(), default(keys, key))
     };
     keys.all.iter().enumerate().map(row).collect()
@@ -57,7 +62,7 @@ fn the_readme_has_this_table() {
 fn a_key_is_at_home_in_every_table_that_has_it() {
     assert_eq!(CASE.homes("tolerance"), ["solver"]);
     assert_eq!(CASE.homes("points"), ["grid", "stress", "stress.volume"]);
-    assert_eq!(CASE.homes("normal_stiffness"), ["layers.interface"]);
+    assert_eq!(CASE.homes("normal_stiffness"), ["layers.interface", "counterbody.layers.interface"]);
     assert!(CASE.homes("colour").is_empty());
 }
 
@@ -66,7 +71,7 @@ fn sizes_of_one_shape_exclude_those_of_the_others() {
     let [levels, lattice, localized] = ["levels", "lattice", "localized"].map(|name| CASE.within(name));
     assert_eq!(levels.excluded("slope"), ["radius", "coefficient", "exponent"]);
     assert_eq!(levels.excluded("exponent"), ["radius", "slope"]);
-    assert_eq!(lattice.excluded("period"), ["a1", "a2"]);
+    assert_eq!(lattice.excluded("period"), ["a1", "a2", "size"]);
     assert_eq!((CASE.excluded("levels"), CASE.excluded("surface")), (vec!["surface"], vec!["levels"]));
     assert!(levels.excluded("height").is_empty() && localized.excluded("radius").is_empty());
 }
@@ -81,7 +86,9 @@ fn a_key_is_found_by_its_path_or_its_name_and_a_slip_is_told() {
     assert_eq!(paths("volume.points").unwrap(), ["stress.volume.points"]);
     let near = |path: &str| paths(path).unwrap_err().near;
     assert_eq!(near("layers.thicknes"), ["layers.thickness"]);
-    assert_eq!(near("poison"), ["layers.poisson", "layers.graded.poisson", "substrate.poisson"]);
+    let places = ["layers.poisson", "layers.graded.poisson", "substrate.poisson", "counterbody.poisson"];
+    let above = ["counterbody.layers.poisson", "counterbody.layers.graded.poisson"];
+    assert_eq!(near("poison"), [&places[..], &above].concat());
     assert_eq!(near("solver.acuracy"), ["grid.accuracy"]);
     assert_eq!(near("sovler.tolerance"), ["solver.tolerance"]);
     assert_eq!(near("sovler"), ["solver"]);
