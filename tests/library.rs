@@ -11,6 +11,8 @@ mod energy;
 mod first_touch;
 #[path = "library/invariance.rs"]
 mod invariance;
+#[path = "library/isolated.rs"]
+mod isolated;
 #[path = "library/largest_stresses.rs"]
 mod largest_stresses;
 #[path = "library/limit_paths.rs"]

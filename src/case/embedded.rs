@@ -5,7 +5,8 @@ use super::Source;
 /// Name of the case that runs when none is given.
 pub const DEFAULT: &str = "fig2";
 
-const CASES: [(&str, &str); 13] = [
+const CASES: [(&str, &str); 14] = [
+    ("ball-on-disc", include_str!("../../cases/ball-on-disc.toml")),
     ("dlc-on-steel", include_str!("../../cases/dlc-on-steel.toml")),
     ("fig2", include_str!("../../cases/fig2.toml")),
     ("fig3a", include_str!("../../cases/fig3a.toml")),

@@ -3,6 +3,7 @@
 mod assumed;
 mod by_step;
 mod comparison;
+mod hertz;
 mod largest;
 mod strength;
 mod text;
@@ -44,6 +45,7 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     let mut text = heading(case);
     text += &format!("\n{}\n\n{}\n", self::steps(steps, &units).fitted(width), solved(steps));
     text += &spots(steps).map_or(String::new(), |spots| format!("{spots}\n"));
+    text += &hertz::beside(case, steps, &units).unwrap_or_default();
     let largest = largest_stresses(steps, &units);
     if let Some(largest) = &largest {
         text += &format!("\n{}\n\n", largest.fitted(width));

@@ -1,0 +1,64 @@
+//! Hertz beside an isolated contact: what the layers change.
+
+use super::percent;
+use crate::case::Case;
+use crate::counterbody::Shape;
+use crate::output::number::number;
+use crate::reading::Reading;
+use crate::run::StepRecord;
+use crate::units::Units;
+use std::f64::consts::PI;
+
+/// The contact of a ball with bare bodies.
+struct Hertz {
+    radius: f64,
+    peak: f64,
+    approach: f64,
+}
+
+impl Hertz {
+    /// Under a `force`, of a ball of this radius on bodies with the contact modulus E*.
+    fn new(force: f64, ball: f64, modulus: f64) -> Self {
+        let radius = (0.75 * force * ball / modulus).cbrt();
+        Self { radius, peak: 1.5 * force / (PI * radius * radius), approach: radius * radius / ball }
+    }
+}
+
+/// What a ball does to the bare substrates under the force of the last step with contact, and by how much the layers change it, in
+/// two lines; `None` unless one ball is in isolated contact with bodies that have layers.
+pub(super) fn beside(case: &Case, steps: &[StepRecord], units: &Units) -> Option<String> {
+    let problem = case.problem();
+    let [level] = problem.counterbody().levels() else { return None };
+    let (Shape::Paraboloid { radius: ball } | Shape::Sphere { radius: ball }) = level.shape() else { return None };
+    let sites: usize = problem.counterbody().indenters()?.lattice().sites().iter().map(Vec::len).sum();
+    if !problem.cell().is_isolated() || sites != 1 {
+        return None;
+    }
+    let step = steps.iter().rev().find(|step| step.reading.touches() && step.converged())?;
+    let Reading { force, penetration, .. } = step.reading;
+    let hertz = Hertz::new(force, ball, problem.bodies().substrate_modulus());
+    let [load, peak, radius, approach] = [
+        units.force().with_unit(force, number),
+        units.pressure().with_unit(hertz.peak, number),
+        units.length().with_unit(hertz.radius, number),
+        units.length().with_unit(hertz.approach, number),
+    ];
+    let own = step.reading.levels.first()?;
+    let change = |of: &str, found: Option<f64>, bare: f64| {
+        Some(format!("{of} by {}{}", if found? > bare { "+" } else { "" }, percent(found? / bare - 1.0)))
+    };
+    let changes: Vec<String> = [
+        change("the peak pressure", own.finite_peak(), hertz.peak),
+        change("the contact radius", own.contact_radius, hertz.radius),
+        change("the penetration", Some(penetration), hertz.approach),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    let what = if problem.bodies().is_bare() { "here they differ in" } else { "the layers change" };
+    Some(format!(
+        "Hertz, bare substrates, {load}: peak pressure {peak}, contact radius {radius}, penetration {approach};\n\
+         {what} {}\n",
+        changes.join(", ")
+    ))
+}

@@ -1,0 +1,154 @@
+//! One contact in free space, by the whole solver: closed forms, windows, stresses.
+
+use percoat::spectral::Stop;
+use percoat::{
+    Bodies, Cell, Depth, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, MeanStress,
+    Problem, Settings, Shape, Solver, Step, StressField,
+};
+use std::f64::consts::PI;
+
+const NU: f64 = 0.3;
+
+fn material(young: f64, poisson: f64) -> Material {
+    Material::from_young(young, poisson).unwrap()
+}
+
+fn bare() -> HalfSpace {
+    HalfSpace::new(vec![], material(1.0, NU))
+}
+
+/// The paraboloid r²/2 over the middle of a window.
+fn problem(bodies: impl Into<Bodies>, window: f64) -> Problem {
+    let lattice = Lattice::new(Cell::window([window; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+    let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+    Problem::new(Indenters::new(lattice, vec![level]).unwrap(), bodies)
+}
+
+fn solved(problem: Problem, points: usize, load: Load) -> Step {
+    let settings = Settings { tolerance: 1e-10, ..Settings::default() };
+    let step = Solver::new(problem, [points; 2], settings).unwrap().solve(load);
+    assert!(step.report.stop.solved(), "{}", step.report);
+    step
+}
+
+/// REACH §1: a, P, δ, p₀ on five bodies, by an axisymmetric integral equation with the composite compliance.
+fn anchors() -> Vec<(Bodies, [f64; 4])> {
+    let layer = |(h, young, nu): (f64, f64, f64)| Layer::new(material(young, nu), h, Interface::Bonded).unwrap();
+    let on =
+        |layers: &[(f64, f64, f64)]| HalfSpace::new(layers.iter().map(|own| layer(*own)).collect(), material(1.0, NU));
+    let hard = || on(&[(0.3, 3.0, 0.22)]);
+    vec![
+        (bare().into(), [1.0, 1.465201465, 1.0, 0.699582167]),
+        (hard().into(), [0.6, 0.5482060482, 0.4691976347, 0.6269412241]),
+        (on(&[(0.2, 4.0, 0.25), (0.1, 0.5, 0.45)]).into(), [0.5, 0.3025023174, 0.3222496694, 0.4465318074]),
+        (on(&[(0.25, 0.3, 0.45)]).into(), [0.8, 0.5073880235, 0.5157036901, 0.4367572404]),
+        (
+            Bodies::elastic(hard(), HalfSpace::new(vec![], material(1.4, 0.27))),
+            [0.6, 0.2416299715, 0.4075877403, 0.3043501295],
+        ),
+    ]
+}
+
+/// 128 samples over 2.7 radii: the discretisation leaves 3e-5 of p₀ and of δ (second order, as the periodic mode); the radius is
+/// read between the samples.
+#[test]
+fn a_ball_on_coated_bodies_has_its_anchors() {
+    for (bodies, [a, force, delta, p0]) in anchors() {
+        for load in [Load::Force(force), Load::Penetration(delta)] {
+            let step = solved(problem(bodies.clone(), 2.7 * a), 128, load);
+            let reading = step.reading();
+            let radius = reading.levels[0].contact_radius.unwrap();
+            let found = [radius, reading.force, reading.penetration, reading.max_pressure];
+            for (k, (found, known)) in found.into_iter().zip([a, force, delta, p0]).enumerate() {
+                assert!((found / known - 1.0).abs() < 2e-4, "{k} of {a}, {load}: {found}, {known}");
+            }
+            assert!(reading.mean_pressure.is_nan() && reading.contact_fraction.is_nan());
+            assert!((reading.contact_area / (PI * a * a) - 1.0).abs() < 5e-4);
+            assert!(reading.errors.penetration.unwrap() < 1e-3 * delta && reading.errors.mean_pressure.is_none());
+        }
+    }
+}
+
+/// At equal spacing nothing depends on the window: neither the contact nor the stresses, here of a coating under friction.
+#[test]
+fn nothing_depends_on_the_window() {
+    let (bodies, [_, force, ..]) = anchors().remove(1);
+    let step = |points: usize| {
+        let problem = problem(bodies.clone(), 0.025 * points as f64);
+        let problem = problem.sliding(Friction::new(0.4, [1.0, 0.0]).unwrap()).unwrap();
+        let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+        Solver::new(problem, [points; 2], settings).unwrap().solve(Load::Force(force))
+    };
+    let [small, large] = [64, 96].map(step);
+    assert!((small.penetration() / large.penetration() - 1.0).abs() < 1e-10);
+    let peak = large.pressure().iter().copied().fold(0.0, f64::max);
+    for ((i, j), p) in small.pressure().indexed_iter() {
+        let other = large.pressure()[[i + 16, j + 16]];
+        assert!((p - other).abs() < 1e-8 * peak, "{i}, {j}: {p}, {other}");
+    }
+    let [one, two] = [&small, &large].map(|step| StressField::new(step.finest(), MeanStress::Confined));
+    for (z, material) in [(0.0, 1), (0.1, 1), (0.3, 1), (0.3, 2), (0.7, 2), (2.5, 2), (9.0, 2)] {
+        for place in [[0.0, 0.0], [0.45, 0.1], [-0.3, 0.66]] {
+            let at = |field: &StressField| field.points(Depth { z, material }, &[place])[0].components();
+            let (one, two) = (at(&one), at(&two));
+            for k in 0..6 {
+                assert!((one[k] - two[k]).abs() < 2e-6 * peak, "{k} at {place:?}, {z}: {one:?}, {two:?}");
+            }
+        }
+    }
+}
+
+/// On the axis of a Hertz contact (Johnson 1985, Eq. 3.45), with ζ = z/a:
+/// σ_r = −p₀[(1+ν)(1 − ζ atan(1/ζ)) − ½/(1+ζ²)], σ_z = −p₀/(1+ζ²).
+#[test]
+fn the_axis_below_a_hertz_contact_has_its_closed_form() {
+    let (bodies, [a, force, _, p0]) = anchors().remove(0);
+    let step = solved(problem(bodies, 2.5), 160, Load::Force(force));
+    let field = StressField::new(step.finest(), MeanStress::HalfSpace);
+    for zeta in [0.1f64, 0.3, 0.48, 1.0, 2.0, 4.0, 8.0, 30.0] {
+        let state = field.points(Depth { z: zeta * a, material: 1 }, &[[0.0, 0.0]])[0];
+        let radial = -p0 * ((1.0 + NU) * (1.0 - zeta * (1.0 / zeta).atan()) - 0.5 / (1.0 + zeta * zeta));
+        let axial = -p0 / (1.0 + zeta * zeta);
+        for (found, known) in [(state.xx, radial), (state.yy, radial), (state.zz, axial)] {
+            assert!((found - known).abs() < 1e-4 * p0, "{zeta}: {found}, {known}");
+        }
+        // u_z on the axis: (1+ν)/E p₀ a [(1−2ν... )] is not needed: far below it falls like that of a point force.
+        if zeta == 30.0 {
+            let point = force * (1.0 + NU) * (2.0 * (1.0 - NU) + 1.0) / (2.0 * PI * zeta * a);
+            assert!((state.displacement[2] / point - 1.0).abs() < 2e-3, "{}, {point}", state.displacement[2]);
+        }
+    }
+    // Outside the contact on the surface σ_r = −σ_θ = (1 − 2ν) p₀ a²/(3r²).
+    let plane = field.plane(Depth { z: 1e-3, material: 1 }, [160; 2]);
+    assert_eq!(plane.points(), [160; 2]);
+    let (i, j) = (80 + 74, 80);
+    let r = 74.0 * 2.5 / 160.0;
+    let known = (1.0 - 2.0 * NU) * p0 / (3.0 * r * r);
+    let state = plane.state([i, j]);
+    assert!((state.yy + known).abs() < 5e-3 * p0 && (state.xx - known).abs() < 5e-3 * p0, "{state:?}, {known}");
+}
+
+#[test]
+fn contact_at_the_border_of_its_window_is_not_a_solution() {
+    let step = Solver::new(problem(bare(), 1.9), [48; 2], Settings::default()).unwrap().solve(Load::Force(1.465));
+    assert_eq!(step.report.stop, Stop::AtBorder);
+}
+
+/// Two balls in one window, far from each other: each has half of the force, and the other one presses it down by P(1−ν²)/(πE s).
+#[test]
+fn two_indenters_share_a_window() {
+    let cell = Cell::window([2.4, 1.0]).unwrap();
+    let lattice = Lattice::new(cell, vec![vec![[0.2, 0.5], [0.8, 0.5]]]).unwrap();
+    let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+    let pair = Problem::new(Indenters::new(lattice, vec![level]).unwrap(), bare());
+    let settings = Settings::default();
+    let a = 0.2f64;
+    let force = 4.0 / 3.0 * a.powi(3) / (1.0 - NU * NU);
+    let step = Solver::new(pair, [192, 80], settings).unwrap().solve(Load::Force(2.0 * force));
+    let reading = step.reading();
+    let apart = 0.6 * 2.4;
+    let known = a * a + force * (1.0 - NU * NU) / (PI * apart);
+    // The other contact is 0.28 radii wide beside their distance: its field is uniform to (a/s)²/5 of it.
+    assert!((reading.penetration / known - 1.0).abs() < 2e-3, "{} {known}", reading.penetration);
+    assert!((reading.levels[0].load / force - 1.0).abs() < 1e-9);
+}
