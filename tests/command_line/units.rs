@@ -58,7 +58,7 @@ fn the_tables_of_check_have_units() {
         "area 1.0392e-9 m²",
         "level 1: sphere, radius 80.000 µm, drop 0.0000 m",
         "level 2: sphere, radius 80.000 µm, drop 100.00 nm",
-        "layer 1: thickness 3.0000 µm",
+        "layer 1 (TiN): thickness 3.0000 µm",
         "E 450.00 GPa",
         "spacing 67.658 nm",
         "load: mean_pressure 50.000 MPa … 1.0000 GPa, 10 steps",
