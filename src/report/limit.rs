@@ -5,7 +5,7 @@ use super::answer::doubts;
 use super::certificate::certificate;
 use super::figures::{PictureText, figures};
 use super::markup::{numbers, tag, with};
-use super::part::{Part, by, case_text, case_to_copy, mean_of, section, warnings};
+use super::part::{Part, assumed, by, case_text, case_to_copy, section, warnings};
 use super::problem::problem;
 use super::resolution::{resolution, upper};
 use super::results::Results;
@@ -48,8 +48,7 @@ pub(super) fn part(results: &Results, file: &LimitFile) -> Result<Part, ReportEr
                     numbers(&first(&limits, &units).unwrap_or_else(|| upper(&found.words))),
                 ),
                 table("Limit loads; ± is the estimated error of the grid", &found.table),
-                tag("p", upper(tables::mean_stress(mean_of(case)))),
-                tag("p", upper(tables::RIGID)),
+                assumed(case, true),
             ],
         ),
         section("problem", "Problem", vec![problem(case), tag("p", measured_in(&units))]),

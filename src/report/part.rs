@@ -1,7 +1,9 @@
 //! A part of the page: one result in its sections, and the sections that every result has.
 
 use super::markup::{Markup, tag, with};
+use super::resolution::upper;
 use crate::body::MeanStress;
+use crate::output::table::Assumptions;
 use serde_json::Value;
 
 /// A result on the page.
@@ -66,7 +68,14 @@ pub(super) fn by(version: &str) -> Markup {
     tag("p", format!("Computed by percoat {version}."))
 }
 
-/// The mean lateral stress of a case; the default where the case has none.
-pub(super) fn mean_of(case: &Value) -> MeanStress {
-    if case["stress"]["mean"] == "half-space" { MeanStress::HalfSpace } else { MeanStress::default() }
+/// What a case assumes, with the default mean lateral stress where it gives none.
+fn assumptions(case: &Value) -> Assumptions {
+    let mean = if case["stress"]["mean"] == "half-space" { MeanStress::HalfSpace } else { MeanStress::default() };
+    let isolated = case["lattice"]["kind"] == "isolated";
+    Assumptions { mean, isolated, elastic: !case["counterbody"].is_null() }
+}
+
+/// What largest stresses, or with them strengths, of a case assume, a paragraph each.
+pub(super) fn assumed(case: &Value, with_strength: bool) -> Markup {
+    assumptions(case).sentences(with_strength).into_iter().map(|own| tag("p", upper(own))).collect()
 }

@@ -5,7 +5,7 @@ use super::answer::{answer, doubts};
 use super::certificate::certificate;
 use super::figures::{PictureText, figures};
 use super::markup::{tag, with};
-use super::part::{Part, by, case_text, case_to_copy, mean_of, section, warnings};
+use super::part::{Part, assumed, by, case_text, case_to_copy, section, warnings};
 use super::problem::problem;
 use super::resolution::{resolution, upper};
 use super::results::Results;
@@ -57,7 +57,6 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
     let units = units_of(&summary.units, read.as_ref());
     let taken = tables::utilisations(steps, read.as_ref().map(|case| case.problem().bodies()), &units);
     let fails = taken.as_ref().map(|taken| with("p", &[("class", "answer")], upper(&taken.words)));
-    let mean = tables::mean_stress(mean_of(case));
     let mut sections = vec![
         section("answer", "Answer", vec![doubts(steps), fails.unwrap_or_default(), answer(steps, &units)]),
         section("problem", "Problem", vec![problem(case), tag("p", measured_in(&units))]),
@@ -72,16 +71,12 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         sections.push(section(
             "stresses",
             "Largest stresses",
-            vec![table("Largest stresses and their places", &largest), tag("p", upper(mean))],
+            vec![table("Largest stresses and their places", &largest), assumed(case, false)],
         ));
     }
     if let Some(taken) = &taken {
         let caption = "Utilisations: 1 is where the material or interface fails";
-        sections.push(section(
-            "strengths",
-            "Strengths",
-            vec![table(caption, &taken.table), tag("p", upper(mean)), tag("p", upper(tables::RIGID))],
-        ));
+        sections.push(section("strengths", "Strengths", vec![table(caption, &taken.table), assumed(case, true)]));
     }
     sections.push(section("warnings", "Warnings", vec![warnings(&summary.warnings)]));
     sections.push(section("resolution", "Resolution", vec![resolution(steps, summary.accuracy)]));

@@ -5,6 +5,7 @@
 //! the next coarser one, carried over, so that nothing unchanged by a step is interpolated twice. The baseline method
 //! works on the finest grid alone, as published.
 
+use super::free_space::FreeSpaceOperator;
 use super::grid_level::{Coarser, GridLevel};
 use super::iteration::{Method, Progress, Report, Settings, Stop, Unknowns, Working};
 use super::{FieldError, Step};
@@ -227,12 +228,19 @@ impl Memory {
     /// Per sample of each grid: pressure, gap, initial gap and its owner, the multiplier (half the components). Per row
     /// and column of each grid: the plans of its transforms. In turn, per sample of the finest grid: three fields of single
     /// precision and a spectrum in double precision; for the baseline two fields in double precision and the spectrum.
-    /// Coupled friction adds a second multiplier.
-    pub fn of(points: [usize; 2], method: Method, coupled: bool) -> Self {
-        let (grid, rows) = (3 * 8 + 4 + 4 + 4 * usize::from(coupled), 512);
+    /// Coupled friction adds a second multiplier. An isolated contact has the transforms of its kernel, a spectrum twice as wide,
+    /// and three tables while the kernel is made.
+    pub fn of(points: [usize; 2], method: Method, coupled: bool, isolated: bool) -> Self {
+        let multipliers = if isolated {
+            FreeSpaceOperator::bytes_per_sample(points, coupled).ceil() as usize
+        } else {
+            4 + 4 * usize::from(coupled)
+        };
+        let (grid, rows) = (3 * 8 + 4 + multipliers, 512);
+        let spectrum = if isolated { 3 * 8 } else { 8 };
         let working = match method {
-            Method::Preconditioned => 3 * 4 + 8,
-            Method::PolonskyKeer => 3 * 8,
+            Method::Preconditioned => 3 * 4 + spectrum,
+            Method::PolonskyKeer => 2 * 8 + spectrum,
         };
         let of_grid = |[n1, n2]: [usize; 2]| n1 * n2 * grid + (n1 + n2) * rows;
         let kept = nested_points(points, method).into_iter().map(of_grid).sum();

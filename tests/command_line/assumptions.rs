@@ -54,7 +54,7 @@ fn the_mean_stress_that_was_used_stands_beside_stresses_and_limits() {
 #[test]
 fn rigid_indenters_are_said_where_strengths_and_limits_are_and_nowhere_else() {
     let desk = Desk::new();
-    let said = ["the indenters are rigid", "R → 2R", "1 + E*₁/E*₂"];
+    let said = ["the indenters are rigid", "[counterbody]"];
     for (folder, arguments, is_said) in [
         ("strong", &["solve", "dlc-on-steel"][..], true),
         ("limit", &["limit", "dlc-on-steel"], true),

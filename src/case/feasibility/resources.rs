@@ -106,7 +106,7 @@ pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let samples = points[0] as u64 * points[1] as u64;
     let heights = of_heights(case, samples);
     let coupled = case.problem().friction().is_some_and(Friction::couples);
-    let Memory { kept, working } = Memory::of(points, case.solver.method, coupled);
+    let Memory { kept, working } = Memory::of(points, case.solver.method, coupled, is_isolated(case));
     // The baseline takes more memory, but less than reading a step.
     let (grids, working) = (kept as u64, working as u64);
     let needs = match job {
@@ -125,18 +125,32 @@ fn of_heights(case: &Case, samples: u64) -> u64 {
     8 * samples + resampled
 }
 
+/// Whether the case is one of an isolated contact.
+fn is_isolated(case: &Case) -> bool {
+    case.problem().cell().is_isolated()
+}
+
+/// Samples of the series of stresses: those around an isolated contact are on a grid twice as wide.
+fn of_series(case: &Case, samples: u64) -> u64 {
+    if is_isolated(case) { 4 * samples } else { samples }
+}
+
 fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool, fields: bool) -> Needs {
+    let series = of_series(case, samples);
     let steps = case.load.values().len() as u64;
     let bodies = case.problem().bodies();
     let (stress, written, volume) = case.stress.as_ref().map_or((0, 0, 0), |stress| {
-        let each = bodies.each().map(|half_space| of_stress(stress, half_space, samples));
+        let each = bodies.each().map(|half_space| {
+            let (_, written, volume) = of_stress(stress, half_space, samples);
+            (of_stress(stress, half_space, series).0, written, volume)
+        });
         each.fold((0, 0, 0), |(a, b, c), (x, y, z)| (a + x, b + y, c + z))
     });
     let elastic = bodies.each().count() as u64;
     // Strengths need the largest stresses, also where the case has no [stress].
-    let stress = if Criterion::all(bodies).is_empty() { stress } else { stress.max(elastic * STRESS * samples) };
-    let again = if stress > 0 && steps > 1 { elastic * AGAIN * samples } else { 0 };
-    let stress = if stress > 0 { stress + again + of_shells(case, samples) } else { 0 };
+    let stress = if Criterion::all(bodies).is_empty() { stress } else { stress.max(elastic * STRESS * series) };
+    let again = if stress > 0 && steps > 1 { elastic * AGAIN * series } else { 0 };
+    let stress = if stress > 0 { stress + again + of_shells(case, series) } else { 0 };
     let drawn = if pictures { of_pictures(case) } else { 0 };
     let drawing = PROGRAM + KEPT * samples + heights + drawn;
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
@@ -162,8 +176,9 @@ fn of_keeping(case: &Case, samples: u64, grids: [u64; 3]) -> Needs {
 fn of_limits(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool) -> Needs {
     let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
     let elastic = case.problem().bodies().each().count() as u64;
-    let own = elastic * (STRESS * samples + STATE * (SECTION[0] * SECTION[1]) as u64);
-    let stress = own + SEARCH * samples + of_shells(case, samples);
+    let series = of_series(case, samples);
+    let own = elastic * (STRESS * series + STATE * (SECTION[0] * SECTION[1]) as u64);
+    let stress = own + SEARCH * series + of_shells(case, series);
     let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
     let disk = COMPARISON + if pictures { 2 * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
@@ -200,7 +215,8 @@ fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u
 /// Amplitudes inside the body, kept from load to load, and coefficients of a stress field where few waves have the same
 /// wavenumber: on cells without the symmetry of a square or a hexagon.
 fn of_shells(case: &Case, samples: u64) -> u64 {
-    let (slides, area) = (case.problem().friction().is_some(), case.problem().cell().area());
+    let (slides, cell) = (case.problem().friction().is_some(), case.problem().cell());
+    let area = if is_isolated(case) { 4.0 } else { 1.0 } * cell.area();
     let of_body = |half_space: &HalfSpace, together: f64| {
         // On the grid, and on the coarser one of the error estimate; a wave and its conjugate count once.
         let of_grid = |samples: u64| {

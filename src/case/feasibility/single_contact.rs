@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_PI_2;
 /// Warnings about steep flanks at the highest load and few samples at the lowest. `touches` are the mean pressures of first touch
 /// of the levels, where known.
 pub fn foreseen(case: &Case, touches: &[Option<f64>]) -> Vec<String> {
-    steep_flank(case).into_iter().chain(few_samples(case, touches)).collect()
+    steep_flank(case).into_iter().chain(few_samples(case, touches)).chain(narrow_window(case)).collect()
 }
 
 /// A flank that is steep at the highest load; cones are not checked.
@@ -32,6 +32,31 @@ fn steep_flank(case: &Case) -> Option<String> {
     let (number, shape, radius) =
         estimates.find(|&(_, shape, radius): &(usize, Shape, f64)| shape.slope(radius) > STEEP)?;
     Some(flank("by the formulas of a single contact", number, shape, radius))
+}
+
+/// An isolated contact that will hardly have room in its window at the highest load.
+fn narrow_window(case: &Case) -> Option<String> {
+    let indenters = case.counterbody().indenters()?;
+    let [[width, _], [_, height]] = indenters.lattice().cell().vectors();
+    let sites: usize = indenters.lattice().sites().iter().map(Vec::len).sum();
+    if !indenters.lattice().cell().is_isolated() || sites != 1 {
+        return None;
+    }
+    let (c, n) = power_law(indenters.levels()[0].shape());
+    let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let radius = match &case.load.force {
+        Some(_) => radius(highest(case.load.values()), softer_modulus(case.problem().bodies()), (c, n)),
+        None => (highest(case.load.values()) / (kappa(n) * c)).powf(1.0 / n),
+    };
+    (2.0 * radius > 0.9 * width.min(height)).then(|| {
+        format!(
+            "by the formulas of a single contact the contact will be about {} wide, and lattice.size is {}: contact must stay \
+             inside the window; enlarge lattice.size to {}",
+            number(2.0 * radius),
+            number(width.min(height)),
+            number(2.6 * radius)
+        )
+    })
 }
 
 /// Few samples along the contact radius of the highest level at the lowest load, which the levels that touch carry.
@@ -88,6 +113,11 @@ fn radius(force: f64, modulus: f64, (c, n): (f64, f64)) -> f64 {
 /// The larger E* of surfaces and substrates, with which the radius is the smaller one.
 fn stiffer_modulus(bodies: &Bodies) -> f64 {
     bodies.substrate_modulus().max(bodies.contact_modulus())
+}
+
+/// The smaller E* of surfaces and substrates, with which the radius is the larger one.
+fn softer_modulus(bodies: &Bodies) -> f64 {
+    bodies.substrate_modulus().min(bodies.contact_modulus())
 }
 
 /// κ_n = √π Γ(n/2+1)/Γ((n+1)/2) = n ∫₀^{π/2} sinⁿ⁻¹θ dθ = ∫ (sin θ/θ)ⁿ⁻¹ dt over t = θⁿ, to a thousandth.

@@ -1,9 +1,10 @@
 //! Assumptions of largest stresses and limit loads, in sentences below their tables.
 
 use crate::body::MeanStress;
+use crate::case::Case;
 
 /// The mean lateral stress in the largest stresses and limit loads, in a sentence.
-pub fn mean_stress(mean: MeanStress) -> &'static str {
+fn mean_stress(mean: MeanStress) -> &'static str {
     match mean {
         MeanStress::HalfSpace => {
             "stresses with stress.mean = \"half-space\": lateral stress under p̄ as in the centre of a wide loaded disc"
@@ -12,22 +13,44 @@ pub fn mean_stress(mean: MeanStress) -> &'static str {
     }
 }
 
-/// The indenters are rigid in utilisations and limit loads, and the way to treat elastic ones.
-///
-/// With 1/E\* = 1/E\*₁ + 1/E\*₂ the gap of two bare bodies is that of the body alone under heights times E\*/E\*₁: the same pressure,
-/// and the body's own part of the penetration.
-pub const RIGID: &str = "the indenters are rigid: elastic ones press less sharply, fail in their own ways, and lead to other limits. For a bare body \
-     (E*₁) under bare elastic indenters (E*₂), E* = E/(1 − ν²), divide all heights, also slopes and coefficients, by \
-     1 + E*₁/E*₂ and multiply radii by it (like bodies: R → 2R, half the heights): pressures, spots and stresses without friction \
-     are then those of the pair, the penetration is the body's part of it; under a coating this is only near to it";
+/// What a counterbody without moduli means for utilisations and limit loads.
+const RIGID: &str = "the indenters are rigid: elastic ones press less sharply, fail in their own ways, and lead to other \
+                     limits; a section [counterbody] with `young` and `poisson`, or `material`, makes them elastic";
 
-/// The mean lateral stress, and beside strengths the assumption of rigid indenters, in lines of at most `width` letters.
-pub(super) fn assumed(mean: MeanStress, with_strength: bool, width: usize) -> String {
-    let mut lines = wrapped(mean_stress(mean), width);
-    if with_strength {
-        lines.extend(wrapped(RIGID, width));
+/// What largest stresses and limit loads of a case assume.
+#[derive(Debug, Clone, Copy)]
+pub struct Assumptions {
+    /// The mean lateral stress; of no effect on an isolated contact.
+    pub mean: MeanStress,
+    /// Whether contact is isolated.
+    pub isolated: bool,
+    /// Whether the counterbody is elastic.
+    pub elastic: bool,
+}
+
+impl Assumptions {
+    /// Those of a case.
+    pub fn of(case: &Case) -> Self {
+        let problem = case.problem();
+        Self {
+            mean: case.mean_stress(),
+            isolated: problem.cell().is_isolated(),
+            elastic: problem.bodies().counterbody().is_some(),
+        }
     }
-    lines.into_iter().map(|line| line + "\n").collect()
+
+    /// A sentence for each that matters; `with_strength`: beside strengths.
+    pub fn sentences(self, with_strength: bool) -> Vec<&'static str> {
+        let mean = (!self.isolated).then(|| mean_stress(self.mean));
+        let rigid = (with_strength && !self.elastic).then_some(RIGID);
+        mean.into_iter().chain(rigid).collect()
+    }
+
+    /// The sentences in lines of at most `width` letters.
+    pub(super) fn lines(self, with_strength: bool, width: usize) -> String {
+        let sentences = self.sentences(with_strength);
+        sentences.into_iter().flat_map(|own| wrapped(own, width)).map(|line| line + "\n").collect()
+    }
 }
 
 /// A sentence in lines of at most so many letters, broken at blanks.

@@ -8,8 +8,7 @@ mod largest;
 mod strength;
 mod text;
 
-use assumed::assumed;
-pub use assumed::{RIGID, mean_stress};
+pub use assumed::Assumptions;
 pub use comparison::{differences, readings, stresses};
 pub use largest::largest_stresses;
 pub use strength::{limits, utilisations};
@@ -58,7 +57,7 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
         text += &format!("{errors}\n");
     }
     if largest.is_some() || strength.is_some() {
-        text += &assumed(case.mean_stress(), strength.is_some(), width);
+        text += &Assumptions::of(case).lines(strength.is_some(), width);
     }
     if let Some(change) = change {
         text += &format!("change from the next coarser grid: {change:.1e}\n");
@@ -80,7 +79,7 @@ pub fn limited(case: &Case, found: &Limits, width: usize) -> String {
         text.push('\n');
     }
     text += &format!("{}\n\n", limits(found, &case.units()).fitted(width));
-    text += &assumed(case.mean_stress(), true, width);
+    text += &Assumptions::of(case).lines(true, width);
     if let Some(change) = found.change {
         text += &format!("change from the next coarser grid: {change:.1e}\n");
     }
@@ -96,7 +95,7 @@ pub fn compared(case: &Case, comparison: &Comparison, width: usize) -> String {
     }
     let readings = readings(comparison, &units).fitted(width);
     text += &format!("\n{readings}\n\n{}\n\n", differences(comparison).fitted(width));
-    let mean = assumed(case.mean_stress(), false, width);
+    let mean = Assumptions::of(case).lines(false, width);
     text + &stresses(comparison, &units).map_or(String::new(), |stresses| format!("{stresses}\n{mean}"))
 }
 
