@@ -36,6 +36,7 @@ impl From<&HalfSpace> for Bodies {
 }
 
 impl From<&Self> for Bodies {
+    /// A copy.
     fn from(bodies: &Self) -> Self {
         bodies.clone()
     }

@@ -5,8 +5,10 @@ use super::grading::LAYERS;
 use super::keys::{Form, Key, Unit};
 use super::layers::{self, Body, LAYER, LayerSection, MATERIAL, NAME, POISSON, SIZE, SubstrateSection, TENSILE, YIELD};
 use super::reader::TableAt;
-use super::section::section;
+use super::section::{KeyValue, section};
+use super::value::ValueAt;
 use crate::body::HalfSpace;
+use serde::Serialize;
 
 section! {
     /// The section `[counterbody]`.
@@ -27,11 +29,30 @@ section! {
         /// tensile strength, compared with the largest principal stress
         pub tensile_strength: Option<f64> = TENSILE,
         /// its coating, one section `[[counterbody.layers]]` a layer from its surface inward, with the keys of `[[layers]]`
-        pub layers: Vec<LayerSection> =
+        pub layers: Coating =
             Key::new(&[Form::Sections(&LAYER, LAYERS)], "[{ thickness = 0.5, young = 300.0, poisson = 0.25 }]")
                 .otherwise("uncoated")
                 .rule("sublayers of graded layers count among the 200")
                 .omitted_as_nothing(),
+    }
+}
+
+/// The layers of a counterbody, from its surface inward.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Coating(pub Vec<LayerSection>);
+
+impl KeyValue for Coating {
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        Err(value.refuse_form())
+    }
+
+    fn of(table: &TableAt<'_>, key: &str) -> Result<Self, Refusal> {
+        table.sections(key)?.iter().map(LayerSection::read_table).collect::<Result<_, _>>().map(Self)
+    }
+
+    fn is_nothing(&self) -> bool {
+        self.0.is_empty()
     }
 }
 
@@ -50,7 +71,7 @@ impl CounterbodySection {
 
     /// It with twice the sublayers in graded layers; `None` without graded layers.
     pub fn refined(&self) -> Option<HalfSpace> {
-        layers::refined(&self.layers, &self.substrate())
+        layers::refined(&self.layers.0, &self.substrate())
     }
 }
 
@@ -58,6 +79,6 @@ impl CounterbodySection {
 pub(super) fn read<'a>(section: &TableAt<'a>) -> Result<(CounterbodySection, Body<'a>), Refusal> {
     let own = CounterbodySection::read_table(section)?;
     let sections = section.sections("layers")?;
-    let body = layers::build_body(own.layers.clone(), sections, own.substrate(), section)?;
+    let body = layers::build_body(own.layers.0.clone(), sections, own.substrate(), section)?;
     Ok((own, body))
 }

@@ -43,7 +43,13 @@ impl Recorder for Searching<'_> {
 
     fn step(&mut self, _step: &Step, record: &StepRecord, _fields: Option<&StressFields>) -> Result<(), Infallible> {
         let words = record.governing_in_words(with_error).unwrap_or("no contact".to_owned());
-        let words = format!("mean pressure {}: {words}", number(record.reading.mean_pressure));
+        let reading = &record.reading;
+        let load = if reading.mean_pressure.is_nan() {
+            format!("force {}", number(reading.force))
+        } else {
+            format!("mean pressure {}", number(reading.mean_pressure))
+        };
+        let words = format!("{load}: {words}");
         self.progress.tell(&words);
         self.progress.say(words);
         Ok(())

@@ -80,7 +80,14 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
     let timing = clock.timing();
     write_scalars(&results.staging(), &case, &outcome, &warnings, timing)?;
     let json = || Summary::new(&case, &warnings, outcome.change, &outcome.steps, timing).to_json();
-    let tables = || table::outcome(&case, &outcome.steps, outcome.change, terminal::width());
+    let beside = || {
+        let reading = &outcome.steps.last()?.reading;
+        table::alone(&case, reading, &crate::run::alone(case.problem(), reading)?)
+    };
+    let tables = || {
+        let text = table::outcome(&case, &outcome.steps, outcome.change, terminal::width());
+        text + &beside().unwrap_or_default()
+    };
     let line = || format!("{:.2} s ({})", clock.seconds(), table::timing(&timing));
     results.finish(json, tables, line, &warnings)?;
     Ok(Ending::of(outcome.converged()))

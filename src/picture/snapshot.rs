@@ -84,8 +84,10 @@ impl Snapshot {
 pub fn caption(title: &str, problem: &Problem, units: &Units, more: &[String]) -> String {
     let title = title.trim_end_matches('.');
     let title = if title.is_empty() { String::new() } else { format!("{title}. ") };
+    let above = problem.bodies().counterbody().map(|own| format!("counterbody {}", materials(own, units)));
     let parts = [materials(problem.half_space(), units)]
         .into_iter()
+        .chain(above)
         .chain(geometry(problem.counterbody(), units))
         .chain(problem.friction().map(sliding))
         .chain(more.iter().cloned());
@@ -199,12 +201,17 @@ fn cell_vectors(cell: &Cell, units: &Units) -> String {
 
 fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
     let mut parts = Vec::new();
-    if is_oblique(&counterbody.cell()) {
+    if is_oblique(&counterbody.cell()) && !counterbody.cell().is_isolated() {
         parts.push(cell_vectors(&counterbody.cell(), units));
     }
     let Some(indenters) = counterbody.indenters() else { return (!parts.is_empty()).then(|| parts.join(", ")) };
     let levels = indenters.levels();
-    if *units.length() != Unit::Relative("l".to_owned()) {
+    let cell = counterbody.cell();
+    if cell.is_isolated() {
+        let sides = [cell.vectors()[0][0], cell.vectors()[1][1]];
+        let own = if sides[0] == sides[1] { &sides[..1] } else { &sides };
+        parts.push(format!("isolated, window {}", units.length_equals("w", own)));
+    } else if *units.length() != Unit::Relative("l".to_owned()) {
         parts.push(units.length_equals("l", &[indenters.lattice().period()]));
     }
     let radius = |level: &Level| match level.shape() {

@@ -18,6 +18,7 @@
 //! ```
 
 mod accuracy;
+mod alone;
 mod checked;
 mod earlier_run;
 mod limit;
@@ -32,6 +33,7 @@ pub(crate) mod touches;
 pub(crate) mod warnings;
 
 pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change};
+pub use alone::alone;
 pub use earlier_run::{EarlierRun, LastLoad};
 pub use limit::{At, Limit, LimitStep, Limits, first, rivals};
 pub use outcome::{BeyondFullContact, Outcome, RunError};

@@ -20,6 +20,8 @@ pub(crate) const STEEP: f64 = 0.5;
 pub(crate) const HIGH: f64 = 1.0 / 3.0;
 /// Part of load or contact on tapered heights from which on there is a warning.
 const TAPERED_PART: f64 = 0.02;
+/// Fraction in contact from which on the mean lateral stress is a large part of all stresses.
+const FILLED: f64 = 0.5;
 /// Relative error of the stresses on the surface from which on there is a warning.
 const SURFACE_ERROR: f64 = 0.02;
 
@@ -53,6 +55,7 @@ pub(super) fn of_judged(
         small_spots(judged),
         end.and_then(|end| not_accurate(end, change)),
         rough_surface(judged),
+        mean_matters(problem, judged),
         at_border(problem, judged),
         steep_flank(problem, judged),
         high_pressure(problem, judged),
@@ -140,6 +143,18 @@ fn rough_surface(steps: &[Numbered]) -> Option<String> {
         "stresses on the surface near the edge of contact may err by {:.0} % (stress.surface_error of each step); raise \
          grid.points",
         100.0 * worst
+    ))
+}
+
+/// Stresses of contacts that fill much of their cell, in which the mean lateral stress has a large part.
+fn mean_matters(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let fills = |step: &StepRecord| step.stress.is_some() && step.reading.contact_fraction > FILLED;
+    problem.counterbody().indenters()?;
+    let list = list(steps, fills)?;
+    Some(format!(
+        "contact fills more than {:.0} % of the cell in step {list}: lateral stresses depend on stress.mean, which a periodic system \
+         does not determine: \"confined\" admits no mean lateral strain, \"half-space\" is a patch on a large body",
+        100.0 * FILLED
     ))
 }
 

@@ -1,6 +1,6 @@
 //! Stresses and displacements at one depth by the waves of the pressure and of the traction proportional to it.
 
-use super::far_field::FarPlane;
+use super::far_plane::FarPlane;
 use super::series::Response;
 use super::tensor::StressState;
 use crate::body::{Amplitudes, Antiplane, Depth, InPlane, InteriorTable};

@@ -7,7 +7,7 @@
 //! expanded because they are smooth; a measure of them, as a principal stress, need not be.
 
 use super::eight_waves::{EightWaves, STRESSES, TERMS, TaylorTerms};
-use super::far_field::FarPlane;
+use super::far_plane::FarPlane;
 use super::field::StressField;
 use super::plane_search::SEARCH_REACH;
 use super::series::{PARALLEL_WAVES, Phases};

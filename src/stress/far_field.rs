@@ -14,6 +14,7 @@
 //! material by material, over depth.
 
 use super::depth_response::DepthResponse;
+use super::far_plane::{ACROSS, FarPlane, polynomials};
 use super::series::Response;
 use super::tensor::StressState;
 use crate::body::{Depth, HalfSpace, InteriorTable};
@@ -30,8 +31,7 @@ const STEEPNESS: f64 = 3.6;
 const REMOTENESS: f64 = 3.7;
 /// Number of cells, each twice as large as the one before: the last one has 2⁻²² of the least wavenumber.
 const CELLS: usize = 22;
-/// Nodes of the polynomials along each side of the window, and in depth.
-const ACROSS: usize = 10;
+/// Nodes of the polynomials in depth.
 const DOWN: usize = 8;
 /// Depth over the longer side of the window down to which the field is tabulated.
 const DEEPEST: f64 = 4.0;
@@ -84,15 +84,6 @@ pub(super) struct FarField {
     coefficients: Vec<Vec<Complex64>>,
     /// Of each interval, coefficients of the polynomials by those in depth.
     segments: Vec<(Interval, Vec<Nodes>)>,
-}
-
-/// K components of a [`FarField`] at one depth.
-#[derive(Debug, Clone)]
-pub(super) struct FarPlane<const K: usize> {
-    /// Coefficients of the polynomials over the window, along x, then y.
-    coefficients: Vec<[[f64; K]; ACROSS]>,
-    /// Of the cell of the series, whose sides are twice those of the window: the place of its corner, over half the window.
-    corner: [f64; 2],
 }
 
 impl FarTables {
@@ -182,18 +173,6 @@ impl Interval {
 /// The N Chebyshev nodes in [−1, 1].
 fn nodes<const N: usize>() -> [f64; N] {
     std::array::from_fn(|k| (PI * (k as f64 + 0.5) / N as f64).cos())
-}
-
-/// T₀ … T_{N−1} at x.
-fn polynomials<const N: usize>(x: f64) -> [f64; N] {
-    let mut values = [1.0; N];
-    if N > 1 {
-        values[1] = x;
-    }
-    for k in 2..N {
-        values[k] = 2.0 * x * values[k - 1] - values[k - 2];
-    }
-    values
 }
 
 /// The matrix from values at the nodes to the coefficients of T₀ … T_{N−1}.
@@ -365,44 +344,4 @@ fn in_depth(values: &[Nodes]) -> Vec<Nodes> {
         sum
     };
     (0..DOWN).map(of).collect()
-}
-
-impl<const K: usize> FarPlane<K> {
-    /// Components picked and combined by a function of all of them, which must be linear.
-    pub fn map<const L: usize>(&self, of: impl Fn([f64; K]) -> [f64; L]) -> FarPlane<L> {
-        let coefficients = self.coefficients.iter().map(|row| row.map(&of)).collect();
-        FarPlane { coefficients, corner: self.corner }
-    }
-
-    /// Place in [−1, 1] of a fraction of the cell of the series; beyond the window that of its border.
-    fn inside(&self, axis: usize, fraction: f64) -> f64 {
-        (self.corner[axis] + 4.0 * fraction).clamp(-1.0, 1.0)
-    }
-
-    /// The polynomials of y along the line of one x, by its fraction s of the cell of the series.
-    pub fn along(&self, s: f64) -> [[f64; K]; ACROSS] {
-        let weights = polynomials::<ACROSS>(self.inside(0, s));
-        let mut sums = [[0.0; K]; ACROSS];
-        for (weight, row) in weights.into_iter().zip(&self.coefficients) {
-            for (sum, own) in sums.iter_mut().flatten().zip(row.iter().flatten()) {
-                *sum += weight * own;
-            }
-        }
-        sums
-    }
-
-    /// Components on the line of [`Self::along`], by the fraction t.
-    pub fn on(&self, line: &[[f64; K]; ACROSS], t: f64) -> [f64; K] {
-        let weights = polynomials::<ACROSS>(self.inside(1, t));
-        let mut sums = [0.0; K];
-        for (weight, own) in weights.into_iter().zip(line) {
-            sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += weight * own);
-        }
-        sums
-    }
-
-    /// Components at the fractions s, t of the cell of the series.
-    pub fn at(&self, [s, t]: [f64; 2]) -> [f64; K] {
-        self.on(&self.along(s), t)
-    }
 }

@@ -1,7 +1,8 @@
 //! The stress field under a solved contact, and its states at points.
 
 use super::depth_response::DepthResponse;
-use super::far_field::{FarField, FarPlane};
+use super::far_field::FarField;
+use super::far_plane::FarPlane;
 use super::regions::Regions;
 use super::series::{Response, Series};
 use super::tables::Tables;

@@ -29,6 +29,7 @@ mod depth_response;
 mod eight_waves;
 mod expansion;
 mod far_field;
+mod far_plane;
 mod field;
 mod fields;
 pub mod maxima;

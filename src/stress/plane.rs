@@ -66,8 +66,7 @@ impl StressField {
     fn plane_around(&self, points: [usize; 2]) -> PlaneAround {
         let cell = self.grid().cell();
         if cell.is_isolated() {
-            let start = self.series_grid().cell().fractions(cell.corner());
-            PlaneAround { points: points.map(|n| 2 * n), start }
+            PlaneAround { points: points.map(|n| 2 * n), start: self.first_fractions() }
         } else {
             PlaneAround { points, start: [0.0; 2] }
         }

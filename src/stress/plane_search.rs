@@ -70,13 +70,14 @@ impl StressField {
             let needed = (PLANE_REACH * length / (std::f64::consts::PI * depth.z)).max(8.0 * length / radius);
             if needed < n as f64 { fast_points(needed.ceil() as usize).min(n) } else { n }
         });
-        let largest_of_rows = self.largest_of_rows(depth, &Transform::new(points), measures);
+        let start = self.first_fractions();
+        let largest_of_rows = self.largest_of_rows(depth, &Transform::new(points), start, measures);
         let [n1, n2] = points.map(|n| n as f64);
         let candidate = |(index, &measure): (usize, &StressMeasure)| {
             let of_rows = || largest_of_rows.iter().map(|row| row[index]);
             let (i, value) = first_largest(of_rows().map(|(_, value)| value)).unwrap_or((0, f64::NEG_INFINITY));
             let j = of_rows().nth(i).map_or(0, |(j, _)| j);
-            let place = grid.cell().point([i as f64 / n1, j as f64 / n2]);
+            let place = grid.cell().point([start[0] + i as f64 / n1, start[1] + j as f64 / n2]);
             (measure, Candidate { value, depth, place, step: 0.5 * (lengths[0] / n1).min(lengths[1] / n2) })
         };
         measures.iter().enumerate().map(candidate).collect()
@@ -87,18 +88,30 @@ impl StressField {
         &self,
         depth: Depth,
         transform: &Transform,
+        start: [f64; 2],
         measures: &[StressMeasure],
     ) -> Vec<Vec<(usize, f64)>> {
+        // Around an isolated contact only its window is searched, the first half of the rows and columns.
+        let part = if self.grid().cell().is_isolated() { 2 } else { 1 };
+        let (rows, columns) = (transform.points()[0].div_ceil(part), transform.points()[1].div_ceil(part));
         let (response, found) = (self.depth_response(depth, PLANE_REACH), RunningMaxima::new(measures));
         if depth == Depth::SURFACE {
             let traction = self.traction();
-            let columns =
-                self.series.on_plane(transform, Vec::new(), &SurfaceStresses::new(&Arc::new(response), |_| 1.0));
-            return columns.map(|_, row| {
-                found.add(row[0].len(), |j| StressState::on_surface(row.map(|component| component[j]), traction))
+            let surface = SurfaceStresses::new(&Arc::new(response), |_| 1.0);
+            let fields = self.series.on_plane_from(start, transform, Vec::new(), &surface);
+            return fields.map_first(rows, |_, row| {
+                found.add(columns, |j| StressState::on_surface(row.map(|component| component[j]), traction))
             });
         }
-        let columns = self.series.on_plane(transform, Vec::new(), &StressComponents(&response));
-        columns.map(|_, row| found.add(row[0].len(), |j| StressState::from_stresses(row.map(|component| component[j]))))
+        let fields = self.series.on_plane_from(start, transform, Vec::new(), &StressComponents(&response));
+        fields.map_first(rows, |_, row| {
+            found.add(columns, |j| StressState::from_stresses(row.map(|component| component[j])))
+        })
+    }
+
+    /// Fractions, of the cell of the series, of the first point of the contact's cell.
+    pub(super) fn first_fractions(&self) -> [f64; 2] {
+        let cell = self.grid().cell();
+        if cell.is_isolated() { self.series_grid().cell().fractions(cell.corner()) } else { [0.0; 2] }
     }
 }

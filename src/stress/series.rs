@@ -4,7 +4,7 @@
 //! the same sum with c times a complex factor of **q**: a [`Response`]. It is summed over the points of a plane by transforms,
 //! and at single points term by term.
 
-use super::far_field::FarPlane;
+use super::far_plane::FarPlane;
 use super::transform::{FieldColumn, FieldColumns, Transform};
 use crate::lattice::Grid;
 use crate::lattice::waves::{WaveRow, Waves};

@@ -22,7 +22,7 @@
 
 use super::constants::{BLEND, EDGE_WIDTH, OPEN_WIDTH, WIDTH_GROWTH};
 use super::depth_response::DepthResponse;
-use super::far_field::FarPlane;
+use super::far_plane::FarPlane;
 use super::field::StressField;
 use super::series::Response;
 use super::smoothed_edge::SmoothedEdge;

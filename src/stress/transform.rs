@@ -6,7 +6,7 @@
 //! groups of eight, which may be processed one by one without being kept. A tile or a group is the work of one thread, so that
 //! the result does not depend on the number of threads.
 
-use super::far_field::FarPlane;
+use super::far_plane::{ACROSS, FarPlane};
 use crate::numeric::fourier::{self, Buffers, LINE, Rows};
 use crate::numeric::lanes::LANES;
 use ndarray::ArrayView3;
@@ -32,7 +32,26 @@ pub(super) struct FieldColumns<'a, const K: usize> {
     transform: &'a Transform,
     values: Vec<f64>,
     /// What is added to the fields, and the fractions of the first point.
-    far: Option<(FarPlane<K>, [f64; 2])>,
+    far: Option<Far<K>>,
+}
+
+/// A smooth field that is added to K fields.
+struct Far<const K: usize> {
+    plane: FarPlane<K>,
+    /// Fraction of the first row.
+    start: f64,
+    /// Polynomials at each column.
+    across: Vec<[f64; ACROSS]>,
+}
+
+impl<const K: usize> Far<K> {
+    /// Adds field `k` to a row at the fraction s.
+    fn add(&self, k: usize, s: f64, row: &mut [f64]) {
+        let line = self.plane.along(s).map(|own| own[k]);
+        for (sample, weights) in row.iter_mut().zip(&self.across) {
+            *sample += line.iter().zip(weights).map(|(own, weight)| own * weight).sum::<f64>();
+        }
+    }
 }
 
 /// One column of K fields, in its tile.
@@ -154,7 +173,9 @@ impl<const K: usize> FieldColumn<'_, K> {
 impl<const K: usize> FieldColumns<'_, K> {
     /// The columns of fields to which the `far` one is added; the first point is at the fractions `start`.
     pub fn with_far(self, far: Option<FarPlane<K>>, start: [f64; 2]) -> Self {
-        Self { far: far.map(|far| (far, start)), ..self }
+        let columns = self.transform.points[1];
+        let far = far.map(|plane| Far { across: plane.across(start[1], columns), start: start[0], plane });
+        Self { far, ..self }
     }
 
     /// Buffers of one thread for groups of rows.
@@ -172,12 +193,8 @@ impl<const K: usize> FieldColumns<'_, K> {
             let tiles = self.values.chunks_exact(K * tile).map(|fields| &fields[lines.clone()]);
             let mut row = first;
             rows.back(count, tiles, buffers, &mut |samples: &mut [f64]| {
-                if let Some((far, start)) = &self.far {
-                    let line = far.along(start[0] + row as f64 / n1 as f64);
-                    let step = 1.0 / samples.len() as f64;
-                    for (j, sample) in samples.iter_mut().enumerate() {
-                        *sample += far.on(&line, start[1] + j as f64 * step)[k];
-                    }
+                if let Some(far) = &self.far {
+                    far.add(k, far.start + row as f64 / n1 as f64, samples);
                 }
                 row += 1;
             });
@@ -192,12 +209,17 @@ impl<const K: usize> FieldColumns<'_, K> {
 
     /// Values of `read` for each row, called with its number and the row of each field.
     pub fn map<R: Send>(&self, read: impl Fn(usize, [&[f64]; K]) -> R + Sync) -> Vec<R> {
+        self.map_first(self.transform.points[0], read)
+    }
+
+    /// Values of `read` for the first `count` rows.
+    pub fn map_first<R: Send>(&self, count: usize, read: impl Fn(usize, [&[f64]; K]) -> R + Sync) -> Vec<R> {
         let each = |buffers: &mut [Buffers<f64>; K], group: usize| -> Vec<R> {
-            let rows = 0..self.group(group, buffers);
+            let rows = 0..self.group(group, buffers).min(count - group * LANES);
             let row = |row: usize| std::array::from_fn(|k| self.transform.rows.row(row, &buffers[k]));
             rows.map(|number| read(group * LANES + number, row(number))).collect()
         };
-        let groups = (0..self.transform.points[0].div_ceil(LANES)).into_par_iter();
+        let groups = (0..count.div_ceil(LANES)).into_par_iter();
         let groups: Vec<Vec<R>> = groups.map_init(|| self.buffers(), each).collect();
         groups.into_iter().flatten().collect()
     }

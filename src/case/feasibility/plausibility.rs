@@ -71,7 +71,7 @@ fn pressures(case: &Case) -> Option<String> {
 /// Every material of both bodies with its name.
 fn materials(case: &Case) -> impl Iterator<Item = (Material, String)> {
     let own = names(&case.layers, "").chain([SUBSTRATE.to_owned()]);
-    let above = case.counterbody.iter().flat_map(|above| names(&above.layers, "counterbody."));
+    let above = case.counterbody.iter().flat_map(|above| names(&above.layers.0, "counterbody."));
     let above = above.chain([COUNTERBODY.to_owned()]);
     case.problem().bodies().each().flat_map(HalfSpace::materials).zip(own.chain(above))
 }

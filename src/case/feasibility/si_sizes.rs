@@ -115,7 +115,7 @@ fn lengths(case: &Case) -> Vec<(String, f64)> {
         move |(number, layer): (usize, &LayerSection)| (format!("{prefix}layers[{number}].thickness"), layer.thickness)
     };
     all.extend(case.layers.iter().enumerate().map(thickness("")));
-    let above = case.counterbody.iter().flat_map(|above| above.layers.iter().enumerate());
+    let above = case.counterbody.iter().flat_map(|above| above.layers.0.iter().enumerate());
     all.extend(above.map(thickness("counterbody.")));
     all
 }

@@ -21,7 +21,7 @@ const WORTH_SAYING: f64 = 0.1 / (FEW_SAMPLES * FEW_SAMPLES);
 
 /// Estimated largest relative error of the surface compliance by the sublayers of graded layers; `None` without any.
 pub fn sublayer_error(case: &Case) -> Option<f64> {
-    let above = case.counterbody.iter().flat_map(|above| &above.layers);
+    let above = case.counterbody.iter().flat_map(|above| &above.layers.0);
     case.layers.iter().chain(above).any(|layer| layer.graded.is_some()).then_some(())?;
     let body = layers::refined(&case.layers, &case.substrate)?;
     let finer = match &case.counterbody {

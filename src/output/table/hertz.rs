@@ -1,6 +1,5 @@
 //! Hertz beside an isolated contact: what the layers change.
 
-use super::percent;
 use crate::case::Case;
 use crate::counterbody::Shape;
 use crate::output::number::number;
@@ -44,9 +43,8 @@ pub(super) fn beside(case: &Case, steps: &[StepRecord], units: &Units) -> Option
         units.length().with_unit(hertz.approach, number),
     ];
     let own = step.reading.levels.first()?;
-    let change = |of: &str, found: Option<f64>, bare: f64| {
-        Some(format!("{of} by {}{}", if found? > bare { "+" } else { "" }, percent(found? / bare - 1.0)))
-    };
+    let change =
+        |of: &str, found: Option<f64>, bare: f64| Some(format!("{of} by {:+.2} %", 100.0 * (found? / bare - 1.0)));
     let changes: Vec<String> = [
         change("the peak pressure", own.finite_peak(), hertz.peak),
         change("the contact radius", own.contact_radius, hertz.radius),

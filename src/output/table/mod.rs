@@ -1,5 +1,6 @@
 //! Tables of results for the terminal and the report.
 
+mod alone;
 mod assumed;
 mod by_step;
 mod comparison;
@@ -8,6 +9,7 @@ mod largest;
 mod strength;
 mod text;
 
+pub use alone::alone;
 pub use assumed::Assumptions;
 pub use comparison::{differences, readings, stresses};
 pub use largest::largest_stresses;

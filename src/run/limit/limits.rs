@@ -272,7 +272,14 @@ impl Limits {
             })
         };
         let judged: Vec<Numbered> = all.iter().copied().filter(is_limit).collect();
-        warnings::of_judged(problem, &all, &judged, self.end, self.change)
+        let is_open = |limit: &Limit| matches!(limit.at, At::Never { .. } | At::Undecided { .. });
+        let room = self.limits.iter().any(is_open) && problem.cell().is_isolated();
+        let room = room.then(|| {
+            "the search ends where contact has no room in its window any more: enlarge lattice.size to look further"
+                .to_owned()
+        });
+        let own = warnings::of_judged(problem, &all, &judged, self.end, self.change);
+        own.into_iter().chain(room).collect()
     }
 
     /// Whether all loads were solved, and the accuracy, if one was prescribed, is reached.

@@ -33,7 +33,7 @@ struct Keys {
     criterion: Criterion,
     mean_pressure: Option<f64>,
     /// Of a limit in force the load is here, and the mean pressure null.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, deserialize_with = "present", skip_serializing_if = "Option::is_none")]
     force: Option<Option<f64>>,
     error: Option<f64>,
     /// An end that is null is infinite.
@@ -53,6 +53,11 @@ struct Keys {
     utilisation_error: Option<Option<f64>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     utilisation_at: Option<f64>,
+}
+
+/// The value of a key that is there, null as `None`.
+fn present<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Option<f64>>, D::Error> {
+    Option::deserialize(value).map(Some)
 }
 
 impl Serialize for Limit {
