@@ -69,7 +69,8 @@ fn a_ball_on_coated_bodies_has_its_anchors() {
     }
 }
 
-/// At equal spacing nothing depends on the window: neither the contact nor the stresses, here of a coating under friction.
+/// At equal spacing nothing depends on the window: neither the contact nor the stresses, here of a coating under friction. On the
+/// surface itself the shortest waves of the grid count, which ring at the border of its zone: four samples below they are gone.
 #[test]
 fn nothing_depends_on_the_window() {
     let (bodies, [_, force, ..]) = anchors().remove(1);
@@ -87,15 +88,12 @@ fn nothing_depends_on_the_window() {
         assert!((p - other).abs() < 1e-8 * peak, "{i}, {j}: {p}, {other}");
     }
     let [one, two] = [&small, &large].map(|step| StressField::new(step.finest(), MeanStress::Confined));
-    for (z, material) in [(0.0, 1), (0.1, 1), (0.3, 1), (0.3, 2), (0.7, 2), (2.5, 2), (9.0, 2)] {
+    for (z, material) in [(0.1, 1), (0.2, 1), (0.3, 1), (0.3, 2), (0.7, 2), (2.5, 2), (9.0, 2)] {
         for place in [[0.0, 0.0], [0.45, 0.1], [-0.3, 0.66]] {
             let at = |field: &StressField| field.points(Depth { z, material }, &[place])[0].components();
             let (one, two) = (at(&one), at(&two));
-            // On the surface the shortest waves of the grid count too: they end at the border of its zone, and what rings there
-            // falls off slowly.
-            let tolerance = if z == 0.0 { 1e-4 } else { 2e-6 };
             for k in 0..6 {
-                assert!((one[k] - two[k]).abs() < tolerance * peak, "{k} at {place:?}, {z}: {one:?}, {two:?}");
+                assert!((one[k] - two[k]).abs() < 2e-6 * peak, "{k} at {place:?}, {z}: {one:?}, {two:?}");
             }
         }
     }
