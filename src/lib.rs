@@ -9,9 +9,9 @@
 //! - z points into the body; pressure p > 0 is compression; stresses are positive in tension; displacement w > 0 goes
 //!   into the body.
 //! - Any consistent units. Wavenumbers are angular, 1/length.
-//! - Fields are stored sample by sample, **a**₂ fastest; displacements have zero mean, so that the penetration δ,
+//! - Fields are stored sample by sample, **a**₂ fastest; on a periodic cell displacements have zero mean, so that the penetration δ,
 //!   measured from the mean plane of the deformed surface to the highest apex, is the additional displacement w_a of
-//!   the paper's Eq. (8).
+//!   the paper's Eq. (8). Around an isolated contact they vanish far away, and δ is the approach of points there.
 //! - Frictionless interfaces carry tension: they slide but do not open.
 //!
 //! # Modules
