@@ -30,7 +30,8 @@ section! {
         pub penetration: Option<Steps> =
             Key::new(&[SIZE_OR_ZERO, LOADS, Form::Table(&PENETRATIONS)], "[0.01, 0.05]")
                 .unit(Unit::Length)
-                .instead_of("mean_pressure"),
+                .instead_of("force")
+                .and_of(&["mean_pressure"]),
     }
 }
 

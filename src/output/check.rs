@@ -6,6 +6,7 @@ use crate::case::resources::{Job, Needs, needs};
 use crate::case::{Case, ORIENTATION, RandomSection, SurfaceSection, foreseen, plausibility, sublayer_error};
 use crate::counterbody::roughness::{Spectrum, Statistics};
 use crate::lattice::{Grid, LatticeError};
+use crate::load::LoadQuantity;
 use crate::machine::{Capacity, bytes};
 use crate::plain;
 use crate::reading::{FirstTouch, first_touches};
@@ -23,6 +24,8 @@ const POINTS: usize = 192;
 /// Summary of a case before it is solved.
 #[derive(Debug, Clone)]
 pub struct Check {
+    /// Area of the cell, a length squared.
+    area: f64,
     /// Its title, or its name where it has none.
     pub title: String,
     /// Counterbody and half-space in words.
@@ -43,7 +46,7 @@ pub struct Check {
     pub without_pictures: u64,
     /// Memory and disk of the machine.
     pub room: Capacity,
-    /// `mean_pressure` or `penetration`.
+    /// `mean_pressure`, `force` or `penetration`.
     pub quantity: &'static str,
     /// Its values, one a load step.
     pub loads: Vec<f64>,
@@ -120,6 +123,7 @@ impl Check {
                 described::counterbody(&units, case.counterbody()),
                 described::bodies(&units, case.problem().bodies()),
             ],
+            area: cell.area(),
             units,
             sublayers: sublayer_error(case).map(|error| (counts(), error)),
             points,
@@ -196,7 +200,9 @@ impl Roughness {
 
 /// First touches of the levels; `first` is the coarsest grid of the case, for which there is memory.
 fn touches(case: &Case, first: [usize; 2]) -> Result<Option<Touches>, LatticeError> {
-    if case.counterbody().indenters().is_none() {
+    // A single isolated contact touches under any load.
+    let is_single = case.problem().cell().is_isolated() && case.counterbody().levels().len() == 1;
+    if case.counterbody().indenters().is_none() || is_single {
         return Ok(None);
     }
     let [n1, n2] = balanced_points(&case.counterbody().cell(), POINTS);
@@ -237,7 +243,11 @@ impl fmt::Display for Check {
             bytes(self.room.memory)
         )?;
         writeln!(f, "disk: about {most}{}, {} while it runs{free}", bytes(disk), bytes(disk_while_running))?;
-        let unit = if self.quantity == "penetration" { self.units.length() } else { self.units.pressure() };
+        let unit = match self.quantity {
+            "penetration" => self.units.length().clone(),
+            "force" => self.units.force(),
+            _ => self.units.pressure().clone(),
+        };
         let [first, last] = [self.loads[0], self.loads[self.loads.len() - 1]].map(|load| unit.with_unit(load, number));
         match self.loads.len() {
             1 => writeln!(f, "load: {} {first}", self.quantity)?,
@@ -248,8 +258,13 @@ impl fmt::Display for Check {
             for (level, touch) in (1..).zip(levels) {
                 match touch {
                     Some(FirstTouch { mean_pressure, error }) => {
-                        let pressure = described::pressure_with_error(&self.units, *mean_pressure, *error);
-                        writeln!(f, "  level {level}: mean pressure {pressure}")?;
+                        let per_pressure = match self.units.quantity() {
+                            LoadQuantity::MeanPressure => 1.0,
+                            LoadQuantity::Force => self.area,
+                        };
+                        let (load, error) = (mean_pressure * per_pressure, error.map(|error| error * per_pressure));
+                        let load = described::load_with_error(&self.units, load, error);
+                        writeln!(f, "  level {level}: {} {load}", self.units.quantity().name())?;
                     }
                     None => writeln!(f, "  level {level}: never, it is hidden behind the others")?,
                 }

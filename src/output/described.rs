@@ -16,8 +16,9 @@ pub(super) fn pressure(units: &Units, x: f64) -> String {
     units.pressure().with_unit(x, number)
 }
 
-pub(super) fn pressure_with_error(units: &Units, x: f64, error: Option<f64>) -> String {
-    let prefixed = units.pressure().prefixed(x);
+/// A load in the quantity of the units.
+pub(super) fn load_with_error(units: &Units, x: f64, error: Option<f64>) -> String {
+    let prefixed = units.load().prefixed(x);
     prefixed.behind(&with_error(prefixed.shown(x), error.map(|error| prefixed.shown(error))))
 }
 
@@ -34,6 +35,10 @@ fn area(units: &Units, x: f64) -> String {
 }
 
 fn cell(units: &Units, cell: Cell) -> String {
+    if cell.is_isolated() {
+        let [width, height] = [cell.vectors()[0][0], cell.vectors()[1][1]].map(|side| length(units, side));
+        return format!("isolated contact in a window of {width} × {height}");
+    }
     let vectors = cell.vectors();
     let prefixed = units.length().suited(vectors.into_iter().flatten());
     let [a1, a2] = vectors.map(|[x, y]| {

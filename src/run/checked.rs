@@ -18,6 +18,11 @@ impl StepRecord {
         let reading = &self.reading;
         let Certificate { energy_gap, penetration, load } = self.certificate;
         at_least_zero("force", reading.force)?;
+        // An isolated contact has no cell, and neither of the two.
+        if !(reading.mean_pressure.is_nan() && reading.contact_fraction.is_nan()) {
+            at_least_zero("mean_pressure", reading.mean_pressure)?;
+            at_least_zero("contact_fraction", reading.contact_fraction)?;
+        }
         finite("penetration", reading.penetration)?;
         at_least_zero("contact_area", reading.contact_area)?;
         peak("max_pressure", reading.max_pressure)?;

@@ -68,7 +68,7 @@ fn every_case_runs() {
         assert_eq!(steps.len(), 2, "{name}");
         for step in &steps {
             assert_eq!(step["converged"], true, "{name}");
-            assert!(number(step, "/penetration") > 0.0 && number(step, "/contact_fraction") > 0.0, "{name}");
+            assert!(number(step, "/penetration") > 0.0 && number(step, "/contact_area") > 0.0, "{name}");
         }
     }
 }
