@@ -53,7 +53,7 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
         case.insert("counterbody".to_owned(), toml::Value::Table(own));
         toml::to_string(&case).unwrap()
     };
-    let bodies = [above(RICH), above(&graded)];
+    let bodies = [above(RICH), above(graded)];
     let isolated = "lattice = { kind = \"isolated\", size = 2 }\nlevels = [{ shape = \"sphere\", radius = 1 }]\n\
                     substrate = { young = 1, poisson = 0.3 }\nload = { force = { from = 1, to = 2, steps = 2, spacing = \"log\" } }\n";
     let mut found = BTreeSet::new();

@@ -22,25 +22,25 @@ const MAX_UNRESOLVED: usize = 4;
 /// The operator of the bodies: on a periodic cell, or in the window of an isolated contact.
 #[derive(Debug)]
 enum BodyOperator {
-    Periodic(LayeredOperator),
-    FreeSpace(FreeSpaceOperator),
+    Periodic(Box<LayeredOperator>),
+    FreeSpace(Box<FreeSpaceOperator>),
 }
 
 impl BodyOperator {
     fn new(problem: &Problem, grid: &Grid) -> Self {
         let bodies = problem.bodies();
         match (grid.cell().is_isolated(), problem.friction()) {
-            (false, Some(friction)) => Self::Periodic(LayeredOperator::sliding(grid, bodies, friction)),
-            (false, None) => Self::Periodic(LayeredOperator::new(grid, bodies)),
-            (true, Some(friction)) => Self::FreeSpace(FreeSpaceOperator::sliding(grid, bodies, friction)),
-            (true, None) => Self::FreeSpace(FreeSpaceOperator::new(grid, bodies)),
+            (false, Some(friction)) => Self::Periodic(Box::new(LayeredOperator::sliding(grid, bodies, friction))),
+            (false, None) => Self::Periodic(Box::new(LayeredOperator::new(grid, bodies))),
+            (true, Some(friction)) => Self::FreeSpace(Box::new(FreeSpaceOperator::sliding(grid, bodies, friction))),
+            (true, None) => Self::FreeSpace(Box::new(FreeSpaceOperator::new(grid, bodies))),
         }
     }
 
     fn convolutions(&self) -> f64 {
         match self {
             Self::Periodic(operator) => operator.convolutions(),
-            Self::FreeSpace(operator) => ElasticOperator::convolutions(operator),
+            Self::FreeSpace(operator) => ElasticOperator::convolutions(operator.as_ref()),
         }
     }
 }
@@ -165,8 +165,8 @@ impl GridLevel {
     /// Working memory for this grid and all coarser ones.
     pub fn working_memory(&self) -> Working {
         match &self.operator {
-            BodyOperator::Periodic(operator) => Working::of_finest(operator),
-            BodyOperator::FreeSpace(operator) => Working::of_finest(operator),
+            BodyOperator::Periodic(operator) => Working::of_finest(operator.as_ref()),
+            BodyOperator::FreeSpace(operator) => Working::of_finest(operator.as_ref()),
         }
     }
 
@@ -232,8 +232,8 @@ impl GridLevel {
             settings,
         };
         let report = match operator {
-            BodyOperator::Periodic(operator) => with.solve(operator, working, progress, unknowns),
-            BodyOperator::FreeSpace(operator) => with.solve(operator, working, progress, unknowns),
+            BodyOperator::Periodic(operator) => with.solve(operator.as_mut(), working, progress, unknowns),
+            BodyOperator::FreeSpace(operator) => with.solve(operator.as_mut(), working, progress, unknowns),
         };
         (report, (operator.convolutions() - before) * samples as f64)
     }

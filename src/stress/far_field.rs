@@ -204,7 +204,7 @@ impl FarField {
         let above = in_material().find(|(interval, _)| depth.z <= interval.ends[1]);
         // An expansion around the lower face of a layer looks a little beyond it.
         let is_layer = depth.material <= self.tables.half_space.layers().len();
-        let Some((interval, own)) = above.or_else(|| in_material().last().filter(|_| is_layer)) else {
+        let Some((interval, own)) = above.or_else(|| in_material().next_back().filter(|_| is_layer)) else {
             let responses = self.tables.responses(depth);
             let own = plane_coefficients(&self.tables.parts, &self.coefficients, &responses);
             return FarPlane { coefficients: own.to_vec(), corner: self.corner };

@@ -41,7 +41,8 @@ fn a_misspelt_key_is_refused_with_what_may_be_meant() {
     let desk = Desk::new();
     desk.percoat(&["explain", "layers.thicknes"])
         .complains(2, &["error: there is no key", "did you mean `layers.thickness`?"]);
-    desk.percoat(&["explain", "poison"]).complains(2, &["`layers.poisson`, ", " or `counterbody.layers.graded.poisson`?"]);
+    desk.percoat(&["explain", "poison"])
+        .complains(2, &["`layers.poisson`, ", " or `counterbody.layers.graded.poisson`?"]);
     desk.percoat(&["explain", "xyzzy"]).complains(2, &["no key `xyzzy`", "lists the sections"]);
     desk.percoat(&["explain", "grid", "--schema"]).complains(2, &["--schema"]);
 }

@@ -401,7 +401,7 @@ mod tests {
     #[test]
     fn rows_that_are_left_out_change_no_other() {
         let grid = grid([0.2, 0.3], [150, 40]);
-        let mut operator = FreeSpaceOperator::new(&grid, &coated());
+        let mut operator = FreeSpaceOperator::new(&grid, coated());
         let is_used = |row: usize| (20..45).contains(&row);
         let mut p = noise(grid.len());
         p.chunks_mut(40).enumerate().filter(|(row, _)| !is_used(*row)).for_each(|(_, row)| row.fill(0.0));
@@ -418,7 +418,7 @@ mod tests {
     #[test]
     fn the_memory_is_that_of_its_tables() {
         for (points, most) in [([64, 64], 26.0), ([60, 96], 24.1), ([512, 512], 21.0)] {
-            let operator = FreeSpaceOperator::new(&grid([1.0, 1.0], points), &coated());
+            let operator = FreeSpaceOperator::new(&grid([1.0, 1.0], points), coated());
             let numbers = (operator.kernel.len() + operator.compliance.len()) as f64;
             let bytes = FreeSpaceOperator::bytes_per_sample(points, false);
             assert_eq!(bytes, 8.0 * numbers / (points[0] * points[1]) as f64);
