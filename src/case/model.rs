@@ -217,7 +217,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let load = LoadSection::read_table(&load_section)?;
     if let Some(mean) = load_section.optional("mean_pressure").filter(|_| counterbody.cell().is_isolated()) {
         let message = "`load.mean_pressure` has no meaning for an isolated contact, which has no cell to spread over";
-        return Err(Refusal::new(mean.node.span, message, "a pressure over what?")
+        return Err(Refusal::new(mean.node.span, message, "not for an isolated contact")
             .help("prescribe load.force, in the unit of pressure times that of length squared, or load.penetration"));
     }
     let file_points = counterbody.topography().map(Topography::points);
