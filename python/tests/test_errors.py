@@ -98,7 +98,7 @@ def test_a_case_error_is_a_value_error() -> None:
         (["grid", "points"], 48.5, "`grid.points` must be an integer between 4 and 32768"),
         (["grid", "points"], np.float64(1e9), "`grid.points` must be an integer between 4 and 32768"),
         (["levels"], [], "levels"),
-        (["lattice", "kind"], "hexagon", '`lattice.kind` must be "hexagonal", "square" or "oblique"'),
+        (["lattice", "kind"], "hexagon", '`lattice.kind` must be "hexagonal", "square", "oblique" or "isolated"'),
     ],
 )
 def test_a_dict_is_refused_where_its_file_would_be(
@@ -231,7 +231,7 @@ except (percoat.CaseError, MemoryError) as error:
 def test_there_is_no_such_case(tmp_path: Path) -> None:
     for call in (percoat.case, *CALLS.values(), percoat.HalfSpace.of, lambda case: percoat.kernel(case, 1.0)):
         message = refusal(lambda: call("fig22"))
-        assert message.startswith("fig22 is neither a file nor an embedded case (dlc-on-steel, fig2, ")
+        assert message.startswith("fig22 is neither a file nor an embedded case (ball-on-disc, dlc-on-steel, fig2, ")
         with pytest.raises(FileNotFoundError) as caught:
             call(tmp_path / "none.toml")
         assert caught.value.filename == str(tmp_path / "none.toml") and "none.toml" in str(caught.value)

@@ -167,7 +167,7 @@ def test_many_layers_of_one_material_are_none() -> None:
 
 def test_half_spaces_print_themselves() -> None:
     coated = percoat.HalfSpace.of("dlc-on-steel")
-    assert len(str(coated).splitlines()) == 3 and "substrate: E 210" in str(coated)
+    assert len(str(coated).splitlines()) == 3 and "substrate (steel): E 210" in str(coated)
     assert repr(coated) == f"<percoat.HalfSpace: {str(coated).splitlines()[0]}>"
 
 

@@ -24,7 +24,7 @@ def test_own_materials_come_first(tmp_path: Path) -> None:
     own = percoat.materials(tmp_path / "own.toml")["TiN"]
     assert own == {"name": "TiN", "young": {"value": 400.0}, "poisson": {"value": 0.2, "range": [0.1, 0.3]}}
     (tmp_path / "own.toml").write_text(OWN.replace("400.0", '"stiff"'))
-    with pytest.raises(percoat.CaseError, match=r"`material\[0\].young` must be a number"):
+    with pytest.raises(percoat.CaseError, match=r"`material\[0\].young` must be a finite number"):
         percoat.materials(tmp_path / "own.toml")
     with pytest.raises(OSError):
         percoat.materials(tmp_path / "absent.toml")

@@ -30,6 +30,12 @@ pub enum ComparisonError {
          compare with friction.coupling = false"
     )]
     CoupledFriction,
+    /// An isolated contact, which the localized method cannot solve.
+    #[error(
+        "the localized method knows periodic systems, and this contact is isolated: solve it, or compare on a lattice whose period \
+         is large"
+    )]
+    Isolated,
     /// A grid that cannot be built.
     #[error(transparent)]
     Grid(#[from] LatticeError),
@@ -131,7 +137,8 @@ impl ComparisonTask {
     /// Whether both methods can solve the problem.
     ///
     /// # Errors
-    /// [`ComparisonError::NoIndenters`] for a topography, [`ComparisonError::CoupledFriction`] for coupled friction.
+    /// [`ComparisonError::NoIndenters`] for a topography, [`ComparisonError::Isolated`] for an isolated contact,
+    /// [`ComparisonError::CoupledFriction`] for coupled friction.
     pub fn check(&self) -> Result<(), ComparisonError> {
         self.indenters().map(|_| ())
     }
@@ -140,7 +147,11 @@ impl ComparisonTask {
     fn indenters(&self) -> Result<&Indenters, ComparisonError> {
         let couples = self.problem.friction().is_some_and(Friction::couples);
         let indenters = self.problem.counterbody().indenters().ok_or(NoIndenters)?;
-        if couples { Err(ComparisonError::CoupledFriction) } else { Ok(indenters) }
+        match (self.problem.cell().is_isolated(), couples) {
+            (true, _) => Err(ComparisonError::Isolated),
+            (false, true) => Err(ComparisonError::CoupledFriction),
+            (false, false) => Ok(indenters),
+        }
     }
 
     /// Compares both methods, the spectral one on grids of `points` and half of them. `progress` is called with the name of each

@@ -202,9 +202,11 @@ impl FarField {
     pub fn plane(&self, depth: Depth) -> FarPlane<COMPONENTS> {
         let in_material = || self.segments.iter().filter(|(interval, _)| interval.material == depth.material);
         let above = in_material().find(|(interval, _)| depth.z <= interval.ends[1]);
-        // An expansion around the lower face of a layer looks a little beyond it.
-        let is_layer = depth.material <= self.tables.half_space.layers().len();
-        let Some((interval, own)) = above.or_else(|| in_material().next_back().filter(|_| is_layer)) else {
+        // An expansion around the lower face of a layer looks a little beyond it. Intervals end above the face of a layer that is
+        // thicker than several windows.
+        let face = self.tables.half_space.faces(depth.material).1;
+        let at_face = || in_material().next_back().filter(|(interval, _)| interval.ends[1] == face);
+        let Some((interval, own)) = above.or_else(at_face) else {
             let responses = self.tables.responses(depth);
             let own = plane_coefficients(&self.tables.parts, &self.coefficients, &responses);
             return FarPlane { coefficients: own.to_vec(), corner: self.corner };

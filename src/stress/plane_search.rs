@@ -109,6 +109,16 @@ impl StressField {
         })
     }
 
+    /// The nearest place of the window of an isolated contact, beyond which its series does not hold; of a periodic one the place.
+    pub(super) fn in_window(&self, place: [f64; 2]) -> [f64; 2] {
+        let cell = self.grid().cell();
+        if !cell.is_isolated() {
+            return place;
+        }
+        let (corner, vectors) = (cell.corner(), cell.vectors());
+        [0, 1].map(|axis| place[axis].clamp(corner[axis], corner[axis] + vectors[axis][axis]))
+    }
+
     /// Fractions, of the cell of the series, of the first point of the contact's cell.
     pub(super) fn first_fractions(&self) -> [f64; 2] {
         let cell = self.grid().cell();

@@ -133,6 +133,13 @@ fn merged_contacts_are_told_and_what_is_there_is_written() {
 }
 
 #[test]
+fn an_isolated_contact_is_refused() {
+    let desk = Desk::new();
+    desk.percoat(&["compare", "ball-on-disc"]).complains(2, &["isolated", "solve it", "lattice"]);
+    assert!(desk.names().is_empty(), "something is written");
+}
+
+#[test]
 fn penetrations_near_complete_contact_come_to_an_end_and_those_beyond_are_refused() {
     let desk = Desk::new();
     let compare = |penetration: f64| {

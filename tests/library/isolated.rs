@@ -101,32 +101,40 @@ fn nothing_depends_on_the_window() {
 
 /// On the axis of a Hertz contact (Johnson 1985, Eq. 3.45), with ζ = z/a:
 /// σ_r = −p₀[(1+ν)(1 − ζ atan(1/ζ)) − ½/(1+ζ²)], σ_z = −p₀/(1+ζ²).
+/// So it is in a layer of the material of the substrate, here of ten windows.
 #[test]
 fn the_axis_below_a_hertz_contact_has_its_closed_form() {
-    let (bodies, [a, force, _, p0]) = anchors().remove(0);
-    let step = solved(problem(bodies, 2.5), 160, Load::Force(force));
-    let field = StressField::new(step.finest(), MeanStress::HalfSpace);
-    for zeta in [0.1f64, 0.3, 0.48, 1.0, 2.0, 4.0, 8.0, 30.0] {
-        let state = field.points(Depth { z: zeta * a, material: 1 }, &[[0.0, 0.0]])[0];
-        let radial = -p0 * ((1.0 + NU) * (1.0 - zeta * (1.0 / zeta).atan()) - 0.5 / (1.0 + zeta * zeta));
-        let axial = -p0 / (1.0 + zeta * zeta);
-        for (found, known) in [(state.xx, radial), (state.yy, radial), (state.zz, axial)] {
-            assert!((found - known).abs() < 1e-4 * p0, "{zeta}: {found}, {known}");
+    let (_, [a, force, _, p0]) = anchors().remove(0);
+    let thickness = 25.0 * a;
+    let layer = Layer::new(material(1.0, NU), thickness, Interface::Bonded).unwrap();
+    for body in [bare(), HalfSpace::new(vec![layer], material(1.0, NU))] {
+        let is_layered = !body.layers().is_empty();
+        let step = solved(problem(body, 2.5), 160, Load::Force(force));
+        let field = StressField::new(step.finest(), MeanStress::HalfSpace);
+        for zeta in [0.1f64, 0.3, 0.48, 1.0, 2.0, 4.0, 8.0, 12.0, 20.0, 24.99, 25.01, 30.0] {
+            let z = zeta * a;
+            let material = if is_layered && z > thickness { 2 } else { 1 };
+            let state = field.points(Depth { z, material }, &[[0.0, 0.0]])[0];
+            let radial = -p0 * ((1.0 + NU) * (1.0 - zeta * (1.0 / zeta).atan()) - 0.5 / (1.0 + zeta * zeta));
+            let axial = -p0 / (1.0 + zeta * zeta);
+            for (found, known) in [(state.xx, radial), (state.yy, radial), (state.zz, axial)] {
+                assert!((found - known).abs() < 1e-4 * p0, "{zeta}: {found}, {known}");
+            }
+            // Far below the displacement is that of a point force.
+            if zeta >= 30.0 {
+                let point = force * (1.0 + NU) * (2.0 * (1.0 - NU) + 1.0) / (2.0 * PI * zeta * a);
+                assert!((state.displacement[2] / point - 1.0).abs() < 2e-3, "{}, {point}", state.displacement[2]);
+            }
         }
-        // u_z on the axis: (1+ν)/E p₀ a [(1−2ν... )] is not needed: far below it falls like that of a point force.
-        if zeta == 30.0 {
-            let point = force * (1.0 + NU) * (2.0 * (1.0 - NU) + 1.0) / (2.0 * PI * zeta * a);
-            assert!((state.displacement[2] / point - 1.0).abs() < 2e-3, "{}, {point}", state.displacement[2]);
-        }
+        // Outside the contact on the surface σ_r = −σ_θ = (1 − 2ν) p₀ a²/(3r²).
+        let plane = field.plane(Depth { z: 1e-3, material: 1 }, [160; 2]);
+        assert_eq!(plane.points(), [160; 2]);
+        let (i, j) = (80 + 74, 80);
+        let r = 74.0 * 2.5 / 160.0;
+        let known = (1.0 - 2.0 * NU) * p0 / (3.0 * r * r);
+        let state = plane.state([i, j]);
+        assert!((state.yy + known).abs() < 5e-3 * p0 && (state.xx - known).abs() < 5e-3 * p0, "{state:?}, {known}");
     }
-    // Outside the contact on the surface σ_r = −σ_θ = (1 − 2ν) p₀ a²/(3r²).
-    let plane = field.plane(Depth { z: 1e-3, material: 1 }, [160; 2]);
-    assert_eq!(plane.points(), [160; 2]);
-    let (i, j) = (80 + 74, 80);
-    let r = 74.0 * 2.5 / 160.0;
-    let known = (1.0 - 2.0 * NU) * p0 / (3.0 * r * r);
-    let state = plane.state([i, j]);
-    assert!((state.yy + known).abs() < 5e-3 * p0 && (state.xx - known).abs() < 5e-3 * p0, "{state:?}, {known}");
 }
 
 #[test]

@@ -70,7 +70,8 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
         (1..).zip(indenters.levels()).max_by(|a, b| a.1.height().total_cmp(&b.1.height()))?;
     let (c, n) = power_law(highest.shape());
     let lowest = |values: &[f64]| values.iter().copied().filter(|load| *load > 0.0).reduce(f64::min);
-    let (load, radius) = match case.mean_pressures() {
+    let prescribed = lowest(case.load.values())?;
+    let radius = match case.mean_pressures() {
         Some(loads) => {
             let load = lowest(&loads)?;
             let touching =
@@ -78,12 +79,9 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
             let sites = lattice.sites().iter().enumerate().filter(|(level, _)| touching(*level));
             let sites = sites.map(|(_, sites)| sites.len()).sum::<usize>().max(1);
             let force = load * lattice.cell().area() / sites as f64;
-            (load, radius(force, stiffer_modulus(case.problem().bodies()), (c, n)))
+            radius(force, stiffer_modulus(case.problem().bodies()), (c, n))
         }
-        None => {
-            let depth = lowest(case.load.values())?;
-            (depth, (depth / (kappa(n) * c)).powf(1.0 / n))
-        }
+        None => (prescribed / (kappa(n) * c)).powf(1.0 / n),
     };
     let samples = radius / grid.sample_area().sqrt();
     (samples < FEW_SAMPLES).then(|| {
@@ -91,7 +89,7 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
             "at load.{} = {} the contact radius of level {number_of_highest} will have about {samples:.1} samples, by the \
              formulas of a single contact: radii and peak pressures are rough below {FEW_SAMPLES}; raise grid.points",
             case.load.quantity(),
-            number(load)
+            number(prescribed)
         )
     })
 }
