@@ -9,8 +9,9 @@
 //! I and 0 outside, S r/c is then the mean of the residual near by, D and c₀ how much of it is kept at the edge
 //! and how far out. S is symmetric, so that Eᵀ = P_I + P_I S W (1 − P_I), and M is symmetric and positive.
 //!
-//! S goes on periodically over the border of the samples. In free space a contact within 30 samples of it is continued on the
-//! other side too, as the periodic C⁻¹ there would have it: M stays symmetric and positive, and what is solved does not change.
+//! S is periodic over the grid. In free space the residual of a contact within 30 samples of the border of the window is therefore
+//! smoothed into the opposite border too. The preconditioner M stays symmetric and positive, so that the pressure to which the
+//! iteration converges is the same.
 
 use crate::numeric::lanes::{LANES, own_group, vectorised};
 use crate::numeric::rows::{RowBlocks, next};

@@ -31,7 +31,7 @@ pub(super) struct Transform {
 pub(super) struct FieldColumns<'a, const K: usize> {
     transform: &'a Transform,
     values: Vec<f64>,
-    /// What is added to the fields, and the fractions of the first point.
+    /// The field of an isolated contact that the periodic series lacks, added to it; `None` on a periodic cell.
     far: Option<Far<K>>,
 }
 

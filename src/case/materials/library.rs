@@ -50,7 +50,7 @@ impl UnknownMaterial {
 /// The materials of a file.
 ///
 /// # Errors
-/// A file that cannot be read, and [`CaseError`] for its first fault, with line, key, value and what is allowed.
+/// [`CaseError`] where the file of materials cannot be read, or for its first fault, with line, key, value and what is allowed.
 pub fn materials_of_file(path: &Path) -> Result<Vec<LibraryMaterial>, MaterialsError> {
     let source = Source::file(path).map_err(|error| NoCase::at(path, error))?;
     Ok(source.read(&[], read)?)

@@ -21,10 +21,10 @@ use crate::spectral::operator::{ElasticOperator, Surroundings, TractionUpdate, W
 use ndarray::Array2;
 use std::fmt;
 
-/// Least wavenumber, over the largest of the grid, at which the bodies are asked: below, their compliance is that of the
-/// substrates to rounding.
+/// Least wavenumber, over the largest of the grid, at which the compliance of the layered bodies is evaluated: below, it is that of
+/// the substrates to rounding.
 const LEAST_WAVENUMBER: f64 = 1e-11;
-/// Wavenumbers at which a kernel asks for a compliance, in order of magnitude.
+/// Number of wavenumbers at which a kernel evaluates a compliance, in order of magnitude.
 const EVALUATIONS: usize = 100_000;
 
 /// How a shear traction that goes with the pressure displaces the surfaces.
