@@ -31,6 +31,14 @@ pub fn at(
     if points.iter().any(|x| !x.is_finite()) {
         return Err("a point has a coordinate that is no finite number".to_owned());
     }
+    let cell = field.grid().cell();
+    if let Some(point) = points.rows().into_iter().find(|point| !cell.contains([point[0], point[1]])) {
+        let [a1, a2] = cell.vectors();
+        return Err(format!(
+            "({}, {}) is beyond the window of {} × {} around the isolated contact: enlarge lattice.size",
+            point[0], point[1], a1[0], a2[1]
+        ));
+    }
     let depths = points.rows().into_iter().map(|point| depth(field.half_space(), point[2], material));
     let depths: Vec<Depth> = depths.collect::<Result<_, _>>()?;
     // The points of a depth one after another: they share the response of each wave there.

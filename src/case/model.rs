@@ -172,7 +172,7 @@ impl Case {
             let root = source.tree(&CASE)?;
             let root = TableAt::root(&root, &CASE, Span::NOWHERE);
             let sliding = self.friction.map(|own| own.direction);
-            let section = StressSection::read_in(&root.required_section("stress")?, self.levels.len(), sliding)?;
+            let section = StressSection::read_in(&root.required_section("stress")?, self.counterbody(), sliding)?;
             Ok(section.request(self.counterbody()))
         })
     }
@@ -246,7 +246,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         units: root.section("units")?.as_ref().map(UnitsSection::read_table).transpose()?,
         stress: root
             .section("stress")?
-            .map(|section| StressSection::read_in(&section, levels.len(), friction.map(|own| own.direction)))
+            .map(|section| StressSection::read_in(&section, problem.counterbody(), friction.map(|own| own.direction)))
             .transpose()?,
         localized: LocalizedSection::read_table(&root.section_or_empty("localized")?)?,
         levels,

@@ -12,6 +12,7 @@ use super::value::ValueAt;
 use crate::body::MeanStress;
 use crate::counterbody::{Counterbody, Indenters};
 use crate::lattice::Lattice;
+use crate::notation::number;
 use crate::run::places::SECTION;
 use crate::run::{self, StressRequest, Volume};
 use crate::stress::SurfaceLine;
@@ -107,16 +108,46 @@ pub enum Toward {
 }
 
 impl StressSection {
-    /// Reads the section; `levels`: number of levels, 0 beside a surface; `sliding`: direction of sliding.
-    pub(super) fn read_in(section: &TableAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {
+    /// Reads the section of a case with this `counterbody`, which slides along a direction.
+    pub(super) fn read_in(
+        section: &TableAt<'_>,
+        counterbody: &Counterbody,
+        sliding: Option<[f64; 2]>,
+    ) -> Result<Self, Refusal> {
         if let Some(cut) = section.optional("section") {
-            check_levels(&cut, levels)?;
+            check_levels(&cut, counterbody.levels().len())?;
         }
         let own = Self::read_table(section)?;
         if own.section.is_some_and(|cut| cut.toward.is_none()) && sliding.is_none() {
             return Err(section.value("section")?.table()?.missing("toward"));
         }
-        Ok(Self { section: own.section.map(|cut| cut.completed(sliding)), ..own })
+        let own = Self { section: own.section.map(|cut| cut.completed(sliding)), ..own };
+        own.within(counterbody, section)?;
+        Ok(own)
+    }
+
+    /// Refuses points and cuts beyond the window of an isolated contact, where no stresses are computed.
+    fn within(&self, counterbody: &Counterbody, section: &TableAt<'_>) -> Result<(), Refusal> {
+        let cell = counterbody.cell();
+        if !cell.is_isolated() {
+            return Ok(());
+        }
+        let refuse = |key: &str, what: String, place: [f64; 2]| {
+            let value = section.value(key)?;
+            let needed = [0, 1].map(|axis| number((2.0 * place[axis].abs()).max(cell.vectors()[axis][axis])));
+            Err(Refusal::new(value.node.span, format!("`{}`{what} beyond the window", value.path), "beyond the window")
+                .help(format!(
+                    "stresses are computed inside the window of an isolated contact: lattice.size of at least [{}, {}]",
+                    needed[0], needed[1]
+                )))
+        };
+        if let Some(index) = self.points.iter().position(|&[x, y, _]| !cell.contains([x, y])) {
+            let [x, y, _] = self.points[index];
+            return refuse("points", format!("[{index}] is"), [x, y]);
+        }
+        let line = self.section.and_then(|cut| cut.line(counterbody.indenters().map(Indenters::lattice)));
+        let end = line.and_then(|line| line.ends().into_iter().find(|&end| !cell.contains(end)));
+        end.map_or(Ok(()), |end| refuse("section", " ends".to_owned(), end))
     }
 
     /// The request for a run on `counterbody`.

@@ -129,6 +129,34 @@ impl Cell {
         [cross(x, self.a2) / determinant, cross(self.a1, x) / determinant]
     }
 
+    /// Whether a point, lengths, lies in a window or on its border, to 10⁻⁹ of a side; any point does in a periodic cell.
+    pub fn contains(&self, place: [f64; 2]) -> bool {
+        let within = |s: f64| (-1e-9..=1.0 + 1e-9).contains(&s);
+        !self.is_isolated() || self.fractions(place).into_iter().all(within)
+    }
+
+    /// The nearest point of a window; of a periodic cell the point itself.
+    pub(crate) fn nearest_point(&self, place: [f64; 2]) -> [f64; 2] {
+        if self.is_isolated() { self.point(self.fractions(place).map(|s| s.clamp(0.0, 1.0))) } else { place }
+    }
+
+    /// The part of the `span` [s₁, s₂] of the line `origin` + s `direction`, from an origin in the cell, that lies in a window;
+    /// lengths over that of the direction. Of a periodic cell the span itself.
+    pub(crate) fn clipped(&self, origin: [f64; 2], direction: [f64; 2], span: [f64; 2]) -> [f64; 2] {
+        if !self.is_isolated() {
+            return span;
+        }
+        let (at, along) = (self.fractions(origin), self.parts(direction));
+        span.map(|end| {
+            let reach = |axis: usize| {
+                let way = along[axis] * end;
+                let room = if way > 0.0 { 1.0 - at[axis] } else { at[axis] };
+                if way == 0.0 { 1.0 } else { (room / way.abs()).clamp(0.0, 1.0) }
+            };
+            end * reach(0).min(reach(1))
+        })
+    }
+
     /// The reduced basis of the same lattice (Lagrange–Gauss): its shortest vector, and the shortest one that
     /// completes it.
     pub fn reduced(&self) -> ReducedBasis {
@@ -344,6 +372,19 @@ mod tests {
         reduced.nearest_squares([-0.8, 0.0], 2, &mut squares);
         assert!((squares[0] - 5.76).abs() < 1e-14 && (squares[1] - 6.76).abs() < 1e-14, "{squares:?}");
         assert!(window != Cell::new([3.0, 0.0], [0.0, 2.0]).unwrap() && Cell::window([1.0, 0.0]).is_err());
+    }
+
+    #[test]
+    fn a_line_is_clipped_to_a_window_and_not_to_a_periodic_cell() {
+        let window = Cell::window([4.0, 2.0]).unwrap();
+        assert!(window.contains([2.0, -1.0]) && !window.contains([2.1, 0.0]) && !window.contains([0.0, -1.01]));
+        assert_eq!(window.nearest_point([2.5, 0.3]), [2.0, 0.3]);
+        assert_eq!(window.clipped([1.0, 0.0], [1.0, 0.0], [-5.0, 0.5]), [-3.0, 0.5]);
+        assert_eq!(window.clipped([0.0, 0.5], [0.6, -0.8], [-5.0, 5.0]), [-0.625, 1.875]);
+        assert_eq!(window.clipped([0.0, -1.0], [0.0, 1.0], [-1.0, 3.0]), [0.0, 2.0]);
+        let periodic = Cell::square(1.0).unwrap();
+        assert!(periodic.contains([7.0, -3.0]) && periodic.nearest_point([7.0, -3.0]) == [7.0, -3.0]);
+        assert_eq!(periodic.clipped([0.0; 2], [1.0, 0.0], [-5.0, 5.0]), [-5.0, 5.0]);
     }
 
     #[test]

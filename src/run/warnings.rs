@@ -195,7 +195,9 @@ fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 }
 
 fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<String> {
-    let modulus = problem.bodies().contact_modulus();
+    // Strains are large in the softer body first.
+    let moduli = problem.bodies().each().map(|own| own.surface_material().contact_modulus());
+    let modulus = moduli.fold(f64::INFINITY, f64::min);
     // Pressures that are infinite under a tip are left out.
     let peaks = steps.iter().filter_map(|(number, step)| Some((number, step.reading.finite_peak()?)));
     let high = peaks.filter(|(_, pressure)| *pressure > HIGH * modulus);

@@ -10,7 +10,7 @@ use super::grid_level::{Coarser, GridLevel};
 use super::iteration::{Method, Progress, Report, Settings, Stop, Unknowns, Working};
 use super::{FieldError, Step};
 use crate::counterbody::Surface;
-use crate::lattice::{Grid, LatticeError};
+use crate::lattice::{Cell, Grid, LatticeError};
 use crate::load::Load;
 use crate::numeric::fourier::fast_points;
 use crate::problem::Problem;
@@ -218,19 +218,20 @@ impl Solver {
 pub struct Memory {
     /// Memory that its grids keep from load to load.
     pub kept: usize,
-    /// Further memory while a load is solved, by the method that begins.
+    /// Further memory while it is set up, or a load is solved by the method that begins.
     pub working: usize,
 }
 
 impl Memory {
-    /// Memory of a solver whose finest grid has `points`.
+    /// Memory of a solver whose finest grid has `points` on a cell.
     ///
     /// Per sample of each grid: pressure, gap, initial gap and its owner, the multiplier (half the components). Per row
     /// and column of each grid: the plans of its transforms. In turn, per sample of the finest grid: three fields of single
     /// precision and a spectrum in double precision; for the baseline two fields in double precision and the spectrum.
     /// Coupled friction adds a second multiplier. An isolated contact has the transforms of its kernel, a spectrum twice as wide,
     /// and three tables while the kernel is made.
-    pub fn of(points: [usize; 2], method: Method, coupled: bool, isolated: bool) -> Self {
+    pub fn of(cell: Cell, points: [usize; 2], method: Method, coupled: bool) -> Self {
+        let isolated = cell.is_isolated();
         let multipliers = if isolated {
             FreeSpaceOperator::bytes_per_sample(points, coupled).ceil() as usize
         } else {
@@ -244,7 +245,8 @@ impl Memory {
         };
         let of_grid = |[n1, n2]: [usize; 2]| n1 * n2 * grid + (n1 + n2) * rows;
         let kept = nested_points(points, method).into_iter().map(of_grid).sum();
-        Self { kept, working: points[0] * points[1] * working }
+        let setup = if isolated { FreeSpaceOperator::bytes_while_made(cell, points) } else { 0 };
+        Self { kept, working: setup.max(points[0] * points[1] * working) }
     }
 }
 

@@ -81,7 +81,7 @@ impl StressField {
                 break;
             }
             let depth = Depth { z: (z + moved[2]).clamp(low, high), material };
-            let there = self.expanded(depth, self.in_window([x + moved[0], y + moved[1]]));
+            let there = self.expanded(depth, self.grid().cell().nearest_point([x + moved[0], y + moved[1]]));
             let risen = measure.of(&there.state());
             let is_higher = risen > value;
             if is_higher {

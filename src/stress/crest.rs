@@ -267,6 +267,7 @@ impl StressField {
         measures: &[StressMeasure],
     ) -> (Vec<[f64; 2]>, f64) {
         let found = RunningMaxima::new(measures);
+        let [own_rows, own_columns] = self.own_samples();
         let rows = self.series.on_plane(transform, buffer, &smoothed.open).map(|i, row| {
             let at = |j: usize| row.map(|component| component[j]);
             let mut states: Vec<StressState> =
@@ -274,11 +275,14 @@ impl StressField {
             for &(j, (sharp, part)) in &band[i] {
                 states[j] = smoothed.toward_open(sharp, at(j), part);
             }
-            (found.add(states.len(), |j| states[j]), largest(row[3].iter().copied()))
+            let own = if own_rows.contains(&i) { &states[own_columns.clone()] } else { &[] };
+            let best = if own.is_empty() { Vec::new() } else { found.add(own.len(), |j| own[j]) };
+            (best, largest(row[3].iter().copied()))
         });
         let place = |measure: usize| {
-            let (i, _) = first_largest(rows.iter().map(|(best, _)| best[measure].1)).unwrap_or_default();
-            let (j, _) = rows[i].0[measure];
+            let of_rows = rows[own_rows.clone()].iter().map(|(best, _)| best[measure].1);
+            let i = own_rows.start + first_largest(of_rows).map_or(0, |(i, _)| i);
+            let j = own_columns.start + rows[i].0[measure].0;
             self.series_grid().cell().point(self.series_grid().fractions(i * self.series_grid().points()[1] + j))
         };
         ((0..measures.len()).map(place).collect(), largest(rows.iter().map(|&(_, pressed)| pressed)))

@@ -109,12 +109,14 @@ impl StressField {
 }
 
 impl StressField {
-    /// Adds the terms of what a free field has beside the periodic one: it changes over the window, so that differences of a
-    /// hundredth of it are its derivatives.
+    /// Adds the terms of what a free field has beside the periodic one: it changes over the window, so that differences over a
+    /// hundredth of it, or a quarter of a thin layer in depth, are its derivatives.
     fn add_far(&self, depth: Depth, place: [f64; 2], terms: &mut TaylorTerms) {
         let step = 0.005 * self.series_grid().cell().reduced().longer_side();
+        let (top, bottom) = self.half_space().faces(depth.material);
+        let rise = step.min(0.25 * (bottom - top));
         let at = |offset: f64| self.far(Depth { z: depth.z + offset, ..depth });
-        let [Some(above), Some(here), Some(below)] = [-step, 0.0, step].map(at) else { return };
+        let [Some(above), Some(here), Some(below)] = [-rise, 0.0, rise].map(at) else { return };
         let cell = self.series_grid().cell();
         let value = |plane: &FarPlane<9>, [x, y]: [f64; 2]| -> [f64; STRESSES] {
             let [stresses @ .., _, _, _] = plane.at(cell.fractions([place[0] + x * step, place[1] + y * step]));
@@ -124,32 +126,35 @@ impl StressField {
             std::array::from_fn(|k| parts.iter().map(|(weight, own)| weight * own[k]).sum())
         };
         let (one, two) = (0.5 / step, 1.0 / (step * step));
+        let (one_deep, two_deep, mixed_deep) = (0.5 / rise, 0.5 / (rise * rise), 0.25 / (step * rise));
         let v = |x: f64, y: f64| value(&here, [x, y]);
         let (middle, up, down) = (v(0.0, 0.0), value(&above, [0.0; 2]), value(&below, [0.0; 2]));
         let second =
             |a: [f64; STRESSES], b: [f64; STRESSES]| combined(&[(0.5 * two, a), (-two, middle), (0.5 * two, b)]);
-        let mixed = |a, b, c, d| combined(&[(0.25 * two, a), (0.25 * two, b), (-0.25 * two, c), (-0.25 * two, d)]);
+        let mixed = |weight: f64, a, b, c, d| combined(&[(weight, a), (weight, b), (-weight, c), (-weight, d)]);
         let far: TaylorTerms = [
             middle,
             combined(&[(one, v(1.0, 0.0)), (-one, v(-1.0, 0.0))]),
             combined(&[(one, v(0.0, 1.0)), (-one, v(0.0, -1.0))]),
             second(v(1.0, 0.0), v(-1.0, 0.0)),
-            mixed(v(1.0, 1.0), v(-1.0, -1.0), v(1.0, -1.0), v(-1.0, 1.0)),
+            mixed(0.25 * two, v(1.0, 1.0), v(-1.0, -1.0), v(1.0, -1.0), v(-1.0, 1.0)),
             second(v(0.0, 1.0), v(0.0, -1.0)),
-            combined(&[(one, down), (-one, up)]),
+            combined(&[(one_deep, down), (-one_deep, up)]),
             mixed(
+                mixed_deep,
                 value(&below, [1.0, 0.0]),
                 value(&above, [-1.0, 0.0]),
                 value(&below, [-1.0, 0.0]),
                 value(&above, [1.0, 0.0]),
             ),
             mixed(
+                mixed_deep,
                 value(&below, [0.0, 1.0]),
                 value(&above, [0.0, -1.0]),
                 value(&below, [0.0, -1.0]),
                 value(&above, [0.0, 1.0]),
             ),
-            second(down, up),
+            combined(&[(two_deep, down), (-2.0 * two_deep, middle), (two_deep, up)]),
         ];
         for (term, far) in terms.iter_mut().flatten().zip(far.iter().flatten()) {
             *term += far;

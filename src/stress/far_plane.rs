@@ -1,46 +1,48 @@
 //! A smooth field over the window of an isolated contact at one depth, as polynomials.
 
-/// Nodes of the polynomials along each side of the window.
-pub(super) const ACROSS: usize = 10;
+/// Places are read this far beyond the window, in halves of its side: differences at its border need no more.
+const BEYOND: f64 = 1.03;
+/// Rows and columns farther from the middle, in halves of the window's side, are left without the field: nothing reads them.
+const UNREAD: f64 = 1.5;
 
 /// K components of a [`FarField`](super::far_field::FarField) at one depth.
 #[derive(Debug, Clone)]
 pub(super) struct FarPlane<const K: usize> {
+    /// Numbers of polynomials along x and along y.
+    pub counts: [usize; 2],
     /// Coefficients of the polynomials over the window, along x, then y.
-    pub coefficients: Vec<[[f64; K]; ACROSS]>,
+    pub coefficients: Vec<[f64; K]>,
     /// Of the cell of the series, whose sides are twice those of the window: the place of its corner, over half the window.
     pub corner: [f64; 2],
 }
 
-/// T₀ … T_{N−1} at x.
-pub(super) fn polynomials<const N: usize>(x: f64) -> [f64; N] {
-    let mut values = [1.0; N];
-    if N > 1 {
-        values[1] = x;
-    }
-    for k in 2..N {
-        values[k] = 2.0 * x * values[k - 1] - values[k - 2];
-    }
-    values
+/// T₀, T₁, … at x.
+pub(super) fn polynomials(x: f64) -> impl Iterator<Item = f64> {
+    let mut pair = [1.0, x];
+    std::iter::from_fn(move || {
+        let own = pair[0];
+        pair = [pair[1], 2.0 * x * pair[1] - own];
+        Some(own)
+    })
 }
 
 impl<const K: usize> FarPlane<K> {
     /// Components picked and combined by a function of all of them, which must be linear.
     pub fn map<const L: usize>(&self, of: impl Fn([f64; K]) -> [f64; L]) -> FarPlane<L> {
-        let coefficients = self.coefficients.iter().map(|row| row.map(&of)).collect();
-        FarPlane { coefficients, corner: self.corner }
+        let coefficients = self.coefficients.iter().map(|&own| of(own)).collect();
+        FarPlane { counts: self.counts, coefficients, corner: self.corner }
     }
 
     /// Place in [−1, 1] of a fraction of the cell of the series; beyond the window that of its border.
     fn inside(&self, axis: usize, fraction: f64) -> f64 {
-        (self.corner[axis] + 4.0 * fraction).clamp(-1.0, 1.0)
+        (self.corner[axis] + 4.0 * fraction).clamp(-BEYOND, BEYOND)
     }
 
-    /// The polynomials of y along the line of one x, by its fraction s of the cell of the series.
-    pub fn along(&self, s: f64) -> [[f64; K]; ACROSS] {
-        let weights = polynomials::<ACROSS>(self.inside(0, s));
-        let mut sums = [[0.0; K]; ACROSS];
-        for (weight, row) in weights.into_iter().zip(&self.coefficients) {
+    /// Coefficients of the polynomials of y along the line of one x, by its fraction s of the cell of the series.
+    pub fn along(&self, s: f64) -> Vec<[f64; K]> {
+        let mut sums = vec![[0.0; K]; self.counts[1]];
+        let rows = self.coefficients.chunks_exact(self.counts[1]);
+        for (weight, row) in polynomials(self.inside(0, s)).zip(rows) {
             for (sum, own) in sums.iter_mut().flatten().zip(row.iter().flatten()) {
                 *sum += weight * own;
             }
@@ -48,16 +50,20 @@ impl<const K: usize> FarPlane<K> {
         sums
     }
 
-    /// The polynomials of y at the fractions `start` + j/`count`, j = 0, 1, …
-    pub fn across(&self, start: f64, count: usize) -> Vec<[f64; ACROSS]> {
-        (0..count).map(|j| polynomials(self.inside(1, start + j as f64 / count as f64))).collect()
+    /// The polynomials of y at the fraction t.
+    pub fn across(&self, t: f64) -> impl Iterator<Item = f64> {
+        polynomials(self.inside(1, t)).take(self.counts[1])
+    }
+
+    /// Whether fields are read at a fraction of the cell of the series along an axis.
+    pub fn is_read(&self, axis: usize, fraction: f64) -> bool {
+        (self.corner[axis] + 4.0 * fraction).abs() < UNREAD
     }
 
     /// Components on the line of [`Self::along`], by the fraction t.
-    pub fn on(&self, line: &[[f64; K]; ACROSS], t: f64) -> [f64; K] {
-        let weights = polynomials::<ACROSS>(self.inside(1, t));
+    pub fn on(&self, line: &[[f64; K]], t: f64) -> [f64; K] {
         let mut sums = [0.0; K];
-        for (weight, own) in weights.into_iter().zip(line) {
+        for (weight, own) in self.across(t).zip(line) {
             sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += weight * own);
         }
         sums

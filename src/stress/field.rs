@@ -13,6 +13,7 @@ use crate::lattice::{Cell, Grid, NotOnGrid};
 use crate::notation::number;
 use crate::spectral::Contact;
 use ndarray::ArrayView2;
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
@@ -47,30 +48,36 @@ pub struct StressField {
     edge_exponent: f64,
 }
 
-/// The grid of the series of a pressure, and the pressure on it.
-struct Surroundings {
-    grid: Arc<Grid>,
-    /// `None` where it is that of the contact.
-    pressure: Option<Vec<f64>>,
+/// Rows and columns of the grid of the series before those of the contact's own grid: half a window of them around an isolated
+/// contact, none in a periodic cell.
+pub(super) fn samples_before(grid: &Grid) -> [usize; 2] {
+    if grid.cell().is_isolated() { grid.points().map(|n| n / 2) } else { [0; 2] }
 }
 
-impl Surroundings {
-    /// Those of a pressure on the grid of a cell; of a window on one of twice its sides, without pressure around.
-    fn new(grid: &Arc<Grid>, pressure: &[f64]) -> Self {
-        let (cell, [n1, n2]) = (grid.cell(), grid.points());
-        if !cell.is_isolated() {
-            return Self { grid: Arc::clone(grid), pressure: None };
-        }
-        let (before, steps) = ([n1 / 2, n2 / 2], grid.steps());
-        let corner = [0, 1].map(|axis| cell.corner()[axis] - before[axis] as f64 * steps[axis][axis]);
-        let sides = [0, 1].map(|axis| 2.0 * cell.vectors()[axis][axis]);
-        let wide = Cell::window_at(corner, sides).and_then(|wide| Grid::new(wide, [2 * n1, 2 * n2]));
-        let mut spread = vec![0.0; 4 * n1 * n2];
-        for (i, row) in pressure.chunks_exact(n2).enumerate() {
-            spread[(before[0] + i) * 2 * n2 + before[1]..][..n2].copy_from_slice(row);
-        }
-        Self { grid: Arc::new(wide.expect("twice a window is one")), pressure: Some(spread) }
+/// The grid of the series of a pressure on `grid`: that grid in a periodic cell; one of twice the window around an isolated contact.
+pub(super) fn series_grid(grid: &Arc<Grid>) -> Arc<Grid> {
+    let cell = grid.cell();
+    if !cell.is_isolated() {
+        return Arc::clone(grid);
     }
+    let (before, steps) = (samples_before(grid), grid.steps());
+    let corner = [0, 1].map(|axis| cell.corner()[axis] - before[axis] as f64 * steps[axis][axis]);
+    let sides = [0, 1].map(|axis| 2.0 * cell.vectors()[axis][axis]);
+    let wide = Cell::window_at(corner, sides).and_then(|wide| Grid::new(wide, grid.points().map(|n| 2 * n)));
+    Arc::new(wide.expect("twice a window is one"))
+}
+
+/// A pressure on the grid of its series, zero around the samples of its own grid.
+fn spread<'a>(grid: &Grid, pressure: &'a [f64]) -> Cow<'a, [f64]> {
+    if !grid.cell().is_isolated() {
+        return pressure.into();
+    }
+    let ([n1, n2], before) = (grid.points(), samples_before(grid));
+    let mut spread = vec![0.0; 4 * n1 * n2];
+    for (i, row) in pressure.chunks_exact(n2).enumerate() {
+        spread[(before[0] + i) * 2 * n2 + before[1]..][..n2].copy_from_slice(row);
+    }
+    spread.into()
 }
 
 impl StressField {
@@ -120,9 +127,8 @@ impl StressField {
         mean: MeanStress,
         tables: Arc<Tables>,
     ) -> Self {
-        let around = Surroundings::new(grid, pressure);
-        let (series_grid, spread) = (&around.grid, around.pressure.as_deref().unwrap_or(pressure));
-        let mut series = Series::new(series_grid, spread);
+        let (series_grid, spread) = (tables.series_grid(grid), spread(grid, pressure));
+        let mut series = Series::new(&series_grid, &spread);
         let traction = friction.map(Friction::traction).filter(|traction| *traction != [0.0; 2]);
         let far = grid.cell().is_isolated().then(|| {
             // The free field has no mean.
@@ -132,13 +138,13 @@ impl StressField {
         Self {
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
-            interiors: tables.interiors(series_grid, half_space, traction.is_some()),
+            interiors: tables.interiors(&series_grid, half_space, traction.is_some()),
             far,
             tables,
             mean: mean_states(half_space, mean, series.mean, traction.unwrap_or_default()),
             mean_stress: mean,
-            regions: Regions::new(series_grid, spread),
-            series_grid: Arc::clone(series_grid),
+            regions: Regions::new(&series_grid, &spread),
+            series_grid,
             traction,
             edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(beta)),
             series,
@@ -241,13 +247,19 @@ impl StressField {
         state
     }
 
-    /// States at the points (x, y) of one depth, lengths, by the exact sum over the waves.
+    /// States at the points (x, y) of one depth, lengths, by the exact sum over the waves; not a number beyond the window of an
+    /// isolated contact.
     ///
     /// # Panics
     /// When the depth names a material that does not exist.
     pub fn points(&self, depth: Depth, points: &[[f64; 2]]) -> Vec<StressState> {
-        let states = self.at(points, &self.depth_response(depth, REACH));
-        states.into_iter().map(StressState::from_components).collect()
+        let states = self.at(points, &self.depth_response(depth, REACH)).into_iter().zip(points);
+        states.map(|(state, &place)| self.where_it_holds(place, StressState::from_components(state))).collect()
+    }
+
+    /// The `state` found at a place; not a number beyond the window of an isolated contact, where the series is that of its images.
+    pub(super) fn where_it_holds(&self, place: [f64; 2], state: StressState) -> StressState {
+        if self.grid.cell().contains(place) { state } else { StressState::from_components([f64::NAN; 9]) }
     }
 
     /// Components of a response at the points (x, y), lengths.

@@ -49,6 +49,8 @@ mod trace;
 mod transform;
 
 pub use crest::Crest;
+#[cfg(feature = "cli")]
+pub(crate) use far_field::FarTables;
 pub use field::StressField;
 pub use fields::StressFields;
 pub use peak::{Peak, Rival};

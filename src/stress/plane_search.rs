@@ -4,7 +4,7 @@
 //! processed row by row.
 
 use super::depth_response::StressComponents;
-use super::field::StressField;
+use super::field::{StressField, samples_before};
 use super::measure::{RunningMaxima, StressMeasure};
 use super::smoothed_surface::SurfaceStresses;
 use super::tensor::StressState;
@@ -12,6 +12,7 @@ use super::transform::Transform;
 use crate::body::Depth;
 use crate::numeric::fourier::fast_points;
 use crate::numeric::search::first_largest;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Ratio of successive distances from a face.
@@ -109,14 +110,10 @@ impl StressField {
         })
     }
 
-    /// The nearest place of the window of an isolated contact, beyond which its series does not hold; of a periodic one the place.
-    pub(super) fn in_window(&self, place: [f64; 2]) -> [f64; 2] {
-        let cell = self.grid().cell();
-        if !cell.is_isolated() {
-            return place;
-        }
-        let (corner, vectors) = (cell.corner(), cell.vectors());
-        [0, 1].map(|axis| place[axis].clamp(corner[axis], corner[axis] + vectors[axis][axis]))
+    /// Rows and columns of the grid of the series that are those of the contact's own grid.
+    pub(super) fn own_samples(&self) -> [Range<usize>; 2] {
+        let before = samples_before(self.grid());
+        [0, 1].map(|axis| before[axis]..before[axis] + self.grid().points()[axis])
     }
 
     /// Fractions, of the cell of the series, of the first point of the contact's cell.

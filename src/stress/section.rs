@@ -84,7 +84,8 @@ struct LineField<'a> {
 }
 
 impl StressField {
-    /// States on a vertical section: for each depth those at the points of the line.
+    /// States on a vertical section: for each depth those at the points of the line, not a number beyond the window of an isolated
+    /// contact.
     ///
     /// # Panics
     /// When a depth names a material that does not exist.
@@ -92,7 +93,10 @@ impl StressField {
         let below = LineField::new(self, *line);
         let rows = below.rows(depths);
         let highest = rows.first().filter(|_| depths[0] == Depth::SURFACE).and_then(|surface| below.highest(surface));
-        let states = field([depths.len(), line.points], rows.into_iter().flatten().collect());
+        let places = line.places();
+        let holding =
+            |row: Vec<StressState>| row.into_iter().zip(&places).map(|(own, &at)| self.where_it_holds(at, own));
+        let states = field([depths.len(), line.points], rows.into_iter().flat_map(holding).collect());
         VerticalSection { line: *line, depths: depths.to_vec(), states, highest }
     }
 
@@ -141,8 +145,12 @@ impl<'a> LineField<'a> {
     /// states at the points.
     fn highest(&self, surface: &[StressState]) -> Option<[f64; 2]> {
         let line = self.line;
+        let cell = self.field.grid().cell();
         let highest = |states: &[StressState], line: SurfaceLine| {
-            let (best, stress) = first_largest(states.iter().map(|state| state.along(line.direction)))?;
+            let own = |(state, place): (&StressState, [f64; 2])| {
+                if cell.contains(place) { state.along(line.direction) } else { f64::NEG_INFINITY }
+            };
+            let (best, stress) = first_largest(states.iter().zip(line.places()).map(own))?;
             Some([line.distances()[best], stress])
         };
         let [s, stress] = highest(surface, line)?;

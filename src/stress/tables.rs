@@ -1,6 +1,7 @@
 //! Tables of the interior on the grids of a run, set up once for all loads.
 
 use super::far_field::FarTables;
+use super::field;
 use crate::body::{HalfSpace, InteriorTable, LayeredResponse};
 use crate::lattice::{Cell, Grid};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,6 +14,8 @@ const KEPT: usize = 8;
 pub(crate) struct Tables {
     interiors: Mutex<Vec<Entry>>,
     far: Mutex<Vec<Arc<FarTables>>>,
+    /// Grids of pressures with those of their series.
+    grids: Mutex<Vec<[Arc<Grid>; 2]>>,
 }
 
 #[derive(Debug)]
@@ -28,17 +31,25 @@ impl Tables {
     pub fn interiors(&self, grid: &Arc<Grid>, half_space: &HalfSpace, slides: bool) -> Arc<InteriorTable> {
         let mut entries = self.interiors.lock().unwrap_or_else(PoisonError::into_inner);
         let response = half_space.response();
-        let is_own = |own: &&Entry| Arc::ptr_eq(&own.grid, grid) && own.slides == slides && own.response == *response;
+        let is_own = |own: &&Entry| is_same(&own.grid, grid) && own.slides == slides && own.response == *response;
         if let Some(own) = entries.iter().find(is_own) {
             return Arc::clone(&own.table);
         }
         let (grid, response) = (Arc::clone(grid), Arc::clone(response));
         let table = Arc::new(InteriorTable::new(Arc::clone(&response), grid.waves().wavenumbers(), slides));
-        if entries.len() == KEPT {
-            entries.remove(0);
-        }
-        entries.push(Entry { grid, response, slides, table: Arc::clone(&table) });
+        keep(&mut entries, Entry { grid, response, slides, table: Arc::clone(&table) });
         table
+    }
+
+    /// The grid of the series of a pressure on `grid`, see [`field::series_grid`], set up unless there is one already.
+    pub(super) fn series_grid(&self, grid: &Arc<Grid>) -> Arc<Grid> {
+        let mut entries = self.grids.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some([_, series]) = entries.iter().find(|[own, _]| is_same(own, grid)) {
+            return Arc::clone(series);
+        }
+        let series = field::series_grid(grid);
+        keep(&mut entries, [grid, &series].map(Arc::clone));
+        series
     }
 
     /// Tables of the free field around an isolated contact in a window.
@@ -49,12 +60,22 @@ impl Tables {
         }
         let own = FarTables::new(window, half_space, traction).expect("multiples of a window are windows");
         let own = Arc::new(own);
-        if entries.len() == KEPT {
-            entries.remove(0);
-        }
-        entries.push(Arc::clone(&own));
+        keep(&mut entries, Arc::clone(&own));
         own
     }
+}
+
+/// Adds an entry, and removes the first one of more than [`KEPT`].
+fn keep<T>(entries: &mut Vec<T>, entry: T) {
+    if entries.len() == KEPT {
+        entries.remove(0);
+    }
+    entries.push(entry);
+}
+
+/// Whether two grids have the same samples, so that their waves are the same.
+fn is_same(one: &Arc<Grid>, other: &Arc<Grid>) -> bool {
+    Arc::ptr_eq(one, other) || one.cell() == other.cell() && one.points() == other.points()
 }
 
 #[cfg(test)]
@@ -67,13 +88,26 @@ mod tests {
     fn a_table_is_made_once_for_a_body_on_a_grid_and_few_are_kept() {
         let material = Material::from_shear(1.0, 0.3).unwrap();
         let body = |h: f64| HalfSpace::new(vec![Layer::new(material, h, Interface::Bonded).unwrap()], material);
-        let grid = || Arc::new(Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap());
-        let (tables, grids) = (Tables::default(), [0; KEPT].map(|_| grid()));
+        let grid = |n: usize| Arc::new(Grid::new(Cell::square(1.0).unwrap(), [n, n]).unwrap());
+        let tables = Tables::default();
+        let grids: [_; KEPT] = std::array::from_fn(|k| grid(8 + k));
         let first = tables.interiors(&grids[0], &body(0.1), false);
-        assert!(Arc::ptr_eq(&first, &tables.interiors(&grids[0], &body(0.1), false)));
+        assert!(Arc::ptr_eq(&first, &tables.interiors(&grid(8), &body(0.1), false)));
         assert!(!Arc::ptr_eq(&first, &tables.interiors(&grids[0], &body(0.2), false)));
         assert!(!Arc::ptr_eq(&first, &tables.interiors(&grids[0], &body(0.1), true)));
         grids.iter().for_each(|grid| drop(tables.interiors(grid, &body(0.1), false)));
         assert_eq!(tables.interiors.lock().unwrap().len(), KEPT);
+    }
+
+    /// Around an isolated contact the fields of all loads share the grid of their series, and so its tables.
+    #[test]
+    fn the_wide_grid_of_a_window_is_made_once() {
+        let grid = || Arc::new(Grid::new(Cell::window([1.0, 2.0]).unwrap(), [8, 10]).unwrap());
+        let tables = Tables::default();
+        let first = tables.series_grid(&grid());
+        assert!(Arc::ptr_eq(&first, &tables.series_grid(&grid())) && first.points() == [16, 20]);
+        let half_space = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
+        let table = tables.interiors(&first, &half_space, false);
+        assert!(Arc::ptr_eq(&table, &tables.interiors(&tables.series_grid(&grid()), &half_space, false)));
     }
 }

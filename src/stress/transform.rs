@@ -6,7 +6,7 @@
 //! groups of eight, which may be processed one by one without being kept. A tile or a group is the work of one thread, so that
 //! the result does not depend on the number of threads.
 
-use super::far_plane::{ACROSS, FarPlane};
+use super::far_plane::FarPlane;
 use crate::numeric::fourier::{self, Buffers, LINE, Rows};
 use crate::numeric::lanes::LANES;
 use ndarray::ArrayView3;
@@ -40,15 +40,20 @@ struct Far<const K: usize> {
     plane: FarPlane<K>,
     /// Fraction of the first row.
     start: f64,
-    /// Polynomials at each column.
-    across: Vec<[f64; ACROSS]>,
+    /// The columns that are read.
+    columns: Range<usize>,
+    /// Polynomials at each of these columns, one column after another.
+    across: Vec<f64>,
 }
 
 impl<const K: usize> Far<K> {
     /// Adds field `k` to a row at the fraction s.
     fn add(&self, k: usize, s: f64, row: &mut [f64]) {
-        let line = self.plane.along(s).map(|own| own[k]);
-        for (sample, weights) in row.iter_mut().zip(&self.across) {
+        if !self.plane.is_read(0, s) {
+            return;
+        }
+        let line: Vec<f64> = self.plane.along(s).iter().map(|own| own[k]).collect();
+        for (sample, weights) in row[self.columns.clone()].iter_mut().zip(self.across.chunks_exact(line.len())) {
             *sample += line.iter().zip(weights).map(|(own, weight)| own * weight).sum::<f64>();
         }
     }
@@ -174,7 +179,14 @@ impl<const K: usize> FieldColumns<'_, K> {
     /// The columns of fields to which the `far` one is added; the first point is at the fractions `start`.
     pub fn with_far(self, far: Option<FarPlane<K>>, start: [f64; 2]) -> Self {
         let columns = self.transform.points[1];
-        let far = far.map(|plane| Far { across: plane.across(start[1], columns), start: start[0], plane });
+        let far = far.map(|plane| {
+            let fraction = |j: usize| start[1] + j as f64 / columns as f64;
+            let is_read = |j: &usize| plane.is_read(1, fraction(*j));
+            let first = (0..columns).find(is_read).unwrap_or(0);
+            let read = first..(first..columns).rfind(is_read).map_or(first, |last| last + 1);
+            let across = read.clone().flat_map(|j| plane.across(fraction(j))).collect();
+            Far { columns: read, across, start: start[0], plane }
+        });
         Self { far, ..self }
     }
 

@@ -3,7 +3,7 @@
 use percoat::spectral::Stop;
 use percoat::{
     Bodies, Cell, Depth, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, MeanStress,
-    Problem, Settings, Shape, Solver, Step, StressField,
+    Problem, Settings, Shape, Solver, Step, StressField, StressFields,
 };
 use std::f64::consts::PI;
 
@@ -160,4 +160,67 @@ fn two_indenters_share_a_window() {
     // The other contact is 0.28 radii wide beside their distance: its field is uniform to (a/s)²/5 of it.
     assert!((reading.penetration / known - 1.0).abs() < 2e-3, "{} {known}", reading.penetration);
     assert!((reading.levels[0].load / force - 1.0).abs() < 1e-9);
+}
+
+/// The series is that of a window of twice the size: beyond the own one it is the field of images, which are higher than what is
+/// left of the contact there.
+#[test]
+fn the_largest_stresses_lie_in_the_window() {
+    for (bodies, [a, force, ..]) in anchors() {
+        let window = 2.4 * a;
+        let problem = problem(bodies, window);
+        for problem in [problem.clone(), problem.sliding(Friction::new(0.5, [1.0, 0.4]).unwrap()).unwrap()] {
+            let step = solved(problem, 64, Load::Force(force));
+            let fields = StressFields::new(step.finest(), MeanStress::Confined);
+            for maxima in fields.each().map(|field| field.maxima([a; 2])) {
+                let extremes =
+                    maxima.materials.iter().chain(&maxima.faces).flat_map(|own| [own.tau1, own.tension, own.mises]);
+                let carried = maxima.interfaces.iter().flat_map(|own| [own.normal, own.shear]);
+                let peaks: Vec<_> = extremes.chain(carried).chain(maxima.crest.map(|crest| crest.peak)).collect();
+                assert!(peaks.len() > 6);
+                for peak in peaks {
+                    let [x, y, _] = peak.position;
+                    assert!(x.abs().max(y.abs()) <= 0.5 * window * (1.0 + 1e-9), "{peak:?}");
+                }
+            }
+        }
+    }
+}
+
+/// A window of four times the length holds the same contact, and the same stresses far beside and below it.
+#[test]
+fn a_slender_window_has_the_stresses_of_a_square_one() {
+    let (bodies, [a, force, ..]) = anchors().remove(1);
+    let of = |sides: [f64; 2], points: [usize; 2]| {
+        let lattice = Lattice::new(Cell::window(sides).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+        let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+        let problem = Problem::new(Indenters::new(lattice, vec![level]).unwrap(), bodies.clone());
+        let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+        Solver::new(problem, points, settings).unwrap().solve(Load::Force(force))
+    };
+    let side = 2.5 * a;
+    let (square, slender, upright) =
+        (of([4.0 * side; 2], [160; 2]), of([4.0 * side, side], [160, 40]), of([side, 4.0 * side], [40, 160]));
+    let peak = square.reading().max_pressure;
+    let [square, slender, upright] =
+        [&square, &slender, &upright].map(|step| StressField::new(step.finest(), MeanStress::Confined));
+    let places = [[0.0, 0.0], [0.3 * side, 0.45 * side], [1.9 * side, 0.4 * side], [1.2 * side, 0.0]];
+    for (z, material) in [(0.1 * side, 1), (0.3, 1), (0.3, 2), (side, 2), (6.0 * side, 2), (20.0 * side, 2)] {
+        let depth = Depth { z, material };
+        let own = square.points(depth, &places);
+        let turned = places.map(|[x, y]| [y, x]);
+        for ((own, other), third) in own.iter().zip(slender.points(depth, &places)).zip(upright.points(depth, &turned))
+        {
+            let (a, b, c) = (own.components(), other.components(), third.components());
+            let c = [c[1], c[0], c[2], c[3], c[5], c[4]];
+            for k in 0..6 {
+                assert!(
+                    (a[k] - b[k]).abs() < 2e-6 * peak && (a[k] - c[k]).abs() < 2e-6 * peak,
+                    "{k} at {z}: {a:?}, {b:?}, {c:?}"
+                );
+            }
+        }
+    }
+    let beyond = slender.points(Depth { z: 0.1, material: 1 }, &[[0.0, 0.6 * side]])[0];
+    assert!(beyond.zz.is_nan() && square.points(Depth { z: 0.1, material: 1 }, &[[0.0, 0.6 * side]])[0].zz.is_finite());
 }

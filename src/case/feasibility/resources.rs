@@ -15,6 +15,7 @@ use crate::reading::Criterion;
 use crate::run::Sampling;
 use crate::run::places::SECTION;
 use crate::spectral::Memory;
+use crate::stress::FarTables;
 use std::f64::consts::PI;
 
 const MEBIBYTE: u64 = 1 << 20;
@@ -106,7 +107,8 @@ pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let samples = points[0] as u64 * points[1] as u64;
     let heights = of_heights(case, samples);
     let coupled = case.problem().friction().is_some_and(Friction::couples);
-    let Memory { kept, working } = Memory::of(points, case.solver.method, coupled, is_isolated(case));
+    let cell = case.problem().cell();
+    let Memory { kept, working } = Memory::of(cell, points, case.solver.method, coupled);
     // The baseline takes more memory, but less than reading a step.
     let (grids, working) = (kept as u64, working as u64);
     let needs = match job {
@@ -226,7 +228,9 @@ fn of_shells(case: &Case, samples: u64) -> u64 {
         of_grid(samples) + of_grid(samples / 4)
     };
     let bodies = case.problem().bodies();
-    let kept = |together: f64| bodies.each().map(|own| of_body(own, together)).sum::<u64>();
+    let far = |own: &HalfSpace| if cell.is_isolated() { FarTables::bytes(cell, own, slides) as u64 } else { 0 };
+    let far: u64 = bodies.each().map(far).sum();
+    let kept = |together: f64| far + bodies.each().map(|own| of_body(own, together)).sum::<u64>();
     let [a1, a2] = case.problem().cell().vectors();
     let [own, other, product] = [(a1, a1), (a2, a2), (a1, a2)].map(|(u, v)| u[0] * v[0] + u[1] * v[1]);
     let is = |x: f64, y: f64| (x - y).abs() <= 1e-9 * own;

@@ -152,8 +152,17 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     /// failed by more than its error or contact is complete. They do not depend on the loads of the run.
     fn scan(&mut self, sought: &[Criterion]) -> Result<(), RunError<R::Error>> {
         let mut lowest = self.start();
+        let mut at_border = self.solve(lowest)?.stop == Stop::AtBorder;
+        for _ in 0..DOUBLINGS {
+            if !at_border {
+                break;
+            }
+            // Contact has no room in its window: a lower load may have.
+            lowest *= 0.5;
+            at_border = self.solve(lowest)?.stop == Stop::AtBorder;
+            self.steps.truncate(1);
+        }
         let mut highest = lowest;
-        self.solve(lowest)?;
         for _ in 0..DOUBLINGS {
             // Where contact is complete under any load, loads are halved until everything holds.
             let holds = |search: &Self| {
@@ -169,7 +178,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         for _ in 0..DOUBLINGS {
             let has_samples = self.steps.iter().any(|step| self.is_readable(&step.reading));
             let holds = |&criterion: &Criterion| !self.band(criterion).fails();
-            if highest >= self.largest || has_samples && !sought.iter().any(holds) {
+            if at_border || highest >= self.largest || has_samples && !sought.iter().any(holds) {
                 break;
             }
             let before = highest;

@@ -29,7 +29,8 @@ impl Limits {
         let reach = (HALF_LENGTH * radius).min(0.5 * cell.reduced().longer_side());
         let coating = bodies.each().flat_map(HalfSpace::interface_depths).fold(0.0, f64::max);
         let [rows, points] = SECTION;
-        let line = SurfaceLine { origin: [x, y], direction, span: [-reach, reach], points };
+        let span = cell.clipped([x, y], direction, [-reach, reach]);
+        let line = SurfaceLine { origin: [x, y], direction, span, points };
         let depth = (LEAST_DEPTH * radius).max(1.5 * z).max(1.25 * coating.min(DEEPEST_COATING * radius));
         let mean = run.mean_stress().unwrap_or_default();
         let fields = StressFields::new(step.finest(), mean);

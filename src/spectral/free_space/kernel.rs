@@ -54,6 +54,18 @@ impl Window {
         self.table(b, Some(axis))
     }
 
+    /// Memory while a table is made, bytes: the weights of both axes, and the sums over one of them.
+    pub fn bytes_while_made(&self) -> usize {
+        let ([n1, n2], [nodes1, nodes2]) = (self.points, [0, 1].map(|axis| self.nodes(axis)));
+        8 * (nodes1 * (nodes1 + n1 + n2) + nodes2 * (nodes2 + n2))
+    }
+
+    /// Nodes over the zone along an axis.
+    fn nodes(&self, axis: Axis) -> usize {
+        let [d1, d2] = self.spacings;
+        (NODES as f64 * d1.max(d2) / self.spacings[axis]).ceil() as usize
+    }
+
     /// The kernel of f, odd along an axis if there is one.
     fn table(&self, f: OfWavenumber<'_>, odd: Option<Axis>) -> Array2<f64> {
         let ([d1, d2], [n1, n2]) = (self.spacings, self.points);
@@ -95,7 +107,7 @@ impl Rest {
         let spacing = spacings[0].max(spacings[1]);
         let filon = |axis: Axis| {
             let wave = if odd == Some(axis) { Wave::Sine } else { Wave::Cosine };
-            Filon::new((NODES as f64 * spacing / spacings[axis]).ceil() as usize, points[axis], wave)
+            Filon::new(window.nodes(axis), points[axis], wave)
         };
         let [along, across] = [0, 1].map(filon);
         let mut sums = vec![0.0; along.nodes.len() * points[1]];

@@ -10,7 +10,7 @@ use super::kernel::{OfWavenumber, Window};
 use super::quadrant::{Parity, transformed};
 use crate::body::{Bodies, Compliances};
 use crate::friction::Friction;
-use crate::lattice::Grid;
+use crate::lattice::{Cell, Grid};
 use crate::numeric::fourier::fast_points;
 use crate::numeric::lanes::Real;
 use crate::numeric::rows::RowBlocks;
@@ -137,6 +137,13 @@ impl FreeSpaceOperator {
         let components = |[n1, n2]: [usize; 2]| (n1 * (n2 / 2 + 1).next_multiple_of(f32::WIDTH)) as f64;
         let tables = components(padded(points)) * f64::from(1 + u8::from(coupled)) + components(points);
         8.0 * tables / (points[0] * points[1]) as f64
+    }
+
+    /// Memory while the kernel of a window is made besides its tables, bytes; much where the samples are oblong.
+    pub fn bytes_while_made(window: Cell, points: [usize; 2]) -> usize {
+        let [a1, a2] = window.vectors();
+        let spacings = [a1[0] / points[0] as f64, a2[1] / points[1] as f64];
+        Window { spacings, points }.bytes_while_made()
     }
 
     /// p → w: displacement into the body (a length), from pressure and the traction that goes with it.
