@@ -20,17 +20,18 @@
 //! stands to its left:
 //!
 //! ```text
-//! numeric → notation → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → localized → run
-//! → comparison → plain → units → machine → heights → case → output → sweep → picture → report → validation → command
+//! numeric → notation → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → identification
+//! → localized → run → comparison → plain → units → measurements → machine → heights → case → output → sweep → picture → report → validation → command
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters and topographies; [`body`]: the layered half-space;
 //! - [`friction`], [`problem`], [`load`]: what is solved;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
+//! - [`identification`]: parameters of a stack from a measured indentation curve;
 //! - [`comparison`]: both methods side by side; [`run`]: load paths, refinement, warnings.
 //!
-//! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `machine` (memory, disk, threads), file formats
+//! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `measurements` from tables, `machine` (memory, disk, threads), file formats
 //! of `heights`, `case`, `output`, `sweep`, `picture`, `report` and the `command` line; behind `validate`: `validation`, the studies and the closed forms they compare with.
 //!
 //! [`theory`] leads from the equations of the paper to what is solved.
@@ -64,11 +65,14 @@ pub mod counterbody;
 pub mod friction;
 #[cfg(feature = "cli")]
 mod heights;
+pub mod identification;
 pub mod lattice;
 pub mod load;
 pub mod localized;
 #[cfg(feature = "cli")]
 pub mod machine;
+#[cfg(feature = "cli")]
+mod measurements;
 mod notation;
 mod numeric;
 #[cfg(feature = "cli")]
@@ -104,5 +108,7 @@ pub use load::{Load, LoadQuantity};
 pub use problem::Problem;
 pub use reading::{LevelReading, Reading, StressReading};
 pub use run::{Run, Sampling};
-pub use spectral::{Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver, Step, Stop};
+pub use spectral::{
+    Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver, Step, Stop, Tangent,
+};
 pub use stress::{DepthPlane, StressField, StressFields, StressState, SurfaceLine, VerticalSection};

@@ -198,7 +198,7 @@ pub fn is_force(name: &str) -> bool {
 
 impl Unit {
     /// The unit of a name, which may be an SI unit `base` with a prefix.
-    fn called(name: &str, base: &'static str) -> Self {
+    pub(crate) fn called(name: &str, base: &'static str) -> Self {
         // The letters mu and u are written for the sign.
         let prefix = name.strip_suffix(base).map(|prefix| if ["u", "μ"].contains(&prefix) { "µ" } else { prefix });
         match prefix.and_then(|prefix| PREFIXES.iter().position(|own| *own == prefix)) {

@@ -9,6 +9,8 @@ mod cases_refused;
 mod energy;
 #[path = "library/first_touch.rs"]
 mod first_touch;
+#[path = "library/identification.rs"]
+mod identification;
 #[path = "library/invariance.rs"]
 mod invariance;
 #[path = "library/isolated.rs"]
@@ -41,6 +43,8 @@ mod stopping;
 mod stress;
 #[path = "library/surface_stress.rs"]
 mod surface_stress;
+#[path = "library/tangent.rs"]
+mod tangent;
 #[path = "library/topographies.rs"]
 mod topographies;
 #[path = "library/two_bodies.rs"]

@@ -66,6 +66,21 @@ pub enum Command {
         #[command(flatten)]
         common: Common,
     },
+    /// Find moduli, thicknesses or other keys of a case from a measured indentation curve
+    #[command(after_help = help::IDENTIFY)]
+    Identify {
+        /// Table of the curve: columns `force` and `penetration`, with units as in `force_mN,penetration_nm`
+        data: PathBuf,
+        /// Case file of one indenter alone, or the name of an embedded case
+        case: PathBuf,
+        /// Keys to be found, as layers.0.young,substrate.young; `offset`: a zero that was missed; `frame_compliance`: that of the frame
+        #[arg(long, required = true, value_name = "KEY,…", value_delimiter = ',')]
+        free: Vec<String>,
+        #[command(flatten)]
+        changes: Changes,
+        #[command(flatten)]
+        common: Common,
+    },
     /// Solve a case for many values of its keys: one row for each combination and load step in sweep.csv
     #[command(after_help = help::SWEEP)]
     Sweep {
@@ -212,6 +227,7 @@ impl Arguments {
             Command::Solve { common, .. }
             | Command::Compare { common, .. }
             | Command::Limit { common, .. }
+            | Command::Identify { common, .. }
             | Command::Sweep { common, .. } => Some((common.work.threads, common.quiet)),
             Command::Check { work, .. } => Some((work.threads, false)),
             #[cfg(feature = "validate")]

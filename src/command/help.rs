@@ -30,6 +30,12 @@ help!(
     "limit mine.toml --set friction.coefficient=0.1"
 );
 help!(
+    IDENTIFY,
+    "0 done; 2 refused: the curve does not determine the keys, or is\nno curve; 4 input or output failed; 130 interrupted",
+    "identify data.csv mine.toml --free layers.0.young",
+    "identify data.csv mine.toml --free layers.0.young,substrate.young,offset"
+);
+help!(
     SWEEP,
     "0 done; 2 refused, nothing written; 3 a combination failed or did\nnot converge, the table says why; 4 input or output failed; 130 interrupted",
     "sweep fig2 --set layers.0.thickness=0.1:1:9:log --set grid.points=128",

@@ -13,7 +13,7 @@ use crate::case::resources::Job;
 use crate::case::{Case, plausibility};
 use crate::output::{LimitFile, Writer, number, summary, table, with_error};
 use crate::picture::{self, Snapshot};
-use crate::run::{LimitStep, Limits, Recorder, Run, StepRecord};
+use crate::run::{EVENTS, LimitStep, Limits, Recorder, Run, StepRecord};
 use crate::{Solver, Step, StressFields};
 use std::convert::Infallible;
 use std::path::Path;
@@ -21,6 +21,8 @@ use std::time::Instant;
 
 /// Name of the embedded case that is solved without CASE: it has strengths.
 const DEFAULT: &str = "dlc-on-steel";
+/// Names of the pictures of the sections, in the order in which limits are reached.
+const SECTIONS: [&str; EVENTS] = ["limit-section", "limit-section-2", "limit-section-3", "limit-section-4"];
 
 /// Shows the progress of the search.
 struct Searching<'a> {
@@ -67,7 +69,8 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
     let run = case.run();
     let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
     run.check_limits()?;
-    let plan = plan(Writer::Limit, &["limit.json", "limit.csv"], pictures, &["limit", "limit-section"]);
+    let drawn = [&["limit"][..], &SECTIONS].concat();
+    let plan = plan(Writer::Limit, &["limit.json", "limit.csv"], pictures, &drawn);
     let results = Results::claim(folder, plan, common.saying())?;
     let mut searching = Searching { allowed, progress: Progress::new("", 0, 0, common) };
     let limits = run.limits(&mut searching)?;
@@ -84,16 +87,16 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
     Ok(Ending::of(limits.converged()))
 }
 
-/// Draws the utilisations over the load, and the stresses under the place that fails first.
+/// Draws the utilisations over the load, and the stresses through each of the places that fail first.
 fn draw(results: &Results, case: &Case, run: &Run, limits: &Limits, pictures: &PictureOptions) -> Result<(), Failure> {
     let staging = results.staging();
     pictures.write(&staging, "limit", || picture::utilisations(&case.title, case.problem(), &case.units(), limits))?;
-    if let (true, Some(sections), Some(LimitStep { limit, record, step })) =
-        (pictures.wanted(), limits.sections(run), limits.shown.clone())
-    {
+    for (event, name) in limits.shown.iter().zip(&SECTIONS).filter(|_| pictures.wanted()) {
+        let LimitStep { limit, record, step } = event.clone();
+        let Some(sections) = event.sections(run) else { continue };
         let snapshot = Snapshot::new(&case.title, step, record.reading).with_strength(record.strength);
         let snapshot = snapshot.at_limit_of(limit.criterion).with_units(case.units());
-        pictures.write(&staging, "limit-section", || Some(picture::section(&snapshot, &sections)))?;
+        pictures.write(&staging, name, || Some(picture::section(&snapshot, &sections)))?;
     }
     Ok(())
 }

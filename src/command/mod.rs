@@ -7,6 +7,7 @@ mod compare;
 mod ending;
 mod explain;
 mod help;
+mod identify;
 mod input;
 mod interruption;
 mod kernel;
@@ -63,6 +64,9 @@ fn carry_out(command: &Command) -> Result<Ending, Failure> {
         Command::Solve { case, changes, options, common } => solve::run(case.as_deref(), &changes.set, options, common),
         Command::Compare { case, changes, common } => compare::run(case.as_deref(), &changes.set, common),
         Command::Limit { case, changes, common } => limit::run(case.as_deref(), &changes.set, common),
+        Command::Identify { data, case, free, changes, common } => {
+            identify::run(data, case, free, &changes.set, common)
+        }
         Command::Sweep { case, set, options, common } => sweep::run(case, set, options, common),
         Command::Merge { folders, output, pictures, saying } => {
             merge::run(folders, output.as_deref(), pictures, *saying)

@@ -32,6 +32,7 @@ pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
         Writer::Check => ".percoat/check",
         Writer::Compare => ".percoat/compare",
         Writer::Limit => ".percoat/limit",
+        Writer::Identify => ".percoat/identify",
         Writer::Validate => ".percoat/validate",
         Writer::Report => ".percoat/report",
     })

@@ -88,7 +88,7 @@ impl LimitFile {
         Limits {
             limits: self.limits.clone(),
             steps: self.steps.clone(),
-            shown: None,
+            shown: Vec::new(),
             quantity: self.limits.first().map_or(LoadQuantity::MeanPressure, |limit| limit.quantity),
             complete: self.complete_contact.unwrap_or(f64::INFINITY),
             change: self.change,

@@ -48,6 +48,7 @@ mod folder;
 mod folder_error;
 mod foreign;
 mod histograms;
+mod identification;
 #[cfg(test)]
 mod image;
 mod interrupted;
@@ -94,6 +95,7 @@ pub use finished::{CannotGoOn, finished};
 pub use folder::RunFolder;
 pub use folder_error::FolderError;
 pub use histograms::histograms;
+pub use identification::{IdentificationFile, fitted, identified};
 pub use interrupted::{coarser, has_begun, has_solved_alone, staged_bytes};
 pub use json::Unreadable;
 pub use kernel::{Traction, kernel};

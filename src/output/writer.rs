@@ -14,6 +14,8 @@ pub enum Writer {
     Compare,
     /// `percoat limit`.
     Limit,
+    /// `percoat identify`.
+    Identify,
     /// `percoat validate`.
     Validate,
     /// `percoat sweep`, and `percoat merge`.
@@ -24,8 +26,16 @@ pub enum Writer {
 
 impl Writer {
     /// All commands.
-    pub const ALL: [Self; 7] =
-        [Self::Solve, Self::Check, Self::Compare, Self::Limit, Self::Validate, Self::Sweep, Self::Report];
+    pub const ALL: [Self; 8] = [
+        Self::Solve,
+        Self::Check,
+        Self::Compare,
+        Self::Limit,
+        Self::Identify,
+        Self::Validate,
+        Self::Sweep,
+        Self::Report,
+    ];
 
     /// Whether a new result outdates the report in the folder.
     pub(super) fn outdates_report(self) -> bool {

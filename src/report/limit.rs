@@ -12,10 +12,10 @@ use super::results::Results;
 use super::table::table;
 use super::units::{case_of, measured_in, units_of, with_unit};
 use crate::output::{LimitFile, table as tables};
-use crate::run::{At, Limits};
+use crate::run::{At, EVENTS, Limits};
 use crate::units::Units;
 
-const PICTURES: [PictureText; 2] = [
+const PICTURES: [PictureText; 1 + EVENTS] = [
     (
         "limit",
         "Curves of the utilisation of each criterion over the load",
@@ -27,6 +27,15 @@ const PICTURES: [PictureText; 2] = [
         "Stresses in a vertical cut through the place that fails first, at its limit load; numbers: what is at or beyond its \
          strength.",
     ),
+    ("limit-section-2", SECTION_TEXT[0], SECTION_TEXT[1]),
+    ("limit-section-3", SECTION_TEXT[0], SECTION_TEXT[1]),
+    ("limit-section-4", SECTION_TEXT[0], SECTION_TEXT[1]),
+];
+
+/// Texts of the sections through places that fail later.
+const SECTION_TEXT: [&str; 2] = [
+    "Maps of stresses in a vertical cut through a place that fails at a higher load",
+    "Stresses in a vertical cut through the place that fails next, at its limit load.",
 ];
 
 /// The part of the page for a search for limit loads, from `limit.json`.

@@ -1,11 +1,12 @@
 //! One of the nested grids of a problem: surface, operator and unknowns.
 
-use super::Contact;
 use super::free_space::FreeSpaceOperator;
 use super::iteration::{AdmissibleSet, ContactProblem, Progress, Report, Settings, Unknowns, Working};
 use super::layered_operator::LayeredOperator;
 use super::operator::{ElasticOperator, Workspace};
 use super::prolongation::prolonged;
+use super::{Contact, Tangent};
+use crate::body::Bodies;
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::load::{Control, Load};
@@ -21,7 +22,7 @@ const MAX_UNRESOLVED: usize = 4;
 
 /// The operator of the bodies: on a periodic cell, or in the window of an isolated contact.
 #[derive(Debug)]
-enum BodyOperator {
+pub(super) enum BodyOperator {
     Periodic(Box<LayeredOperator>),
     FreeSpace(Box<FreeSpaceOperator>),
 }
@@ -34,6 +35,22 @@ impl BodyOperator {
             (false, None) => Self::Periodic(Box::new(LayeredOperator::new(grid, bodies))),
             (true, Some(friction)) => Self::FreeSpace(Box::new(FreeSpaceOperator::sliding(grid, bodies, friction))),
             (true, None) => Self::FreeSpace(Box::new(FreeSpaceOperator::new(grid, bodies))),
+        }
+    }
+
+    /// Σ wᵢ Cᵢ of several bodies, without friction; only for [`Self::displace`].
+    pub fn combined(grid: &Grid, bodies: &[(f64, &Bodies)]) -> Self {
+        match grid.cell().is_isolated() {
+            false => Self::Periodic(Box::new(LayeredOperator::combined(grid, bodies))),
+            true => Self::FreeSpace(Box::new(FreeSpaceOperator::combined(grid, bodies))),
+        }
+    }
+
+    /// p → w in place.
+    pub fn displace(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        match self {
+            Self::Periodic(operator) => operator.displace(field, workspace),
+            Self::FreeSpace(operator) => operator.displace(field, workspace),
         }
     }
 
@@ -188,6 +205,12 @@ impl GridLevel {
     pub fn contact(&self, problem: &Arc<Problem>) -> Contact {
         let Unknowns { pressure, gap, penetration, .. } = &self.unknowns;
         Contact::new(problem, &self.surface, Arc::clone(pressure), Arc::clone(gap), *penetration)
+    }
+
+    /// The tangent of the last load, see [`Tangent`]; `None` without contact.
+    pub fn tangent(&mut self, problem: &Arc<Problem>) -> Option<Tangent> {
+        let contact = self.contact(problem);
+        Tangent::new(&mut self.operator, &contact)
     }
 
     /// Whether an isolated contact reaches the border of its window.

@@ -34,9 +34,14 @@ pub struct LayeredOperator {
 impl LayeredOperator {
     /// Operator of the bodies on a grid, without friction.
     pub fn new(grid: &Grid, bodies: impl Into<Bodies>) -> Self {
-        let bodies = bodies.into();
-        let compliances = Compliances::new(&bodies, range(grid), grid.len() / 2);
-        Self::with(grid, &bodies, &compliances)
+        Self::combined(grid, &[(1.0, &bodies.into())])
+    }
+
+    /// Σ wᵢ Cᵢ of several bodies, without friction.
+    pub(super) fn combined(grid: &Grid, bodies: &[(f64, &Bodies)]) -> Self {
+        let own = bodies.iter().map(|(weight, own)| (*weight, Compliances::new(own, range(grid), grid.len() / 2)));
+        let compliances: Vec<(f64, Compliances<'_>)> = own.collect();
+        Self::with(grid, &compliances)
     }
 
     /// Operator of the bodies on a grid, the counterbody sliding with `friction`.
@@ -47,7 +52,9 @@ impl LayeredOperator {
             return Self::new(grid, bodies);
         }
         let compliances = Compliances::coupled(&bodies, range(grid), grid.len() / 2);
-        let own = Self::with(grid, &bodies, &compliances);
+        let compliances = [(1.0, compliances)];
+        let own = Self::with(grid, &compliances);
+        let [(_, compliances)] = compliances;
         let ratio = |component| match grid.mean_direction(component) {
             [0.0, 0.0] => 0.0,
             [nx, ny] => (x * nx + y * ny) * compliances.coupling_ratio(grid.wavenumber(component)),
@@ -59,9 +66,11 @@ impl LayeredOperator {
         Self { skew: Some((skew, largest)), ..own }
     }
 
-    fn with(grid: &Grid, bodies: &Bodies, compliances: &Compliances<'_>) -> Self {
+    /// Σ wᵢ Cᵢ of several compliances.
+    fn with(grid: &Grid, compliances: &[(f64, Compliances<'_>)]) -> Self {
         let (double, single) = (Convolution::new(grid.points()), Convolution::new(grid.points()));
-        let unit = bodies.compliance(grid.least_wavenumber());
+        let at = |k: f64| compliances.iter().map(|(weight, own)| weight * own.at(k)).sum::<f64>();
+        let unit = at(grid.least_wavenumber());
         // The mean displacement of a loaded half-space is infinite: displacements have zero mean. The inverse must stay
         // positive: it takes the mean for a component of the least wavenumber.
         let compliance = double.multiplier(grid.cell().is_rectangular(), |first, values| {
@@ -69,7 +78,10 @@ impl LayeredOperator {
             if first == [0, 0] {
                 values[0] = grid.least_wavenumber();
             }
-            compliances.replace(values);
+            match compliances {
+                [(1.0, own)] => own.replace(values),
+                _ => values.iter_mut().for_each(|k| *k = at(*k)),
+            }
         });
         Self { double, single, compliance, skew: None, unit, convolutions: 0.0 }
     }

@@ -24,6 +24,7 @@ pub mod operator;
 mod prolongation;
 mod solver;
 mod step;
+mod tangent;
 
 pub use checkpoint::{Checkpoint, OtherGrids};
 pub use contact::Contact;
@@ -34,3 +35,4 @@ pub use layered_operator::LayeredOperator;
 pub use operator::Workspace;
 pub use solver::{Memory, Solver};
 pub use step::Step;
+pub use tangent::Tangent;

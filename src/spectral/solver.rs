@@ -8,8 +8,9 @@
 use super::free_space::FreeSpaceOperator;
 use super::grid_level::{Coarser, GridLevel};
 use super::iteration::{Method, Progress, Report, Settings, Stop, Unknowns, Working};
-use super::{FieldError, Step};
+use super::{FieldError, Step, Tangent};
 use crate::counterbody::Surface;
+use crate::friction::Friction;
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::load::Load;
 use crate::numeric::fourier::fast_points;
@@ -195,6 +196,14 @@ impl Solver {
         let (finest, coarser) = (contact(&self.levels[0]), self.levels[1..=coarser].iter().map(contact).collect());
         let certificate = self.levels[0].unknowns().certificate;
         Step { load, report, certificate, convolutions, finest, coarser }
+    }
+
+    /// The tangent of the load that was solved last; `None` without contact, and under friction that couples.
+    pub fn tangent(&mut self) -> Option<Tangent> {
+        if self.problem.friction().is_some_and(Friction::couples) {
+            return None;
+        }
+        rayon::scope(|_| self.levels[0].tangent(&self.problem))
     }
 
     /// Drops all pressures: those of a failed step are no start for the next one.

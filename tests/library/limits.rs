@@ -70,11 +70,11 @@ fn at_its_limit_each_criterion_is_one_at_the_place_that_is_told() {
     }
     let first = found.first().unwrap();
     assert_eq!(first.load(), loads(&found).into_iter().fold(f64::INFINITY, f64::min));
-    let shown = found.shown.as_ref().unwrap();
+    let shown = &found.shown[0];
     assert_eq!((shown.limit, &shown.limit), (*first, first));
     assert!((shown.step.reading().mean_pressure / first.load() - 1.0).abs() < 1e-12);
     let run = Run::new(problem, vec![Load::MeanPressure(0.1)], Sampling::Points([96; 2]));
-    let sections = found.sections(&run).unwrap();
+    let sections = found.shown[0].sections(&run).unwrap();
     assert_eq!(sections.len(), 1, "of the body alone under a rigid counterbody");
     assert_eq!(sections[0].line.origin, [first.position().unwrap()[0], first.position().unwrap()[1]]);
 }
@@ -105,7 +105,7 @@ fn what_is_never_reached_or_at_once_is_said() {
     assert!((up_to / found.complete - 1.0).abs() < 1e-12 && 0.0 < utilisation && utilisation < 1.0 && load <= up_to);
     assert!(found.steps.last().unwrap().reading.contact_fraction > 0.99);
     assert!(words.contains("nothing fails") && words.contains("contact is complete"), "{words}");
-    assert!(found.first().is_none() && found.shown.is_none());
+    assert!(found.first().is_none() && found.shown.is_empty());
 
     let (below, words, found) = at(bare(paraboloid, 1e-5));
     let At::Below { load: mean_pressure, .. } = below else { panic!("{below:?}") };
@@ -168,7 +168,7 @@ fn what_fails_at_lesser_loads_only_is_found_from_larger_ones() {
         let At::Load { load: mean_pressure, position, .. } = found.limits[0].at else {
             panic!("from {start}: {found}")
         };
-        assert_eq!(found.shown.as_ref().unwrap().limit.position(), Some(position));
+        assert_eq!(found.shown[0].limit.position(), Some(position));
         (mean_pressure, found.complete)
     };
     let (known, complete) = from(0.05);

@@ -148,7 +148,7 @@ fn readings_and_limits_name_the_body() {
     assert_eq!(loads.len(), 2);
     // Bare and below a stiff coating: the counterbody bears the same pressure without a coating, and yields first.
     assert!(loads[1] < loads[0], "{loads:?}");
-    assert_eq!(limits.sections(&run).unwrap().len(), 2);
+    assert_eq!(limits.shown[0].sections(&run).unwrap().len(), 2);
 }
 
 /// A bare counterbody bears the pressure as the body does: of like bodies both have the same largest stresses.

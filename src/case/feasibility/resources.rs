@@ -12,8 +12,8 @@ use crate::localized::Setup;
 use crate::machine::{Capacity, bytes};
 use crate::numeric::fourier::fast_points;
 use crate::reading::Criterion;
-use crate::run::Sampling;
 use crate::run::places::SECTION;
+use crate::run::{EVENTS, Sampling};
 use crate::spectral::Memory;
 use crate::stress::FarTables;
 use std::f64::consts::PI;
@@ -180,9 +180,10 @@ fn of_limits(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pic
     let elastic = case.problem().bodies().each().count() as u64;
     let series = of_series(case, samples);
     let own = elastic * (STRESS * series + STATE * (SECTION[0] * SECTION[1]) as u64);
-    let stress = own + SEARCH * series + of_shells(case, series);
+    // The steps that are shown stay in memory.
+    let stress = own + SEARCH * series + of_shells(case, series) + EVENTS as u64 * STEP * samples;
     let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
-    let disk = COMPARISON + if pictures { 2 * PICTURE } else { 0 };
+    let disk = COMPARISON + if pictures { (1 + EVENTS as u64) * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
 }
 

@@ -94,8 +94,8 @@ pub struct Limits {
     pub limits: Vec<Limit>,
     /// All loads that were solved on the last grid, by ascending load.
     pub steps: Vec<StepRecord>,
-    /// The first limit that is reached above the load 0, with the step there, its record and its fields; `None` without such a limit.
-    pub shown: Option<LimitStep>,
+    /// The first limits that are reached above the load 0, four at most, with the step at each, its record and its fields.
+    pub shown: Vec<LimitStep>,
     /// The quantity of all loads.
     pub quantity: LoadQuantity,
     /// Load at which contact becomes complete on the last grid; infinite for an isolated contact.
@@ -108,7 +108,7 @@ pub struct Limits {
     pub warnings: Vec<String>,
 }
 
-/// The step at the first limit above the load 0.
+/// The step at a limit above the load 0.
 #[derive(Debug, Clone)]
 pub struct LimitStep {
     /// The limit, with the place that fails.

@@ -28,6 +28,7 @@ mod section;
 mod words;
 
 pub use limits::{At, Limit, LimitStep, Limits, first, rivals};
+pub use search::EVENTS;
 
 use super::{Recorder, Refinement, Run, RunError, Sampling};
 use crate::reading::Criterion;
@@ -99,7 +100,7 @@ impl Run {
                         break limits;
                     }
                     // The memory of its fields is freed before the next grid needs as much and more.
-                    limits.shown = None;
+                    limits.shown = Vec::new();
                     coarse = Some(limits);
                 }
             }

@@ -14,6 +14,10 @@ use std::sync::Arc;
 
 /// Largest number of doublings and of halvings of the first load.
 const DOUBLINGS: usize = 40;
+/// Largest number of limits that are shown with their fields.
+pub const EVENTS: usize = 4;
+/// Largest number of times that a first load is halved whose contact has no room in its window.
+const HALVINGS: usize = 8;
 /// Largest number of loads for one limit; bisection alone takes ten from a factor of two on.
 const TRIALS: usize = 40;
 /// Least number of samples along the radius of a contact for its stresses to be read.
@@ -90,7 +94,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let mut limits = Limits {
             limits,
             steps: Vec::new(),
-            shown: None,
+            shown: Vec::new(),
             quantity,
             complete,
             change: None,
@@ -98,18 +102,15 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             warnings: Vec::new(),
         };
         let is_load = |limit: &&&Limit| limit.load() > 0.0 && limit.load().is_finite();
-        let first = limits.ordered().iter().find(is_load).map(|limit| **limit);
-        let shown = match first {
-            Some(limit) => {
-                let record = search.solve(limit.load())?.clone();
-                // Rounding decides between places that are equal by symmetry: the place is that of the step that is shown.
-                let limit = limit.moved_to(search.utilisation(&record, limit.criterion).position);
-                limits.limits.iter_mut().filter(|own| own.criterion == limit.criterion).for_each(|own| *own = limit);
-                search.last.take().map(|step| LimitStep { limit, record, step })
-            }
-            None => None,
-        };
-        Ok(Limits { shown, steps: search.steps, ..limits })
+        let events: Vec<Limit> = limits.ordered().iter().filter(is_load).take(EVENTS).map(|limit| **limit).collect();
+        for limit in events {
+            let record = search.solve(limit.load())?.clone();
+            // Rounding decides between places that are equal by symmetry: the place is that of the step that is shown.
+            let limit = limit.moved_to(search.utilisation(&record, limit.criterion).position);
+            limits.limits.iter_mut().filter(|own| own.criterion == limit.criterion).for_each(|own| *own = limit);
+            limits.shown.extend(search.last.take().map(|step| LimitStep { limit, record, step }));
+        }
+        Ok(Limits { steps: search.steps, ..limits })
     }
 
     /// Solves a load and keeps its record.
@@ -153,7 +154,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     fn scan(&mut self, sought: &[Criterion]) -> Result<(), RunError<R::Error>> {
         let mut lowest = self.start();
         let mut at_border = self.solve(lowest)?.stop == Stop::AtBorder;
-        for _ in 0..DOUBLINGS {
+        for _ in 0..HALVINGS {
             if !at_border {
                 break;
             }

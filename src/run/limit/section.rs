@@ -1,6 +1,6 @@
-//! The section of the stresses under the place that fails first.
+//! The section of the stresses through a place that fails.
 
-use super::{LimitStep, Limits};
+use super::LimitStep;
 use crate::body::HalfSpace;
 use crate::friction::Friction;
 use crate::run::Run;
@@ -15,12 +15,11 @@ const LEAST_DEPTH: f64 = 2.0;
 /// Largest depth of a coating, in radii of a contact, that the section reaches through.
 const DEEPEST_COATING: f64 = 8.0;
 
-impl Limits {
-    /// Sections of the stresses in each body at the first limit that is reached under a load, through the place that fails: along the direction of
-    /// sliding, or along x without friction, a contact's width to both sides and deep enough to show the place; `None` without such
-    /// a limit.
+impl LimitStep {
+    /// Sections of the stresses in each body at the limit, through the place that fails: along the direction of sliding, or along x
+    /// without friction, a contact's width to both sides and deep enough to show the place; `None` where the limit has no place.
     pub fn sections(&self, run: &Run) -> Option<Vec<VerticalSection>> {
-        let LimitStep { limit, step, .. } = self.shown.as_ref()?;
+        let Self { limit, step, .. } = self;
         let [x, y, z] = limit.position()?;
         let (bodies, cell) = (run.problem.bodies(), run.problem.cell());
         let direction = run.problem.friction().map_or([1.0, 0.0], Friction::direction);

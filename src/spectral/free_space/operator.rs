@@ -71,9 +71,15 @@ impl FreeSpaceOperator {
     /// # Panics
     /// When the cell of the grid, the window, is not a rectangle.
     pub fn new(grid: &Grid, bodies: impl Into<Bodies>) -> Self {
-        let bodies = bodies.into();
-        let compliances = Compliances::new(&bodies, range(grid), EVALUATIONS);
-        Self::with(grid, &|k| k * compliances.at(k), None)
+        Self::combined(grid, &[(1.0, &bodies.into())])
+    }
+
+    /// Σ wᵢ Cᵢ of several bodies, without friction.
+    pub(in crate::spectral) fn combined(grid: &Grid, bodies: &[(f64, &Bodies)]) -> Self {
+        let own = bodies.iter().map(|(weight, own)| (*weight, Compliances::new(own, range(grid), EVALUATIONS)));
+        let compliances: Vec<(f64, Compliances<'_>)> = own.collect();
+        let c = |k: f64| k * compliances.iter().map(|(weight, own)| weight * own.at(k)).sum::<f64>();
+        Self::with(grid, &c, None)
     }
 
     /// Operator of the bodies, the counterbody sliding with `friction`.

@@ -1,0 +1,170 @@
+//! Least squares by Levenberg and Marquardt: the minimum of Σ rᵢ(t)² with the Jacobian J, by steps
+//!
+//! (JᵀJ + λ diag JᵀJ) Δt = −Jᵀr,
+//!
+//! λ smaller after a step that lowers the sum, larger after one that does not. The scale of each parameter drops out.
+
+/// Residuals and their Jacobian, one row for each residual.
+pub type Linearised = (Vec<f64>, Vec<Vec<f64>>);
+
+/// The minimum found.
+#[derive(Debug, Clone)]
+pub struct Minimum {
+    /// The parameters t.
+    pub place: Vec<f64>,
+    /// Residuals and Jacobian there.
+    pub linearised: Linearised,
+    /// Steps that lowered the sum.
+    pub steps: usize,
+    /// Whether a step changed the parameters, and predicted a fall of the sum, by less than the tolerance.
+    pub converged: bool,
+}
+
+/// Most trials of a step.
+const TRIALS: usize = 60;
+/// Change of each parameter, whose scale is 1, at which the search ends.
+const TOLERANCE: f64 = 1e-6;
+/// λ at the beginning, its factors after a step and after a failed one, and the largest.
+const DAMPING: [f64; 4] = [1e-3, 0.2, 5.0, 1e10];
+
+/// The minimum from a start; `at` gives `None` where the model has no value.
+pub fn minimise(start: Vec<f64>, mut at: impl FnMut(&[f64]) -> Option<Linearised>) -> Option<Minimum> {
+    let mut own = Minimum { linearised: at(&start)?, place: start, steps: 0, converged: false };
+    let [mut damping, down, up, most] = DAMPING;
+    for _ in 0..TRIALS {
+        let (residuals, jacobian) = &own.linearised;
+        let (normal, gradient) = (normal(jacobian), gradient(residuals, jacobian));
+        let mut damped = normal.clone();
+        for (k, row) in damped.iter_mut().enumerate() {
+            row[k] += damping * normal[k][k].max(f64::MIN_POSITIVE);
+        }
+        let step = factor(&damped).map(|factor| solve(&factor, &gradient));
+        let trial = step.as_ref().map(|step| own.place.iter().zip(step).map(|(t, step)| t - step).collect::<Vec<_>>());
+        let small = step.as_ref().is_some_and(|step| step.iter().all(|step| step.abs() <= TOLERANCE));
+        let square = sum(residuals);
+        match trial.and_then(|trial| Some((at(&trial)?, trial))) {
+            Some((linearised, trial)) if sum(&linearised.0) <= square => {
+                own = Minimum { place: trial, linearised, steps: own.steps + 1, converged: small };
+                damping *= down;
+            }
+            // Only rounding, and the samples of a contact, are left.
+            _ if small => own.converged = true,
+            _ => damping *= up,
+        }
+        if own.converged || damping > most {
+            break;
+        }
+    }
+    Some(own)
+}
+
+/// Σ rᵢ².
+pub fn sum(residuals: &[f64]) -> f64 {
+    residuals.iter().map(|r| r * r).sum()
+}
+
+/// JᵀJ.
+pub fn normal(jacobian: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let count = jacobian.first().map_or(0, Vec::len);
+    let entry = |i: usize, j: usize| jacobian.iter().map(|row| row[i] * row[j]).sum();
+    (0..count).map(|i| (0..count).map(|j| entry(i, j)).collect()).collect()
+}
+
+/// Jᵀr.
+fn gradient(residuals: &[f64], jacobian: &[Vec<f64>]) -> Vec<f64> {
+    let count = jacobian.first().map_or(0, Vec::len);
+    (0..count).map(|k| jacobian.iter().zip(residuals).map(|(row, r)| row[k] * r).sum()).collect()
+}
+
+/// Least pivot of a matrix scaled to a unit diagonal that counts as positive: below it columns of J are parallel to rounding.
+const LEAST_PIVOT: f64 = 1e-13;
+
+/// Cholesky's factor L of a symmetric matrix A = LLᵀ; `None` unless it is positive.
+fn factor(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+    let mut lower = vec![vec![0.0; matrix.len()]; matrix.len()];
+    for i in 0..matrix.len() {
+        for j in 0..=i {
+            let inner: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
+            let rest: f64 = matrix[i][j] - inner;
+            if i == j {
+                if !(rest > LEAST_PIVOT * matrix[i][i] && rest.is_finite()) {
+                    return None;
+                }
+                lower[i][i] = rest.sqrt();
+            } else {
+                lower[i][j] = rest / lower[j][j];
+            }
+        }
+    }
+    Some(lower)
+}
+
+/// x of LLᵀx = b.
+fn solve(lower: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
+    let mut x = right.to_vec();
+    for i in 0..x.len() {
+        let inner: f64 = (0..i).map(|k| lower[i][k] * x[k]).sum();
+        x[i] = (x[i] - inner) / lower[i][i];
+    }
+    for i in (0..x.len()).rev() {
+        let inner: f64 = (i + 1..x.len()).map(|k| lower[k][i] * x[k]).sum();
+        x[i] = (x[i] - inner) / lower[i][i];
+    }
+    x
+}
+
+/// The inverse of a symmetric positive matrix; `None` where it is none to rounding.
+pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+    let lower = factor(matrix)?;
+    let unit = |k: usize| (0..matrix.len()).map(|i| f64::from(u8::from(i == k))).collect::<Vec<f64>>();
+    Some((0..matrix.len()).map(|k| solve(&lower, &unit(k))).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// y = a e^{−bx} with a and b by their logarithms.
+    fn decay(t: &[f64]) -> Linearised {
+        let [a, b] = [t[0].exp(), t[1].exp()];
+        let of = |k: usize| {
+            let x = k as f64 / 5.0;
+            let (own, known) = (a * (-b * x).exp(), 3.0 * (-0.7 * x).exp());
+            (own - known, vec![own, -own * b * x])
+        };
+        (0..12).map(of).unzip()
+    }
+
+    #[test]
+    fn an_exponential_is_found_from_far_away() {
+        let found = minimise(vec![-2.0, 1.5], |t| Some(decay(t))).unwrap();
+        assert!(found.converged && sum(&found.linearised.0) < 1e-16, "{found:?}");
+        assert!((found.place[0].exp() - 3.0).abs() < 1e-7 && (found.place[1].exp() - 0.7).abs() < 1e-7);
+    }
+
+    #[test]
+    fn an_inverse_times_its_matrix_is_one_and_parallel_columns_have_none() {
+        let matrix = vec![vec![4.0, 1.0, 0.5], vec![1.0, 3.0, -0.2], vec![0.5, -0.2, 1.0]];
+        let inverse_of = inverse(&matrix).unwrap();
+        for i in 0..3 {
+            for j in 0..3 {
+                let entry: f64 = (0..3).map(|k| matrix[i][k] * inverse_of[k][j]).sum();
+                assert!((entry - f64::from(u8::from(i == j))).abs() < 1e-14);
+            }
+        }
+        assert!(inverse(&[vec![1.0, 2.0], vec![2.0, 4.0]]).is_none());
+        let parallel = minimise(vec![0.0, 0.0], |t| {
+            let r = t[0] + t[1] - 1.0;
+            Some((vec![r, 2.0 * r], vec![vec![1.0, 1.0], vec![2.0, 2.0]]))
+        });
+        assert!(sum(&parallel.unwrap().linearised.0) < 1e-12);
+    }
+
+    /// Where the model has no value a step is shortened.
+    #[test]
+    fn steps_stay_where_the_model_has_a_value() {
+        let of = |t: &[f64]| (t[0] < 0.5).then(|| (vec![t[0] - 0.4], vec![vec![0.1]]));
+        let found = minimise(vec![0.0], of).unwrap();
+        assert!((found.place[0] - 0.4).abs() < 0.1, "{found:?}");
+    }
+}

@@ -1,0 +1,88 @@
+//! Parameters of a layered body from a measured indentation curve: force P and penetration δ of one indenter.
+//!
+//! The model is the isolated contact: δ(P) by the whole solver at [a few loads](curve), between which ln δ is interpolated over
+//! ln P, and ∂δ/∂θ by one linear solve at each ([`Tangent`](crate::Tangent)). A zero that was missed by δ₀ and a frame of the
+//! compliance C_f add δ₀ + C_f P. [Least squares](least_squares) of the measured penetrations give the parameters, and their
+//! covariance s²(JᵀJ)⁻¹ with s² the sum of squares over the degrees of freedom.
+//!
+//! A parameter whose standard error exceeds [`MOST_UNCERTAIN`] of it is not stated: the curve does not contain it.
+
+mod curve;
+mod fit;
+mod least_squares;
+
+pub use curve::CurveError;
+pub use fit::{Estimate, Identification, IdentificationError, MOST_UNCERTAIN, Model, Parameter, Quantity};
+
+use crate::notation::number;
+
+/// A measured indentation curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    forces: Vec<f64>,
+    penetrations: Vec<f64>,
+    /// Standard deviation of each penetration; `None`: all alike, and unknown.
+    deviations: Option<Vec<f64>>,
+}
+
+/// What is wrong with a measured curve.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeasurementError {
+    /// Another number of penetrations, or of deviations, than of forces.
+    #[error("{0} forces, but {1} penetrations or deviations: give one of each for every point")]
+    Unequal(usize, usize),
+    /// A force that is not above 0.
+    #[error("point {}: the force must be above 0 and finite, not {}", .0 + 1, number(*.1))]
+    Force(usize, f64),
+    /// A penetration that is not finite.
+    #[error("point {}: the penetration must be finite, not {}", .0 + 1, number(*.1))]
+    Penetration(usize, f64),
+    /// A deviation that is not above 0.
+    #[error("point {}: the standard deviation must be above 0 and finite, not {}", .0 + 1, number(*.1))]
+    Deviation(usize, f64),
+}
+
+impl Measurement {
+    /// Forces P > 0 (pressure times a length squared), penetrations δ (lengths), and their standard deviations where they are known.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] for other numbers of them, and for values that are not so.
+    pub fn new(
+        forces: Vec<f64>,
+        penetrations: Vec<f64>,
+        deviations: Option<Vec<f64>>,
+    ) -> Result<Self, MeasurementError> {
+        for other in [Some(&penetrations), deviations.as_ref()].into_iter().flatten() {
+            if other.len() != forces.len() {
+                return Err(MeasurementError::Unequal(forces.len(), other.len()));
+            }
+        }
+        let is_size = |x: f64| x > 0.0 && x.is_finite();
+        let first = |all: &[f64], is_good: &dyn Fn(f64) -> bool| all.iter().position(|&x| !is_good(x));
+        if let Some(index) = first(&forces, &is_size) {
+            return Err(MeasurementError::Force(index, forces[index]));
+        }
+        if let Some(index) = first(&penetrations, &f64::is_finite) {
+            return Err(MeasurementError::Penetration(index, penetrations[index]));
+        }
+        if let Some((index, deviations)) = deviations.as_ref().and_then(|all| Some((first(all, &is_size)?, all))) {
+            return Err(MeasurementError::Deviation(index, deviations[index]));
+        }
+        Ok(Self { forces, penetrations, deviations })
+    }
+
+    /// Forces, a pressure times a length squared.
+    pub fn forces(&self) -> &[f64] {
+        &self.forces
+    }
+
+    /// Penetrations, lengths.
+    pub fn penetrations(&self) -> &[f64] {
+        &self.penetrations
+    }
+
+    /// Standard deviations of the penetrations, lengths; `None` where they are unknown.
+    pub fn deviations(&self) -> Option<&[f64]> {
+        self.deviations.as_deref()
+    }
+}
