@@ -101,6 +101,39 @@ fn the_page_of_a_run_holds_what_the_command_line_printed() {
     assert!(page.contains(&case), "the case can be copied as it was run");
 }
 
+/// A page without the case at its end.
+fn told(page: &str) -> &str {
+    page.split_once("Case</h2>").expect("the case").0
+}
+
+#[test]
+fn the_page_of_an_isolated_contact_has_its_force_its_window_and_hertz_beside() {
+    let desk = Desk::new();
+    let answer = desk.percoat(&["solve", "-o", "run", "ball-on-disc", "--no-pictures", "--set", "grid.points=48"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let page = words(&report(&desk, "run"));
+    let page = told(&page);
+    let out = words(&answer.out);
+    let hertz: Vec<&str> = out.lines().skip_while(|line| !line.starts_with("Hertz, ")).take(2).collect();
+    assert!(hertz.len() == 2 && page.contains(&format!("{}.", hertz.join(" "))), "{hertz:?}");
+    for words in [
+        "One elastic indenter is pressed into an elastic half-space with a coating of one layer.",
+        "The indenters, level by level",
+        "The counterbody, from its surface inward",
+        "Under the force 5000",
+        "area of contact",
+        "elastic energy<",
+        "samples of the window",
+        "140 × 140",
+        "mean pressure, force or penetration",
+    ] {
+        assert!(page.contains(words), "no {words}");
+    }
+    for words in ["NaN", "cell", "confined", "igid"] {
+        assert!(!page.contains(words), "{words}");
+    }
+}
+
 const BOND: &str = r#"title = "Spheres on a bond"
 lattice = { kind = "square", period = 20.0 }
 levels = [{ shape = "sphere", radius = 50.0 }]
