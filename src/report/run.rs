@@ -83,7 +83,7 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
     if let Some(loads) = read.as_ref().map(|case| case.load.values().len()).filter(|loads| *loads != steps.len()) {
         return Err(refused(format!("it has {} steps, and its case {loads} loads", steps.len())));
     }
-    let units = units_of(&summary.units, read.as_ref());
+    let units = units_of(&summary.units, read.as_ref(), case);
     let taken = tables::utilisations(steps, read.as_ref().map(|case| case.problem().bodies()), &units);
     let fails = taken.as_ref().map(|taken| with("p", &[("class", "answer")], upper(&taken.words)));
     let hertz = read.as_ref().and_then(|case| tables::hertz(case, steps, &units));

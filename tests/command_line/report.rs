@@ -134,6 +134,23 @@ fn the_page_of_an_isolated_contact_has_its_force_its_window_and_hertz_beside() {
     }
 }
 
+#[test]
+fn the_page_of_a_sweep_of_isolated_contacts_has_forces_and_areas() {
+    let desk = Desk::new();
+    let keys = ["--set", "layers.0.thickness=2,3", "--set", "grid.points=48"];
+    let answer = desk.percoat(&[&["sweep", "ball-on-disc", "-o", "out", "--pictures", "svg"], &keys[..]].concat());
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let page = words(&report(&desk, "out"));
+    let page = told(&page);
+    for words in [">force<", ">contact area<", ">1000.0<", ">5000.0<", "in the last load step of each combination"] {
+        assert!(page.contains(words), "no {words}");
+    }
+    assert!(!page.contains("NaN") && !page.contains(">mean pressure<") && !page.contains(">contact<"), "{page}");
+    let picture = Folder(desk.path("out")).text("sweep.svg").replace('\u{a0}', " ");
+    assert!(picture.contains("P = 5000 mN") && picture.contains("area of contact A"), "{picture}");
+    assert!(!picture.contains("step 1") && !picture.contains("fraction in contact"), "{picture}");
+}
+
 const BOND: &str = r#"title = "Spheres on a bond"
 lattice = { kind = "square", period = 20.0 }
 levels = [{ shape = "sphere", radius = 50.0 }]

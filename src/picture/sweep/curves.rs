@@ -3,10 +3,10 @@
 use super::super::axis::Axis;
 use super::super::chart::Chart;
 use super::super::curve::{Curve, Ink, Style};
-use super::super::number::short;
 use super::keys::{Keys, number, scale};
 use super::numbers::Number;
 use crate::sweep::Row;
+use crate::units::Units;
 use std::collections::{BTreeMap, HashMap};
 
 /// Curves in a chart, at most.
@@ -25,7 +25,7 @@ struct SweepCurve {
 impl Keys {
     /// A curve for each set of the other keys, or for each load step where there are no others, as many as are distinguishable; and
     /// the number of all.
-    pub fn chart(&self, rows: &[Row], shown: &Number) -> (Chart, usize) {
+    pub fn chart(&self, rows: &[Row], shown: &Number, units: &Units) -> (Chart, usize) {
         let (index, values) = &self.along;
         let mut curves: BTreeMap<usize, SweepCurve> = BTreeMap::new();
         let mut order: HashMap<String, usize> = HashMap::new();
@@ -39,7 +39,7 @@ impl Keys {
             let steps = if self.names.len() == 1 { row.results.len() } else { 1 };
             for (step, result) in row.results.iter().enumerate().skip(row.results.len() - steps.min(row.results.len()))
             {
-                let load = result.step().map(|step| step.reading.mean_pressure).filter(|_| steps > 1);
+                let load = result.step().map(|step| step.reading.load(units.quantity())).filter(|_| steps > 1);
                 let (own, label) = if steps > 1 { (step, format!("step {}", step + 1)) } else { (at, label.clone()) };
                 let curve = curves.entry(own).or_insert_with(|| SweepCurve { label, load, points: Vec::new() });
                 // A step whose load differs between rows is labelled by its number.
@@ -55,7 +55,7 @@ impl Keys {
             _ => Ink::Depth(index as f64 / (count - 1) as f64),
         };
         let curves = drawn.into_iter().enumerate().map(|(index, (_, SweepCurve { label, load, mut points }))| {
-            let label = load.map_or(label, |load| format!("p̄ = {}", short(load)));
+            let label = load.map_or(label, |load| units.load_equals(&[load]));
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
             Curve { label, points, errors: Vec::new(), style, colour: colour(index) }
