@@ -21,8 +21,11 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
         return None;
     }
     let levels = problem.counterbody().levels().len();
-    let touches = touches(problem, steps);
-    let path = LoadPath { steps, levels, units, logarithmic: logarithmic(steps), touches: &touches };
+    let touches = touches(problem, steps, units.quantity());
+    let loads: Vec<f64> = steps.iter().map(|step| step.reading.load(units.quantity())).collect();
+    let isolated = problem.cell().is_isolated();
+    // Loads that are spread evenly on a logarithmic axis rather than on a linear one have one.
+    let path = LoadPath { steps, levels, units, isolated, logarithmic: log_spaced(&loads), touches: &touches };
     let mut charts = vec![path.peak_pressure(), path.extent(), path.penetration()];
     if path.levels > 1 {
         charts.push(path.shares());
@@ -50,6 +53,8 @@ struct LoadPath<'a> {
     /// Number of levels; 0 for a topography.
     levels: usize,
     units: &'a Units,
+    /// Whether contact is isolated.
+    isolated: bool,
     /// Whether the load and the quantities that grow with it have logarithmic axes.
     logarithmic: bool,
     /// Levels and the loads at which they touch first.
@@ -67,7 +72,7 @@ impl LoadPath<'_> {
         let least = loads.fold(f64::INFINITY, f64::min);
         let (first, last) = if self.logarithmic { (least / 1.1, last * 1.1) } else { (0.0, 1.03 * last) };
         let x = self.axis(self.units.load_of("")).from_to(first, last);
-        let marks = self.touches.iter().map(|(level, pressure)| (*pressure, level.to_string())).collect();
+        let marks = self.touches.iter().map(|(level, load)| (*load, level.to_string())).collect();
         Chart { title: title.to_owned(), x: Axis { marks, ..x }, y, curves }
     }
 
@@ -111,17 +116,20 @@ impl LoadPath<'_> {
 
     fn extent(&self) -> Chart {
         let (title, label) = match self.levels {
+            0 if self.isolated => ("contact area", self.units.area_of("contact area", "A")),
             0 => ("contact area", "fraction of the cell in contact".into()),
             _ => ("contact radius", self.units.length_of("contact radius", "a")),
         };
-        let curves = self.by_level(|reading| Some(reading.contact_fraction), |level| level.contact_radius);
+        let area = |reading: &Reading| if self.isolated { reading.contact_area } else { reading.contact_fraction };
+        let curves = self.by_level(|reading| Some(area(reading)), |level| level.contact_radius);
         self.chart(title, self.axis(label), curves)
     }
 
     fn penetration(&self) -> Chart {
-        let label = self.units.length_of("additional displacement", "δ");
+        // Far from an isolated contact there is nothing to which displacement could be additional.
+        let title = if self.isolated { "penetration" } else { "additional displacement" };
         let curve = self.curve("", 0.into(), |step| step.reading.penetration);
-        self.chart("additional displacement", self.axis(label), vec![curve])
+        self.chart(title, self.axis(self.units.length_of(title, "δ")), vec![curve])
     }
 
     fn shares(&self) -> Chart {
@@ -195,11 +203,6 @@ impl LoadPath<'_> {
             utilisation_curves(self.steps, self.units.quantity(), criteria),
         ))
     }
-}
-
-/// Whether the steps are spread evenly on a logarithmic axis rather than on a linear one.
-fn logarithmic(steps: &[StepRecord]) -> bool {
-    log_spaced(&steps.iter().map(|step| step.reading.mean_pressure).collect::<Vec<_>>())
 }
 
 #[cfg(test)]
