@@ -7,6 +7,7 @@ use super::curve::{Curve, Ink, NUMBERED_COLOURS, Style};
 use super::label::Label;
 use super::snapshot::caption;
 use super::utilisations::{BARS, utilisation_axis, utilisation_curves};
+use crate::body::MaterialId;
 use crate::problem::Problem;
 use crate::reading::{Criterion, LevelReading, Reading};
 use crate::run::StepRecord;
@@ -140,17 +141,11 @@ impl LoadPath<'_> {
     /// Charts of the largest stresses in each material; empty for runs without stresses.
     fn stresses(&self) -> Vec<Chart> {
         let Some(any) = self.steps.iter().find_map(|step| step.stress.as_ref()) else { return Vec::new() };
-        let materials = any.materials.len();
-        let name = |index: usize| match (any.materials[index].tau1.material.name, materials - index, materials) {
-            (Some(name), ..) => name.to_string(),
-            (None, 1, 1) => String::new(),
-            (None, 1, _) => "substrate".to_owned(),
-            (None, _, 2) => "coating".to_owned(),
-            (None, ..) => format!("layer {}", index + 1),
-        };
+        let ids: Vec<MaterialId> = any.materials.iter().map(|own| own.tau1.material).collect();
+        let (names, materials) = (names(&ids), ids.len());
         let curves = |value: fn(&Extremes) -> Peak| -> Vec<Curve> {
             let of = |index: usize| {
-                self.peaks(&name(index), Ink::by_depth(index, materials), |step| {
+                self.peaks(&names[index], Ink::by_depth(index, materials), |step| {
                     step.stress.as_ref()?.materials.get(index).map(value)
                 })
             };
@@ -205,14 +200,49 @@ impl LoadPath<'_> {
     }
 }
 
+/// Names of the curves of materials, the body before the counterbody: each its own, or its place in its body. That of a single
+/// body of one material without a name is empty.
+fn names(ids: &[MaterialId]) -> Vec<String> {
+    let counterbodies = ids.iter().filter(|id| id.is_counterbody()).count();
+    let name = |id: &MaterialId| {
+        let count = if id.is_counterbody() { counterbodies } else { ids.len() - counterbodies };
+        let of = if id.is_counterbody() { " of the counterbody" } else { "" };
+        match (id.name, count - id.number, count) {
+            (Some(_), ..) => id.to_string(),
+            (None, _, 1) if counterbodies == 0 => String::new(),
+            (None, _, 1) => if id.is_counterbody() { "counterbody" } else { "body" }.to_owned(),
+            (None, 0, _) => format!("substrate{of}"),
+            (None, _, 2) => format!("coating{of}"),
+            (None, ..) => format!("layer {}{of}", id.number),
+        }
+    };
+    ids.iter().map(name).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{HalfSpace, Material};
+    use crate::body::{HalfSpace, Material, Name, Side};
     use crate::counterbody::{Indenters, Level, Shape};
     use crate::lattice::Lattice;
     use crate::load::Load;
     use crate::spectral::{Settings, Solver};
+
+    #[test]
+    fn materials_are_named_by_their_place_in_their_own_body() {
+        let id = |side: Side, number: usize, name: &str| {
+            let name = (!name.is_empty()).then(|| Name::new(name));
+            MaterialId { side: Some(side), number, name }
+        };
+        let (below, above) = (Side::Body, Side::Counterbody);
+        assert_eq!(names(&[MaterialId::numbered(1)]), [""]);
+        assert_eq!(names(&[1, 2].map(MaterialId::numbered)), ["coating", "substrate"]);
+        assert_eq!(names(&[1, 2, 3].map(MaterialId::numbered)), ["layer 1", "layer 2", "substrate"]);
+        assert_eq!(names(&[id(below, 1, ""), id(above, 1, "")]), ["body", "counterbody"]);
+        assert_eq!(names(&[id(below, 1, "D2"), id(above, 1, "D2")]), ["D2", "D2 of the counterbody"]);
+        let pair = [id(below, 1, ""), id(below, 2, ""), id(above, 1, ""), id(above, 2, "D2")];
+        assert_eq!(names(&pair), ["coating", "substrate", "coating of the counterbody", "D2 of the counterbody"]);
+    }
 
     #[test]
     fn a_course_that_never_carries_load_has_no_curves() {
