@@ -17,7 +17,7 @@ const NAMES: [(&str, &str); 20] = [
     ("interface", "lower face"),
     ("interface_strength", "strength of the lower face"),
     ("kind", "lattice"),
-    ("material", "of the library"),
+    ("material", "from the library"),
     ("max_iterations", "most iterations"),
     ("poisson", "Poisson’s ratio"),
     ("residual_stress", "residual stress"),

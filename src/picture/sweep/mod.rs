@@ -141,8 +141,11 @@ mod tests {
 
     #[test]
     fn curves_of_isolated_contacts_have_their_forces_and_no_panel_is_empty() {
-        let steps =
-            |x: f64| [1.0, 5.0].map(|force| SweepResult::Step(Box::new(examples::isolated(force, x * force)))).to_vec();
+        let steps = |x: f64| {
+            // Sums of pressures are rounded.
+            let rounded = |force: f64| force * (1.0 + x * 1e-14);
+            [1.0, 5.0].map(|force| SweepResult::Step(Box::new(examples::isolated(rounded(force), x * force)))).to_vec()
+        };
         let rows: Vec<Row> =
             (1..).zip([0.1, 0.2, 0.3]).map(|(n, x)| row(n, &[("x", x.to_string())], steps(x))).collect();
         let units = Units::unknown().named(Some("µm"), Some("GPa")).with_loads_in(LoadQuantity::Force);
@@ -152,7 +155,7 @@ mod tests {
         let (chart, _) = Keys::of(&rows).unwrap().chart(&rows, &numbers[2], &units);
         let labels: Vec<String> = chart.curves.iter().map(|curve| curve.label.replace('\u{a0}', " ")).collect();
         assert_eq!(labels, ["P = 1 mN", "P = 5 mN"]);
-        assert_eq!(chart.curves[1].points, [[0.1, 2.5], [0.2, 2.5], [0.3, 2.5]]);
+        assert!(chart.curves[1].points.iter().all(|[_, area]| (area - 2.5).abs() < 1e-12));
     }
 
     #[test]
