@@ -64,7 +64,12 @@ impl Units {
         let (counterbody, half_space) = (problem.counterbody(), problem.half_space());
         let is_one = |x: f64| (x - 1.0).abs() < 1e-9;
         let length = match counterbody.levels().first().map(Level::shape) {
-            Some(_) if counterbody.indenters().is_some_and(|own| is_one(own.lattice().period())) => Some("l"),
+            Some(_)
+                if !problem.cell().is_isolated()
+                    && counterbody.indenters().is_some_and(|own| is_one(own.lattice().period())) =>
+            {
+                Some("l")
+            }
             Some(Shape::Paraboloid { radius } | Shape::Sphere { radius }) if is_one(radius) => Some("r₁"),
             _ => None,
         };

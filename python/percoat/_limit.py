@@ -22,7 +22,8 @@ class Limits(Record):
     """Limit loads, as ``limit.json`` has them. They print the table of the command line.
 
     ``first`` is the one that is reached first, ``None`` where nothing fails; ``limits`` has all of them, each with
-    ``criterion``, ``material`` or ``interface``, ``mean_pressure`` and its ``error``, ``x``, ``y``, ``z``.
+    ``criterion``, ``material`` or ``interface``, ``mean_pressure`` (where the case gives forces, and of an isolated
+    contact, ``force``) and its ``error``, ``x``, ``y``, ``z``.
     """
 
     title: str
@@ -43,7 +44,8 @@ class Limits(Record):
     def __repr__(self) -> str:
         if self.first is None:
             return f"<percoat.Limits {self.title!r}: nothing fails>"
-        return f"<percoat.Limits {self.title!r}: {criterion_name(self.first)} at {self.first.mean_pressure}>"
+        of, load = ("force", self.first.force) if "force" in self.first else ("mean pressure", self.first.mean_pressure)
+        return f"<percoat.Limits {self.title!r}: {criterion_name(self.first)} at {of} {load}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Limits, (dict(self), self.__dict__["_case"])
@@ -52,7 +54,7 @@ class Limits(Record):
 def limit(
     case: CaseLike, *, set: Settings = None, threads: Optional[int] = None, progress: Listener = None
 ) -> Limits:
-    """The mean pressure at which something first fails, and what: each criterion's own limit load too.
+    """The mean pressure or force at which something first fails, and what: each criterion's own limit load too.
 
     Parameters are those of :func:`percoat.solve`; the case needs strengths.
 

@@ -74,6 +74,8 @@ class Plane(Field):
     material: int
     name: Optional[str]
     """Name of the material, where the case gives one."""
+    isolated: bool
+    """Whether it lies in the window of an isolated contact, beside which nothing repeats it."""
 
     def __repr__(self) -> str:
         n1, n2 = self.xx.shape
@@ -111,6 +113,9 @@ class Common:
         self.case, self.summary, self.accurate = case, Record(summary), accurate
         self.x, self.y, self.owner = places
         self.a1, self.a2 = map(np.array, case.cell)
+        own = self.summary.case
+        self.isolated: bool = own.get("lattice", {}).get("kind") == "isolated"
+        self.quantity = "force" if self.isolated or "force" in own.load else "mean_pressure"
         for array in (*places, self.a1, self.a2):
             array.flags.writeable = False
 
@@ -125,7 +130,9 @@ class Common:
         if (n1, n2) == self.x.shape:
             return self.x, self.y
         u, v = np.meshgrid(np.arange(n1) / n1, np.arange(n2) / n2, indexing="ij")
-        return u * self.a1[0] + v * self.a2[0], u * self.a1[1] + v * self.a2[1]
+        x, y = (u * self.a1[axis] + v * self.a2[axis] for axis in (0, 1))
+        # The middle of a window is the origin.
+        return x + self.x[0, 0], y + self.y[0, 0]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Common, (self.case, self.summary.to_dict(), self.accurate, (self.x, self.y, self.owner))
@@ -139,8 +146,9 @@ class Step:
     pressure, gap, displacement
         Arrays (n₁, n₂), axes along a₁ and a₂; a pressure ≥ 0, and lengths. They cannot be written to, and none is a copy:
         take ``step.pressure.copy()`` to change one.
-    mean_pressure, penetration, contact_fraction, max_pressure, levels, certificate, converged, …
-        As in ``summary.json``; ``levels``, ``certificate`` and the like have attributes in turn. Its ``stress`` is what
+    mean_pressure, force, penetration, contact_fraction, contact_area, max_pressure, levels, certificate, converged, …
+        As in ``summary.json``; ``levels``, ``certificate`` and the like have attributes in turn. An isolated contact has a
+        force and an area, no mean pressure and no fraction in contact: they are ``None``. Its ``stress`` is what
         :meth:`maxima` returns.
 
     Examples
@@ -156,10 +164,12 @@ class Step:
     (2, 6)
     """
 
-    mean_pressure: float
+    mean_pressure: Optional[float]
+    force: float
     penetration: float
     additional_displacement: float
-    contact_fraction: float
+    contact_area: float
+    contact_fraction: Optional[float]
     elastic_energy: float
     max_pressure: Optional[float]
     converged: bool
@@ -222,6 +232,11 @@ class Step:
         """Names of the units of ``length`` and ``pressure``, ``None`` where they have none."""
         return self._common.units
 
+    @property
+    def isolated(self) -> bool:
+        """Whether it is an isolated contact in a window, beside which nothing repeats it."""
+        return self._common.isolated
+
     @cached_property
     def pressure(self) -> Array:
         """Contact pressure p ≥ 0 (n₁, n₂), in the unit of Young's modulus."""
@@ -234,7 +249,10 @@ class Step:
 
     @cached_property
     def displacement(self) -> Array:
-        """Displacement of the surface into the body (n₁, n₂), a length; its mean is zero."""
+        """Displacement of the surface into the body (n₁, n₂), a length.
+
+        Over a cell its mean is zero; around an isolated contact it is zero far away.
+        """
         displacement = self._core.displacement()
         displacement.flags.writeable = False
         return displacement
@@ -305,7 +323,7 @@ class Step:
         wanted = [points, points] if isinstance(points, (int, np.integer)) else points
         components, material, name = self._core.plane(z, None if wanted is None else list(wanted), material, body)
         x, y = self._common.places(*components.shape[1:])
-        place = {"x": x, "y": y, "z": float(z), "material": material, "name": name}
+        place = {"x": x, "y": y, "z": float(z), "material": material, "name": name, "isolated": self.isolated}
         return Plane({**place, **dict(zip(COMPONENTS, components))})
 
     def section(
@@ -397,9 +415,13 @@ class Step:
 
     def __repr__(self) -> str:
         n1, n2 = self.points
+        quantity = self._common.quantity
+        load = f"{quantity.replace('_', ' ')} {self._record[quantity]:.5g}"
+        fraction = self.contact_fraction
+        contact = f"contact area {self.contact_area:.5g}" if fraction is None else f"contact {100 * fraction:.3g} %"
         return (
-            f"<percoat.Step: mean pressure {self.mean_pressure:.5g}, penetration {self.penetration:.5g}, "
-            f"contact {100 * self.contact_fraction:.3g} %, {n1} × {n2} samples, {self.stop_reason}>"
+            f"<percoat.Step: {load}, penetration {self.penetration:.5g}, {contact}, "
+            f"{n1} × {n2} samples, {self.stop_reason}>"
         )
 
     def __str__(self) -> str:
@@ -524,7 +546,8 @@ class Result:
     def to_xarray(self) -> xarray.Dataset:
         """Fields and scalars as an :class:`xarray.Dataset`.
 
-        Dimensions ``step`` and ``i``, ``j`` along a₁, a₂; coordinates ``x``, ``y`` (i, j) and ``mean_pressure`` (step).
+        Dimensions ``step`` and ``i``, ``j`` along a₁, a₂; coordinates ``x``, ``y`` (i, j), ``mean_pressure`` and ``force``
+        (step). An isolated contact has no ``mean_pressure`` and no ``contact_fraction``.
 
         Examples
         --------
@@ -538,9 +561,15 @@ class Result:
 
         length = {"units": self.units.length} if self.units.length else {}
         pressure = {"units": self.units.pressure} if self.units.pressure else {}
+        area = {"units": f"{self.units.length}²"} if length else {}
+        force = {"units": f"{self.units.pressure} {self.units.length}²"} if length and pressure else {}
         scalars = {
-            "penetration": length, "contact_fraction": {}, "max_pressure": pressure, "converged": {}, "residual": {},
+            "penetration": length, "contact_fraction": {}, "contact_area": area, "max_pressure": pressure,
+            "converged": {}, "residual": {},
         }
+        loads = {"mean_pressure": pressure, "force": force}
+        if self._common.isolated:
+            del scalars["contact_fraction"], loads["mean_pressure"]
         fields = {"pressure": pressure, "displacement": length, "gap": length}
         data: dict[str, Any] = {
             name: (("step", "i", "j"), np.stack([getattr(step, name) for step in self.steps]), attributes)
@@ -553,7 +582,10 @@ class Result:
         coordinates = {
             "x": (("i", "j"), self.x, length),
             "y": (("i", "j"), self.y, length),
-            "mean_pressure": ("step", np.array([step.mean_pressure for step in self.steps]), pressure),
+            **{
+                name: ("step", np.array([step._record[name] for step in self.steps]), attributes)
+                for name, attributes in loads.items()
+            },
         }
         attributes = {"title": self.title, "percoat": self._common.summary.percoat, "a1": self.a1, "a2": self.a2}
         return xarray.Dataset(data, coordinates, attributes)

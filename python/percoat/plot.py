@@ -50,7 +50,7 @@ KINDS = {
     **dict.fromkeys(("contact_radius", "radius_min", "radius_max", "radius_inner", "radius_outer"), "length"),
     **dict.fromkeys(("mean_pressure", "max_pressure", "value"), "pressure"),
     "contact_area": "area",
-    "load": "force",
+    **dict.fromkeys(("load", "force"), "force"),
 }
 """What a quantity is; ``value`` is that of a stress, and what is not here has no unit."""
 
@@ -68,7 +68,7 @@ def pressure(
         Where to draw; a new figure if it is not said.
     window
         x₀, x₁, y₀, y₁, lengths: the rectangle that is shown, filled with copies of the cell; about two
-        periods around the origin if it is not said.
+        periods around the origin if it is not said. Of an isolated contact its own window is shown, without copies.
     artist
         For :meth:`matplotlib.axes.Axes.pcolormesh`: ``cmap``, ``norm``, ``vmin``, ….
 
@@ -200,7 +200,7 @@ def section(
 def curve(
     result: Result,
     x: str = "penetration",
-    y: str = "mean_pressure",
+    y: Optional[str] = None,
     *,
     ax: Optional[Axes] = None,
     **artist: Any,
@@ -216,7 +216,8 @@ def curve(
         Whose load steps.
     x, y
         Names of numbers in ``step.to_dict()``, dotted where they lie deeper, ``"certificate.load"``. One that
-        leads through a list, ``"levels.load"``, gives a line for each entry, with a legend.
+        leads through a list, ``"levels.load"``, gives a line for each entry, with a legend. ``y`` is the load if it
+        is not said: ``"force"`` where the case gives forces, and of an isolated contact, else ``"mean_pressure"``.
     ax
         Where to draw; a new figure if it is not said.
     artist
@@ -231,6 +232,7 @@ def curve(
     ('mean pressure', ['level 1', 'level 2', 'level 3'])
     """
     ax = _axes(ax)
+    y = result._common.quantity if y is None else y
     (across, entries_x), (up, entries_y) = (_numbers(result, name) for name in (x, y))
     across, up = np.broadcast_arrays(across, up)
     entries = entries_y or entries_x
@@ -357,13 +359,18 @@ def _map(
     window: Optional[Window],
     artist: Mapping[str, Any],
 ) -> Axes:
-    """Fill the window with copies of the cell; a sample (i, j) is the middle of a parallelogram."""
+    """Fill the window with copies of the cell; a sample (i, j) is the middle of a parallelogram.
+
+    An isolated contact is drawn once, in its own window.
+    """
     ax = _axes(ax)
     n = np.array(values.shape)
+    origin = np.array([places.x[0, 0], places.y[0, 0]])
     spacings = [(c[1, 0] - c[0, 0], c[0, 1] - c[0, 0]) for c in (places.x, places.y)]
     cell = n * np.array(spacings)  # its columns are a₁, a₂
     if window is None:
-        widths = np.maximum(2.0 * np.hypot(*cell).min(), np.abs(cell).sum(axis=1))  # at least the cell
+        periods = 0.0 if places.isolated else 2.0
+        widths = np.maximum(periods * np.hypot(*cell).min(), np.abs(cell).sum(axis=1))  # at least the cell
         window = (-widths[0] / 2, widths[0] / 2, -widths[1] / 2, widths[1] / 2)
     x0, x1, y0, y1 = window
     # A large grid is thinned to DRAWN. Samples are left out, never averaged: the edge of a contact stays
@@ -376,10 +383,12 @@ def _map(
     corners = np.tensordot(cell, fractions, axes=1)
     reach = np.abs(cell) @ (1.0 / m)  # of a parallelogram, along x and y
     centre, half = np.array([x0 + x1, y0 + y1]) / 2, np.array([x1 - x0, y1 - y0]) / 2 + reach
-    ends = np.linalg.solve(cell, [[x0, x0, x1, x1], [y0, y1, y0, y1]])
+    ends = np.linalg.solve(cell, np.array([[x0, x0, x1, x1], [y0, y1, y0, y1]]) - origin[:, None])
     first, last = np.floor(ends.min(axis=1)).astype(int), np.floor(ends.max(axis=1) + 0.5 / m).astype(int)
+    if places.isolated:
+        first, last = np.zeros((2, 2), dtype=int)
     for copy in np.ndindex(*(last - first + 1)):
-        x, y = corners + (cell @ (first + copy))[:, None, None]
+        x, y = corners + (origin + cell @ (first + copy))[:, None, None]
         visible = (np.abs(x - centre[0]) <= half[0]) & (np.abs(y - centre[1]) <= half[1])
         rows, columns = (np.flatnonzero(visible.any(axis=axis)) for axis in (1, 0))
         if len(rows) > 1 and len(columns) > 1:

@@ -1,4 +1,4 @@
-//! `percoat.limit`: the mean pressure at which something first fails.
+//! `percoat.limit`: the mean pressure or force at which something first fails.
 
 use crate::case::Case;
 use crate::errors::refused;

@@ -12,7 +12,7 @@ use percoat::Progress;
 use percoat::case::resources::{Job, needs};
 use percoat::case::{self, plausibility};
 use percoat::machine::Capacity;
-use percoat::output::{Clock, Phase, Summary, table};
+use percoat::output::{Clock, Phase, Summary, number, table};
 use percoat::run::{Recorder, StepRecord};
 use percoat::spectral::Checkpoint;
 use percoat::{Load, Solver, StressFields, Surface};
@@ -120,8 +120,9 @@ impl Recorder for Keeping<'_> {
         }
         self.done += 1;
         self.clock.turn(Phase::Setup);
-        let pressure = record.reading.mean_pressure;
-        self.tell(true, || format!("after mean pressure {}", percoat::output::number(pressure)), None);
+        let quantity = self.case.units().quantity();
+        let load = number(record.reading.load(quantity));
+        self.tell(true, || format!("after {} {load}", quantity.name()), None);
         self.searching()
     }
 }

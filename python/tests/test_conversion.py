@@ -51,9 +51,11 @@ def test_datasets_have_dimensions_coordinates_and_units(sliding: percoat.Result)
     assert data.x.dims == data.y.dims == data.owner.dims == ("i", "j") and data.x.attrs["units"] == "µm"
     assert np.array_equal(data.x, sliding.x) and np.array_equal(data.y, sliding.y)
     assert np.array_equal(data.owner, sliding.owner)
-    assert set(data.coords) == {"x", "y", "mean_pressure"}
+    assert set(data.coords) == {"x", "y", "mean_pressure", "force"}
     assert data.mean_pressure.dims == ("step",) and data.mean_pressure.attrs["units"] == "GPa"
-    for name in ("mean_pressure", "penetration", "contact_fraction", "max_pressure", "residual", "converged"):
+    assert data.force.dims == ("step",) and data.force.attrs["units"] == "GPa µm²"
+    scalars = ("penetration", "contact_fraction", "contact_area", "max_pressure", "residual", "converged")
+    for name in ("mean_pressure", "force", *scalars):
         assert data[name].values.tolist() == [getattr(step, name) for step in sliding], name
     assert data.penetration.attrs["units"] == "µm" and data.max_pressure.attrs["units"] == "GPa"
     assert data.converged.dtype == bool and "units" not in data.contact_fraction.attrs

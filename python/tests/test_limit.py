@@ -118,13 +118,13 @@ def test_limits_of_what_has_not_converged_are_told() -> None:
 
 def test_limits_print_their_table(limits: percoat.Limits) -> None:
     assert str(limits).startswith(limits.title) and "delamination of chromium/steel" in str(limits)
-    assert repr(limits).startswith(f"<percoat.Limits {limits.title!r}: yield of chromium at 0.04")
+    assert repr(limits).startswith(f"<percoat.Limits {limits.title!r}: yield of chromium at mean pressure 0.04")
 
 
 def test_names_of_materials_stand_in_the_place_of_their_numbers() -> None:
     names = {"layers.0.name": "DLC", "layers.1.name": "Cr", "substrate.name": "steel"}
     limits = percoat.limit("dlc-on-steel", set={**SETTINGS, **names})
-    assert repr(limits).startswith(f"<percoat.Limits {limits.title!r}: yield of Cr at 0.04")
+    assert repr(limits).startswith(f"<percoat.Limits {limits.title!r}: yield of Cr at mean pressure 0.04")
     assert "delamination of Cr/steel" in str(limits) and limits.first is not None
     assert (limits.first.material, limits.first.name) == (2, "Cr")
     step = percoat.solve("dlc-on-steel", set={"grid.points": 64, **names})[0]

@@ -41,6 +41,8 @@ result: percoat.Result = percoat.solve(Path("own.toml"), set={"grid.points": 64}
 result = percoat.solve(case, progress=True)
 for step in result:
     depth: float = step.penetration
+    force: float = step.force * step.contact_area
+    mean: Optional[float] = step.mean_pressure
     share: float = step.levels[0].load_share
     peak: Optional[float] = step.levels[0].max_pressure
     fine: bool = step.converged
@@ -54,6 +56,7 @@ for step in result:
     maxima = step.maxima()
     if maxima is not None:
         print(maxima.max_tau1.value)
+    print(force, mean, step.isolated)
     print(depth, share, peak, fine, field, largest, order, step.to_dict(), step.errors.penetration)
 
 first: percoat.Step = result[0]

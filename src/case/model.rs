@@ -68,7 +68,7 @@ section! { whole
         pub substrate: SubstrateSection = Key::new(&[Form::Table(&SUBSTRATE)], "{ young = 1.0, poisson = 0.3 }"),
         /// the elastic body that the indenters or the topography belong to
         pub counterbody: Option<CounterbodySection> = Key::new(&[Form::Table(&COUNTERBODY)], "{ young = 210.0, poisson = 0.3 }").otherwise("rigid"),
-        /// mean pressure or penetration, one value a load step
+        /// mean pressure, force or penetration, one value a load step
         pub load: LoadSection = Key::new(&[Form::Table(&LOAD)], "{ mean_pressure = 0.01 }"),
         /// samples of the cell
         pub grid: Sampling = Key::new(&[Form::Table(&GRID)], "{ points = 256 }").otherwise("its defaults"),

@@ -1,4 +1,4 @@
-//! `percoat limit`: the mean pressures at which materials and interfaces fail.
+//! `percoat limit`: the mean pressures or forces at which materials and interfaces fail.
 
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
@@ -11,6 +11,7 @@ use super::terminal;
 use crate::case::feasibility::Allowed;
 use crate::case::resources::Job;
 use crate::case::{Case, plausibility};
+use crate::load::LoadQuantity;
 use crate::output::{LimitFile, Writer, number, summary, table, with_error};
 use crate::picture::{self, Snapshot};
 use crate::run::{EVENTS, LimitStep, Limits, Recorder, Run, StepRecord};
@@ -27,6 +28,8 @@ const SECTIONS: [&str; EVENTS] = ["limit-section", "limit-section-2", "limit-sec
 /// Shows the progress of the search.
 struct Searching<'a> {
     allowed: Allowed<'a>,
+    /// The quantity in which loads are stated.
+    quantity: LoadQuantity,
     progress: Progress,
 }
 
@@ -45,13 +48,8 @@ impl Recorder for Searching<'_> {
 
     fn step(&mut self, _step: &Step, record: &StepRecord, _fields: Option<&StressFields>) -> Result<(), Infallible> {
         let words = record.governing_in_words(with_error).unwrap_or("no contact".to_owned());
-        let reading = &record.reading;
-        let load = if reading.mean_pressure.is_nan() {
-            format!("force {}", number(reading.force))
-        } else {
-            format!("mean pressure {}", number(reading.mean_pressure))
-        };
-        let words = format!("{load}: {words}");
+        let load = number(record.reading.load(self.quantity));
+        let words = format!("{} {load}: {words}", self.quantity.name());
         self.progress.tell(&words);
         self.progress.say(words);
         Ok(())
@@ -72,7 +70,8 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
     let drawn = [&["limit"][..], &SECTIONS].concat();
     let plan = plan(Writer::Limit, &["limit.json", "limit.csv"], pictures, &drawn);
     let results = Results::claim(folder, plan, common.saying())?;
-    let mut searching = Searching { allowed, progress: Progress::new("", 0, 0, common) };
+    let quantity = case.units().quantity();
+    let mut searching = Searching { allowed, quantity, progress: Progress::new("", 0, 0, common) };
     let limits = run.limits(&mut searching)?;
     searching.progress.finish();
     let warnings = [limits.warnings.clone(), plausibility::of_case(&case)].concat();

@@ -3,6 +3,7 @@
 use super::step_arrays::StepArrays;
 use super::{Files, OutputError};
 use crate::counterbody::Surface;
+use crate::reading::Reading;
 use crate::spectral::Step;
 use ndarray::Array2;
 use std::path::Path;
@@ -27,10 +28,13 @@ impl ContactArchive {
         Ok(Self { arrays: StepArrays::go_on(folder, "contact", steps)?, surface })
     }
 
-    /// Writes the fields of the next step. Returns its files.
-    pub(super) fn add(&mut self, step: &Step, mean_pressure: f64) -> Result<Files, OutputError> {
+    /// Writes the fields of the next step with its load: force, and mean pressure unless contact is isolated. Returns its files.
+    pub(super) fn add(&mut self, step: &Step, reading: &Reading) -> Result<Files, OutputError> {
         self.arrays.next_step();
-        self.arrays.add("mean_pressure", &[], [mean_pressure])?;
+        if !reading.is_isolated() {
+            self.arrays.add("mean_pressure", &[], [reading.mean_pressure])?;
+        }
+        self.arrays.add("force", &[], [reading.force])?;
         self.arrays.add("penetration", &[], [step.penetration()])?;
         let displacement = step.displacement();
         for (name, field) in [("pressure", step.pressure()), ("displacement", displacement.view()), ("gap", step.gap())]

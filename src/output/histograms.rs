@@ -4,8 +4,8 @@ use crate::run::StepRecord;
 use std::fmt::Write;
 
 /// The content of `histograms.csv`, one row an interval: step, quantity, ends, count, and density: part of the whole per unit of it.
-/// Pressures are counted over the samples in contact and gaps over the others, relative to all samples; areas over spots. `None`
-/// for indenters.
+/// Pressures are counted over the samples in contact and gaps over the others, relative to all samples; areas over spots. Of an isolated
+/// contact pressures are relative to the samples in contact, and gaps left out. `None` for indenters.
 pub fn histograms(steps: &[StepRecord]) -> Option<String> {
     let mut text = "step,quantity,from,to,count,density\n".to_owned();
     for (number, step) in (1..).zip(steps) {

@@ -222,7 +222,7 @@ impl Recorder for Recording<'_> {
         self.clock.turn(Phase::Output);
         let (files, mut left) = (self.files.as_mut().expect(BEGUN), Files::default());
         if let Some(fields) = &mut files.fields {
-            left.append(fields.add(step, record.reading.mean_pressure)?);
+            left.append(fields.add(step, &record.reading)?);
         }
         let cut = self.stress.as_ref().and_then(|request| request.cut.as_ref());
         match (fields, &mut files.stresses, cut) {

@@ -51,7 +51,7 @@ pub fn comparison(title: &str, units: &Units, comparison: &Comparison) -> Option
     let charts: Vec<Chart> = ('a'..).zip(&panels).map(chart).collect();
     let [n1, n2] = comparison.spectral.points;
     let more = [
-        units.pressure_equals("p̄", &[comparison.spectral.reading.mean_pressure]),
+        units.load_equals(&[comparison.spectral.reading.load(units.quantity())]),
         format!("localized with {} elements across the largest contact", comparison.task.elements),
         format!("spectral on {n1}\u{a0}×\u{a0}{n2} samples"),
     ];

@@ -55,6 +55,10 @@ impl Units {
         label(words, symbol, self.length(), "unit\u{a0}of\u{a0}length")
     }
 
+    pub(super) fn area_of(&self, words: &str, symbol: &str) -> Label {
+        label(words, symbol, &self.area(), "unit\u{a0}of\u{a0}area")
+    }
+
     pub(super) fn pressure_of(&self, words: &str, symbol: &str) -> Label {
         label(words, symbol, self.pressure(), "unit\u{a0}of\u{a0}E")
     }

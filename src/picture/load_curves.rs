@@ -7,6 +7,7 @@ use super::curve::{Curve, Ink, NUMBERED_COLOURS, Style};
 use super::label::Label;
 use super::snapshot::caption;
 use super::utilisations::{BARS, utilisation_axis, utilisation_curves};
+use crate::body::MaterialId;
 use crate::problem::Problem;
 use crate::reading::{Criterion, LevelReading, Reading};
 use crate::run::StepRecord;
@@ -21,8 +22,11 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
         return None;
     }
     let levels = problem.counterbody().levels().len();
-    let touches = touches(problem, steps);
-    let path = LoadPath { steps, levels, units, logarithmic: logarithmic(steps), touches: &touches };
+    let touches = touches(problem, steps, units.quantity());
+    let loads: Vec<f64> = steps.iter().map(|step| step.reading.load(units.quantity())).collect();
+    let isolated = problem.cell().is_isolated();
+    // Loads that are spread evenly on a logarithmic axis rather than on a linear one have one.
+    let path = LoadPath { steps, levels, units, isolated, logarithmic: log_spaced(&loads), touches: &touches };
     let mut charts = vec![path.peak_pressure(), path.extent(), path.penetration()];
     if path.levels > 1 {
         charts.push(path.shares());
@@ -50,6 +54,8 @@ struct LoadPath<'a> {
     /// Number of levels; 0 for a topography.
     levels: usize,
     units: &'a Units,
+    /// Whether contact is isolated.
+    isolated: bool,
     /// Whether the load and the quantities that grow with it have logarithmic axes.
     logarithmic: bool,
     /// Levels and the loads at which they touch first.
@@ -67,7 +73,7 @@ impl LoadPath<'_> {
         let least = loads.fold(f64::INFINITY, f64::min);
         let (first, last) = if self.logarithmic { (least / 1.1, last * 1.1) } else { (0.0, 1.03 * last) };
         let x = self.axis(self.units.load_of("")).from_to(first, last);
-        let marks = self.touches.iter().map(|(level, pressure)| (*pressure, level.to_string())).collect();
+        let marks = self.touches.iter().map(|(level, load)| (*load, level.to_string())).collect();
         Chart { title: title.to_owned(), x: Axis { marks, ..x }, y, curves }
     }
 
@@ -111,17 +117,20 @@ impl LoadPath<'_> {
 
     fn extent(&self) -> Chart {
         let (title, label) = match self.levels {
+            0 if self.isolated => ("contact area", self.units.area_of("contact area", "A")),
             0 => ("contact area", "fraction of the cell in contact".into()),
             _ => ("contact radius", self.units.length_of("contact radius", "a")),
         };
-        let curves = self.by_level(|reading| Some(reading.contact_fraction), |level| level.contact_radius);
+        let area = |reading: &Reading| if self.isolated { reading.contact_area } else { reading.contact_fraction };
+        let curves = self.by_level(|reading| Some(area(reading)), |level| level.contact_radius);
         self.chart(title, self.axis(label), curves)
     }
 
     fn penetration(&self) -> Chart {
-        let label = self.units.length_of("additional displacement", "δ");
+        // Far from an isolated contact there is nothing to which displacement could be additional.
+        let title = if self.isolated { "penetration" } else { "additional displacement" };
         let curve = self.curve("", 0.into(), |step| step.reading.penetration);
-        self.chart("additional displacement", self.axis(label), vec![curve])
+        self.chart(title, self.axis(self.units.length_of(title, "δ")), vec![curve])
     }
 
     fn shares(&self) -> Chart {
@@ -132,17 +141,11 @@ impl LoadPath<'_> {
     /// Charts of the largest stresses in each material; empty for runs without stresses.
     fn stresses(&self) -> Vec<Chart> {
         let Some(any) = self.steps.iter().find_map(|step| step.stress.as_ref()) else { return Vec::new() };
-        let materials = any.materials.len();
-        let name = |index: usize| match (any.materials[index].tau1.material.name, materials - index, materials) {
-            (Some(name), ..) => name.to_string(),
-            (None, 1, 1) => String::new(),
-            (None, 1, _) => "substrate".to_owned(),
-            (None, _, 2) => "coating".to_owned(),
-            (None, ..) => format!("layer {}", index + 1),
-        };
+        let ids: Vec<MaterialId> = any.materials.iter().map(|own| own.tau1.material).collect();
+        let (names, materials) = (names(&ids), ids.len());
         let curves = |value: fn(&Extremes) -> Peak| -> Vec<Curve> {
             let of = |index: usize| {
-                self.peaks(&name(index), Ink::by_depth(index, materials), |step| {
+                self.peaks(&names[index], Ink::by_depth(index, materials), |step| {
                     step.stress.as_ref()?.materials.get(index).map(value)
                 })
             };
@@ -197,19 +200,49 @@ impl LoadPath<'_> {
     }
 }
 
-/// Whether the steps are spread evenly on a logarithmic axis rather than on a linear one.
-fn logarithmic(steps: &[StepRecord]) -> bool {
-    log_spaced(&steps.iter().map(|step| step.reading.mean_pressure).collect::<Vec<_>>())
+/// Names of the curves of materials, the body before the counterbody: each its own, or its place in its body. That of a single
+/// body of one material without a name is empty.
+fn names(ids: &[MaterialId]) -> Vec<String> {
+    let counterbodies = ids.iter().filter(|id| id.is_counterbody()).count();
+    let name = |id: &MaterialId| {
+        let count = if id.is_counterbody() { counterbodies } else { ids.len() - counterbodies };
+        let of = if id.is_counterbody() { " of the counterbody" } else { "" };
+        match (id.name, count - id.number, count) {
+            (Some(_), ..) => id.to_string(),
+            (None, _, 1) if counterbodies == 0 => String::new(),
+            (None, _, 1) => if id.is_counterbody() { "counterbody" } else { "body" }.to_owned(),
+            (None, 0, _) => format!("substrate{of}"),
+            (None, _, 2) => format!("coating{of}"),
+            (None, ..) => format!("layer {}{of}", id.number),
+        }
+    };
+    ids.iter().map(name).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{HalfSpace, Material};
+    use crate::body::{HalfSpace, Material, Name, Side};
     use crate::counterbody::{Indenters, Level, Shape};
     use crate::lattice::Lattice;
     use crate::load::Load;
     use crate::spectral::{Settings, Solver};
+
+    #[test]
+    fn materials_are_named_by_their_place_in_their_own_body() {
+        let id = |side: Side, number: usize, name: &str| {
+            let name = (!name.is_empty()).then(|| Name::new(name));
+            MaterialId { side: Some(side), number, name }
+        };
+        let (below, above) = (Side::Body, Side::Counterbody);
+        assert_eq!(names(&[MaterialId::numbered(1)]), [""]);
+        assert_eq!(names(&[1, 2].map(MaterialId::numbered)), ["coating", "substrate"]);
+        assert_eq!(names(&[1, 2, 3].map(MaterialId::numbered)), ["layer 1", "layer 2", "substrate"]);
+        assert_eq!(names(&[id(below, 1, ""), id(above, 1, "")]), ["body", "counterbody"]);
+        assert_eq!(names(&[id(below, 1, "D2"), id(above, 1, "D2")]), ["D2", "D2 of the counterbody"]);
+        let pair = [id(below, 1, ""), id(below, 2, ""), id(above, 1, ""), id(above, 2, "D2")];
+        assert_eq!(names(&pair), ["coating", "substrate", "coating of the counterbody", "D2 of the counterbody"]);
+    }
 
     #[test]
     fn a_course_that_never_carries_load_has_no_curves() {

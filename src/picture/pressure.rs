@@ -31,6 +31,8 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     }));
     let map = Map { title: String::new(), x, y, aspect: view.aspect(), fill: Fill::Values(bar, &value), over };
     let what = match snapshot.levels() {
+        0 if cell.is_isolated() => "White: no contact.",
+        _ if cell.is_isolated() => "Numbers are levels; white: no contact.",
         0 if cell.is_rectangular() && !view.is_part => "White: no contact; one unit cell.",
         0 => "White: no contact; dashed: the unit cell.",
         _ => "Numbers are levels; white: no contact; dashed: the unit cell.",
@@ -58,9 +60,12 @@ pub fn axes(snapshot: &Snapshot, [[x0, x1], [y0, y1]]: Window) -> [Axis; 2] {
     ]
 }
 
-/// The unit cell's outline between the contacts.
+/// The unit cell's outline between the contacts; none around an isolated contact.
 pub fn unit_cell(snapshot: &Snapshot, view: View) -> Vec<Over> {
     let cell = snapshot.step.grid().cell();
+    if cell.is_isolated() {
+        return Vec::new();
+    }
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|s| cell.point(s));
     let side = |k: usize| {
         let [from, to] = [corners[k], corners[(k + 1) % 4]];

@@ -200,18 +200,18 @@ fn cell_vectors(cell: &Cell, units: &Units) -> String {
 }
 
 fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
-    let mut parts = Vec::new();
-    if is_oblique(&counterbody.cell()) && !counterbody.cell().is_isolated() {
-        parts.push(cell_vectors(&counterbody.cell(), units));
-    }
-    let Some(indenters) = counterbody.indenters() else { return (!parts.is_empty()).then(|| parts.join(", ")) };
-    let levels = indenters.levels();
     let cell = counterbody.cell();
+    let mut parts = Vec::new();
     if cell.is_isolated() {
         let sides = [cell.vectors()[0][0], cell.vectors()[1][1]];
         let own = if sides[0] == sides[1] { &sides[..1] } else { &sides };
         parts.push(format!("isolated, window {}", units.length_equals("w", own)));
-    } else if *units.length() != Unit::Relative("l".to_owned()) {
+    } else if is_oblique(&cell) {
+        parts.push(cell_vectors(&cell, units));
+    }
+    let Some(indenters) = counterbody.indenters() else { return (!parts.is_empty()).then(|| parts.join(", ")) };
+    let levels = indenters.levels();
+    if !cell.is_isolated() && *units.length() != Unit::Relative("l".to_owned()) {
         parts.push(units.length_equals("l", &[indenters.lattice().period()]));
     }
     let radius = |level: &Level| match level.shape() {

@@ -77,11 +77,16 @@ pub(super) fn utilisation_curves(
 }
 
 /// Style and colour of a criterion: solid lines in the order of the criteria, or, for more criteria than colours, styles by the kind
-/// of failure and colours by depth.
+/// of failure and colours by depth, those of the counterbody behind those of the body.
 fn drawn(criterion: Criterion, index: usize, all: &[Criterion]) -> (Style, Ink) {
-    let depth = |criterion: &Criterion| match *criterion {
-        Criterion::Yield(material) | Criterion::Cracking(material) => material.number,
-        Criterion::Delamination(interface) => interface.number,
+    let place = |criterion: &Criterion| match *criterion {
+        Criterion::Yield(material) | Criterion::Cracking(material) => (material.is_counterbody(), material.number),
+        Criterion::Delamination(interface) => (interface.is_counterbody(), interface.number),
+    };
+    let body = all.iter().map(place).filter(|(above, _)| !above).map(|(_, number)| number).max().unwrap_or(0);
+    let depth = |criterion: &Criterion| match place(criterion) {
+        (false, number) => number,
+        (true, number) => body + number,
     };
     if all.len() <= COLOURS {
         return (Style::Line, Ink::Number(index + 1));
@@ -93,4 +98,22 @@ fn drawn(criterion: Criterion, index: usize, all: &[Criterion]) -> (Style, Ink) 
     };
     let deepest = all.iter().map(depth).max().unwrap_or(1);
     (style, Ink::by_depth(depth(&criterion) - 1, deepest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{MaterialId, Side};
+
+    #[test]
+    fn no_two_of_many_criteria_of_two_bodies_are_drawn_alike() {
+        let ids = [Side::Body, Side::Counterbody].into_iter().flat_map(|side| {
+            (1..=3).map(move |number| MaterialId { side: Some(side), ..MaterialId::numbered(number) })
+        });
+        let all: Vec<Criterion> = ids.flat_map(|id| [Criterion::Yield(id), Criterion::Cracking(id)]).collect();
+        let drawn: Vec<(Style, Ink)> = all.iter().enumerate().map(|(index, &own)| drawn(own, index, &all)).collect();
+        for (index, own) in drawn.iter().enumerate() {
+            assert!(!drawn[..index].contains(own), "{}: {own:?}", all[index]);
+        }
+    }
 }

@@ -79,6 +79,11 @@ impl Reading {
         self.force > 0.0
     }
 
+    /// Whether it is one of an isolated contact, which has no mean pressure and no fraction in contact.
+    pub fn is_isolated(&self) -> bool {
+        self.contact_fraction.is_nan()
+    }
+
     /// The load in one of its quantities.
     pub fn load(&self, quantity: LoadQuantity) -> f64 {
         match quantity {
@@ -223,7 +228,7 @@ impl fmt::Display for Reading {
         write!(
             f,
             "{}, penetration {}, contact area {}",
-            if self.mean_pressure.is_nan() {
+            if self.is_isolated() {
                 format!("force {}", number(self.force))
             } else {
                 format!(

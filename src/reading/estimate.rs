@@ -120,7 +120,7 @@ impl Step {
         let counted = reading.fractions.counted.unwrap_or_else(|| CountedArea::of(finest.grid(), finest.pressures()));
         let mut rough = RoughReading::with_counted(finest, &counted);
         let coarser = self.compared();
-        if !coarser.is_empty() {
+        if !coarser.is_empty() && !finest.grid().cell().is_isolated() {
             // The mean gap is that to complete contact, less the penetration.
             let law = reading.penetration.abs() * topography_law(reading.spot_resolution.max(1.0));
             let coarser = coarser.iter().map(|coarse| Some(mean_gap(coarse)));

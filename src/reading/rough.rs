@@ -11,41 +11,51 @@
 //! basis of the samples' lattice, squares on a square cell, with eight neighbours; on a hexagonal cell they are hexagons, whose
 //! six neighbours all share edges.
 //!
-//! **Stiffness.** [`stiffness`] is dp̄/dδ from neighbouring load steps: with the mean gap ū, dp̄/dδ = −dp̄/dū.
+//! **Stiffness.** [`stiffness`] is dp̄/dδ from neighbouring load steps: with the mean gap ū, dp̄/dδ = −dp̄/dū. Of an isolated contact it
+//! is dP/dδ.
+//!
+//! **An isolated contact** has no area to which parts, densities and a mean gap could be related: it lies in a window of any size.
+//! Of these it has none, not a number each; the area of contact, the spots and the stiffness do not depend on the window.
 
 use super::counted::CountedArea;
 use super::histogram::Histogram;
 use crate::lattice::Grid;
 use crate::lattice::components::SpotCounts;
-use crate::numeric::sums;
+use crate::numeric::{serialised, sums};
 use crate::spectral::Contact;
 use serde::{Deserialize, Serialize};
 
 /// Scalars and distributions of the contact of a topography.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RoughReading {
-    /// Samples in contact over all samples.
+    /// Samples in contact over all samples; not a number for an isolated contact.
+    #[serde(deserialize_with = "serialised::number")]
     pub counted_fraction: f64,
-    /// Fraction of the cell in contact, counted and corrected by the perimeter.
+    /// Fraction of the cell in contact, counted and corrected by the perimeter; not a number for an isolated contact.
+    #[serde(deserialize_with = "serialised::number")]
     pub corrected_fraction: f64,
     /// Estimated discretisation error of the corrected fraction; `None` without a coarser grid.
     #[serde(default)]
     pub corrected_fraction_error: Option<f64>,
     /// Length of the contacts' borders along the samples' edges, over the cell's area: 1/length. A border without preferred
-    /// direction is 4/π times as long along the edges of rectangular samples as it is.
+    /// direction is 4/π times as long along the edges of rectangular samples as it is. Not a number for an isolated contact.
+    #[serde(deserialize_with = "serialised::number")]
     pub perimeter_density: f64,
     /// Contact spots, by their counted areas.
     pub spots: SpotSizes,
-    /// Mean gap over the cell, zero in contact; a length.
+    /// Mean gap over the cell, zero in contact; a length. Not a number for an isolated contact.
+    #[serde(deserialize_with = "serialised::number")]
     pub mean_gap: f64,
-    /// Estimated discretisation error of the mean gap, a length; `None` without a coarser grid.
+    /// Estimated discretisation error of the mean gap, a length; `None` without a coarser grid, and for an isolated contact.
     #[serde(default)]
     pub mean_gap_error: Option<f64>,
-    /// Normal stiffness dp̄/dδ, pressure per length; `None` without neighbouring load steps.
+    /// Normal stiffness: dp̄/dδ, pressure per length, of an isolated contact dP/dδ, force per length; `None` without neighbouring
+    /// load steps.
     pub stiffness: Option<f64>,
-    /// Estimated error of the stiffness, pressure per length.
+    /// Estimated error of the stiffness, in its unit.
     pub stiffness_error: Option<f64>,
-    /// Histograms of pressure and gap over the samples, and of the areas of spots.
+    /// Histograms of pressure and gap over the samples, and of the areas of spots; of an isolated contact without the gap, and of the
+    /// pressure over the samples in contact.
     #[serde(skip)]
     pub histograms: Vec<Histogram>,
 }
@@ -55,7 +65,8 @@ pub struct RoughReading {
 pub struct SpotSizes {
     /// Number of spots in the cell.
     pub count: usize,
-    /// Spots per area of the surface, 1/length².
+    /// Spots per area of the surface, 1/length²; not a number for an isolated contact.
+    #[serde(deserialize_with = "serialised::number")]
     pub density: f64,
     /// Mean area of a spot.
     pub mean_area: f64,
@@ -82,6 +93,22 @@ impl RoughReading {
         let (grid, pressure, gap) = (contact.grid(), contact.pressures(), contact.gaps());
         let (spots, areas) = spots(grid, contact.spots(None));
         let touching = pressure.iter().copied().filter(|p| *p > 0.0);
+        let by_area = Histogram::by_decades("spot_area", areas.iter().copied());
+        if grid.cell().is_isolated() {
+            let by_pressure = Histogram::even("pressure", touching.clone(), touching.count());
+            return Self {
+                counted_fraction: f64::NAN,
+                corrected_fraction: f64::NAN,
+                corrected_fraction_error: None,
+                perimeter_density: f64::NAN,
+                spots: SpotSizes { density: f64::NAN, ..spots },
+                mean_gap: f64::NAN,
+                mean_gap_error: None,
+                stiffness: None,
+                stiffness_error: None,
+                histograms: vec![by_pressure, by_area],
+            };
+        }
         let open = pressure.iter().zip(gap).filter(|(p, _)| **p <= 0.0).map(|(_, gap)| gap.max(0.0));
         Self {
             counted_fraction: counted.fraction,
@@ -96,7 +123,7 @@ impl RoughReading {
             histograms: vec![
                 Histogram::even("pressure", touching, grid.len()),
                 Histogram::even("gap", open, grid.len()),
-                Histogram::by_decades("spot_area", areas.iter().copied()),
+                by_area,
             ],
         }
     }
@@ -127,7 +154,7 @@ fn spots(grid: &Grid, counts: &SpotCounts) -> (SpotSizes, Vec<f64>) {
 }
 
 /// Normal stiffness dp̄/dδ at each of several load steps [p̄, δ], and its estimated error; `None` where the steps do not determine
-/// it.
+/// it. Forces in the place of mean pressures give dP/dδ.
 ///
 /// The pressure of rough surfaces grows nearly as e^{δ/u₀}, so that δ is a smooth function of ln p̄: its derivative is that of
 /// the parabola through a step and its neighbours, and dp̄/dδ = p̄/(dδ/d ln p̄). Between two steps the derivative takes the

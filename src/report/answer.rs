@@ -20,7 +20,7 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     let quantity = units.quantity();
     let load = with_unit(&units.load(), reading.load(quantity), reading.load_error(quantity));
     let penetration = with_unit(units.length(), reading.penetration, errors.penetration);
-    let is_isolated = reading.contact_fraction.is_nan();
+    let is_isolated = reading.is_isolated();
     let contact = if is_isolated {
         with_unit(&units.area(), reading.contact_area, errors.contact_area)
     } else {
@@ -48,7 +48,7 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
         (if is_isolated { "area of contact" } else { "part of the surface in contact" }, numbers(&contact)),
         ("peak pressure", numbers(&peak)),
         (
-            "elastic energy of a cell",
+            if is_isolated { "elastic energy" } else { "elastic energy of a cell" },
             numbers(&with_unit(&units.energy(), reading.elastic_energy, errors.elastic_energy)),
         ),
     ];
@@ -61,16 +61,29 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     }
     if let Some(rough) = &step.rough {
         let stiffness = rough.stiffness.map(|stiffness| with_error(stiffness, rough.stiffness_error));
+        if !is_isolated {
+            rows.push((
+                "counted, corrected by the perimeter",
+                numbers(&percent_with_error(rough.corrected_fraction, rough.corrected_fraction_error)),
+            ));
+        }
         rows.push((
-            "counted, corrected by the perimeter",
-            numbers(&percent_with_error(rough.corrected_fraction, rough.corrected_fraction_error)),
-        ));
-        rows.push((
-            "contact spots in the cell, joined at edges and corners of samples",
+            if is_isolated {
+                "contact spots, joined at edges and corners of samples"
+            } else {
+                "contact spots in the cell, joined at edges and corners of samples"
+            },
             rough.spots.count.to_string().into(),
         ));
-        rows.push(("mean gap", numbers(&with_unit(units.length(), rough.mean_gap, rough.mean_gap_error))));
-        rows.extend(stiffness.map(|text| ("stiffness dp̄/dδ, a pressure per length", numbers(&text))));
+        if !is_isolated {
+            rows.push(("mean gap", numbers(&with_unit(units.length(), rough.mean_gap, rough.mean_gap_error))));
+        }
+        let of = if is_isolated {
+            "stiffness dP/dδ, a force per length"
+        } else {
+            "stiffness dp̄/dδ, a pressure per length"
+        };
+        rows.extend(stiffness.map(|text| (of, numbers(&text))));
     }
     let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());
     vec![with("p", &[("class", "answer")], numbers(&sentence)), pairs(&step_of, &rows)].into()

@@ -49,14 +49,14 @@ pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Marku
             name: "Residual ε",
             value: most(|step| step.residual),
             below: tolerance,
-            means: "Pressure times gap, which is zero everywhere in the exact solution, summed over the cell and relative to load \
-                    times penetration.",
+            means: "Pressure times gap, which is zero everywhere in the exact solution, summed over all samples and relative to \
+                    load times penetration.",
         },
         Condition {
             name: "Load",
             value: most(|step| step.certificate.load),
             below: None,
-            means: "Relative difference from the prescribed mean pressure or penetration.",
+            means: "Relative difference from the prescribed mean pressure, force or penetration.",
         },
     ];
     let entry = |own: &Condition| vec![tag("dt", margin(own, at_rounding)), tag("dd", own.means)].into();

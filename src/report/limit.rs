@@ -43,7 +43,7 @@ pub(super) fn part(results: &Results, file: &LimitFile) -> Result<Part, ReportEr
     let path = results.folder.join("limit.json");
     let (case, limits) = (&file.case, file.limits());
     let text = case_text(case).map_err(|reason| ReportError::version(&path, &file.percoat, reason))?;
-    let units = units_of(&file.units, case_of(&text, &results.folder).as_ref());
+    let units = units_of(&file.units, case_of(&text, &results.folder).as_ref(), case);
     let found = tables::limits(&limits, &units);
     let mut sections = vec![
         section(

@@ -7,7 +7,7 @@ use crate::output::table::Table;
 use serde_json::{Map, Value};
 
 /// Names of keys in the tables; a key that is not listed is shown as in the case, underscores as blanks.
-const NAMES: [(&str, &str); 19] = [
+const NAMES: [(&str, &str); 20] = [
     ("a1", "cell vector a₁"),
     ("a2", "cell vector a₂"),
     ("accuracy", "prescribed accuracy"),
@@ -17,12 +17,13 @@ const NAMES: [(&str, &str); 19] = [
     ("interface", "lower face"),
     ("interface_strength", "strength of the lower face"),
     ("kind", "lattice"),
+    ("material", "from the library"),
     ("max_iterations", "most iterations"),
     ("poisson", "Poisson’s ratio"),
-    ("points", "samples of the cell"),
     ("residual_stress", "residual stress"),
     ("shear_ratio", "shear ratio χ"),
     ("sites", "sites (parts of a₁, a₂)"),
+    ("size", "sides of the window"),
     ("tensile_strength", "tensile strength"),
     ("tolerance", "tolerance of the solver"),
     ("yield_strength", "yield strength"),
@@ -33,17 +34,48 @@ const NAMES: [(&str, &str); 19] = [
 const FRONT: [&str; 5] = ["name", "thickness", "shear_ratio", "young", "graded"];
 
 /// Sections of a case that the last table leaves out: shown in tables of their own, or without effect on the result.
-const APART: [&str; 6] = ["title", "levels", "layers", "substrate", "localized", "units"];
+const APART: [&str; 7] = ["title", "levels", "layers", "substrate", "counterbody", "localized", "units"];
 
 /// Counterbody and body in a sentence, then the keys of the case in tables.
 pub(super) fn problem(case: &Value) -> Markup {
     let mut parts = vec![tag("p", sentence(case))];
-    let list = |key: &str| case[key].as_array().map(Vec::as_slice).unwrap_or_default();
-    if !list("levels").is_empty() {
-        parts.push(items("The indenters, rigid, level by level", "level", list("levels"), |number| number.to_string()));
+    let levels = list(case, "levels");
+    if !levels.is_empty() {
+        let caption = if is_elastic(case) { "The indenters" } else { "The indenters, rigid" };
+        parts.push(items(&format!("{caption}, level by level"), "level", levels, |number| number.to_string()));
     }
-    let layers = list("layers");
-    let body: Vec<Value> = layers.iter().cloned().chain([case["substrate"].clone()]).collect();
+    parts.push(materials("The body, from the surface down", list(case, "layers"), &case["substrate"]));
+    if let Some(keys) = case["counterbody"].as_object() {
+        let substrate: Map<String, Value> =
+            keys.iter().filter(|(key, _)| *key != "layers").map(|(key, value)| (key.clone(), value.clone())).collect();
+        let layers = list(&case["counterbody"], "layers");
+        parts.push(materials("The counterbody, from its surface inward", layers, &Value::Object(substrate)));
+    }
+    let sections = case.as_object().into_iter().flatten().filter(|(key, _)| !APART.contains(&key.as_str()));
+    let rows: Vec<(String, String)> =
+        sections.flat_map(|(section, value)| entries(section, value, is_isolated(case))).collect();
+    let rows: Vec<(&str, Markup)> = rows.iter().map(|(name, text)| (name.as_str(), text.as_str().into())).collect();
+    let cell = if is_isolated(case) { "Window" } else { "Cell" };
+    parts.push(pairs(&format!("{cell}, load, grid and all other keys"), &rows));
+    parts.into()
+}
+
+/// The items of a list of a section; empty without it.
+fn list<'a>(section: &'a Value, key: &str) -> &'a [Value] {
+    section[key].as_array().map(Vec::as_slice).unwrap_or_default()
+}
+
+fn is_isolated(case: &Value) -> bool {
+    case["lattice"]["kind"] == "isolated"
+}
+
+fn is_elastic(case: &Value) -> bool {
+    !case["counterbody"].is_null()
+}
+
+/// The layers of a body and its substrate as one table, with the numbers of their materials.
+fn materials(caption: &str, layers: &[Value], substrate: &Value) -> Markup {
+    let body: Vec<Value> = layers.iter().cloned().chain([substrate.clone()]).collect();
     let name = |number: usize| {
         let own = if number > layers.len() { "substrate".to_owned() } else { format!("layer\u{a0}{number}") };
         let above: usize = layers.iter().take(number - 1).map(sublayers).sum();
@@ -52,12 +84,7 @@ pub(super) fn problem(case: &Value) -> Markup {
             several => format!("{} to {} ({own})", above + 1, above + several),
         }
     };
-    parts.push(items("The body, from the surface down", "material", &body, name));
-    let sections = case.as_object().into_iter().flatten().filter(|(key, _)| !APART.contains(&key.as_str()));
-    let rows: Vec<(String, String)> = sections.flat_map(|(section, value)| entries(section, value)).collect();
-    let rows: Vec<(&str, Markup)> = rows.iter().map(|(name, text)| (name.as_str(), text.as_str().into())).collect();
-    parts.push(pairs("Cell, load, grid and all other keys", &rows));
-    parts.into()
+    items(caption, "material", &body, name)
 }
 
 /// Number of sublayers of a layer; 1 where it is not graded.
@@ -67,23 +94,50 @@ fn sublayers(layer: &Value) -> usize {
 
 /// Counterbody and body in a sentence.
 fn sentence(case: &Value) -> String {
-    let count = |key: &str| case[key].as_array().map_or(0, Vec::len);
-    let kind = case["lattice"]["kind"].as_str().unwrap_or("periodic");
-    let counterbody = match count("levels") {
-        0 => "A rigid topography, repeated without end,".to_owned(),
-        1 => format!("Rigid indenters of one height on a {kind} lattice"),
-        levels => format!("Rigid indenters of {levels} levels on a {kind} lattice"),
+    let (subject, is_one) = counterbody(case);
+    let above = match coating(list(&case["counterbody"], "layers").len()) {
+        own if own.is_empty() => own,
+        own => format!("; the counterbody is one{own}"),
     };
-    let body = match count("layers") {
-        0 => "an uncoated elastic half-space".to_owned(),
-        1 => "an elastic half-space with a coating of one layer".to_owned(),
-        layers => format!("an elastic half-space with a coating of {layers} layers"),
+    let body = match coating(list(case, "layers").len()) {
+        own if own.is_empty() => "an uncoated elastic half-space".to_owned(),
+        own => format!("an elastic half-space{own}"),
     };
+    let [pressed, slide] = if is_one { ["is pressed", "slides"] } else { ["are pressed", "slide"] };
     let slides = case["friction"]["coefficient"].as_f64();
-    let slides = slides.map_or(String::new(), |mu| format!(", and slide over it with friction μ = {}", plain(mu)));
-    let slides = if count("levels") == 0 { slides.replace("and slide", "and slides") } else { slides };
-    let pressed = if count("levels") == 0 { "is pressed" } else { "are pressed" };
-    format!("{counterbody} {pressed} into {body}{slides}.")
+    let slides = slides.map_or(String::new(), |mu| format!(", and {slide} over it with friction μ = {}", plain(mu)));
+    format!("{subject} {pressed} into {body}{slides}{above}.")
+}
+
+/// The coating of a body in words; none of an uncoated one.
+fn coating(layers: usize) -> String {
+    match layers {
+        0 => String::new(),
+        1 => " with a coating of one layer".to_owned(),
+        layers => format!(" with a coating of {layers} layers"),
+    }
+}
+
+/// What is pressed into the body, and whether it is one thing.
+fn counterbody(case: &Value) -> (String, bool) {
+    let (levels, is_isolated) = (list(case, "levels"), is_isolated(case));
+    let [of, one, several] =
+        if is_elastic(case) { ["elastic", "An elastic", "Elastic"] } else { ["rigid", "A rigid", "Rigid"] };
+    let heights = if levels.len() == 1 { "one height".to_owned() } else { format!("{} levels", levels.len()) };
+    let indenters: usize = levels.iter().map(|level| level["sites"].as_array().map_or(1, Vec::len)).sum();
+    match (indenters, is_isolated) {
+        (0, false) => (format!("{one} topography, repeated without end,"), true),
+        (0, true) => (format!("{one} topography in a window"), true),
+        (1, true) => (format!("One {of} indenter"), true),
+        (count, true) => (format!("{count} {of} indenters of {heights} in a window"), false),
+        (_, false) => {
+            let lattice = match case["lattice"]["kind"].as_str().unwrap_or("periodic") {
+                "oblique" => "an oblique".to_owned(),
+                kind => format!("a {kind}"),
+            };
+            (format!("{several} indenters of {heights} on {lattice} lattice"), false)
+        }
+    }
 }
 
 /// A list of the case as one table: a row an item, a column for every key of any item.
@@ -104,18 +158,21 @@ fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> Str
     table(caption, &Table::new(&head, (1..).zip(items).map(row).collect(), 1))
 }
 
-/// The keys of a section with their values.
-fn entries(section: &str, value: &Value) -> Vec<(String, String)> {
+/// The keys of a section with their values, without those of no effect on an isolated contact.
+fn entries(section: &str, value: &Value, is_isolated: bool) -> Vec<(String, String)> {
     let prefix =
         |key: &str| if matches!(section, "stress" | "friction") { format!("{section}: {key}") } else { key.to_owned() };
+    let has_effect = |key: &str| !(is_isolated && section == "stress" && key == "mean");
+    let samples = if is_isolated { "samples of the window" } else { "samples of the cell" };
     match value {
         Value::Object(keys) => {
             let entry = |(key, value): (&String, &Value)| match key.as_str() {
-                "points" if section == "grid" => (named(key), text(value).replace(", ", " × ")),
+                "points" if section == "grid" => (samples.to_owned(), text(value).replace(", ", " × ")),
                 "points" => (prefix("single points"), text(value)),
+                "size" => (named(key), text(value).replace(", ", " × ")),
                 key => (prefix(&named(key)), text(value)),
             };
-            keys.iter().map(entry).collect()
+            keys.iter().filter(|(key, _)| has_effect(key)).map(entry).collect()
         }
         other => vec![(named(section), text(other))],
     }
@@ -166,5 +223,67 @@ fn plain(x: f64) -> String {
         x.to_string()
     } else {
         format!("{x:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn counterbody_and_body_are_said_as_they_are() {
+        let levels = |count: usize| vec![json!({ "shape": "sphere", "radius": 1.0 }); count];
+        let [isolated, square] = ["isolated", "square"].map(|kind| json!({ "kind": kind }));
+        let steel = json!({ "young": 210.0, "poisson": 0.3 });
+        let coated = json!({ "young": 210.0, "poisson": 0.3, "layers": [{}, {}] });
+        for (case, words) in [
+            (
+                json!({ "lattice": square, "levels": levels(2), "layers": [{}] }),
+                "Rigid indenters of 2 levels on a square lattice are pressed into an elastic half-space with a coating of one layer.",
+            ),
+            (
+                json!({ "lattice": { "kind": "oblique" }, "levels": levels(1), "friction": { "coefficient": 0.3 } }),
+                "Rigid indenters of one height on an oblique lattice are pressed into an uncoated elastic half-space, and slide over \
+                 it with friction μ = 0.3.",
+            ),
+            (
+                json!({ "lattice": isolated, "levels": levels(1), "counterbody": steel, "friction": { "coefficient": 0.3 } }),
+                "One elastic indenter is pressed into an uncoated elastic half-space, and slides over it with friction μ = 0.3.",
+            ),
+            (
+                json!({ "lattice": isolated, "levels": levels(2) }),
+                "2 rigid indenters of 2 levels in a window are pressed into an uncoated elastic half-space.",
+            ),
+            (
+                json!({ "lattice": isolated, "surface": {}, "counterbody": coated, "layers": [{}] }),
+                "An elastic topography in a window is pressed into an elastic half-space with a coating of one layer; the \
+                 counterbody is one with a coating of 2 layers.",
+            ),
+        ] {
+            assert_eq!(sentence(&case), words);
+        }
+    }
+
+    #[test]
+    fn keys_of_the_counterbody_stand_in_a_table_of_their_own() {
+        let layers = json!([{ "thickness": 2.0, "young": 300.0 }]);
+        let case = json!({
+            "lattice": { "kind": "isolated", "size": [4.0, 3.0] }, "levels": [{ "radius": 1.0 }], "substrate": { "young": 1.0 },
+            "counterbody": { "young": 210.0, "poisson": 0.3, "layers": layers }, "grid": { "points": [32, 24] },
+            "stress": { "mean": "confined", "planes": [] },
+        });
+        let page = problem(&case).as_str().replace('\u{a0}', " ");
+        let (before, counterbody) =
+            page.split_once("The counterbody, from its surface inward</caption>").expect("a table");
+        let (counterbody, rest) = counterbody.split_once("</table>").expect("its end");
+        assert!(before.contains("The indenters, level by level"), "{before}");
+        for words in ["1 (layer 1)", ">300<", "2 (substrate)", ">210<", ">0.3<"] {
+            assert!(counterbody.contains(words) && !rest.contains(words), "{words}: {counterbody}\n{rest}");
+        }
+        for words in ["sides of the window", "4 × 3", "samples of the window", "32 × 24", "stress: planes"] {
+            assert!(rest.contains(words), "{words}: {rest}");
+        }
+        assert!(!rest.contains("stress: mean") && !rest.contains("confined"), "{rest}");
     }
 }

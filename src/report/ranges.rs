@@ -7,7 +7,7 @@ use super::units::with_unit;
 use crate::output::table::{Table, percent_with_error};
 use crate::output::with_error;
 use crate::reading::Criterion;
-use crate::sweep::{Foremost, Kind, LimitValue, Row, SCALARS, Scalar, SweepResult, SweptKey};
+use crate::sweep::{Foremost, Kind, LimitValue, Row, SCALARS, Scalar, SweepResult, SweptKey, scalars_with};
 use crate::units::{Unit, Units};
 
 /// The least and the largest value of a result.
@@ -32,14 +32,14 @@ pub(super) fn sentences(rows: &[Row], keys: &[SweptKey], units: &Units) -> Vec<M
         return peak.map(|peak| sentence(format!("{}{}.", between(peak), of_last(rows)))).into_iter().collect();
     }
     let mut sentences: Vec<Markup> = firsts(rows).map(sentence).into_iter().collect();
-    let first = limit_range(rows, keys, "first limit (a mean pressure)", None, units);
+    let first = limit_range(rows, keys, &format!("first limit (a {})", units.quantity().name()), None, units);
     let below = last(rows).filter_map(|(_, result)| match result.limit_value(None) {
         Some(LimitValue::Below(load)) => Some(load),
         _ => None,
     });
     let below: Vec<f64> = below.collect();
     let below = below.iter().copied().reduce(f64::max).map(|most| {
-        let most = with_unit(units.pressure(), most, None);
+        let most = with_unit(&units.load(), most, None);
         format!("in {} the first limit is known only to lie below {most}", combinations(below.len()))
     });
     let parts: Vec<String> = first.map(between).into_iter().chain(below).collect();
@@ -57,8 +57,9 @@ pub(super) fn ranges(rows: &[Row], keys: &[SweptKey], units: &Units) -> Markup {
         let name = criterion.map_or("first limit".to_owned(), |criterion| criterion.to_string());
         limit_range(rows, keys, &name, criterion, units)
     });
-    // The mean pressure is prescribed.
-    let scalars = SCALARS.iter().filter(|scalar| scalar.name != "mean pressure");
+    // The load is prescribed.
+    let quantity = units.quantity();
+    let scalars = scalars_with(quantity).filter(|scalar| scalar.name != quantity.name());
     let scalars = scalars.map(|scalar| scalar_range(rows, keys, scalar, units));
     let row = |ValueRange { name, ends: [least, most] }: ValueRange| vec![name, least.0, least.1, most.0, most.1];
     let all: Vec<Vec<String>> = limits.chain(scalars).flatten().map(row).collect();
@@ -97,8 +98,10 @@ pub(super) fn are_limits(rows: &[Row]) -> bool {
 /// The least and the largest of a scalar.
 fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units) -> Option<ValueRange> {
     let unit = match scalar.kind {
-        Kind::Pressure => Some(units.pressure()),
-        Kind::Length => Some(units.length()),
+        Kind::Pressure => Some(units.pressure().clone()),
+        Kind::Force => Some(units.force()),
+        Kind::Length => Some(units.length().clone()),
+        Kind::Area => Some(units.area()),
         Kind::Fraction => None,
     };
     range(rows, keys, scalar.name, |result| (scalar.of)(result.step()?), unit)
@@ -116,7 +119,7 @@ fn limit_range(
         LimitValue::At(load, error) => Some((load, error)),
         LimitValue::Below(_) | LimitValue::Above(_) | LimitValue::Undecided => None,
     };
-    range(rows, keys, name, value, Some(units.pressure()))
+    range(rows, keys, name, value, Some(units.load()))
 }
 
 /// The least and the largest of a value over the combinations that have it.
@@ -125,7 +128,7 @@ fn range(
     keys: &[SweptKey],
     name: &str,
     value: impl Fn(&SweepResult) -> Option<(f64, Option<f64>)>,
-    unit: Option<&Unit>,
+    unit: Option<Unit>,
 ) -> Option<ValueRange> {
     let found = last(rows).filter_map(|(row, result)| value(result).map(|(x, error)| (x, error, row)));
     let found: Vec<(f64, Option<f64>, &Row)> = found.collect();
@@ -169,8 +172,9 @@ fn combinations(count: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::load::LoadQuantity;
     use crate::run::Limit;
-    use crate::sweep::examples::{below, never, reached, row, step};
+    use crate::sweep::examples::{below, isolated, never, reached, row, step};
 
     const YIELDS: Criterion = Criterion::yield_of(1);
     const CRACKS: Criterion = Criterion::cracking_of(1);
@@ -184,6 +188,8 @@ mod tests {
         let rows: Vec<Row> =
             (1..).zip(results).map(|(n, results)| row(n, &[("a", n.to_string())], results.clone())).collect();
         let units = Units::unknown().named(Some("mm"), Some("MPa"));
+        let quantity = results.iter().flatten().find_map(SweepResult::quantity).unwrap_or_default();
+        let units = units.with_loads_in(quantity);
         let markup: Markup =
             [sentences(&rows, &keys, &units).into(), ranges(&rows, &keys, &units)].into_iter().collect();
         markup.as_str().replace('\u{a0}', " ")
@@ -206,6 +212,21 @@ mod tests {
         ] {
             assert!(page.contains(words), "no {words}: {page}");
         }
+    }
+
+    #[test]
+    fn limits_in_force_are_forces() {
+        let limit = |limit: Limit| vec![SweepResult::Limits(vec![Limit { quantity: LoadQuantity::Force, ..limit }])];
+        let page =
+            said(&[limit(reached(YIELDS, 20.0, 2.0)), limit(reached(YIELDS, 40.0, 2.0)), limit(below(YIELDS, 3.0))]);
+        assert!(
+            page.contains("The first limit (a force) lies between 20 ± 2 N (a = 1) and 40 ± 2 N (a = 2)"),
+            "{page}"
+        );
+        assert!(page.contains("only to lie below 3.0000 N") && !page.contains("MPa"), "{page}");
+        let step = |force: f64| vec![SweepResult::Step(Box::new(isolated(force, 100.0 * force)))];
+        let page = said(&[step(1.0), step(2.0)]);
+        assert!(page.contains("contact area") && page.contains("mm²") && !page.contains("NaN"), "{page}");
     }
 
     #[test]

@@ -12,7 +12,8 @@ pub(super) fn resolution(steps: &[StepRecord], change: Option<f64>) -> Markup {
     let mut rows: Vec<(&str, Markup)> = Vec::new();
     if let Some(step) = steps.last() {
         let [n1, n2] = step.points;
-        rows.push(("samples of the cell", format!("{n1} × {n2}").into()));
+        let of = if step.reading.is_isolated() { "samples of the window" } else { "samples of the cell" };
+        rows.push((of, format!("{n1} × {n2}").into()));
     }
     let touching = |index: usize| {
         let levels = steps.iter().filter_map(move |step| step.reading.levels.get(index));

@@ -13,35 +13,64 @@ use super::table::table;
 use super::units::{case_of, measured_in, units_of};
 use crate::output::{Summary, table as tables};
 
-const PICTURES: [PictureText; 6] = [
-    (
-        "pressure",
-        "Map of the contact pressure over several cells",
-        "Contact pressure over several cells, true to scale; white is no contact.",
-    ),
-    (
-        "contact",
-        "Contact spots by level, and the radius of their boundaries over the direction",
-        "Contact spots by level with their boundaries, and how far each boundary is from a circle; dashed: without the mutual \
-         effect of the indenters.",
-    ),
-    (
-        "profiles",
-        "Curves of the pressure through an indenter of each level",
-        "Pressure through each level along the line of its largest extent; dashed: the same indenter alone under the same load.",
-    ),
-    ("curve", "Curves of what the load steps say over the load", "What the load steps say over the load."),
-    (
-        "section",
-        "Maps of stresses in a vertical cut through coating and substrate",
-        "Stresses in a vertical cut, with the interfaces; crosses: the largest values.",
-    ),
-    (
-        "lines",
-        "Curves of stresses along the surface and both sides of each interface",
-        "The same stresses along the surface and both sides of each interface.",
-    ),
-];
+/// The pictures of a run; those of an isolated contact have no neighbours.
+fn pictures(is_isolated: bool) -> [PictureText; 6] {
+    let [pressure, contact, profiles] = if is_isolated {
+        [
+            (
+                "pressure",
+                "Map of the contact pressure in the window",
+                "Contact pressure, true to scale; white is no contact.",
+            ),
+            (
+                "contact",
+                "Contact spots, and the radius of their boundaries over the direction",
+                "Contact spots with their boundaries, and how far each boundary is from a circle.",
+            ),
+            (
+                "profiles",
+                "Curves of the pressure through an indenter of each level",
+                "Pressure through each level along the line of its largest extent.",
+            ),
+        ]
+    } else {
+        [
+            (
+                "pressure",
+                "Map of the contact pressure over several cells",
+                "Contact pressure over several cells, true to scale; white is no contact.",
+            ),
+            (
+                "contact",
+                "Contact spots by level, and the radius of their boundaries over the direction",
+                "Contact spots by level with their boundaries, and how far each boundary is from a circle; dashed: without the \
+                 mutual effect of the indenters.",
+            ),
+            (
+                "profiles",
+                "Curves of the pressure through an indenter of each level",
+                "Pressure through each level along the line of its largest extent; dashed: the same indenter alone under the \
+                 same load.",
+            ),
+        ]
+    };
+    [
+        pressure,
+        contact,
+        profiles,
+        ("curve", "Curves of what the load steps say over the load", "What the load steps say over the load."),
+        (
+            "section",
+            "Maps of stresses in a vertical cut, with the interfaces",
+            "Stresses in a vertical cut, with the interfaces; crosses: the largest values.",
+        ),
+        (
+            "lines",
+            "Curves of stresses along the surface and both sides of each interface",
+            "The same stresses along the surface and both sides of each interface.",
+        ),
+    ]
+}
 
 /// The part of the page for a run, from `summary.json`.
 pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportError> {
@@ -54,13 +83,20 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
     if let Some(loads) = read.as_ref().map(|case| case.load.values().len()).filter(|loads| *loads != steps.len()) {
         return Err(refused(format!("it has {} steps, and its case {loads} loads", steps.len())));
     }
-    let units = units_of(&summary.units, read.as_ref());
+    let units = units_of(&summary.units, read.as_ref(), case);
     let taken = tables::utilisations(steps, read.as_ref().map(|case| case.problem().bodies()), &units);
     let fails = taken.as_ref().map(|taken| with("p", &[("class", "answer")], upper(&taken.words)));
+    let hertz = read.as_ref().and_then(|case| tables::hertz(case, steps, &units));
+    let hertz = hertz.map(|lines| tag("p", upper(&lines.join("; "))));
+    let is_isolated = steps.iter().any(|step| step.reading.is_isolated());
     let mut sections = vec![
-        section("answer", "Answer", vec![doubts(steps), fails.unwrap_or_default(), answer(steps, &units)]),
+        section(
+            "answer",
+            "Answer",
+            vec![doubts(steps), fails.unwrap_or_default(), answer(steps, &units), hertz.unwrap_or_default()],
+        ),
         section("problem", "Problem", vec![problem(case), tag("p", measured_in(&units))]),
-        section("pictures", "Pictures", vec![figures(results, "summary.json", &PICTURES)?]),
+        section("pictures", "Pictures", vec![figures(results, "summary.json", &pictures(is_isolated))?]),
         section(
             "steps",
             "Load steps",

@@ -10,11 +10,12 @@ use super::ranges::{are_limits, criteria, ranges, sentences};
 use super::results::{Results, Swept};
 use super::table::table;
 use super::units::{case_of, measured_in, units_of};
+use crate::load::LoadQuantity;
 use crate::output::UnitNames;
 use crate::output::table::{Table, percent_with_error};
 use crate::output::with_error;
 use crate::reading::Verdict;
-use crate::sweep::{Description, Kind, LimitValue, Row, SCALARS, Scalar, Status, SweepResult, SweptKey};
+use crate::sweep::{Description, Kind, LimitValue, Row, Scalar, Status, SweepResult, SweptKey, scalars_with};
 use serde_json::json;
 use std::collections::BTreeMap;
 
@@ -28,7 +29,11 @@ pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError
     let Swept { description, rows } = swept;
     let Description { keys, case: text, title, .. } = description;
     let read = case_of(text, &results.folder);
-    let units = units_of(&UnitNames::default(), read.as_ref());
+    // The keys of a case that cannot be read are sorted alphabetically.
+    let keys_of_case = read.as_ref().map(|case| json!(case)).or_else(|| toml::from_str(text).ok()).unwrap_or_default();
+    let units = units_of(&UnitNames::default(), read.as_ref(), &keys_of_case);
+    let quantity = rows.iter().flat_map(|row| &row.results).find_map(SweepResult::quantity);
+    let units = quantity.map_or(units.clone(), |quantity| units.with_loads_in(quantity));
     let given = keys.iter().map(|key| vec![key.key.clone(), key.values.len().to_string(), values(key)]);
     let head = ["key", "values", "which"].map(str::to_owned).to_vec();
     let given = Table::new(&head, given.collect(), 1);
@@ -44,13 +49,12 @@ pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError
     let mut sections = vec![
         section("answer", "Answer", answer),
         section("pictures", "Pictures", vec![figures(results, "sweep.json", &PICTURES)?]),
-        section("rows", "Combinations", vec![shown(rows, keys)]),
+        section("rows", "Combinations", vec![shown(rows, keys, units.quantity())]),
         section("warnings", "Warnings", vec![warnings(&description.warnings)]),
     ];
-    // The keys of a case that cannot be read are sorted alphabetically.
-    if let Some(case) = read.as_ref().map(|case| json!(case)).or_else(|| toml::from_str(text).ok()) {
+    if !keys_of_case.is_null() {
         let words = tag("p", "The case of which the sweep changes the keys above:");
-        let content = vec![words, problem(&case), tag("p", measured_in(&units))];
+        let content = vec![words, problem(&keys_of_case), tag("p", measured_in(&units))];
         sections.insert(1, section("problem", "Problem", content));
     }
     let time = tag("p", format!("{:.2} s.", description.timing.wall));
@@ -100,28 +104,29 @@ struct Shown<'a> {
 type Cell<'a> = Box<dyn Fn(Shown<'_>) -> Option<String> + 'a>;
 
 /// The first rows with the keys and the main scalars, and a sentence on what is left out.
-fn shown(rows: &[Row], keys: &[SweptKey]) -> Markup {
+fn shown(rows: &[Row], keys: &[SweptKey], quantity: LoadQuantity) -> Markup {
     let all = rows.iter().flat_map(|row| {
         let none = row.results.is_empty().then_some(None);
         let results = (1..).zip(row.results.iter().map(Some).chain(none));
         results.map(move |(number, result)| Shown { row, number, result })
     });
     let all: Vec<Shown<'_>> = all.collect();
-    let columns = columns(rows, keys);
+    let columns = columns(rows, keys, quantity);
     let cells = |own: &Shown<'_>| columns.iter().map(|(_, cell)| cell(*own).unwrap_or("–".to_owned())).collect();
     let head: Vec<&String> = columns.iter().map(|(words, _)| words).collect();
-    let caption = if are_limits(rows) {
-        "One row a combination: the mean pressure of each limit; ± is the estimated error of the grid"
+    let what = if are_limits(rows) {
+        format!("One row a combination: the {} of each limit", quantity.name())
     } else {
-        "One row a combination and load step; ± is the estimated error of the grid"
+        "One row a combination and load step".to_owned()
     };
-    let shown = table(caption, &Table::new(&head, all.iter().take(ROWS).map(cells).collect(), 0));
+    let caption = format!("{what}; ± is the estimated error of the grid");
+    let shown = table(&caption, &Table::new(&head, all.iter().take(ROWS).map(cells).collect(), 0));
     let more = all.len().saturating_sub(ROWS);
     let more = if more > 0 { format!("{more} further rows and all") } else { "All".to_owned() };
     vec![shown, tag("p", format!("{more} columns are in sweep.csv."))].into()
 }
 
-fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey]) -> Vec<(String, Cell<'a>)> {
+fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey], quantity: LoadQuantity) -> Vec<(String, Cell<'a>)> {
     let mut columns: Vec<(String, Cell<'a>)> = Vec::new();
     let mut add = |name: String, cell: Cell<'a>| columns.push((name, cell));
     add("combination".to_owned(), Box::new(|own| Some(own.row.combination.to_string())));
@@ -146,7 +151,7 @@ fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey]) -> Vec<(String, Cell<'a>)>
         let limit = move |own: Shown<'_>| own.result?.limit_value(criterion).as_ref().map(LimitValue::to_string);
         add(name, Box::new(limit));
     }
-    for scalar in SCALARS.iter().filter(|scalar| steps().any(|step| (scalar.of)(step).is_some())) {
+    for scalar in scalars_with(quantity).filter(|scalar| steps().any(|step| (scalar.of)(step).is_some())) {
         add(scalar.name.to_owned(), Box::new(|own| scalar_text(scalar, own)));
     }
     let levels = steps().map(|step| step.reading.levels.len()).max().unwrap_or(0);

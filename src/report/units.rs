@@ -1,14 +1,19 @@
 //! Units of the numbers of a result.
 
 use crate::case::{Case, Source};
+use crate::load::LoadQuantity;
 use crate::output::{UnitNames, with_error};
 use crate::units::{Unit, Units};
+use serde_json::Value;
 use std::path::Path;
 
-/// The units of a case, or of `names` where the case cannot be read.
-pub(super) fn units_of(names: &UnitNames, case: Option<&Case>) -> Units {
+/// The units of a case, or of `names` where the case cannot be read: `keys` still say whether its loads are forces.
+pub(super) fn units_of(names: &UnitNames, case: Option<&Case>, keys: &Value) -> Units {
     let UnitNames { length, pressure } = names;
-    case.map_or_else(|| Units::unknown().named(length.as_deref(), pressure.as_deref()), Case::units)
+    let is_force = keys["lattice"]["kind"] == "isolated" || !keys["load"]["force"].is_null();
+    let quantity = if is_force { LoadQuantity::Force } else { LoadQuantity::MeanPressure };
+    let named = || Units::unknown().named(length.as_deref(), pressure.as_deref()).with_loads_in(quantity);
+    case.map_or_else(named, Case::units)
 }
 
 /// The case in a result; `None` where it cannot be read, as when the file of its topography has moved.

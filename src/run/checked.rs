@@ -23,6 +23,18 @@ impl StepRecord {
             at_least_zero("mean_pressure", reading.mean_pressure)?;
             at_least_zero("contact_fraction", reading.contact_fraction)?;
         }
+        // Nor has its topography parts of one.
+        if let Some(rough) = self.rough.as_ref().filter(|_| !reading.is_isolated()) {
+            for (name, value) in [
+                ("rough.counted_fraction", rough.counted_fraction),
+                ("rough.corrected_fraction", rough.corrected_fraction),
+                ("rough.perimeter_density", rough.perimeter_density),
+                ("rough.spots.density", rough.spots.density),
+                ("rough.mean_gap", rough.mean_gap),
+            ] {
+                finite(name, value)?;
+            }
+        }
         finite("penetration", reading.penetration)?;
         at_least_zero("contact_area", reading.contact_area)?;
         peak("max_pressure", reading.max_pressure)?;
@@ -109,5 +121,15 @@ mod tests {
         let another = other.strength.iter().find(|own| own.criterion != governing.criterion).unwrap();
         governing.criterion = another.criterion;
         assert!(other.check().unwrap_err().contains("`governing`"));
+    }
+
+    #[test]
+    fn what_a_topography_lacks_in_a_window_alone_is_due_on_a_cell() {
+        let set = ["grid.points=64", "surface.random.shortest=5.0", "load.mean_pressure=0.1"].map(str::to_owned);
+        let case = Case::read(&embedded::source("rough").unwrap(), &set).unwrap();
+        let mut step = case.run().solve(&mut ()).unwrap().steps.pop().unwrap();
+        assert_eq!(step.check(), Ok(()));
+        step.rough.as_mut().unwrap().mean_gap = f64::NAN;
+        assert_eq!(step.check().unwrap_err(), "`rough.mean_gap` is null where a number is due");
     }
 }

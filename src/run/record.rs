@@ -113,12 +113,13 @@ impl StepRecord {
         record.judged()
     }
 
-    /// Adds the stiffness dp̄/dδ, which depends on all steps of a path on a topography.
+    /// Adds the stiffness dp̄/dδ, of an isolated contact dP/dδ, which depends on all steps of a path on a topography.
     pub(super) fn add_stiffness(steps: &mut [Self]) {
         // Steps that have not converged are left out.
-        let place = |step: &Self| match step.converged() {
-            true => [step.reading.mean_pressure, step.reading.penetration],
-            false => [f64::NAN; 2],
+        let place = |step: &Self| {
+            let Reading { mean_pressure, force, penetration, .. } = step.reading;
+            let load = if step.reading.is_isolated() { force } else { mean_pressure };
+            if step.converged() { [load, penetration] } else { [f64::NAN; 2] }
         };
         let path: Vec<[f64; 2]> = steps.iter().map(place).collect();
         for (step, found) in steps.iter_mut().zip(stiffness(&path)) {

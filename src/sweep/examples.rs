@@ -65,6 +65,13 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: f64) -> Ste
     }
 }
 
+/// A load step of an isolated contact under a force.
+pub fn isolated(force: f64, max_pressure: f64) -> StepRecord {
+    let mut step = step(max_pressure, None, f64::NAN);
+    (step.reading.mean_pressure, step.reading.force, step.reading.contact_area) = (f64::NAN, force, 0.5 * force);
+    step
+}
+
 /// A load step with these utilisations of strengths.
 pub fn strained(strength: Vec<Utilisation>) -> SweepResult {
     let governing = Governing::of(&strength);

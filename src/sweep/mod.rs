@@ -30,7 +30,7 @@ pub use combinations::{Combination, Combinations, CombinationsError, Group, colu
 pub use known::Known;
 pub use log::{Damage, Log, Logged, read};
 pub use parts::{Part, PartError, UNFINISHED, join};
-pub use result::{Foremost, Kind, LimitValue, SCALARS, Scalar, SweepResult};
+pub use result::{Foremost, Kind, LimitValue, SCALARS, Scalar, SweepResult, scalars_with};
 pub use row::{Row, Status};
 pub use study::{Study, StudyError};
 pub use table::{Description, SweptKey, columns, fingerprint, table};

@@ -1,8 +1,9 @@
 //! A result of a combination: a load step, or the limit loads; and its numbers for tables, pictures and the report.
 
+use crate::load::LoadQuantity;
 use crate::output::columns::{Cells, scalars};
 use crate::output::{FirstLimit, number, with_error};
-use crate::reading::{Criterion, within_the_errors};
+use crate::reading::{Criterion, Reading, within_the_errors};
 use crate::run::{At, Limit, StepRecord, first, rivals};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -62,28 +63,55 @@ pub struct Scalar {
 pub enum Kind {
     /// A pressure.
     Pressure,
+    /// A force.
+    Force,
     /// A length.
     Length,
+    /// An area.
+    Area,
     /// A fraction.
     Fraction,
 }
 
-/// The main scalars of a load step.
-pub static SCALARS: [Scalar; 7] = {
-    use Kind::{Fraction, Length, Pressure};
+/// The main scalars of a load step: the load in both of its quantities; the fraction in contact, or the area of an isolated one.
+pub static SCALARS: [Scalar; 9] = {
+    use Kind::{Area, Force, Fraction, Length, Pressure};
     const fn scalar(name: &'static str, kind: Kind, of: fn(&StepRecord) -> Option<Measured>) -> Scalar {
         Scalar { name, kind, of }
     }
     [
-        scalar("mean pressure", Pressure, |step| Some((step.reading.mean_pressure, step.reading.errors.mean_pressure))),
+        scalar("mean pressure", Pressure, |step| load(step, LoadQuantity::MeanPressure)),
+        scalar("force", Force, |step| load(step, LoadQuantity::Force)),
         scalar("penetration", Length, |step| Some((step.reading.penetration, step.reading.errors.penetration))),
-        scalar("contact", Fraction, |step| Some((step.reading.contact_fraction, step.reading.errors.contact_fraction))),
+        scalar("contact", Fraction, |step| {
+            let Reading { contact_fraction, errors, .. } = &step.reading;
+            (!step.reading.is_isolated()).then_some((*contact_fraction, errors.contact_fraction))
+        }),
+        scalar("contact area", Area, |step| {
+            let Reading { contact_area, errors, .. } = &step.reading;
+            step.reading.is_isolated().then_some((*contact_area, errors.contact_area))
+        }),
         scalar("peak pressure", Pressure, |step| Some((step.reading.finite_peak()?, step.reading.errors.max_pressure))),
         scalar("largest τ₁", Pressure, |step| finite(&step.stress.as_ref()?.overall.tau1)),
         scalar("largest tension", Pressure, |step| finite(&step.stress.as_ref()?.overall.tension)),
         scalar("largest von Mises", Pressure, |step| finite(&step.stress.as_ref()?.overall.mises)),
     ]
 };
+
+/// The main scalars, with the load in this quantity alone.
+pub fn scalars_with(quantity: LoadQuantity) -> impl Iterator<Item = &'static Scalar> {
+    let other = match quantity {
+        LoadQuantity::MeanPressure => LoadQuantity::Force,
+        LoadQuantity::Force => LoadQuantity::MeanPressure,
+    };
+    SCALARS.iter().filter(move |scalar| scalar.name != other.name())
+}
+
+/// The load of a step; `None` for the mean pressure of an isolated contact.
+fn load(step: &StepRecord, quantity: LoadQuantity) -> Option<Measured> {
+    let load = step.reading.load(quantity);
+    (!load.is_nan()).then_some((load, step.reading.load_error(quantity)))
+}
 
 fn finite(peak: &crate::stress::Peak) -> Option<Measured> {
     Some((peak.finite()?, peak.error))
@@ -98,6 +126,14 @@ impl SweepResult {
     /// The limit of each criterion; `None` for a load step.
     pub fn limits(&self) -> Option<&[Limit]> {
         if let Self::Limits(limits) = self { Some(limits) } else { None }
+    }
+
+    /// The quantity of its loads; `None` for a load step that has both.
+    pub fn quantity(&self) -> Option<LoadQuantity> {
+        match self {
+            Self::Step(step) => step.reading.is_isolated().then_some(LoadQuantity::Force),
+            Self::Limits(limits) => limits.first().map(|limit| limit.quantity),
+        }
     }
 
     /// The first limit, or that of a criterion; `None` for a load step, and where none is reached first.
@@ -244,6 +280,22 @@ mod tests {
         let counted = Foremost::counted(results.iter());
         assert_eq!((counted.len(), counted[0].1, counted[0].0.to_string()), (1, 2, "yield of material 2".to_owned()));
         assert_eq!(results[0].limit_value(Some(Criterion::cracking_of(2))), None);
+    }
+
+    #[test]
+    fn an_isolated_contact_has_a_force_and_an_area_in_the_place_of_means() {
+        let periodic = super::super::examples::step(2.0, None, 0.5);
+        let isolated = super::super::examples::isolated(3.0, 2.0);
+        let values = |step: &StepRecord, quantity: LoadQuantity| -> Vec<(&str, f64)> {
+            scalars_with(quantity).filter_map(|own| Some((own.name, (own.of)(step)?.0))).collect()
+        };
+        let peak = ("peak pressure", 2.0);
+        let own = [("force", 3.0), ("penetration", 2.0), ("contact area", 1.5), peak];
+        assert_eq!(values(&isolated, LoadQuantity::Force), own);
+        assert_eq!(values(&isolated, LoadQuantity::MeanPressure), own[1..]);
+        let own = [("mean pressure", 0.1), ("penetration", 2.0), ("contact", 0.5), peak];
+        assert_eq!(values(&periodic, LoadQuantity::MeanPressure), own);
+        assert_eq!(values(&periodic, LoadQuantity::Force)[0], ("force", 0.1));
     }
 
     #[test]

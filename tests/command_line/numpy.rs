@@ -20,10 +20,14 @@ fn numpy_reads_the_archive_back() {
         return;
     }
     let desk = Desk::new();
-    let folder = desk.solve("two", &["--set", "grid.points=[48, 64]", "--set", "load.mean_pressure=[0.02, 0.06]"]);
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numpy/read_back.py");
-    let output = Command::new(&python).arg(script).arg(&folder.0).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-    println!("{said}");
-    assert!(output.status.success(), "{said}");
+    let periodic = ["--set", "grid.points=[48, 64]", "--set", "load.mean_pressure=[0.02, 0.06]"];
+    let isolated = ["ball-on-disc", "--set", "grid.points=[48, 64]"];
+    for (name, arguments) in [("two", &periodic[..]), ("ball", &isolated[..])] {
+        let folder = desk.solve(name, arguments);
+        let output = Command::new(&python).arg(&script).arg(&folder.0).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+        println!("{said}");
+        assert!(output.status.success(), "{name}: {said}");
+    }
 }

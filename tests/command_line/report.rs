@@ -101,6 +101,56 @@ fn the_page_of_a_run_holds_what_the_command_line_printed() {
     assert!(page.contains(&case), "the case can be copied as it was run");
 }
 
+/// A page without the case at its end.
+fn told(page: &str) -> &str {
+    page.split_once("Case</h2>").expect("the case").0
+}
+
+#[test]
+fn the_page_of_an_isolated_contact_has_its_force_its_window_and_hertz_beside() {
+    let desk = Desk::new();
+    let answer = desk.percoat(&["solve", "-o", "run", "ball-on-disc", "--no-pictures", "--set", "grid.points=48"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let page = words(&report(&desk, "run"));
+    let page = told(&page);
+    let out = words(&answer.out);
+    let hertz: Vec<&str> = out.lines().skip_while(|line| !line.starts_with("Hertz, ")).take(2).collect();
+    assert!(hertz.len() == 2 && page.contains(&format!("{}.", hertz.join(" "))), "{hertz:?}");
+    for words in [
+        "One elastic indenter is pressed into an elastic half-space with a coating of one layer.",
+        "The indenters, level by level",
+        "The counterbody, from its surface inward",
+        "Under the force 5000",
+        "area of contact",
+        "elastic energy<",
+        "samples of the window",
+        "140 × 140",
+        "mean pressure, force or penetration",
+    ] {
+        assert!(page.contains(words), "no {words}");
+    }
+    for words in ["NaN", "cell", "confined", "igid"] {
+        assert!(!page.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn the_page_of_a_sweep_of_isolated_contacts_has_forces_and_areas() {
+    let desk = Desk::new();
+    let keys = ["--set", "layers.0.thickness=2,3", "--set", "grid.points=48"];
+    let answer = desk.percoat(&[&["sweep", "ball-on-disc", "-o", "out", "--pictures", "svg"], &keys[..]].concat());
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let page = words(&report(&desk, "out"));
+    let page = told(&page);
+    for words in [">force<", ">contact area<", ">1000.0<", ">5000.0<", "in the last load step of each combination"] {
+        assert!(page.contains(words), "no {words}");
+    }
+    assert!(!page.contains("NaN") && !page.contains(">mean pressure<") && !page.contains(">contact<"), "{page}");
+    let picture = Folder(desk.path("out")).text("sweep.svg").replace('\u{a0}', " ");
+    assert!(picture.contains("P = 5000 mN") && picture.contains("area of contact A"), "{picture}");
+    assert!(!picture.contains("step 1") && !picture.contains("fraction in contact"), "{picture}");
+}
+
 const BOND: &str = r#"title = "Spheres on a bond"
 lattice = { kind = "square", period = 20.0 }
 levels = [{ shape = "sphere", radius = 50.0 }]

@@ -1,9 +1,11 @@
 //! One contact in free space, by the whole solver: closed forms, windows, stresses.
 
+use ndarray::Array2;
+use percoat::run::{Run, Sampling, StepRecord};
 use percoat::spectral::Stop;
 use percoat::{
     Bodies, Cell, Depth, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, MeanStress,
-    Problem, Settings, Shape, Solver, Step, StressField, StressFields,
+    Problem, Settings, Shape, Solver, Step, StressField, StressFields, Topography,
 };
 use std::f64::consts::PI;
 
@@ -223,4 +225,33 @@ fn a_slender_window_has_the_stresses_of_a_square_one() {
     }
     let beyond = slender.points(Depth { z: 0.1, material: 1 }, &[[0.0, 0.6 * side]])[0];
     assert!(beyond.zz.is_nan() && square.points(Depth { z: 0.1, material: 1 }, &[[0.0, 0.6 * side]])[0].zz.is_finite());
+}
+
+/// The paraboloid as a topography: by Hertz dP/dδ = 2E*a; what would be of the window's area is not there.
+#[test]
+fn a_topography_in_a_window_has_its_stiffness_and_no_parts_of_the_window() {
+    let (window, points) = (3.0, 96);
+    let cell = Cell::window([window; 2]).unwrap();
+    let place = |index: usize| (index as f64 / points as f64 - 0.5) * window;
+    let heights = Array2::from_shape_fn([points; 2], |(i, j)| -0.5 * (place(i).powi(2) + place(j).powi(2)));
+    let problem = Problem::new(Topography::new(cell, heights).unwrap(), bare());
+    let loads: Vec<Load> = (0..5).map(|k| Load::Force(0.2 * 1.2f64.powi(k))).collect();
+    let steps = Run::new(problem, loads, Sampling::Points([points; 2])).solve(&mut ()).unwrap().steps;
+    for step in &steps {
+        let rough = step.rough.as_ref().unwrap();
+        assert_eq!((rough.spots.count, rough.spots.percolates), (1, false));
+        let none = [rough.counted_fraction, rough.corrected_fraction, rough.perimeter_density, rough.mean_gap];
+        assert!(none.iter().chain([&rough.spots.density]).all(|own| own.is_nan()), "{rough:?}");
+        assert_eq!((rough.corrected_fraction_error, rough.mean_gap_error), (None, None));
+        let names: Vec<&str> = rough.histograms.iter().map(|own| own.quantity.as_ref()).collect();
+        assert_eq!(names, ["pressure", "spot_area"]);
+        let radius = (0.75 * step.reading.force * (1.0 - NU * NU)).cbrt();
+        let exact = 2.0 * radius / (1.0 - NU * NU);
+        let (found, error) = (rough.stiffness.unwrap(), rough.stiffness_error.unwrap());
+        assert!((found / exact - 1.0).abs() < 1e-2 && (found - exact).abs() < error, "{found} ± {error}, {exact}");
+        let text = serde_json::to_string(step).unwrap();
+        let read: StepRecord = serde_json::from_str(&text).unwrap();
+        assert_eq!(serde_json::to_string(&read).unwrap(), text);
+        assert!(text.contains("\"mean_gap\":null") && text.contains("\"density\":null"), "{text}");
+    }
 }

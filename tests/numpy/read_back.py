@@ -23,9 +23,12 @@ def checks(folder):
 
     shapes = {
         "a1": (2,), "a2": (2,), "x": (n1, n2), "y": (n1, n2), "owner": (n1, n2),
-        "mean_pressure": (len(steps),), "penetration": (len(steps),),
+        "mean_pressure": (len(steps),), "force": (len(steps),), "penetration": (len(steps),),
         "pressure": fields, "displacement": fields, "gap": fields,
     }
+    isolated = summary["case"].get("lattice", {}).get("kind") == "isolated"
+    if isolated:
+        del shapes["mean_pressure"]
     yield "arrays are those of the interface", set(contact) == set(shapes)
     for name, shape in shapes.items():
         dtype = np.dtype("<i4" if name == "owner" else "<f8")
@@ -33,24 +36,33 @@ def checks(folder):
     yield "every number is finite", all(np.isfinite(array).all() for array in contact.values())
 
     p, w, g = (contact[name] for name in ("pressure", "displacement", "gap"))
-    load, penetration = contact["mean_pressure"], contact["penetration"]
-    asked = summary["case"]["load"]["mean_pressure"]
-    yield "mean of the pressure is the load asked for", np.allclose(p.mean(axis=(1, 2)), asked, rtol=1e-12, atol=0)
-    yield "scalars are those of the summary", (
-        load.tolist() == [step["mean_pressure"] for step in steps]
-        and penetration.tolist() == [step["penetration"] for step in steps]
+    force, penetration = contact["force"], contact["penetration"]
+    (a1x, a1y), (a2x, a2y) = contact["a1"], contact["a2"]
+    mean = p.mean(axis=(1, 2))
+    ((kind, asked),) = summary["case"]["load"].items()
+    found = {"mean_pressure": mean, "force": mean * abs(a1x * a2y - a1y * a2x)}
+    yield "pressures carry the load asked for", np.allclose(found[kind], asked, rtol=1e-12, atol=0)
+    yield "pressures carry the force", np.allclose(found["force"], force, rtol=1e-12, atol=0)
+    scalars = ("force", "penetration") if isolated else ("mean_pressure", "force", "penetration")
+    yield "scalars are those of the summary", all(
+        contact[name].tolist() == [step[name] for step in steps] for name in scalars
     )
     yield "pressure is nowhere negative", (p >= 0).all()
     complementarity = (p * np.abs(g)).sum(axis=(1, 2)) / (penetration * p.sum(axis=(1, 2)))
     yield f"pressure stands only where the gap is closed: {complementarity.max():.1e}", (complementarity < 1e-8).all()
     overlap = -np.where(p == 0, g, 0).min(axis=(1, 2)) / penetration
     yield f"the bodies do not overlap: {overlap.max():.1e}", (overlap < 1e-7).all()
-    yield "displacements have zero mean", np.allclose(w.mean(axis=(1, 2)), 0, atol=1e-12)
+    if isolated:
+        yield "the surface sinks everywhere", (w > 0).all()
+    else:
+        yield "displacements have zero mean", np.allclose(w.mean(axis=(1, 2)), 0, atol=1e-12)
     shape = g - w + penetration[:, None, None]
     yield "the undeformed shape is the same in every step", np.allclose(shape, shape[0], rtol=0, atol=1e-12)
     yield "every level faces samples", set(np.unique(contact["owner"])) == {level["level"] for level in steps[0]["levels"]}
 
     s, t = np.meshgrid(np.arange(n1) / n1, np.arange(n2) / n2, indexing="ij")
+    # The middle of a window is the origin.
+    s, t = (s - 0.5, t - 0.5) if isolated else (s, t)
     for axis, name in enumerate("xy"):
         place = s * contact["a1"][axis] + t * contact["a2"][axis]
         yield f"{name} follows the cell vectors", np.allclose(contact[name], place, rtol=0, atol=1e-12)

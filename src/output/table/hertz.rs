@@ -23,9 +23,10 @@ impl Hertz {
     }
 }
 
-/// What a ball does to the bare substrates under the force of the last step with contact, and by how much the layers change it, in
-/// two lines; `None` unless one ball is in isolated contact with bodies that have layers.
-pub(super) fn beside(case: &Case, steps: &[StepRecord], units: &Units) -> Option<String> {
+/// Peak pressure, contact radius and penetration by Hertz of the ball on the bare substrates, under the force of the last converged
+/// step with contact, and the relative differences of that step from them, in two lines; `None` unless the contact is isolated and that
+/// of one ball.
+pub fn hertz(case: &Case, steps: &[StepRecord], units: &Units) -> Option<[String; 2]> {
     let problem = case.problem();
     let [level] = problem.counterbody().levels() else { return None };
     let (Shape::Paraboloid { radius: ball } | Shape::Sphere { radius: ball }) = level.shape() else { return None };
@@ -54,9 +55,10 @@ pub(super) fn beside(case: &Case, steps: &[StepRecord], units: &Units) -> Option
     .flatten()
     .collect();
     let what = if problem.bodies().is_bare() { "here they differ in" } else { "the layers change" };
-    Some(format!(
-        "Hertz, bare substrates, {load}: peak pressure {peak}, contact radius {radius}, penetration {approach};\n\
-         {what} {}\n",
-        changes.join(", ")
-    ))
+    Some([
+        format!(
+            "Hertz, bare substrates, {load}: peak pressure {peak}, contact radius {radius}, penetration {approach}"
+        ),
+        format!("{what} {}", changes.join(", ")),
+    ])
 }

@@ -12,6 +12,7 @@ mod text;
 pub use alone::alone;
 pub use assumed::Assumptions;
 pub use comparison::{differences, readings, stresses};
+pub use hertz::hertz;
 pub use largest::largest_stresses;
 pub use strength::{limits, utilisations};
 pub use text::{Table, Worded};
@@ -46,7 +47,7 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     let mut text = heading(case);
     text += &format!("\n{}\n\n{}\n", self::steps(steps, &units).fitted(width), solved(steps));
     text += &spots(steps).map_or(String::new(), |spots| format!("{spots}\n"));
-    text += &hertz::beside(case, steps, &units).unwrap_or_default();
+    text += &hertz(case, steps, &units).map_or(String::new(), |lines| format!("{}\n", lines.join(";\n")));
     let largest = largest_stresses(steps, &units);
     if let Some(largest) = &largest {
         text += &format!("\n{}\n\n", largest.fitted(width));
@@ -198,7 +199,7 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
 
 /// The fraction in contact, or the area of an isolated one.
 fn contact(reading: &Reading, units: &Units) -> String {
-    if reading.contact_fraction.is_nan() {
+    if reading.is_isolated() {
         let area = units.area().suited([reading.contact_area]);
         return area.behind(&in_unit(&area, reading.contact_area, reading.errors.contact_area));
     }

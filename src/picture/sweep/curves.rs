@@ -3,10 +3,11 @@
 use super::super::axis::Axis;
 use super::super::chart::Chart;
 use super::super::curve::{Curve, Ink, Style};
-use super::super::number::short;
 use super::keys::{Keys, number, scale};
 use super::numbers::Number;
+use crate::run::StepRecord;
 use crate::sweep::Row;
+use crate::units::Units;
 use std::collections::{BTreeMap, HashMap};
 
 /// Curves in a chart, at most.
@@ -17,15 +18,15 @@ const COLOURS: usize = 6;
 /// A curve that is being gathered.
 struct SweepCurve {
     label: String,
-    /// The load of all its points, where it is one.
-    load: Option<f64>,
+    /// The load of all its points with its unit, where it is one within the digits shown.
+    load: Option<String>,
     points: Vec<[f64; 2]>,
 }
 
 impl Keys {
     /// A curve for each set of the other keys, or for each load step where there are no others, as many as are distinguishable; and
     /// the number of all.
-    pub fn chart(&self, rows: &[Row], shown: &Number) -> (Chart, usize) {
+    pub fn chart(&self, rows: &[Row], shown: &Number, units: &Units) -> (Chart, usize) {
         let (index, values) = &self.along;
         let mut curves: BTreeMap<usize, SweepCurve> = BTreeMap::new();
         let mut order: HashMap<String, usize> = HashMap::new();
@@ -39,11 +40,13 @@ impl Keys {
             let steps = if self.names.len() == 1 { row.results.len() } else { 1 };
             for (step, result) in row.results.iter().enumerate().skip(row.results.len() - steps.min(row.results.len()))
             {
-                let load = result.step().map(|step| step.reading.mean_pressure).filter(|_| steps > 1);
+                let load = |step: &StepRecord| units.load_equals(&[step.reading.load(units.quantity())]);
+                let load = result.step().filter(|_| steps > 1).map(load);
                 let (own, label) = if steps > 1 { (step, format!("step {}", step + 1)) } else { (at, label.clone()) };
-                let curve = curves.entry(own).or_insert_with(|| SweepCurve { label, load, points: Vec::new() });
+                let begun = || SweepCurve { label, load: load.clone(), points: Vec::new() };
+                let curve = curves.entry(own).or_insert_with(begun);
                 // A step whose load differs between rows is labelled by its number.
-                curve.load = curve.load.filter(|_| curve.load == load);
+                curve.load.take_if(|own| Some(&*own) != load.as_ref());
                 curve.points.push([x, shown.value(result).unwrap_or(f64::NAN)]);
             }
         }
@@ -55,7 +58,7 @@ impl Keys {
             _ => Ink::Depth(index as f64 / (count - 1) as f64),
         };
         let curves = drawn.into_iter().enumerate().map(|(index, (_, SweepCurve { label, load, mut points }))| {
-            let label = load.map_or(label, |load| format!("p̄ = {}", short(load)));
+            let label = load.unwrap_or(label);
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
             Curve { label, points, errors: Vec::new(), style, colour: colour(index) }

@@ -43,7 +43,7 @@ pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
         words.extend(left_out);
         return keys.maps(rows, &numbers, &(words.join("; ") + "."));
     }
-    let (charts, counts): (Vec<Chart>, Vec<usize>) = numbers.iter().map(|own| keys.chart(rows, own)).unzip();
+    let (charts, counts): (Vec<Chart>, Vec<usize>) = numbers.iter().map(|own| keys.chart(rows, own, units)).unzip();
     let firsts = Foremost::counted(rows.iter().filter_map(|row| row.results.last()));
     let firsts: Vec<String> = firsts.iter().map(|(first, count)| format!("{first} in {count}")).collect();
     let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.step().is_some());
@@ -96,6 +96,7 @@ fn unknown(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
 mod tests {
     use super::super::canvas::Mark;
     use super::*;
+    use crate::load::LoadQuantity;
     use crate::reading::{Criterion, Utilisation};
     use crate::sweep::examples::{self, below, never, reached, row, strained};
 
@@ -122,7 +123,7 @@ mod tests {
         let keys = Keys::of(&one).unwrap();
         assert!(keys.pair.is_none());
         assert_eq!(
-            keys.chart(&one, &numbers(&Units::unknown(), &one)[0]).0.curves[0].points,
+            keys.chart(&one, &numbers(&Units::unknown(), &one)[0], &Units::unknown()).0.curves[0].points,
             [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]]
         );
         let pairs = values.iter().flat_map(|x| values.map(|y| [*x, y]));
@@ -139,6 +140,25 @@ mod tests {
     }
 
     #[test]
+    fn curves_of_isolated_contacts_have_their_forces_and_no_panel_is_empty() {
+        let steps = |x: f64| {
+            // Sums of pressures are rounded.
+            let rounded = |force: f64| force * (1.0 + x * 1e-14);
+            [1.0, 5.0].map(|force| SweepResult::Step(Box::new(examples::isolated(rounded(force), x * force)))).to_vec()
+        };
+        let rows: Vec<Row> =
+            (1..).zip([0.1, 0.2, 0.3]).map(|(n, x)| row(n, &[("x", x.to_string())], steps(x))).collect();
+        let units = Units::unknown().named(Some("µm"), Some("GPa")).with_loads_in(LoadQuantity::Force);
+        let numbers = numbers(&units, &rows);
+        let names: Vec<&str> = numbers.iter().map(|own| own.quantity.text()).collect();
+        assert_eq!(names, ["peak pressure p", "penetration δ", "area of contact A"]);
+        let (chart, _) = Keys::of(&rows).unwrap().chart(&rows, &numbers[2], &units);
+        let labels: Vec<String> = chart.curves.iter().map(|curve| curve.label.replace('\u{a0}', " ")).collect();
+        assert_eq!(labels, ["P = 1 mN", "P = 5 mN"]);
+        assert!(chart.curves[1].points.iter().all(|[_, area]| (area - 2.5).abs() < 1e-12));
+    }
+
+    #[test]
     fn what_failed_leaves_a_gap_and_others_have_curves_of_their_own() {
         let mut rows: Vec<Row> = (0..8)
             .map(|n| {
@@ -148,7 +168,7 @@ mod tests {
             .collect();
         rows[2].results.clear();
         let keys = Keys::of(&rows).unwrap();
-        let (chart, _) = keys.chart(&rows, &numbers(&Units::unknown(), &rows)[0]);
+        let (chart, _) = keys.chart(&rows, &numbers(&Units::unknown(), &rows)[0], &Units::unknown());
         let labels: Vec<&str> = chart.curves.iter().map(|curve| &curve.label[..]).collect();
         assert_eq!(labels, ["kind soft", "kind hard"]);
         assert_eq!(chart.curves[0].points, [[0.0, 0.0], [2.0, 4.0], [3.0, 6.0]]);
@@ -215,7 +235,7 @@ mod tests {
         for (kinds, drawn) in [(2, 2), (7, 7), (12, 12), (13, 7), (40, 10)] {
             let rows = rows(kinds);
             let keys = Keys::of(&rows).unwrap();
-            let (chart, all) = keys.chart(&rows, &numbers(&Units::unknown(), &rows)[0]);
+            let (chart, all) = keys.chart(&rows, &numbers(&Units::unknown(), &rows)[0], &Units::unknown());
             assert_eq!((chart.curves.len(), all), (drawn, kinds));
             let text = words(sweep("", &Units::unknown(), &rows));
             assert!(text.contains("the last load step of each"));

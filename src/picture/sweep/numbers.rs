@@ -94,6 +94,7 @@ pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
         Number::scalar(units.pressure_of("peak pressure", "p"), "peak pressure"),
         Number::scalar(units.length_of("penetration", "δ"), "penetration"),
         Number::scalar("fraction in contact", "contact"),
+        Number::scalar(units.area_of("area of contact", "A"), "contact area"),
         Number { quantity: "largest utilisation".into(), of: Of::Utilisation },
         Number::scalar(units.pressure_of("largest shear stress", "τ₁"), "largest τ₁"),
     ];
