@@ -254,7 +254,7 @@ impl<E: Send> Search<'_, E> {
         };
         let rows = (0..forces.len()).map(|i| {
             let (fitted, derivatives) = self.fitted(&curve, t, forces[i]);
-            let deviation = self.measured.deviations().map_or(self.units[0], |all| all[i]);
+            let deviation = self.deviation(i);
             let residual = (fitted - self.measured.penetrations()[i]) / deviation;
             (residual, derivatives.into_iter().map(|own| own / deviation).collect())
         });
@@ -323,80 +323,128 @@ impl Identification {
     }
 }
 
+/// Parameters at the minimum, with their covariance.
+struct Covariance<'a, 'b, E> {
+    search: &'a Search<'b, E>,
+    found: &'a Minimum,
+    /// s²: the sum of squares over the degrees of freedom.
+    variance: f64,
+    /// (JᵀJ)⁻¹.
+    inverse: Vec<Vec<f64>>,
+    radii: [f64; 2],
+}
+
 impl<E: Send> Search<'_, E> {
     fn estimated(&self, found: &Minimum, curve: &IndentationCurve) -> Result<Identification, IdentificationError<E>> {
-        let (t, (residuals, jacobian)) = (&found.place, &found.linearised);
-        let (count, forces) = (self.parameters.len(), self.measured.forces());
-        let name = |k: usize| self.parameters[k].name.clone();
+        let (residuals, jacobian) = &found.linearised;
+        let count = self.parameters.len();
         let normal = least_squares::normal(jacobian);
         if let Some(k) = (0..count).find(|&k| normal[k][k] <= 1e-16 * jacobian.len() as f64) {
-            return Err(IdentificationError::NoInfluence(name(k)));
+            return Err(IdentificationError::NoInfluence(self.parameters[k].name.clone()));
         }
-        let freedom = forces.len() - count;
-        let variance = least_squares::sum(residuals) / freedom as f64;
+        let freedom = residuals.len() - count;
+        let reduced = least_squares::sum(residuals) / freedom as f64;
         // Known deviations are taken as they are, unless the fit is worse.
-        let variance = if self.measured.deviations().is_some() { variance.max(1.0) } else { variance };
-        let value = |k: usize| self.parameters[k].value(t[k], self.unit(&self.parameters[k]));
+        let variance = if self.measured.deviations().is_some() { reduced.max(1.0) } else { reduced };
         let radii = curve.radii();
-        let undetermined = |k: usize, error: f64, mixed| {
-            IdentificationError::Undetermined(Undetermined { name: name(k), value: value(k), error, mixed, radii })
-        };
-        let Some(inverse) = least_squares::inverse(&normal) else {
-            let parallel = |k: usize, other: usize| normal[k][other] / (normal[k][k] * normal[other][other]).sqrt();
-            let pairs = (0..count).flat_map(|k| (0..k).map(move |other| (k, other)));
-            let worst = pairs.max_by(|a, b| parallel(a.0, a.1).abs().total_cmp(&parallel(b.0, b.1).abs()));
-            let mixed = worst.map(|(k, other)| (name(other), -parallel(k, other)));
-            return Err(undetermined(worst.map_or(0, |(k, _)| k), f64::INFINITY, mixed));
-        };
-        let deviation = |k: usize| (variance * inverse[k][k]).sqrt();
-        let correlated = |k: usize, other: usize| inverse[k][other] / (inverse[k][k] * inverse[other][other]).sqrt();
-        let correlation: Vec<Vec<f64>> =
-            (0..count).map(|k| (0..count).map(|other| correlated(k, other)).collect()).collect();
-        let relative = |k: usize| match self.parameters[k].quantity {
-            Quantity::Positive | Quantity::Number => deviation(k),
-            // They may well be 0.
-            Quantity::Offset | Quantity::FrameCompliance => 0.0,
-        };
-        if let Some(worst) = (0..count).max_by(|&a, &b| relative(a).total_cmp(&relative(b)))
-            && !(relative(worst) <= MOST_UNCERTAIN)
-        {
-            let others = (0..count).filter(|&other| other != worst);
-            let mixed = others.max_by(|&a, &b| correlation[worst][a].abs().total_cmp(&correlation[worst][b].abs()));
-            let mixed = mixed.map(|other| (name(other), correlation[worst][other]));
-            let mixed = mixed.filter(|(_, correlation)| correlation.abs() > CORRELATED);
-            let slope = self.parameters[worst].slope(t[worst], self.unit(&self.parameters[worst]));
-            return Err(undetermined(worst, deviation(worst) * slope.abs(), mixed));
-        }
-        let estimates = (0..count).map(|k| {
-            let (parameter, unit) = (&self.parameters[k], self.unit(&self.parameters[k]));
-            let reach = student(freedom) * deviation(k);
-            Estimate {
-                parameter: parameter.clone(),
-                value: value(k),
-                error: deviation(k) * parameter.slope(t[k], unit).abs(),
-                interval: [t[k] - reach, t[k] + reach].map(|t| parameter.value(t, unit)),
-            }
-        });
-        let deviation_of = |i: usize| self.measured.deviations().map_or(self.units[0], |all| all[i]);
-        let fitted = residuals.iter().enumerate();
-        let fitted: Vec<f64> = fitted.map(|(i, r)| self.measured.penetrations()[i] + r * deviation_of(i)).collect();
-        let band = jacobian.iter().enumerate().map(|(i, row)| {
-            let along = |k: usize| (0..count).map(|other| inverse[k][other] * row[other]).sum::<f64>();
-            deviation_of(i) * (variance * (0..count).map(|k| row[k] * along(k)).sum::<f64>()).sqrt()
-        });
-        let square: f64 = residuals.iter().enumerate().map(|(i, r)| (r * deviation_of(i)).powi(2)).sum();
+        let inverse = least_squares::inverse(&normal).ok_or_else(|| self.parallel(found, &normal, radii))?;
+        let own = Covariance { search: self, found, variance, inverse, radii };
+        own.determined()?;
+        let penetrations = self.measured.penetrations();
+        let lengths: Vec<f64> = residuals.iter().enumerate().map(|(i, r)| r * self.deviation(i)).collect();
         Ok(Identification {
-            estimates: estimates.collect(),
-            correlation,
-            band: band.collect(),
-            fitted,
-            rms: (square / residuals.len() as f64).sqrt(),
+            estimates: (0..count).map(|k| own.estimate(k, freedom)).collect(),
+            correlation: (0..count).map(|k| (0..count).map(|other| own.correlation(k, other)).collect()).collect(),
+            fitted: lengths.iter().zip(penetrations).map(|(r, measured)| measured + r).collect(),
+            band: (0..residuals.len()).map(|i| own.band(i)).collect(),
+            rms: (least_squares::sum(&lengths) / lengths.len() as f64).sqrt(),
             freedom,
-            reduced_chi_square: self.measured.deviations().map(|_| least_squares::sum(residuals) / freedom as f64),
+            reduced_chi_square: self.measured.deviations().map(|_| reduced),
             model_error: curve.error(),
             radii,
             steps: found.steps,
         })
+    }
+
+    /// Length by which a residual is measured: the deviation of its point, or the largest penetration.
+    fn deviation(&self, point: usize) -> f64 {
+        self.measured.deviations().map_or(self.units[0], |all| all[point])
+    }
+
+    /// The refusal of two parameters that change all penetrations in proportion.
+    fn parallel(&self, found: &Minimum, normal: &[Vec<f64>], radii: [f64; 2]) -> IdentificationError<E> {
+        let parallel = |k: usize, other: usize| normal[k][other] / (normal[k][k] * normal[other][other]).sqrt();
+        let pairs = (0..self.parameters.len()).flat_map(|k| (0..k).map(move |other| (k, other)));
+        let worst = pairs.max_by(|a, b| parallel(a.0, a.1).abs().total_cmp(&parallel(b.0, b.1).abs()));
+        let own = &self.parameters[worst.map_or(0, |(k, _)| k)];
+        IdentificationError::Undetermined(Undetermined {
+            name: own.name.clone(),
+            value: own.value(found.place[worst.map_or(0, |(k, _)| k)], self.unit(own)),
+            error: f64::INFINITY,
+            mixed: worst.map(|(k, other)| (self.parameters[other].name.clone(), -parallel(k, other))),
+            radii,
+        })
+    }
+}
+
+impl<E: Send> Covariance<'_, '_, E> {
+    /// Standard error of t.
+    fn deviation(&self, k: usize) -> f64 {
+        (self.variance * self.inverse[k][k]).sqrt()
+    }
+
+    fn correlation(&self, k: usize, other: usize) -> f64 {
+        self.inverse[k][other] / (self.inverse[k][k] * self.inverse[other][other]).sqrt()
+    }
+
+    /// The parameter, t, and its unit.
+    fn parameter(&self, k: usize) -> (&Parameter, f64, f64) {
+        let own = &self.search.parameters[k];
+        (own, self.found.place[k], self.search.unit(own))
+    }
+
+    fn estimate(&self, k: usize, freedom: usize) -> Estimate {
+        let ((own, t, unit), reach) = (self.parameter(k), student(freedom) * self.deviation(k));
+        Estimate {
+            parameter: own.clone(),
+            value: own.value(t, unit),
+            error: self.deviation(k) * own.slope(t, unit).abs(),
+            interval: [t - reach, t + reach].map(|t| own.value(t, unit)),
+        }
+    }
+
+    /// Standard error of the fitted penetration of a point, a length.
+    fn band(&self, point: usize) -> f64 {
+        let row = &self.found.linearised.1[point];
+        let along = |k: usize| (0..row.len()).map(|other| self.inverse[k][other] * row[other]).sum::<f64>();
+        let square: f64 = (0..row.len()).map(|k| row[k] * along(k)).sum();
+        self.search.deviation(point) * (self.variance * square).sqrt()
+    }
+
+    /// Refuses the parameter of the largest relative error where that is beyond [`MOST_UNCERTAIN`].
+    fn determined(&self) -> Result<(), IdentificationError<E>> {
+        let count = self.inverse.len();
+        let relative = |k: usize| match self.parameter(k).0.quantity {
+            Quantity::Positive | Quantity::Number => self.deviation(k),
+            // They may well be 0.
+            Quantity::Offset | Quantity::FrameCompliance => 0.0,
+        };
+        let worst = (0..count).max_by(|&a, &b| relative(a).total_cmp(&relative(b)));
+        let Some(worst) = worst.filter(|&worst| relative(worst).is_nan() || relative(worst) > MOST_UNCERTAIN) else {
+            return Ok(());
+        };
+        let others = (0..count).filter(|&other| other != worst);
+        let mixed =
+            others.max_by(|&a, &b| self.correlation(worst, a).abs().total_cmp(&self.correlation(worst, b).abs()));
+        let mixed = mixed.map(|other| (self.parameter(other).0.name.clone(), self.correlation(worst, other)));
+        let (own, t, unit) = self.parameter(worst);
+        Err(IdentificationError::Undetermined(Undetermined {
+            name: own.name.clone(),
+            value: own.value(t, unit),
+            error: self.deviation(worst) * own.slope(t, unit).abs(),
+            mixed: mixed.filter(|(_, correlation)| correlation.abs() > CORRELATED),
+            radii: self.radii,
+        }))
     }
 }
 

@@ -61,6 +61,15 @@ use std::sync::Arc;
 /// enough.
 const CHECKED_GRID: usize = 3;
 
+/// What a load is solved for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Loading {
+    /// A step of a load path: the contact stiffness is read too.
+    Path,
+    /// A search for limit loads.
+    Search,
+}
+
 /// A run: loads solved one after another, on one grid or on finer and finer ones.
 #[derive(Debug, Clone)]
 pub struct Run {
@@ -202,7 +211,8 @@ impl Run {
         for &load in loads {
             // The memory of a step is freed before the next one needs as much.
             drop(last.take());
-            let (record, step) = self.solve_load(&mut solver, &tables, load, saved.take(), recorder)?;
+            let (record, step) =
+                self.solve_load(&mut solver, &tables, load, (Loading::Path, saved.take()), recorder)?;
             records.push(record);
             last = Some(step);
         }
@@ -215,7 +225,7 @@ impl Run {
         solver: &mut Solver,
         tables: &Arc<Tables>,
         load: Load,
-        saved: Option<LastLoad>,
+        (loading, saved): (Loading, Option<LastLoad>),
         recorder: &mut R,
     ) -> Result<(StepRecord, Step), RunError<R::Error>> {
         recorder.load(load);
@@ -235,6 +245,9 @@ impl Run {
             }
         };
         let mut record = StepRecord::new(&step, step.reading());
+        if loading == Loading::Path && self.problem.cell().is_isolated() && step.report.stop.solved() {
+            record = record.with_tangent(solver.tangent().as_ref());
+        }
         let fields = self.mean_stress().map(|mean| {
             recorder.stresses();
             StressFields::with_tables(step.finest(), mean, tables)

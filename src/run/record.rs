@@ -6,7 +6,7 @@ use crate::numeric::serialised;
 use crate::reading::{
     Criterion, Governing, Reading, RoughReading, StressReading, Utilisation, stiffness, within_the_errors,
 };
-use crate::spectral::{Certificate, Report, Route, Step, Stop};
+use crate::spectral::{Certificate, Report, Route, Step, Stop, Tangent};
 use serde::{Deserialize, Serialize};
 
 /// Every scalar of a load step.
@@ -32,6 +32,13 @@ pub struct StepRecord {
     pub certificate: Certificate,
     /// Grid points along a₁ and a₂.
     pub points: [usize; 2],
+    /// Contact stiffness S = ∂P/∂δ of an isolated contact, a force per length; `None` in a periodic cell, without contact, and under
+    /// friction that couples.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_stiffness: Option<f64>,
+    /// Estimated error of the contact stiffness, a force per length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_stiffness_error: Option<f64>,
     /// Areas, spots, gap and stiffness of a topography; `None` for indenters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rough: Option<RoughReading>,
@@ -102,6 +109,8 @@ impl StepRecord {
             residual: report.residual,
             certificate,
             points: step.grid().points(),
+            contact_stiffness: None,
+            contact_stiffness_error: None,
             rough,
             tapered: Tapered::of(step.finest()),
             friction: step.problem().friction().map(|_| sliding),
@@ -111,6 +120,14 @@ impl StepRecord {
             seconds: None,
         };
         record.judged()
+    }
+
+    /// The record with the contact stiffness by the tangent of its step.
+    #[must_use]
+    pub(super) fn with_tangent(self, tangent: Option<&Tangent>) -> Self {
+        let [contact_stiffness, contact_stiffness_error] =
+            [Tangent::stiffness, Tangent::stiffness_error].map(|of| tangent.map(of));
+        Self { contact_stiffness, contact_stiffness_error, ..self }
     }
 
     /// Adds the stiffness dp̄/dδ, of an isolated contact dP/dδ, which depends on all steps of a path on a topography.

@@ -1,12 +1,10 @@
 //! One of the nested grids of a problem: surface, operator and unknowns.
 
-use super::free_space::FreeSpaceOperator;
+use super::body_operator::BodyOperator;
 use super::iteration::{AdmissibleSet, ContactProblem, Progress, Report, Settings, Unknowns, Working};
-use super::layered_operator::LayeredOperator;
 use super::operator::{ElasticOperator, Workspace};
 use super::prolongation::prolonged;
 use super::{Contact, Tangent};
-use crate::body::Bodies;
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::load::{Control, Load};
@@ -19,48 +17,6 @@ use std::sync::Arc;
 /// Most samples, per indenter, of a contact that is no wider than the spacing: an apex between samples may press the four
 /// around it with any load from zero on.
 const MAX_UNRESOLVED: usize = 4;
-
-/// The operator of the bodies: on a periodic cell, or in the window of an isolated contact.
-#[derive(Debug)]
-pub(super) enum BodyOperator {
-    Periodic(Box<LayeredOperator>),
-    FreeSpace(Box<FreeSpaceOperator>),
-}
-
-impl BodyOperator {
-    fn new(problem: &Problem, grid: &Grid) -> Self {
-        let bodies = problem.bodies();
-        match (grid.cell().is_isolated(), problem.friction()) {
-            (false, Some(friction)) => Self::Periodic(Box::new(LayeredOperator::sliding(grid, bodies, friction))),
-            (false, None) => Self::Periodic(Box::new(LayeredOperator::new(grid, bodies))),
-            (true, Some(friction)) => Self::FreeSpace(Box::new(FreeSpaceOperator::sliding(grid, bodies, friction))),
-            (true, None) => Self::FreeSpace(Box::new(FreeSpaceOperator::new(grid, bodies))),
-        }
-    }
-
-    /// Σ wᵢ Cᵢ of several bodies, without friction; only for [`Self::displace`].
-    pub fn combined(grid: &Grid, bodies: &[(f64, &Bodies)]) -> Self {
-        match grid.cell().is_isolated() {
-            false => Self::Periodic(Box::new(LayeredOperator::combined(grid, bodies))),
-            true => Self::FreeSpace(Box::new(FreeSpaceOperator::combined(grid, bodies))),
-        }
-    }
-
-    /// p → w in place.
-    pub fn displace(&mut self, field: &mut [f64], workspace: &mut Workspace) {
-        match self {
-            Self::Periodic(operator) => operator.displace(field, workspace),
-            Self::FreeSpace(operator) => operator.displace(field, workspace),
-        }
-    }
-
-    fn convolutions(&self) -> f64 {
-        match self {
-            Self::Periodic(operator) => operator.convolutions(),
-            Self::FreeSpace(operator) => ElasticOperator::convolutions(operator.as_ref()),
-        }
-    }
-}
 
 /// A problem on one grid.
 #[derive(Debug)]

@@ -9,6 +9,7 @@
 //! - [`Solver`]: a problem on all of them, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid;
 //!   [`Checkpoint`]: the state from which an interrupted run continues.
 
+mod body_operator;
 mod by_rows;
 mod checkpoint;
 mod contact;

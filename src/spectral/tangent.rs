@@ -11,7 +11,7 @@
 //! dδ = ⟨p′, dC p + df⟩ / ⟨p′, 1⟩,  as ⟨p′, C dp⟩ = ⟨1, dp⟩ = 0.
 
 use super::Contact;
-use super::grid_level::BodyOperator;
+use super::body_operator::BodyOperator;
 use super::operator::{ElasticOperator, Workspace};
 use crate::body::Bodies;
 use crate::counterbody::Surface;
@@ -21,7 +21,7 @@ use crate::problem::Problem;
 use std::fmt;
 
 /// Least residual of C p′ = 1 relative to the first one, in the norm of C⁻¹.
-const TOLERANCE: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-8;
 /// Largest number of iterations.
 const ITERATIONS: usize = 200;
 
@@ -32,6 +32,8 @@ pub struct Tangent {
     rate: Vec<f64>,
     /// S = ∂P/∂δ, a force per length.
     stiffness: f64,
+    /// By how much S steps where samples join the contact, a force per length.
+    step: f64,
     iterations: usize,
 }
 
@@ -43,13 +45,21 @@ impl Tangent {
             BodyOperator::Periodic(operator) => rate(operator.as_mut(), contact.pressures()),
             BodyOperator::FreeSpace(operator) => rate(operator.as_mut(), contact.pressures()),
         }?;
-        let [sum] = sums::of(rate.len(), |i| [rate[i]]);
-        Some(Self { stiffness: sum * contact.grid().sample_area(), rate, iterations })
+        let [sum, samples] = sums::of(rate.len(), |i| [rate[i], f64::from(u8::from(rate[i] != 0.0))]);
+        let joining = if contact.grid().cell().is_rectangular() { 8.0 } else { 12.0 };
+        let stiffness = sum * contact.grid().sample_area();
+        Some(Self { stiffness, step: stiffness.abs() * (joining / samples).min(1.0), rate, iterations })
     }
 
     /// Contact stiffness S = ∂P/∂δ of the cell, or of the isolated contact: a force per length.
     pub fn stiffness(&self) -> f64 {
         self.stiffness
+    }
+
+    /// Estimated error of the stiffness, a force per length: samples that are equal by symmetry, eight or twelve, join a contact of N
+    /// at a time, between which P(δ) is a straight line.
+    pub fn stiffness_error(&self) -> f64 {
+        self.step
     }
 
     /// Σ wᵢ δᵢ of problems like that of the `contact`, δᵢ the penetration under the same load to first order, a length. With weights of a

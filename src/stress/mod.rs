@@ -41,6 +41,7 @@ mod regions;
 mod search;
 mod section;
 mod series;
+mod series_grid;
 mod smoothed_edge;
 mod smoothed_surface;
 mod tables;

@@ -4,8 +4,9 @@
 //! processed row by row.
 
 use super::depth_response::StressComponents;
-use super::field::{StressField, samples_before};
+use super::field::StressField;
 use super::measure::{RunningMaxima, StressMeasure};
+use super::series_grid::samples_before;
 use super::smoothed_surface::SurfaceStresses;
 use super::tensor::StressState;
 use super::transform::Transform;

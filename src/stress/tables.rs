@@ -1,7 +1,7 @@
 //! Tables of the interior on the grids of a run, set up once for all loads.
 
 use super::far_field::FarTables;
-use super::field;
+use super::series_grid::series_grid;
 use crate::body::{HalfSpace, InteriorTable, LayeredResponse};
 use crate::lattice::{Cell, Grid};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -41,13 +41,13 @@ impl Tables {
         table
     }
 
-    /// The grid of the series of a pressure on `grid`, see [`field::series_grid`], set up unless there is one already.
+    /// The grid of the series of a pressure on `grid`, see [`series_grid`], set up unless there is one already.
     pub(super) fn series_grid(&self, grid: &Arc<Grid>) -> Arc<Grid> {
         let mut entries = self.grids.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some([_, series]) = entries.iter().find(|[own, _]| is_same(own, grid)) {
             return Arc::clone(series);
         }
-        let series = field::series_grid(grid);
+        let series = series_grid(grid);
         keep(&mut entries, [grid, &series].map(Arc::clone));
         series
     }

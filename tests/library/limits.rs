@@ -320,8 +320,17 @@ fn an_error_is_told_with_what_else_may_come_first() {
     let words = |limits: Vec<Limit>| {
         let (steps, warnings) = (Vec::new(), Vec::new());
         let quantity = LoadQuantity::MeanPressure;
-        Limits { limits, steps, shown: None, quantity, complete: f64::INFINITY, change: None, end: None, warnings }
-            .to_string()
+        Limits {
+            limits,
+            steps,
+            shown: Vec::new(),
+            quantity,
+            complete: f64::INFINITY,
+            change: None,
+            end: None,
+            warnings,
+        }
+        .to_string()
     };
     let sharp = [limit(1, 0.5, 1e-4), limit(2, 0.6, 1e-3)];
     assert_eq!(words(sharp.to_vec()), "first: cracking of material 1 at the mean pressure 0.50000");

@@ -47,6 +47,7 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     let mut text = heading(case);
     text += &format!("\n{}\n\n{}\n", self::steps(steps, &units).fitted(width), solved(steps));
     text += &spots(steps).map_or(String::new(), |spots| format!("{spots}\n"));
+    text += &contact_stiffness(steps, &units).unwrap_or_default();
     text += &hertz(case, steps, &units).map_or(String::new(), |lines| format!("{}\n", lines.join(";\n")));
     let largest = largest_stresses(steps, &units);
     if let Some(largest) = &largest {
@@ -66,6 +67,18 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
         text += &format!("change from the next coarser grid: {change:.1e}\n");
     }
     text
+}
+
+/// The contact stiffness of the last step that has one, as a line.
+fn contact_stiffness(steps: &[StepRecord], units: &Units) -> Option<String> {
+    let step = steps.iter().rev().find(|step| step.contact_stiffness.is_some())?;
+    let (stiffness, error) = (step.contact_stiffness?, step.contact_stiffness_error);
+    let load = units.force().with_unit(step.reading.force, number);
+    let per = match (units.force().name(), units.length().name()) {
+        (Some(force), Some(length)) => format!("\u{a0}{force}/{length}"),
+        _ => String::new(),
+    };
+    Some(format!("contact stiffness ∂P/∂δ at the force {load}: {}{per}\n", with_error(stiffness, error)))
 }
 
 /// The title of a case as a line, and the assumed orientation of its surface file where the file does not state it.

@@ -6,7 +6,7 @@ use super::{At, Limit, LimitStep, Limits};
 use crate::body::{HalfSpace, Layer};
 use crate::load::LoadQuantity;
 use crate::reading::{Criterion, Reading, Utilisation};
-use crate::run::{Recorder, Run, RunError, StepRecord};
+use crate::run::{Loading, Recorder, Run, RunError, StepRecord};
 use crate::spectral::{Solver, Step, Stop};
 use crate::stress::Tables;
 use std::f64::consts::PI;
@@ -118,7 +118,8 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         // The memory of a step is freed before the next one needs as much.
         self.last = None;
         let prescribed = self.quantity.load(load);
-        let (record, step) = self.run.solve_load(&mut self.solver, &self.tables, prescribed, None, self.recorder)?;
+        let (record, step) =
+            self.run.solve_load(&mut self.solver, &self.tables, prescribed, (Loading::Search, None), self.recorder)?;
         self.last = Some(step);
         // The load of a reading is the prescribed one to rounding.
         let quantity = self.quantity;
