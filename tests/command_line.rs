@@ -34,6 +34,8 @@ mod hostile_folders;
 mod hostile_surfaces;
 #[path = "command_line/hostile_words.rs"]
 mod hostile_words;
+#[path = "command_line/identify.rs"]
+mod identify;
 #[path = "command_line/inspection.rs"]
 mod inspection;
 #[path = "command_line/interruption.rs"]

@@ -148,7 +148,7 @@ class Step:
         take ``step.pressure.copy()`` to change one.
     mean_pressure, force, penetration, contact_fraction, contact_area, max_pressure, levels, certificate, converged, …
         As in ``summary.json``; ``levels``, ``certificate`` and the like have attributes in turn. An isolated contact has a
-        force and an area, no mean pressure and no fraction in contact: they are ``None``. Its ``stress`` is what
+        force, an area and a ``contact_stiffness`` ∂P/∂δ, no mean pressure and no fraction in contact: they are ``None``. ``stress`` is what
         :meth:`maxima` returns.
 
     Examples

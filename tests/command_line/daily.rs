@@ -5,10 +5,11 @@ use serde_json::Value;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
     "solve",
     "compare",
     "limit",
+    "identify",
     "sweep",
     "merge",
     "report",

@@ -14,7 +14,9 @@ fn limit(desk: &Desk, arguments: &[&str]) -> (Value, String) {
 fn without_a_case_a_coating_in_service_is_answered_with_what_fails_first() {
     let desk = Desk::new();
     let (limits, out) = limit(&desk, &["--set", "grid.points=64"]);
-    let names = ["limit-section.png", "limit-section.svg", "limit.csv", "limit.json", "limit.png", "limit.svg"];
+    let sections = ["-2.png", "-2.svg", "-3.png", "-3.svg", "-4.png", "-4.svg", ".png", ".svg"];
+    let sections = sections.map(|ending| format!("limit-section{ending}"));
+    let names = [&sections[..], &["limit.csv", "limit.json", "limit.png", "limit.svg"].map(str::to_owned)].concat();
     let files = fs::read_dir(desk.path("out")).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut files: Vec<String> = files.filter(|name| !name.starts_with('.')).collect();
     files.sort();
