@@ -100,9 +100,9 @@ fn the_fields_have_their_shapes() {
     let desk = Desk::new();
     let mut contact = two_steps(&desk).contact();
     #[rustfmt::skip]
-    let shapes: [(&str, &[usize]); 9] = [
+    let shapes: [(&str, &[usize]); 10] = [
         ("a1", &[2]), ("a2", &[2]), ("x", &[48, 48]), ("y", &[48, 48]), ("mean_pressure", &[2]), ("penetration", &[2]),
-        ("pressure", &[2, 48, 48]), ("displacement", &[2, 48, 48]), ("gap", &[2, 48, 48]),
+        ("force", &[2]), ("pressure", &[2, 48, 48]), ("displacement", &[2, 48, 48]), ("gap", &[2, 48, 48]),
     ];
     for (name, shape) in shapes {
         assert_eq!(contact.field(name).shape, shape, "{name}");
