@@ -132,22 +132,22 @@ impl StressSection {
         if !cell.is_isolated() {
             return Ok(());
         }
-        let refuse = |key: &str, what: String, place: [f64; 2]| {
+        let refuse = |key: &str, item: String, verb: &str, place: [f64; 2]| {
             let value = section.value(key)?;
-            let needed = [0, 1].map(|axis| number((2.0 * place[axis].abs()).max(cell.vectors()[axis][axis])));
-            Err(Refusal::new(value.node.span, format!("`{}`{what} beyond the window", value.path), "beyond the window")
-                .help(format!(
-                    "stresses are computed inside the window of an isolated contact: lattice.size of at least [{}, {}]",
-                    needed[0], needed[1]
-                )))
+            let [width, height] = [0, 1].map(|axis| number((2.0 * place[axis].abs()).max(cell.vectors()[axis][axis])));
+            let message = format!("`{}{item}` {verb} beyond the window", value.path);
+            Err(Refusal::new(value.node.span, message, "beyond the window").help(format!(
+                "stresses are computed inside the window of an isolated contact: lattice.size of at least \
+                 [{width}, {height}]"
+            )))
         };
         if let Some(index) = self.points.iter().position(|&[x, y, _]| !cell.contains([x, y])) {
             let [x, y, _] = self.points[index];
-            return refuse("points", format!("[{index}] is"), [x, y]);
+            return refuse("points", format!("[{index}]"), "is", [x, y]);
         }
         let line = self.section.and_then(|cut| cut.line(counterbody.indenters().map(Indenters::lattice)));
         let end = line.and_then(|line| line.ends().into_iter().find(|&end| !cell.contains(end)));
-        end.map_or(Ok(()), |end| refuse("section", " ends".to_owned(), end))
+        end.map_or(Ok(()), |end| refuse("section", String::new(), "ends", end))
     }
 
     /// The request for a run on `counterbody`.

@@ -21,7 +21,7 @@ pub struct Minimum {
 }
 
 /// Most trials of a step.
-const TRIALS: usize = 60;
+const TRIALS: usize = 30;
 /// Change of each parameter, whose scale is 1, at which the search ends.
 const TOLERANCE: f64 = 1e-6;
 /// λ at the beginning, its factors after a step and after a failed one, and the largest.
