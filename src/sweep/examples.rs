@@ -55,6 +55,8 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: f64) -> Ste
         residual: 0.0,
         certificate: Certificate::default(),
         points: [32, 32],
+        contact_stiffness: None,
+        contact_stiffness_error: None,
         rough: None,
         tapered: None,
         friction: None,
