@@ -21,6 +21,8 @@ mod limit_paths;
 mod limits;
 #[path = "library/operator.rs"]
 mod operator;
+#[path = "library/rigid_base.rs"]
+mod rigid_base;
 #[path = "library/rings.rs"]
 mod rings;
 #[path = "library/roughness.rs"]

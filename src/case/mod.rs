@@ -64,7 +64,7 @@ pub use half_space::half_space;
 pub use interface::{InterfaceSection, InterfaceStrengthSection, InterfaceWord, SpringSection};
 pub use keys::{Explanation, UnknownKey, explain, overview, schema};
 pub use lattice::{LatticeKind, LatticeSection};
-pub use layers::{LayerSection, SubstrateSection};
+pub use layers::{LayerSection, Rigid, SubstrateSection};
 pub use levels::{LevelSection, ShapeKind};
 pub use load::{LoadSection, Steps};
 pub use localized::LocalizedSection;

@@ -64,7 +64,7 @@ section! { whole
                 .otherwise("uncoated")
                 .rule("sublayers of graded layers count among the 200")
                 .omitted_as_nothing(),
-        /// the material below the layers
+        /// the material below the layers, or a rigid base
         pub substrate: SubstrateSection = Key::new(&[Form::Table(&SUBSTRATE)], "{ young = 1.0, poisson = 0.3 }"),
         /// the elastic body that the indenters or the topography belong to
         pub counterbody: Option<CounterbodySection> = Key::new(&[Form::Table(&COUNTERBODY)], "{ young = 210.0, poisson = 0.3 }").otherwise("rigid"),
@@ -172,7 +172,8 @@ impl Case {
             let root = source.tree(&CASE)?;
             let root = TableAt::root(&root, &CASE, Span::NOWHERE);
             let sliding = self.friction.map(|own| own.direction);
-            let section = StressSection::read_in(&root.required_section("stress")?, self.levels.len(), sliding)?;
+            let base = base_depth(self.problem.bodies());
+            let section = StressSection::read_in(&root.required_section("stress")?, self.levels.len(), sliding, base)?;
             Ok(section.request(self.counterbody()))
         })
     }
@@ -246,7 +247,10 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         units: root.section("units")?.as_ref().map(UnitsSection::read_table).transpose()?,
         stress: root
             .section("stress")?
-            .map(|section| StressSection::read_in(&section, levels.len(), friction.map(|own| own.direction)))
+            .map(|section| {
+                let (sliding, base) = (friction.map(|own| own.direction), base_depth(problem.bodies()));
+                StressSection::read_in(&section, levels.len(), sliding, base)
+            })
             .transpose()?,
         localized: LocalizedSection::read_table(&root.section_or_empty("localized")?)?,
         levels,
@@ -258,6 +262,11 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         surface_doubts,
         problem: Arc::new(problem),
     })
+}
+
+/// Depth of the deepest rigid base, a length; infinite where a body has none.
+fn base_depth(bodies: &Bodies) -> f64 {
+    bodies.each().map(HalfSpace::base_depth).fold(0.0, f64::max)
 }
 
 fn title(root: &TableAt<'_>) -> Result<String, Refusal> {

@@ -12,6 +12,7 @@ use super::value::ValueAt;
 use crate::body::MeanStress;
 use crate::counterbody::{Counterbody, Indenters};
 use crate::lattice::Lattice;
+use crate::plain::float;
 use crate::run::places::SECTION;
 use crate::run::{self, StressRequest, Volume};
 use crate::stress::SurfaceLine;
@@ -107,12 +108,21 @@ pub enum Toward {
 }
 
 impl StressSection {
-    /// Reads the section; `levels`: number of levels, 0 beside a surface; `sliding`: direction of sliding.
-    pub(super) fn read_in(section: &TableAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {
+    /// Reads the section; `levels`: number of levels, 0 beside a surface; `sliding`: direction of sliding; `base`: depth of the rigid
+    /// base, infinite without one.
+    pub(super) fn read_in(
+        section: &TableAt<'_>,
+        levels: usize,
+        sliding: Option<[f64; 2]>,
+        base: f64,
+    ) -> Result<Self, Refusal> {
         if let Some(cut) = section.optional("section") {
             check_levels(&cut, levels)?;
         }
         let own = Self::read_table(section)?;
+        for key in ["planes", "points"] {
+            within(section, key, base)?;
+        }
         if own.section.is_some_and(|cut| cut.toward.is_none()) && sliding.is_none() {
             return Err(section.value("section")?.table()?.missing("toward"));
         }
@@ -131,6 +141,21 @@ impl StressSection {
             volume: self.volume,
         }
     }
+}
+
+/// Refuses depths below a rigid base: of numbers, or of the last number of each item.
+fn within(section: &TableAt<'_>, key: &str, base: f64) -> Result<(), Refusal> {
+    let Some(list) = section.optional(key) else { return Ok(()) };
+    for item in list.list()? {
+        let z = if matches!(item.node.value, Value::List(_)) { item.numbers::<3>()?[2] } else { item.number()? };
+        if z > base * (1.0 + 1e-12) {
+            let message = format!("`{}`: z = {} is below the rigid base at {}", item.path, float(z), float(base));
+            return Err(
+                Refusal::new(item.node.span, message, "not in the body").help("stresses are in the layers alone")
+            );
+        }
+    }
+    Ok(())
 }
 
 /// Refuses a cut from or toward a level that the case does not have.

@@ -101,22 +101,24 @@ pub(super) fn bodies(units: &Units, bodies: &Bodies) -> String {
 
 /// Layers and substrate, one a line.
 fn half_space(units: &Units, half_space: &HalfSpace) -> String {
-    let substrate = half_space.substrate();
+    let substrate = half_space.substrate().material();
     let layers = (1..).zip(half_space.layers()).map(|(index, layer): (usize, &Layer)| {
         let residual = match layer.residual_stress() {
             0.0 => String::new(),
             residual => format!(", σ_r {}", pressure(units, residual)),
         };
+        let ratio =
+            substrate.map_or(String::new(), |base| format!("χ {}, ", number(layer.material().shear() / base.shear())));
         format!(
-            "layer {index}{}: thickness {}, χ {}, {}, {}{residual}\n",
+            "layer {index}{}: thickness {}, {ratio}{}, {}{residual}\n",
             layer.material().name_behind(),
             length(units, layer.thickness()),
-            number(layer.material().shear() / substrate.shear()),
             material(units, layer.material()),
             interface(units, layer.interface())
         )
     });
-    let substrate = format!("substrate{}: {}", substrate.name_behind(), material(units, substrate));
+    let substrate = substrate
+        .map_or("rigid base".to_owned(), |own| format!("substrate{}: {}", own.name_behind(), material(units, own)));
     layers.collect::<String>() + &substrate
 }
 

@@ -43,7 +43,8 @@ pub(super) fn problem(case: &Value) -> Markup {
         parts.push(items("The indenters, rigid, level by level", "level", list("levels"), |number| number.to_string()));
     }
     let layers = list("layers");
-    let body: Vec<Value> = layers.iter().cloned().chain([case["substrate"].clone()]).collect();
+    let substrate = Some(case["substrate"].clone()).filter(|_| !on_rigid_base(case));
+    let body: Vec<Value> = layers.iter().cloned().chain(substrate).collect();
     let name = |number: usize| {
         let own = if number > layers.len() { "substrate".to_owned() } else { format!("layer\u{a0}{number}") };
         let above: usize = layers.iter().take(number - 1).map(sublayers).sum();
@@ -65,6 +66,11 @@ fn sublayers(layer: &Value) -> usize {
     layer["graded"]["sublayers"].as_u64().and_then(|count| usize::try_from(count).ok()).unwrap_or(1)
 }
 
+/// Whether the layers lie on a rigid base.
+fn on_rigid_base(case: &Value) -> bool {
+    case["substrate"]["rigid"].as_bool().unwrap_or(false)
+}
+
 /// Counterbody and body in a sentence.
 fn sentence(case: &Value) -> String {
     let count = |key: &str| case[key].as_array().map_or(0, Vec::len);
@@ -75,6 +81,8 @@ fn sentence(case: &Value) -> String {
         levels => format!("Rigid indenters of {levels} levels on a {kind} lattice"),
     };
     let body = match count("layers") {
+        1 if on_rigid_base(case) => "an elastic layer on a rigid base".to_owned(),
+        layers if on_rigid_base(case) => format!("{layers} elastic layers on a rigid base"),
         0 => "an uncoated elastic half-space".to_owned(),
         1 => "an elastic half-space with a coating of one layer".to_owned(),
         layers => format!("an elastic half-space with a coating of {layers} layers"),

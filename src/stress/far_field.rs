@@ -143,7 +143,7 @@ impl FarTables {
 /// Intervals of depth in each material, down to a few times the window.
 fn intervals(half_space: &HalfSpace, longer: f64) -> Vec<Interval> {
     let mut all = Vec::new();
-    for material in 1..=half_space.layers().len() + 1 {
+    for material in 1..=half_space.material_count() {
         let (mut top, bottom) = half_space.faces(material);
         let bottom = bottom.min(DEEPEST * longer);
         while top < bottom {

@@ -7,7 +7,7 @@ use super::regions::Regions;
 use super::series::{Response, Series};
 use super::tables::Tables;
 use super::tensor::StressState;
-use crate::body::{Bodies, Depth, HalfSpace, Interface, InteriorTable, Layer, MeanStress, Side};
+use crate::body::{Bodies, Depth, HalfSpace, Interface, InteriorTable, MeanStress, Side};
 use crate::friction::Friction;
 use crate::lattice::{Cell, Grid, NotOnGrid};
 use crate::notation::number;
@@ -192,12 +192,12 @@ impl StressField {
 
     /// Poisson's ratio ν of a material, from 1.
     pub(super) fn poisson(&self, material: usize) -> f64 {
-        self.half_space.layers().get(material - 1).map_or(self.half_space.substrate(), Layer::material).poisson()
+        self.half_space.material(material).poisson()
     }
 
-    /// Number of materials, layers + 1.
+    /// Number of materials.
     pub(super) fn materials(&self) -> usize {
-        self.half_space.layers().len() + 1
+        self.half_space.material_count()
     }
 
     /// The grid of the pressure.
@@ -273,7 +273,8 @@ impl fmt::Display for StressField {
 /// State at the upper face of each material under the mean pressure p̄ and the mean `traction` μp̄ **e**, and the derivative of
 /// its displacement by depth. σ_xz = −μp̄ e_x and σ_yz = −μp̄ e_y at every depth; residual stresses are added.
 ///
-/// Displacements are measured from the mean plane of the deformed surface; those under a lateral mean strain are left out.
+/// Displacements are measured from the mean plane of the deformed surface, or from a rigid base; those under a lateral mean strain are
+/// left out.
 fn mean_states(
     half_space: &HalfSpace,
     mean: MeanStress,
@@ -300,6 +301,11 @@ fn mean_states(
                 displacement.iter_mut().zip(jumps).for_each(|(u, jump)| *u += jump);
             }
         }
+    }
+    if half_space.substrate().is_rigid() {
+        // What they are at the base has been counted from the surface.
+        let all = states.iter_mut().flat_map(|(state, _)| state.displacement.iter_mut().zip(displacement));
+        all.for_each(|(u, base)| *u -= base);
     }
     states
 }

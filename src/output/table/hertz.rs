@@ -24,7 +24,7 @@ impl Hertz {
 }
 
 /// What a ball does to the bare substrates under the force of the last step with contact, and by how much the layers change it, in
-/// two lines; `None` unless one ball is in isolated contact with bodies that have layers.
+/// two lines; `None` unless one ball is in isolated contact, or where no substrate is elastic.
 pub(super) fn beside(case: &Case, steps: &[StepRecord], units: &Units) -> Option<String> {
     let problem = case.problem();
     let [level] = problem.counterbody().levels() else { return None };
@@ -35,7 +35,7 @@ pub(super) fn beside(case: &Case, steps: &[StepRecord], units: &Units) -> Option
     }
     let step = steps.iter().rev().find(|step| step.reading.touches() && step.converged())?;
     let Reading { force, penetration, .. } = step.reading;
-    let hertz = Hertz::new(force, ball, problem.bodies().substrate_modulus());
+    let hertz = Hertz::new(force, ball, problem.bodies().substrate_modulus()?);
     let [load, peak, radius, approach] = [
         units.force().with_unit(force, number),
         units.pressure().with_unit(hertz.peak, number),
