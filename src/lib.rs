@@ -25,7 +25,7 @@
 //! → comparison → plain → units → machine → heights → case → output → sweep → picture → report → validation → command
 //! ```
 //!
-//! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters and topographies; [`body`]: the layered half-space;
+//! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
 //! - [`friction`], [`problem`], [`load`]: what is solved;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
@@ -99,7 +99,10 @@ pub use body::{
     Bodies, Depth, HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, MeanStress, Strength,
     Substrate,
 };
-pub use counterbody::{Counterbody, CounterbodyError, IndenterError, Indenters, Level, Shape, Surface, Topography};
+pub use counterbody::{
+    Counterbody, CounterbodyError, GivenPressure, IndenterError, Indenters, Level, LoadedDisc, Shape, Surface,
+    Topography,
+};
 pub use friction::{Friction, FrictionError};
 pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid};
 pub use load::{Load, LoadQuantity};

@@ -9,6 +9,8 @@ mod cases_refused;
 mod energy;
 #[path = "library/first_touch.rs"]
 mod first_touch;
+#[path = "library/given_load.rs"]
+mod given_load;
 #[path = "library/invariance.rs"]
 mod invariance;
 #[path = "library/isolated.rs"]

@@ -218,7 +218,7 @@ impl KeyValue for Toward {
 /// The number N of "level N".
 fn level(value: &ValueAt<'_>, levels: usize) -> Result<usize, Refusal> {
     let wanted = match levels {
-        0 => "two numbers in brackets: beside [surface] there are no levels".to_owned(),
+        0 => "two numbers in brackets: this case has no levels".to_owned(),
         1 => "\"level 1\", the only one".to_owned(),
         _ => format!("\"level 1\" to \"level {levels}\""),
     };

@@ -41,8 +41,8 @@ impl Setup {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LocalizedError {
-    /// A topography has no indenters for the circles.
-    #[error("the localized method needs indenters, and a topography has none: solve it with the spectral method alone")]
+    /// A topography and a given pressure have no indenters for the circles.
+    #[error("the localized method needs indenters, and there are none: solve it with the spectral method alone")]
     NoIndenters,
     /// Far from the circle the body is taken for an elastic half-space.
     #[error(
@@ -62,7 +62,7 @@ impl Localized {
     /// The method for a problem, with circles of up to `count` indenters.
     ///
     /// # Errors
-    /// [`LocalizedError`] for a topography, and for a body on a rigid base.
+    /// [`LocalizedError`] for a topography or a given pressure, and for a body on a rigid base.
     pub fn new(problem: &Problem, count: usize) -> Result<Self, LocalizedError> {
         let indenters = Self::solvable(problem)?;
         Ok(Self { system: Arc::new(System::new(indenters, problem.bodies(), count)) })

@@ -2,7 +2,7 @@
 
 use super::number::{number, with_error};
 use crate::body::{Bodies, HalfSpace, Interface, Layer, Material};
-use crate::counterbody::{Counterbody, Shape};
+use crate::counterbody::{Counterbody, GivenPressure, LoadedDisc, Shape};
 use crate::lattice::{Cell, Grid};
 use crate::units::{Unit, Units};
 
@@ -60,9 +60,24 @@ fn shape(units: &Units, shape: Shape) -> String {
     format!("{}, {sizes}", shape.name())
 }
 
+/// A given pressure in words, one line a disc.
+fn given_pressure(units: &Units, given: &GivenPressure) -> String {
+    if let Some(values) = given.values() {
+        return format!("pressure given at {} × {} samples", values.nrows(), values.ncols());
+    }
+    let discs = (1..).zip(given.loaded_discs()).map(|(number, disc): (usize, &LoadedDisc)| {
+        let [x, y, radius] = [disc.centre[0], disc.centre[1], disc.radius].map(|x| length(units, x));
+        format!("\ndisc {number}: radius {radius} around ({x}, {y}), pressure {}", pressure(units, disc.pressure))
+    });
+    format!("pressure given on discs{}", discs.collect::<String>())
+}
+
 /// The counterbody in words, one line a level.
 pub(super) fn counterbody(units: &Units, counterbody: &Counterbody) -> String {
     let own = cell(units, counterbody.cell());
+    if let Some(given) = counterbody.pressure() {
+        return format!("{own}, {}", given_pressure(units, given));
+    }
     let Some(indenters) = counterbody.indenters() else {
         let [n1, n2] = counterbody.topography().map_or([0, 0], |topography| topography.points());
         return format!("{own}, topography of {n1} × {n2} samples");

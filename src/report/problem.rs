@@ -87,6 +87,9 @@ fn sentence(case: &Value) -> String {
         1 => "an elastic half-space with a coating of one layer".to_owned(),
         layers => format!("an elastic half-space with a coating of {layers} layers"),
     };
+    if !case["load"]["pressure"].is_null() {
+        return format!("A given pressure acts on {body}.");
+    }
     let slides = case["friction"]["coefficient"].as_f64();
     let slides = slides.map_or(String::new(), |mu| format!(", and slide over it with friction μ = {}", plain(mu)));
     let slides = if count("levels") == 0 { slides.replace("and slide", "and slides") } else { slides };

@@ -68,7 +68,8 @@ impl Contact {
     }
 
     /// Penetration δ, from the mean plane of the deformed surface to the highest apex, a length: the additional
-    /// displacement w_a. On a rigid base it counts from that base and has the mean compression of the layers in it.
+    /// displacement w_a. On a rigid base it counts from that base and has the mean compression of the layers in it. Under a
+    /// given pressure it is the largest deflection of the samples.
     pub fn penetration(&self) -> f64 {
         self.penetration
     }

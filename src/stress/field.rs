@@ -18,10 +18,11 @@ use std::sync::Arc;
 
 pub(super) use crate::body::REACH;
 
-/// The traction on a surface, and Dundurs' β of the materials that meet there.
+/// The traction on a surface, Dundurs' β of the materials that meet there, and whether the pressure is that of a contact.
 struct SurfaceTraction<'a> {
     friction: Option<&'a Friction>,
     beta: f64,
+    is_contact: bool,
 }
 
 /// The stress field of one body in a load step.
@@ -91,7 +92,8 @@ impl StressField {
             Side::Body => bodies.dundurs_beta(),
             Side::Counterbody => -bodies.dundurs_beta(),
         };
-        let surface = SurfaceTraction { friction: friction.as_ref(), beta };
+        let is_contact = problem.counterbody().pressure().is_none();
+        let surface = SurfaceTraction { friction: friction.as_ref(), beta, is_contact };
         Self::of_samples(contact.grid(), contact.pressures(), bodies.on(Some(side)), &surface, mean, tables)
     }
 
@@ -109,14 +111,15 @@ impl StressField {
         grid.check(pressure.dim().into())?;
         let samples: Vec<f64> = pressure.iter().copied().collect();
         let beta = Bodies::from(half_space.clone()).dundurs_beta();
-        Ok(Self::of_samples(grid, &samples, half_space, &SurfaceTraction { friction, beta }, mean, Arc::default()))
+        let surface = SurfaceTraction { friction, beta, is_contact: true };
+        Ok(Self::of_samples(grid, &samples, half_space, &surface, mean, Arc::default()))
     }
 
     fn of_samples(
         grid: &Arc<Grid>,
         pressure: &[f64],
         half_space: &HalfSpace,
-        &SurfaceTraction { friction, beta }: &SurfaceTraction<'_>,
+        &SurfaceTraction { friction, beta, is_contact }: &SurfaceTraction<'_>,
         mean: MeanStress,
         tables: Arc<Tables>,
     ) -> Self {
@@ -129,6 +132,7 @@ impl StressField {
             series.mean = 0.0;
             FarField::new(tables.far(grid.cell(), half_space, traction), grid, pressure, series_grid.cell())
         });
+        let regions = Regions::new(series_grid, spread);
         Self {
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
@@ -137,7 +141,7 @@ impl StressField {
             tables,
             mean: mean_states(half_space, mean, series.mean, traction.unwrap_or_default()),
             mean_stress: mean,
-            regions: Regions::new(series_grid, spread),
+            regions: if is_contact { regions } else { regions.without_edges(series_grid, spread) },
             series_grid: Arc::clone(series_grid),
             traction,
             edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(beta)),

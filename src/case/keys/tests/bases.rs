@@ -81,6 +81,10 @@ impl Bases {
                 BODY.replace("young = 1.0, poisson = 0.3", "rigid = true"),
                 layer("young = 2.0, poisson = 0.2")
             ),
+            format!(
+                "lattice = {{ kind = \"isolated\", size = 2.0 }}\n{}",
+                BODY.replace("mean_pressure = 1e-3", "pressure = { disc = [[0.0, 0.0, 0.1]], value = 0.7 }")
+            ),
             BODY.to_owned(),
         ];
         Self { folder, cases: texts.iter().map(|text| text.parse().unwrap()).collect() }
