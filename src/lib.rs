@@ -11,7 +11,8 @@
 //! - Any consistent units. Wavenumbers are angular, 1/length.
 //! - Fields are stored sample by sample, **a**₂ fastest; on a periodic cell displacements have zero mean, so that the penetration δ,
 //!   measured from the mean plane of the deformed surface to the highest apex, is the additional displacement w_a of
-//!   the paper's Eq. (8). Around an isolated contact they vanish far away, and δ is the approach of points there.
+//!   the paper's Eq. (8). Around an isolated contact they vanish far away, and δ is the approach of points there. On a rigid base they
+//!   count from it: δ then has the mean compression of the layers, p̄ Σ h/M.
 //! - Frictionless interfaces carry tension: they slide but do not open.
 //!
 //! # Modules
@@ -24,7 +25,7 @@
 //! → localized → run → comparison → plain → units → measurements → machine → heights → case → output → sweep → picture → report → validation → command
 //! ```
 //!
-//! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters and topographies; [`body`]: the layered half-space;
+//! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
 //! - [`friction`], [`problem`], [`load`]: what is solved;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
@@ -100,8 +101,12 @@ pub mod validation;
 
 pub use body::{
     Bodies, Depth, HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, MeanStress, Strength,
+    Substrate,
 };
-pub use counterbody::{Counterbody, CounterbodyError, IndenterError, Indenters, Level, Shape, Surface, Topography};
+pub use counterbody::{
+    Counterbody, CounterbodyError, GivenPressure, IndenterError, Indenters, Level, LoadedDisc, Shape, Surface,
+    Topography,
+};
 pub use friction::{Friction, FrictionError};
 pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid};
 pub use load::{Load, LoadQuantity};

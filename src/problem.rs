@@ -16,7 +16,7 @@ pub struct Problem {
 
 impl Problem {
     /// Frictionless contact of a counterbody of this shape ([`Indenters`](crate::counterbody::Indenters) or a
-    /// [`Topography`](crate::counterbody::Topography)) with a [`HalfSpace`], rigid, or of [`Bodies`] of which both are elastic; in
+    /// [`Topography`](crate::counterbody::Topography)), or the load of a [`GivenPressure`](crate::counterbody::GivenPressure), on a [`HalfSpace`], rigid, or of [`Bodies`] of which both are elastic; in
     /// one unit of length.
     pub fn new(counterbody: impl Into<Counterbody>, bodies: impl Into<Bodies>) -> Self {
         Self { counterbody: counterbody.into(), bodies: bodies.into(), friction: None }

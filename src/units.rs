@@ -5,7 +5,8 @@
 //! - Of an SI unit with its prefix (m, mm, µm, nm; Pa … TPa) axes, tables and captions take the prefix with which their
 //!   numbers read well, 2.1·10¹¹ Pa as 210 GPa. A force is a pressure times an area: GPa·µm² = mN.
 //! - Any other name is written behind unchanged numbers.
-//! - Without a name pressures are relative to the substrate's modulus where that is 1, p/E₂ as in the paper, and lengths to
+//! - Without a name pressures are relative to the modulus of the substrate (on a rigid base: of the first layer) where that is 1,
+//!   p/E₂ as in the paper, and lengths to
 //!   the lattice period or the first level's radius where these are; otherwise units are unknown.
 
 use crate::body::HalfSpace;
@@ -73,7 +74,9 @@ impl Units {
             Some(Shape::Paraboloid { radius } | Shape::Sphere { radius }) if is_one(radius) => Some("r₁"),
             _ => None,
         };
-        let pressure = is_one(half_space.substrate().young()).then(|| format!("E{}", substrate_index(half_space)));
+        // Without an elastic substrate that of the surface.
+        let reference = half_space.substrate().material().unwrap_or(half_space.surface_material());
+        let pressure = is_one(reference.young()).then(|| format!("E{}", reference_index(half_space)));
         let relative = |symbol: Option<String>| symbol.map_or(Unit::None, Unit::Relative);
         let quantity = if problem.cell().is_isolated() { LoadQuantity::Force } else { LoadQuantity::MeanPressure };
         Self { length: relative(length.map(str::to_owned)), pressure: relative(pressure), quantity }
@@ -272,10 +275,13 @@ fn si(base: &str, exponent: i32) -> String {
     format!("{}{base}", PREFIXES[((exponent + 12) / 3).clamp(0, 8) as usize])
 }
 
-/// Index of the substrate's material as letters carry it: none where there is no coating.
-pub fn substrate_index(half_space: &HalfSpace) -> String {
-    let layers = half_space.layers().len();
-    if layers == 0 { String::new() } else { lowered(layers + 1) }
+/// Index of the substrate's material, on a rigid base of the first layer's, as letters carry it: none where there is one material.
+pub fn reference_index(half_space: &HalfSpace) -> String {
+    match half_space.material_count() {
+        1 => String::new(),
+        _ if half_space.substrate().is_rigid() => lowered(1),
+        count => lowered(count),
+    }
 }
 
 /// A number as an index.

@@ -9,6 +9,8 @@ mod cases_refused;
 mod energy;
 #[path = "library/first_touch.rs"]
 mod first_touch;
+#[path = "library/given_load.rs"]
+mod given_load;
 #[path = "library/identification.rs"]
 mod identification;
 #[path = "library/invariance.rs"]
@@ -23,6 +25,8 @@ mod limit_paths;
 mod limits;
 #[path = "library/operator.rs"]
 mod operator;
+#[path = "library/rigid_base.rs"]
+mod rigid_base;
 #[path = "library/rings.rs"]
 mod rings;
 #[path = "library/roughness.rs"]

@@ -79,6 +79,9 @@ impl HalfSpace {
         if let Some(z) = depths.iter().find(|z| !(**z == 0.0 || CARRIED.contains(z))) {
             return Err(refused(format!("a depth is a number not less than 0, at most 1e60, not {z}")));
         }
+        if let Some(z) = depths.iter().find(|&&z| self.own.depths(z).is_empty()) {
+            return Err(refused(format!("the depth {z} is below the rigid base at {}", self.own.base_depth())));
+        }
         let wavenumbers = wavenumbers.as_array().to_vec();
         checked(&wavenumbers)?;
         let line = |&q: &f64| output::kernel(self.own.response(), &self.own, q, &depths, traction);

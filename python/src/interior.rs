@@ -11,6 +11,9 @@ fn depth(half_space: &HalfSpace, z: f64, material: Option<i64>) -> Result<Depth,
         return Err(format!("z = {z} is not in the body: depths are 0 or more, finite"));
     }
     let depths = half_space.depths(z);
+    if depths.is_empty() {
+        return Err(format!("z = {z} is not in the body: its rigid base is at {}", half_space.base_depth()));
+    }
     let Some(wanted) = material else { return Ok(depths[0]) };
     depths.iter().find(|depth| depth.material as i64 == wanted).copied().ok_or_else(|| {
         let own: Vec<String> = depths.iter().map(|depth| depth.material.to_string()).collect();

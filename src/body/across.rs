@@ -7,7 +7,8 @@
 //!
 //! and σ_qt = −v sin. In the substrate v = s; a bonded interface passes both on, a spring lets v jump by its slip, and below
 //! a frictionless one nothing is left. One bonded layer has the surface displacement
-//! (χ + tanh x)/(1 + χ tanh x) · q_T/(G₁q), x = qh. Everything is positive: nothing cancels.
+//! (χ + tanh x)/(1 + χ tanh x) · q_T/(G₁q), x = qh. On a rigid base v = 0. Everything is positive:
+//! nothing cancels.
 
 use super::interior::SHIELDING;
 use super::minors::MAX_EXPONENT;
@@ -50,14 +51,19 @@ impl ShearState {
     }
 }
 
-/// The state at the surface. Calls `face` with the state at the upper face of the substrate, then at the lower face of each
+/// The state at the surface. Calls `face` with the state at the upper face of an elastic substrate, then at the lower face of each
 /// layer, seen from inside it, from the substrate up.
 fn surface_state(strata: &Strata, wavenumber: f64, mut face: impl FnMut(ShearState)) -> ShearState {
-    let mut below = &strata.substrate;
-    let mut state = ShearState { v: 0.5, s: 0.5, exponent: 0.0 };
-    face(state);
+    let mut below = strata.substrate.as_ref();
+    let mut state = match below {
+        Some(_) => ShearState { v: 0.5, s: 0.5, exponent: 0.0 },
+        None => ShearState { v: 0.0, s: 1.0, exponent: 0.0 },
+    };
+    if below.is_some() {
+        face(state);
+    }
     for layer in strata.layers.iter().rev() {
-        let ratio = layer.material.shear / below.shear;
+        let ratio = below.map_or(0.0, |below| layer.material.shear / below.shear);
         let [slip, _] = layer.interface.jumps(layer.material.shear * wavenumber);
         state = match layer.interface {
             Interface::Frictionless => ShearState { v: 1.0, s: 0.0, exponent: 0.0 },
@@ -65,7 +71,7 @@ fn surface_state(strata: &Strata, wavenumber: f64, mut face: impl FnMut(ShearSta
         };
         face(state);
         state = state.raised(wavenumber * layer.thickness);
-        below = &layer.material;
+        below = Some(&layer.material);
     }
     state
 }
@@ -104,7 +110,8 @@ pub(super) fn amplitudes(strata: &Strata, wavenumber: f64, depth: Depth) -> Anti
         None => {
             let state = faces[index];
             let x = (wavenumber * below).min(MAX_EXPONENT);
-            (strata.substrate.shear, ShearState { exponent: state.exponent - x, ..state })
+            let substrate = strata.substrate.as_ref().expect("a rigid base is no material");
+            (substrate.shear, ShearState { exponent: state.exponent - x, ..state })
         }
     };
     let scale = (state.exponent - surface.exponent).exp() / surface.s;

@@ -119,9 +119,22 @@ impl Bodies {
         composite(self.each().map(HalfSpace::surface_material))
     }
 
-    /// Contact modulus E* of the substrates, by which waves longer than all layers are thick displace; a pressure.
-    pub fn substrate_modulus(&self) -> f64 {
-        composite(self.each().map(HalfSpace::substrate))
+    /// Contact modulus E* of the substrates, by which waves longer than all layers are thick displace, a pressure; `None` where no
+    /// substrate is elastic.
+    pub fn substrate_modulus(&self) -> Option<f64> {
+        let elastic: Vec<Material> = self.each().filter_map(|own| own.substrate().material()).collect();
+        (!elastic.is_empty()).then(|| composite(elastic.into_iter()))
+    }
+
+    /// [Displacement under a uniform pressure](HalfSpace::mean_compliance) of both together, a length per pressure: on a periodic
+    /// cell the mean of w is this times p̄. Zero where no body has a rigid base.
+    pub fn mean_compliance(&self) -> f64 {
+        self.each().map(HalfSpace::mean_compliance).sum()
+    }
+
+    /// Whether a body has a rigid base.
+    pub fn has_rigid_base(&self) -> bool {
+        self.each().any(|own| own.substrate().is_rigid())
     }
 
     /// Dundurs' β of the materials at the surfaces,

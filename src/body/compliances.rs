@@ -78,6 +78,11 @@ impl<'a> Compliances<'a> {
         Self { ratios: Panels::new([least, most], times, 1.0, |q| bodies.coupling_ratio(q)), ..own }
     }
 
+    /// Displacement under a uniform pressure, a length per pressure: 0 where displacements have zero mean.
+    pub fn mean(&self) -> f64 {
+        self.bodies.mean_compliance()
+    }
+
     /// Compliance ŵ/p̂ at the wavenumber q > 0 (1/length): a length per pressure.
     pub fn at(&self, wavenumber: f64) -> f64 {
         match self.corrections.at(wavenumber) {

@@ -1,17 +1,20 @@
-//! The coated half-space: layers on a substrate.
+//! The coated half-space: layers on a substrate, elastic or rigid.
 
-use super::{Depth, InterfaceId, Layer, LayeredResponse, Material, MaterialError, MaterialId, Side, Strength};
+use super::{
+    Depth, Interface, InterfaceId, Layer, LayeredResponse, Material, MaterialError, MaterialId, Name, Side, Strength,
+    Substrate,
+};
 use crate::notation::number;
 use std::fmt;
 use std::sync::Arc;
 
-/// A coated elastic half-space: layers from the surface down, then the substrate.
+/// A coated elastic half-space: layers from the surface down, then the substrate, or layers on a rigid base.
 ///
 /// Its elastic [response](Self::response) is set up once, in the constructor, and shared by all clones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HalfSpace {
     layers: Vec<Layer>,
-    substrate: Material,
+    substrate: Substrate,
     substrate_strength: Strength,
     /// Which of two elastic bodies it is.
     side: Option<Side>,
@@ -21,6 +24,18 @@ pub struct HalfSpace {
 impl HalfSpace {
     /// Half-space of `substrate` under `layers`, given from the surface down (none: uncoated).
     pub fn new(layers: Vec<Layer>, substrate: Material) -> Self {
+        Self::on(layers, Substrate::Elastic(substrate))
+    }
+
+    /// `layers` on a rigid base, given from the surface down.
+    ///
+    /// # Errors
+    /// [`MaterialError::NoLayers`] without layers.
+    pub fn on_rigid_base(layers: Vec<Layer>) -> Result<Self, MaterialError> {
+        if layers.is_empty() { Err(MaterialError::NoLayers) } else { Ok(Self::on(layers, Substrate::Rigid)) }
+    }
+
+    fn on(layers: Vec<Layer>, substrate: Substrate) -> Self {
         let response = Arc::new(LayeredResponse::new(&layers, substrate));
         Self { layers, substrate, substrate_strength: Strength::default(), side: None, response }
     }
@@ -36,7 +51,7 @@ impl HalfSpace {
         self.side
     }
 
-    /// Half-space with strengths of the substrate.
+    /// Half-space with strengths of an elastic substrate; a rigid base has none.
     ///
     /// # Errors
     /// [`MaterialError::Strength`] for one that is not positive.
@@ -54,19 +69,57 @@ impl HalfSpace {
         &self.layers
     }
 
-    /// Material of the substrate.
-    pub fn substrate(&self) -> Material {
+    /// What the layers lie on.
+    pub fn substrate(&self) -> Substrate {
         self.substrate
     }
 
     /// Material at the surface: that of the first layer, or the substrate's.
     pub fn surface_material(&self) -> Material {
-        self.layers.first().map_or(self.substrate, Layer::material)
+        self.materials().next().expect("there are layers on a rigid base")
     }
 
-    /// All materials: those of the layers from the surface down, then the substrate.
+    /// All materials: those of the layers from the surface down, then an elastic substrate.
     pub fn materials(&self) -> impl Iterator<Item = Material> {
-        self.layers.iter().map(Layer::material).chain([self.substrate])
+        self.layers.iter().map(Layer::material).chain(self.substrate.material())
+    }
+
+    /// Number of materials.
+    pub fn material_count(&self) -> usize {
+        self.layers.len() + usize::from(!self.substrate.is_rigid())
+    }
+
+    /// Material `number`, from 1 at the surface down.
+    ///
+    /// # Panics
+    /// When there is no such material.
+    pub fn material(&self, number: usize) -> Material {
+        self.materials().nth(number - 1).expect("a material of the body")
+    }
+
+    /// Depth of the rigid base, a length; infinite without one.
+    pub fn base_depth(&self) -> f64 {
+        match self.substrate {
+            Substrate::Elastic(_) => f64::INFINITY,
+            Substrate::Rigid => self.layers.iter().map(Layer::thickness).sum(),
+        }
+    }
+
+    /// Displacement of the surface under a uniform pressure without mean lateral strain, over the pressure, a length per
+    /// pressure: Σ h/M of the layers and 1/k_n of their springs, from the rigid base. Zero on an elastic substrate, whose infinite
+    /// mean displacement is left out.
+    pub fn mean_compliance(&self) -> f64 {
+        let own = |layer: &Layer| {
+            let closure = match layer.interface() {
+                Interface::Spring { normal, .. } => normal.recip(),
+                Interface::Bonded | Interface::Frictionless => 0.0,
+            };
+            layer.thickness() * layer.material().oedometric_compliance() + closure
+        };
+        match self.substrate {
+            Substrate::Elastic(_) => 0.0,
+            Substrate::Rigid => self.layers.iter().map(own).sum(),
+        }
     }
 
     /// Number and name of material `number`, from 1 at the surface down to the substrate.
@@ -77,17 +130,22 @@ impl HalfSpace {
 
     /// Number and name of interface `number`, from 1: the lower face of that layer.
     pub fn interface_id(&self, number: usize) -> InterfaceId {
-        InterfaceId::between(self.material_id(number), self.material_id(number + 1))
+        let lower = self.material_id(number + 1);
+        // The base has a name where the layer on it has one.
+        let is_base = number == self.layers.len() && self.substrate.is_rigid();
+        let upper = self.material_id(number);
+        let name = if is_base { upper.name.map(|_| Name::new("rigid base")) } else { lower.name };
+        InterfaceId::between(upper, MaterialId { name, ..lower })
     }
 
     /// Strengths of all materials, in the order of [`Self::materials`].
     pub fn strengths(&self) -> impl Iterator<Item = Strength> {
-        self.layers.iter().map(Layer::strength).chain([self.substrate_strength])
+        self.layers.iter().map(Layer::strength).chain(self.substrate.material().map(|_| self.substrate_strength))
     }
 
     /// Residual stresses of all materials, in the order of [`Self::materials`]: that of the substrate is zero.
     pub fn residual_stresses(&self) -> impl Iterator<Item = f64> {
-        self.layers.iter().map(Layer::residual_stress).chain([0.0])
+        self.layers.iter().map(Layer::residual_stress).chain(self.substrate.material().map(|_| 0.0))
     }
 
     /// Depths of the interfaces from the surface down, lengths.
@@ -112,17 +170,23 @@ impl HalfSpace {
         (below(&self.layers[..material - 1]), bottom)
     }
 
-    /// The depth z ≥ 0 in its material, or, on an interface, to rounding, in both: above, then below.
+    /// The depth z ≥ 0 in its material, or, on an interface, to rounding, in both: above, then below. A rigid base is no material:
+    /// on it there is the layer alone, and below it nothing.
     pub fn depths(&self, z: f64) -> Vec<Depth> {
         let faces = self.interface_depths();
         let tolerance = 1e-12;
         let above = faces.iter().filter(|&&face| face * (1.0 + tolerance) < z).count();
         let below = faces.iter().filter(|&&face| face * (1.0 - tolerance) <= z).count();
-        (above + 1..=below + 1).map(|material| Depth { z, material }).collect()
+        (above + 1..=below + 1)
+            .filter(|&own| own <= self.material_count())
+            .map(|material| Depth { z, material })
+            .collect()
     }
 
-    /// Depths down to `depth` > 0, a length, by `rows` equal intervals; both sides of each interface are among them.
+    /// Depths down to `depth` > 0, a length, or to a rigid base above it, by `rows` equal intervals; both sides of each interface are
+    /// among them.
     pub fn rows(&self, depth: f64, rows: usize) -> Vec<Depth> {
+        let depth = depth.min(self.base_depth());
         let mut depths = self.interface_depths();
         depths.retain(|&face| face <= depth);
         // A row below the surface that is an interface but for rounding is that interface.
@@ -140,10 +204,12 @@ impl fmt::Display for HalfSpace {
         for (index, layer) in (1..).zip(&self.layers) {
             writeln!(
                 f,
-                "layer {index}{}: thickness {}, χ {}, {}, {}{}",
+                "layer {index}{}: thickness {}, {}{}, {}{}",
                 layer.material().name_behind(),
                 number(layer.thickness()),
-                number(layer.material().shear() / self.substrate.shear()),
+                self.substrate
+                    .material()
+                    .map_or(String::new(), |base| format!("χ {}, ", number(layer.material().shear() / base.shear()))),
                 layer.material(),
                 layer.interface(),
                 match layer.residual_stress() {
@@ -152,7 +218,10 @@ impl fmt::Display for HalfSpace {
                 }
             )?;
         }
-        write!(f, "substrate{}: {}", self.substrate.name_behind(), self.substrate)
+        match self.substrate {
+            Substrate::Elastic(material) => write!(f, "substrate{}: {material}", material.name_behind()),
+            Substrate::Rigid => write!(f, "substrate: rigid base"),
+        }
     }
 }
 

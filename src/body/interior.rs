@@ -104,9 +104,11 @@ impl Interior {
                 below: planes[k],
                 above: functional,
             };
-            let lower = layers.get(k + 1).map_or(substrate, |next| &next.material);
-            functional = match layer.interface {
-                Interface::Frictionless => {
+            let lower = layers.get(k + 1).map(|next| &next.material).or(substrate.as_ref());
+            functional = match (layer.interface, lower) {
+                // Nothing is below a rigid base.
+                (_, None) => functional,
+                (Interface::Frictionless, Some(_)) => {
                     // The plane at the top of what lies below the interface, in its own units.
                     let top = match layers.get(k + 1) {
                         Some(next) => planes[k + 1].raised(&next.material, wavenumber * next.thickness),
@@ -114,7 +116,7 @@ impl Interior {
                     };
                     Functional::shear(&top).times(stretch.state(stretch.thickness)[3])
                 }
-                interface => functional.lowered(&layer.material, stretch.thickness).below(
+                (interface, Some(lower)) => functional.lowered(&layer.material, stretch.thickness).below(
                     interface,
                     &layer.material,
                     lower,
@@ -124,13 +126,13 @@ impl Interior {
             stretches.push(stretch);
             top += layer.thickness;
         }
-        stretches.push(Stretch {
+        stretches.extend(substrate.map(|material| Stretch {
             top,
-            material: *substrate,
+            material,
             thickness: f64::INFINITY,
             below: planes[planes.len() - 1],
             above: functional,
-        });
+        }));
         Self { wavenumber, traction, stretches }
     }
 

@@ -24,7 +24,7 @@ const MIN_PARALLEL: usize = 512;
 #[derive(Debug)]
 pub(crate) struct InteriorTable {
     response: Arc<LayeredResponse>,
-    /// From the surface down, the substrate last.
+    /// From the surface down, an elastic substrate last.
     materials: Vec<MaterialTable>,
 }
 
@@ -66,6 +66,7 @@ impl InteriorTable {
             *depth += layer.thickness;
             Some(*depth)
         }));
+        tops.truncate(strata.materials().count());
         let most = MAX_BYTES / bytes(tops.len(), slides);
         let count = |material: usize| {
             let reaches = |&q: &f64| match material {
@@ -83,7 +84,8 @@ impl InteriorTable {
             vec![Vec::new(); tops.len()]
         };
         let table = |(material, (normal, along)): (usize, (Vec<_>, Vec<_>))| {
-            let ends = [tops[material], tops.get(material + 1).copied().unwrap_or(f64::INFINITY)];
+            let thickness = strata.layers.get(material).map_or(f64::INFINITY, |layer| layer.thickness);
+            let ends = [tops[material], tops[material] + thickness];
             let waves = if slides { &wavenumbers[..counts[material]] } else { &[] };
             let across = antiplane(&response, material, ends, waves);
             MaterialTable::new(strata, material, tops[material], normal, along, across)
@@ -96,9 +98,9 @@ impl InteriorTable {
     #[cfg(any(feature = "cli", test))]
     pub fn bytes(half_space: &super::HalfSpace, slides: bool, count: impl Fn(f64) -> usize) -> usize {
         let layers = half_space.layers();
-        layers
-            .first()
-            .map_or(0, |top| (bytes(layers.len() + 1, slides) * count(SHIELDING / top.thickness())).min(MAX_BYTES))
+        layers.first().map_or(0, |top| {
+            (bytes(half_space.material_count(), slides) * count(SHIELDING / top.thickness())).min(MAX_BYTES)
+        })
     }
 
     /// Amplitudes at a depth under a pressure or a shear traction along the wavevector, of the first of the `wavenumbers` that
@@ -209,7 +211,7 @@ impl MaterialTable {
             _ => Face::Joined,
         };
         let layer = strata.layers.get(material);
-        let PlaneStrain { shear, poisson, .. } = *layer.map_or(&strata.substrate, |layer| &layer.material);
+        let PlaneStrain { shear, poisson, .. } = *strata.materials().nth(material).expect("a material of the body");
         Self {
             top,
             thickness: layer.map_or(f64::INFINITY, |layer| layer.thickness),
@@ -350,7 +352,7 @@ mod tests {
         let found = table.amplitudes(InPlane::Normal, &WAVENUMBERS, depth);
         assert!(found.iter().zip(WAVENUMBERS).all(|(own, q)| *own == bare.amplitudes(InPlane::Normal, q, depth)));
         let body = bodies().next().unwrap();
-        let uncoated = HalfSpace::new(vec![], body.substrate());
+        let uncoated = HalfSpace::new(vec![], body.material(3));
         assert_eq!(
             (InteriorTable::bytes(&uncoated, true, |_| 9), InteriorTable::bytes(&body, true, |_| 1 << 40)),
             (0, MAX_BYTES)

@@ -25,6 +25,9 @@ pub enum MaterialError {
     /// Residual stress not finite.
     #[error("a residual stress must be finite, not {0}")]
     Residual(f64),
+    /// Nothing lies on a rigid base.
+    #[error("a rigid base needs layers: without one nothing is elastic")]
+    NoLayers,
     /// Interface stiffness not positive.
     #[error("the stiffness of an interface must be positive, not {0}")]
     Stiffness(f64),
@@ -92,6 +95,12 @@ impl Material {
     /// Young's modulus E = 2G(1 + ν), a pressure.
     pub fn young(&self) -> f64 {
         2.0 * self.shear * (1.0 + self.poisson)
+    }
+
+    /// Compliance without lateral strain, 1/M = (1 − 2ν)/(2G(1 − ν)) with the oedometric modulus M; one over a pressure. Zero
+    /// for an incompressible material.
+    pub fn oedometric_compliance(&self) -> f64 {
+        (1.0 - 2.0 * self.poisson) / (2.0 * self.shear * (1.0 - self.poisson))
     }
 
     /// Contact modulus E* = 2G/(1 − ν), a pressure.

@@ -14,7 +14,7 @@ use serde::Serialize;
 ///   to the substrate carries shear (bonded or spring: the load is wide against the length over which a spring slips):
 ///   σ_xx = Eε₂/(1−ν) − νp̄/(1−ν). Layers above a frictionless interface are a laminate of their own, a wide sheet
 ///   whose loaded disc spreads: with A₁₁ = Σ Eh/(1−ν²) and T = Σ hνp̄/(1−ν) its strain is ε = T/(2A₁₁) (a disc
-///   in an infinite sheet; for one layer σ_xx = −νp̄/2).
+///   in an infinite sheet; for one layer σ_xx = −νp̄/2). A rigid base has no strain: ε₂ = 0.
 ///
 /// **A spring of any stiffness is bonded here, a frictionless interface is not**, though the one is the limit of the other:
 /// "wide" and "k_t → 0" do not commute. Under a disc of radius R the layers above a spring obey A₁₁ 𝓛v = k_t v away from
@@ -72,11 +72,13 @@ fn stress_at(material: Material, strain: f64) -> f64 {
 
 /// Lateral strain of each material under a wide disc loaded by p̄ = 1.
 fn lateral_strains(half_space: &HalfSpace) -> Vec<f64> {
-    let substrate = half_space.substrate();
-    let nu = substrate.poisson();
-    let mut strain = -(1.0 - 2.0 * nu) * (1.0 + nu) / (2.0 * substrate.young());
+    let below_disc = |substrate: Material| {
+        let nu = substrate.poisson();
+        -(1.0 - 2.0 * nu) * (1.0 + nu) / (2.0 * substrate.young())
+    };
+    let mut strain = half_space.substrate().material().map_or(0.0, below_disc);
     let layers = half_space.layers();
-    let mut strains = vec![strain; layers.len() + 1];
+    let mut strains = vec![strain; half_space.material_count()];
     for (index, layer) in layers.iter().enumerate().rev() {
         if layer.interface() == Interface::Frictionless {
             let (stiffness, push) = laminate(layers, index);

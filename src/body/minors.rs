@@ -54,15 +54,25 @@ pub(super) struct Minors {
 }
 
 impl Minors {
+    /// On a rigid base: no displacement, any tractions.
+    pub const RIGID: Self = Self { n: 1.0, a: 0.0, b: 0.0, c: 0.0, d: 0.0, exponent: 0.0 };
+
     /// At the top of a homogeneous half-space: A/N = C/N = 1−ν, B/N = ½−ν, D/N = ¾−ν.
     pub fn half_space(material: &PlaneStrain) -> Self {
         let nu = material.poisson;
         Self { n: 1.0, a: 1.0 - nu, b: 0.5 - nu, c: 1.0 - nu, d: 0.75 - nu, exponent: 0.0 }
     }
 
-    /// The plane seen from above an interface, in the units of the layer above it (`wavenumber` q).
-    pub fn above(self, interface: Interface, below: &PlaneStrain, above: &PlaneStrain, wavenumber: f64) -> Self {
-        let ratio = above.shear / below.shear;
+    /// The plane seen from above an interface, in the units of the layer above it (`wavenumber` q); `below` is `None` on a rigid
+    /// base.
+    pub fn above(
+        self,
+        interface: Interface,
+        below: Option<&PlaneStrain>,
+        above: &PlaneStrain,
+        wavenumber: f64,
+    ) -> Self {
+        let ratio = below.map_or(0.0, |below| above.shear / below.shear);
         let scaled =
             Self { a: ratio * self.a, b: ratio * self.b, c: ratio * self.c, d: ratio * ratio * self.d, ..self };
         let Self { n, a, b, c, d, exponent } = scaled;
@@ -180,7 +190,7 @@ mod tests {
         let (layer, base) = (material(0.03, 0.5), material(1.0, 0.3));
         let spring = Interface::Spring { tangential: 0.2, normal: 7.0 };
         for interface in [Interface::Bonded, spring, Interface::Frictionless] {
-            let m = Minors::half_space(&base).above(interface, &base, &layer, 1.3).raised(&layer, 0.4);
+            let m = Minors::half_space(&base).above(interface, Some(&base), &layer, 1.3).raised(&layer, 0.4);
             assert!((m.a * m.c - m.b * m.b - m.n * m.d).abs() < 1e-15);
         }
     }

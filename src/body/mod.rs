@@ -20,6 +20,9 @@
 //! Across the wavevector the body is sheared alone (`across`). Under all three tractions the surface responds by one
 //! Hermitian 3 × 3 matrix, the [`SurfaceResponse`].
 //!
+//! On a rigid base U = w = 0: there the plane is that of (t, p), its only minor N. What holds of the layers on an elastic
+//! substrate holds of those on a rigid base, which is its limit; the recursion starts with the limit itself.
+//!
 //! Everything belongs to the [`LayeredResponse`] of a [`HalfSpace`]. For many wavenumbers there are tables: of the surface
 //! compliance (`compliances`) and of the interior (`interior_table`).
 
@@ -40,6 +43,7 @@ mod response;
 mod strata;
 mod strength;
 mod stress_function;
+mod substrate;
 
 pub use across::Antiplane;
 pub use bodies::Bodies;
@@ -54,3 +58,4 @@ pub use mean::MeanStress;
 pub use names::{InterfaceId, MaterialId, Name, Side};
 pub use response::{LayeredResponse, SurfaceResponse};
 pub use strength::{InterfaceStrength, Strength};
+pub use substrate::Substrate;

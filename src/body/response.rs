@@ -25,7 +25,7 @@
 use super::across::{self, Antiplane};
 use super::interior::{self, Amplitudes, InPlane, Interior};
 use super::strata::Strata;
-use super::{Depth, Layer, Material};
+use super::{Depth, Layer, Substrate};
 use rustfft::num_complex::Complex64;
 
 /// Displacements of the surface per traction at one wavenumber, lengths per pressure.
@@ -60,7 +60,7 @@ pub struct LayeredResponse {
 
 impl LayeredResponse {
     /// Response of `layers`, from the surface down, on a substrate.
-    pub(super) fn new(layers: &[Layer], substrate: Material) -> Self {
+    pub(super) fn new(layers: &[Layer], substrate: Substrate) -> Self {
         Self { strata: Strata::new(layers, substrate) }
     }
 

@@ -1,7 +1,7 @@
 //! The layers and the substrate by the coefficients of their plane-strain equations, and the recursion over them.
 
 use super::minors::{Minors, PlaneStrain};
-use super::{Interface, Layer, Material};
+use super::{Interface, Layer, Substrate};
 
 /// One layer as the recursion needs it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,36 +17,44 @@ pub(super) struct Stratum {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Strata {
     pub layers: Vec<Stratum>,
-    pub substrate: PlaneStrain,
+    /// `None`: a rigid base.
+    pub substrate: Option<PlaneStrain>,
 }
 
 impl Strata {
-    pub fn new(layers: &[Layer], substrate: Material) -> Self {
+    pub fn new(layers: &[Layer], substrate: Substrate) -> Self {
         let stratum = |layer: &Layer| Stratum {
             material: PlaneStrain::new(layer.material()),
             thickness: layer.thickness(),
             interface: layer.interface(),
         };
-        Self { layers: layers.iter().map(stratum).collect(), substrate: PlaneStrain::new(substrate) }
+        Self { layers: layers.iter().map(stratum).collect(), substrate: substrate.material().map(PlaneStrain::new) }
     }
 
     /// The material at the surface.
     pub fn surface_material(&self) -> &PlaneStrain {
-        self.layers.first().map_or(&self.substrate, |layer| &layer.material)
+        self.materials().next().expect("there are layers on a rigid base")
+    }
+
+    /// All materials, from the surface down.
+    pub fn materials(&self) -> impl Iterator<Item = &PlaneStrain> {
+        self.layers.iter().map(|layer| &layer.material).chain(&self.substrate)
     }
 
     /// Minors of the plane of admissible states at the surface, at the wavenumber q > 0 (1/length). Calls `face` with the
-    /// minors at the upper face of the substrate, then at the lower face of each layer, seen from inside it, from the
+    /// minors at the upper face of an elastic substrate, then at the lower face of each layer, seen from inside it, from the
     /// substrate up.
     pub fn surface_minors(&self, wavenumber: f64, mut face: impl FnMut(Minors)) -> Minors {
-        let mut below = &self.substrate;
-        let mut minors = Minors::half_space(below);
-        face(minors);
+        let mut below = self.substrate.as_ref();
+        let mut minors = below.map_or(Minors::RIGID, Minors::half_space);
+        if below.is_some() {
+            face(minors);
+        }
         for layer in self.layers.iter().rev() {
             minors = minors.above(layer.interface, below, &layer.material, wavenumber);
             face(minors);
             minors = minors.raised(&layer.material, wavenumber * layer.thickness);
-            below = &layer.material;
+            below = Some(&layer.material);
         }
         minors
     }

@@ -1,7 +1,8 @@
-//! The counterbody of a case: levels of indenters on their lattice, or a surface.
+//! The counterbody of a case: levels of indenters on their lattice, or a surface; or a given pressure.
 
 use super::error::Refusal;
 use super::feasibility::magnitude;
+use super::given;
 use super::lattice::{self, LatticeSection};
 use super::levels::LevelSection;
 use super::reader::TableAt;
@@ -17,13 +18,24 @@ pub(super) struct CounterbodySections<'a> {
     /// The section that gives the cell: `[lattice]`, or `[surface]` with a size of its own.
     pub(super) cell_section: TableAt<'a>,
     pub(super) grid_section: TableAt<'a>,
-    /// A surface with its grid and warnings; `None` for levels.
+    /// A surface with its grid and warnings; `None` for levels and a given pressure.
     pub(super) surface: Option<(SurfaceSection, Sampling, Vec<String>)>,
     pub(super) counterbody: Counterbody,
 }
 
-/// The levels of indenters, or the surface.
+/// The levels of indenters, the surface, or the given pressure.
 pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<CounterbodySections<'a>, Refusal> {
+    if let Some(pressure) = given::read(root, source)? {
+        let cell_section = root.required_section("lattice")?;
+        return Ok(CounterbodySections {
+            levels: Vec::new(),
+            lattice: LatticeSection::read_table(&cell_section)?,
+            cell_section,
+            grid_section: root.section_or_empty("grid")?,
+            surface: None,
+            counterbody: Counterbody::from(pressure),
+        });
+    }
     let level_sections = root.sections("levels")?;
     let levels: Vec<LevelSection> = level_sections.iter().map(LevelSection::read_table).collect::<Result<_, _>>()?;
     let surface_section = match (&level_sections[..], root.section("surface")?) {

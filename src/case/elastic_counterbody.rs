@@ -3,7 +3,9 @@
 use super::error::Refusal;
 use super::grading::LAYERS;
 use super::keys::{Form, Key, Unit};
-use super::layers::{self, Body, LAYER, LayerSection, MATERIAL, NAME, POISSON, SIZE, SubstrateSection, TENSILE, YIELD};
+use super::layers::{
+    self, Body, LAYER, LayerSection, MATERIAL, NAME, POISSON, RIGID, Rigid, SIZE, SubstrateSection, TENSILE, YIELD,
+};
 use super::reader::TableAt;
 use super::section::{KeyValue, section};
 use super::value::ValueAt;
@@ -12,7 +14,7 @@ use serde::Serialize;
 
 section! {
     /// The section `[counterbody]`.
-    pub struct CounterbodySection = COUNTERBODY, misplaced [
+    pub struct CounterbodySection = COUNTERBODY, rules elastic_or_rigid, misplaced [
         ("shear_ratio", "`shear_ratio` relates a layer to its substrate, whose modulus is `young`"),
         ("radius", "the shape of the counterbody stands in [[levels]] or [surface]"),
     ] {
@@ -21,13 +23,15 @@ section! {
         /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
         /// Young's modulus
-        pub young: f64 = Key::new(&[SIZE], "210.0").unit(Unit::Pressure),
+        pub young: Option<f64> = Key::new(&[SIZE], "210.0").unit(Unit::Pressure),
         /// Poisson's ratio
-        pub poisson: f64 = Key::new(&[POISSON], "0.3"),
+        pub poisson: Option<f64> = Key::new(&[POISSON], "0.3"),
         /// yield strength, compared with the von Mises stress
         pub yield_strength: Option<f64> = YIELD,
         /// tensile strength, compared with the largest principal stress
         pub tensile_strength: Option<f64> = TENSILE,
+        /// whether it is rigid below its coating, without moduli, name and strengths; the interface of the last layer joins it to the base
+        pub rigid: Rigid = RIGID.instead_of("young").and_of(&["poisson", "material", "name", "yield_strength", "tensile_strength"]),
         /// its coating, one section `[[counterbody.layers]]` a layer from its surface inward, with the keys of `[[layers]]`
         pub layers: Coating =
             Key::new(&[Form::Sections(&LAYER, LAYERS)], "[{ thickness = 0.5, young = 300.0, poisson = 0.25 }]")
@@ -56,6 +60,11 @@ impl KeyValue for Coating {
     }
 }
 
+/// Refuses a rigid base with keys of a material, and an elastic one without moduli.
+fn elastic_or_rigid(own: &CounterbodySection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    layers::modulus_or_rigid(own.rigid.0, section)
+}
+
 impl CounterbodySection {
     /// Its material below the layers.
     pub fn substrate(&self) -> SubstrateSection {
@@ -66,6 +75,7 @@ impl CounterbodySection {
             poisson: self.poisson,
             yield_strength: self.yield_strength,
             tensile_strength: self.tensile_strength,
+            rigid: self.rigid,
         }
     }
 

@@ -5,7 +5,7 @@ use super::Source;
 /// Name of the case that runs when none is given.
 pub const DEFAULT: &str = "fig2";
 
-const CASES: [(&str, &str); 15] = [
+const CASES: [(&str, &str); 16] = [
     ("ball-on-disc", include_str!("../../cases/ball-on-disc.toml")),
     ("dlc-on-steel", include_str!("../../cases/dlc-on-steel.toml")),
     ("fig2", include_str!("../../cases/fig2.toml")),
@@ -16,6 +16,7 @@ const CASES: [(&str, &str); 15] = [
     ("fig6a", include_str!("../../cases/fig6a.toml")),
     ("fig6b", include_str!("../../cases/fig6b.toml")),
     ("fig7", include_str!("../../cases/fig7.toml")),
+    ("pavement", include_str!("../../cases/pavement.toml")),
     ("polymer-on-steel", include_str!("../../cases/polymer-on-steel.toml")),
     ("ring", include_str!("../../cases/ring.toml")),
     ("rough", include_str!("../../cases/rough.toml")),

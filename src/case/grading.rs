@@ -57,7 +57,10 @@ impl Grading {
     }
 
     /// The materials of the sublayers, from the upper one down.
-    pub(super) fn materials(self, substrate: Material) -> impl Iterator<Item = Result<Material, MaterialError>> {
+    pub(super) fn materials(
+        self,
+        substrate: Option<Material>,
+    ) -> impl Iterator<Item = Result<Material, MaterialError>> {
         (0..self.sublayers).map(move |k| {
             let t = (k as f64 + 0.5) / self.sublayers as f64;
             let linear = |[upper, lower]: [f64; 2]| upper + (lower - upper) * t;
@@ -68,7 +71,9 @@ impl Grading {
             let poisson = linear(self.poisson);
             match self.young {
                 Some(young) => Material::from_young(stiffness(young), poisson),
-                None => Material::from_shear(stiffness(demanded(self.shear_ratio)) * substrate.shear(), poisson),
+                None => {
+                    Material::from_shear(stiffness(demanded(self.shear_ratio)) * demanded(substrate).shear(), poisson)
+                }
             }
         })
     }

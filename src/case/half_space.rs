@@ -58,7 +58,7 @@ mod tests {
     #[test]
     fn its_materials_may_be_those_of_the_library() {
         let alone = read("[substrate]\nmaterial = \"TiN\"\n[units]\npressure = \"MPa\"\n").unwrap();
-        assert_eq!(alone.substrate().young(), 430e3);
+        assert_eq!(alone.surface_material().young(), 430e3);
     }
 
     #[test]

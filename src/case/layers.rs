@@ -1,4 +1,4 @@
-//! `[[layers]]` and `[substrate]`: the coated half-space.
+//! `[[layers]]` and `[substrate]`: the coated half-space, or layers on a rigid base.
 
 use super::error::Refusal;
 use super::grading::{GRADING, Grading, LAYERS};
@@ -6,8 +6,10 @@ use super::interface::{INTERFACE_STRENGTH, InterfaceSection, InterfaceStrengthSe
 use super::keys::{Form, Key, Range, Unit};
 use super::material_names::distinct;
 use super::reader::TableAt;
-use super::section::{demanded, section};
+use super::section::{KeyValue, demanded, section};
+use super::value::ValueAt;
 use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Name, Strength};
+use serde::Serialize;
 
 /// Most letters of a material's name.
 const LETTERS: usize = 40;
@@ -26,6 +28,28 @@ pub(super) const YIELD: Key =
     Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
 pub(super) const TENSILE: Key =
     Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
+/// Keys of a substrate that a rigid base does not have.
+const ELASTIC: [&str; 6] = ["young", "poisson", "material", "name", "yield_strength", "tensile_strength"];
+pub(super) const RIGID: Key = Key::new(&[Form::Boolean], "true").otherwise("elastic").omitted_as_nothing();
+
+/// Whether a substrate is a rigid base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(transparent)]
+pub struct Rigid(pub bool);
+
+impl KeyValue for Rigid {
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        value.boolean().map(Self)
+    }
+
+    fn of(table: &TableAt<'_>, key: &str) -> Result<Self, Refusal> {
+        table.optional(key).map_or(Ok(Self::default()), |value| Self::read(&value))
+    }
+
+    fn is_nothing(&self) -> bool {
+        !self.0
+    }
+}
 
 section! {
     /// One section of `[[layers]]`, from the surface down.
@@ -70,7 +94,7 @@ section! {
 
 section! {
     /// The section `[substrate]`.
-    pub struct SubstrateSection = SUBSTRATE, misplaced [
+    pub struct SubstrateSection = SUBSTRATE, rules elastic_or_rigid, misplaced [
         ("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")
     ] {
         /// material of `percoat materials` or of the file `materials`, for moduli, strengths and name that are not given
@@ -78,14 +102,31 @@ section! {
         /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
         /// Young's modulus
-        pub young: f64 = Key::new(&[SIZE], "210.0").unit(Unit::Pressure),
+        pub young: Option<f64> = Key::new(&[SIZE], "210.0").unit(Unit::Pressure),
         /// Poisson's ratio
-        pub poisson: f64 = Key::new(&[POISSON], "0.3"),
+        pub poisson: Option<f64> = Key::new(&[POISSON], "0.3"),
         /// yield strength, compared with the von Mises stress
         pub yield_strength: Option<f64> = YIELD,
         /// tensile strength, compared with the largest principal stress
         pub tensile_strength: Option<f64> = TENSILE,
+        /// whether it is a rigid base, without moduli, name and strengths; the interface of the last layer joins it to the base
+        pub rigid: Rigid = RIGID.instead_of("young").and_of(&["poisson", "material", "name", "yield_strength", "tensile_strength"]),
     }
+}
+
+/// Refuses a rigid base with keys of a material, and an elastic substrate without moduli.
+fn elastic_or_rigid(own: &SubstrateSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    modulus_or_rigid(own.rigid.0, section)
+}
+
+/// Refuses a rigid base with keys of a material, and an elastic one without moduli.
+pub(super) fn modulus_or_rigid(is_rigid: bool, section: &TableAt<'_>) -> Result<(), Refusal> {
+    if !is_rigid {
+        return ["young", "poisson"].into_iter().try_for_each(|key| section.value(key).map(drop));
+    }
+    let Some(value) = ELASTIC.into_iter().find_map(|key| section.optional(key)) else { return Ok(()) };
+    let message = format!("`{}` has no meaning: `{}` = true has no material", value.path, section.path("rigid"));
+    Err(Refusal::new(value.node.span, message, "not of a rigid base").help("remove it, or `rigid`"))
 }
 
 /// Refuses interface strengths without a number, and a layer without either a modulus and Poisson's ratio or `graded`.
@@ -103,6 +144,13 @@ fn consistent(layer: &LayerSection, section: &TableAt<'_>) -> Result<(), Refusal
     section.value("poisson").map(drop)
 }
 
+impl SubstrateSection {
+    /// Its material without a name; `None` for a rigid base.
+    fn material(&self) -> Option<Result<Material, MaterialError>> {
+        (!self.rigid.0).then(|| Material::from_young(demanded(self.young), demanded(self.poisson)))
+    }
+}
+
 impl LayerSection {
     /// Number of its homogeneous sublayers; 1 without `graded`.
     pub fn sublayers(&self) -> usize {
@@ -118,21 +166,21 @@ impl LayerSection {
     }
 
     /// Its materials from the upper face down, one a sublayer.
-    fn materials(&self, substrate: Material) -> Result<Vec<Material>, MaterialError> {
+    fn materials(&self, substrate: Option<Material>) -> Result<Vec<Material>, MaterialError> {
         if let Some(graded) = self.graded {
             return graded.materials(substrate).collect();
         }
         let poisson = demanded(self.poisson);
         let material = match self.young {
             Some(young) => Material::from_young(young, poisson),
-            None => Material::from_shear(demanded(self.shear_ratio) * substrate.shear(), poisson),
+            None => Material::from_shear(demanded(self.shear_ratio) * demanded(substrate).shear(), poisson),
         };
         material.map(|material| vec![material])
     }
 
     /// It, or its sublayers from the upper one down, bonded to each other; its lower face is that of the last. Its material has
     /// this name.
-    fn build(&self, name: Option<&str>, substrate: Material) -> Result<Vec<Layer>, MaterialError> {
+    fn build(&self, name: Option<&str>, substrate: Option<Material>) -> Result<Vec<Layer>, MaterialError> {
         let materials = self.materials(substrate)?;
         let count = materials.len();
         let own = Strength { yielding: self.yield_strength, tensile: self.tensile_strength };
@@ -208,9 +256,11 @@ fn build(
         let span = section.optional(key).map_or(section.span, |value| value.node.span);
         Refusal::new(span, format!("`{}`: {error}", section.path(key)), "this material")
     };
-    let base = Material::from_young(substrate.young, substrate.poisson)
-        .map_err(|error| refuse(substrate_section, "young", error))?;
+    let base = substrate.material().transpose().map_err(|error| refuse(substrate_section, "young", error))?;
     count(layers, layer_sections)?;
+    if base.is_none() {
+        layer_sections.iter().try_for_each(|section| without_ratio(section, substrate_section))?;
+    }
     let names: Vec<_> = layers.iter().map(|layer| &layer.name).chain([&substrate.name]).map(Option::as_deref).collect();
     let names = distinct(&names);
     let built: Result<Vec<Vec<Layer>>, Refusal> = layers
@@ -221,11 +271,24 @@ fn build(
             layer.build(name.as_deref(), base).map_err(|error| refuse(section, layer.stiffness_key(), error))
         })
         .collect();
+    let Some(base) = base else {
+        return HalfSpace::on_rigid_base(built?.concat()).map_err(|error| refuse(substrate_section, "rigid", error));
+    };
     let base = base.with_name(names[layers.len()].as_deref().map(Name::new));
     let strength = Strength { yielding: substrate.yield_strength, tensile: substrate.tensile_strength };
     HalfSpace::new(built?.concat(), base)
         .with_substrate_strength(strength)
         .map_err(|error| refuse(substrate_section, "yield_strength", error))
+}
+
+/// Refuses a layer on a rigid base whose moduli are stated over those of the substrate.
+fn without_ratio(section: &TableAt<'_>, substrate_section: &TableAt<'_>) -> Result<(), Refusal> {
+    let graded = section.section("graded")?;
+    let ratio = section.optional("shear_ratio").or_else(|| graded?.optional("shear_ratio"));
+    let Some(value) = ratio else { return Ok(()) };
+    let message =
+        format!("`{}` relates to the substrate, and `{}` = true", value.path, substrate_section.path("rigid"));
+    Err(Refusal::new(value.node.span, message, "no modulus to relate to").help("give `young` in its place"))
 }
 
 /// Refuses more than [`LAYERS`] layers and sublayers, at the layer that exceeds them.
@@ -244,7 +307,10 @@ fn count(layers: &[LayerSection], sections: &[TableAt<'_>]) -> Result<(), Refusa
 
 /// The half-space with twice the sublayers in graded layers; `None` without graded layers.
 pub(super) fn refined(layers: &[LayerSection], substrate: &SubstrateSection) -> Option<HalfSpace> {
-    let base = Material::from_young(substrate.young, substrate.poisson).ok()?;
+    let base = substrate.material().transpose().ok()?;
     let layers = layers.iter().map(|layer| layer.refined().build(None, base).ok()).collect::<Option<Vec<_>>>()?;
-    Some(HalfSpace::new(layers.concat(), base))
+    match base {
+        Some(base) => Some(HalfSpace::new(layers.concat(), base)),
+        None => HalfSpace::on_rigid_base(layers.concat()).ok(),
+    }
 }

@@ -1,8 +1,10 @@
-//! `[load]`: the nominal pressures, forces or penetrations to solve for, one after another.
+//! `[load]`: the nominal pressures, forces or penetrations to solve for, one after another, or a pressure that is given.
 
 use serde::{Serialize, Serializer};
+use std::slice;
 
 use super::error::Refusal;
+use super::given::{DISCS, GivenSection};
 use super::keys::{Form, Key, Keys, Range, Unit, measured_in};
 use super::node::Value;
 use super::reader::TableAt;
@@ -32,6 +34,15 @@ section! {
                 .unit(Unit::Length)
                 .instead_of("force")
                 .and_of(&["mean_pressure"]),
+        /// a pressure on the body that is given, without anything that presses: uniform on discs, or a field from a file like that of a surface
+        pub pressure: Option<GivenSection> =
+            Key::new(&[Form::Table(&DISCS), Form::Text("the path of a file")], "{ disc = [[0.0, 0.0, 0.1]], value = 0.7 }")
+                .instead_of("penetration")
+                .and_of(&["mean_pressure", "force"]),
+    }
+    beside {
+        /// Load of a pressure that is given: the force on an isolated window, else the mean pressure.
+        pub given: Option<Load>,
     }
 }
 
@@ -86,7 +97,7 @@ impl KeyValue for Steps {
 }
 
 fn one(_: &LoadSection, section: &TableAt<'_>) -> Result<(), Refusal> {
-    section.one_of(["mean_pressure", "force", "penetration"]).map(drop)
+    section.one_of(["mean_pressure", "force", "penetration", "pressure"]).map(drop)
 }
 
 fn positive_ends(range: &LoadRange, section: &TableAt<'_>) -> Result<(), Refusal> {
@@ -100,8 +111,13 @@ fn positive_ends(range: &LoadRange, section: &TableAt<'_>) -> Result<(), Refusal
 }
 
 impl LoadSection {
-    /// The key, the kind of load that it prescribes, and its values.
+    /// The quantity, the kind of load that it prescribes, and its values.
     fn prescribed(&self) -> (&'static str, fn(f64) -> Load, &[f64]) {
+        match &self.given {
+            Some(Load::Force(force)) => return ("force", Load::Force, slice::from_ref(force)),
+            Some(Load::MeanPressure(mean)) => return ("mean_pressure", Load::MeanPressure, slice::from_ref(mean)),
+            _ => {}
+        }
         match (&self.mean_pressure, &self.force) {
             (Some(Steps(pressures)), _) => ("mean_pressure", Load::MeanPressure, pressures),
             (None, Some(Steps(forces))) => ("force", Load::Force, forces),
@@ -114,7 +130,7 @@ impl LoadSection {
         self.prescribed().2
     }
 
-    /// Name of the prescribed quantity, as in the case file.
+    /// Name of the prescribed quantity, as in the case file; of a given pressure that of its load.
     pub fn quantity(&self) -> &'static str {
         self.prescribed().0
     }
@@ -127,8 +143,13 @@ impl LoadSection {
 
     /// The nominal pressures p̄ on a cell of this area; `None` where penetrations are prescribed.
     pub fn mean_pressures(&self, area: f64) -> Option<Vec<f64>> {
-        let forces = self.force.as_ref().map(|Steps(values)| values.iter().map(|force| force / area).collect());
-        self.mean_pressure.as_ref().map(|Steps(values)| values.clone()).or(forces)
+        match self.prescribed() {
+            (_, load, values) if load(1.0) == Load::MeanPressure(1.0) => Some(values.to_vec()),
+            (_, load, values) if load(1.0) == Load::Force(1.0) => {
+                Some(values.iter().map(|force| force / area).collect())
+            }
+            _ => None,
+        }
     }
 }
 

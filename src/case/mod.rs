@@ -3,7 +3,7 @@
 //! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and converted to the core's types: its problem,
 //! and the run that solves it. Faults are refused with their line ([`CaseError`]).
 //!
-//! One file a section: lattice, levels, surface, layers (with the substrate, `interface` and `grading`), elastic counterbody, load, grid, solver,
+//! One file a section: lattice, levels, surface, layers (with the substrate, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
 //! friction, units, stress, localized; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
 //! makes of them the texts of `percoat explain` and the schema; `materials` is the library. A document is parsed to a tree (`node`), changed by `overrides`,
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
@@ -21,6 +21,7 @@ pub mod embedded;
 mod error;
 pub mod feasibility;
 mod friction;
+mod given;
 mod grading;
 mod grid;
 mod half_space;
@@ -58,13 +59,14 @@ pub use feasibility::single_contact::foreseen;
 pub use feasibility::sublayers::sublayer_error;
 pub use feasibility::{plausibility, resources};
 pub use friction::FrictionSection;
+pub use given::{DiscsSection, GivenSection, Pressures};
 pub use grading::{Grading, Law};
 pub use grid::Points;
 pub use half_space::half_space;
 pub use interface::{InterfaceSection, InterfaceStrengthSection, InterfaceWord, SpringSection};
 pub use keys::{Explanation, UnknownKey, explain, overview, schema};
 pub use lattice::{LatticeKind, LatticeSection};
-pub use layers::{LayerSection, SubstrateSection};
+pub use layers::{LayerSection, Rigid, SubstrateSection};
 pub use levels::{LevelSection, ShapeKind};
 pub use load::{LoadSection, Steps};
 pub use localized::LocalizedSection;

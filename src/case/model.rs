@@ -30,7 +30,7 @@ use super::{
 use crate::body::{Bodies, HalfSpace, MeanStress};
 use crate::comparison::ComparisonTask;
 use crate::counterbody::{Counterbody, Topography};
-use crate::load::LoadQuantity;
+use crate::load::{Load, LoadQuantity};
 use crate::problem::Problem;
 use crate::run::{Run, Sampling, StressRequest};
 use crate::spectral::Settings;
@@ -51,10 +51,12 @@ section! { whole
         /// indenters of one shape and height, one section `[[levels]]` a level
         pub levels: Vec<LevelSection> =
             Key::new(&[Form::Sections(&LEVELS, 200)], "[{ shape = \"paraboloid\", radius = 0.8, height = 0.0 }]")
+                .otherwise("required, or `surface`, unless `load.pressure` is given")
                 .omitted_as_nothing(),
         /// one period of any topography
         pub surface: Option<SurfaceSection> =
-            Key::new(&[Form::Table(&SURFACE)], "{ heights = \"surface.npy\", period = 10.0 }").instead_of("levels"),
+            Key::new(&[Form::Table(&SURFACE)], "{ heights = \"surface.npy\", period = 10.0 }").instead_of("levels")
+                .otherwise("required, or `levels`, unless `load.pressure` is given"),
         /// a file of one's own materials, which come before those of `percoat materials`
         pub materials: Option<String> =
             Key::new(&[Form::Text("the path of a file")], "\"own.toml\"").otherwise("those of `percoat materials`"),
@@ -64,11 +66,11 @@ section! { whole
                 .otherwise("uncoated")
                 .rule("sublayers of graded layers count among the 200")
                 .omitted_as_nothing(),
-        /// the material below the layers
+        /// the material below the layers, or a rigid base
         pub substrate: SubstrateSection = Key::new(&[Form::Table(&SUBSTRATE)], "{ young = 1.0, poisson = 0.3 }"),
         /// the elastic body that the indenters or the topography belong to
         pub counterbody: Option<CounterbodySection> = Key::new(&[Form::Table(&COUNTERBODY)], "{ young = 210.0, poisson = 0.3 }").otherwise("rigid"),
-        /// mean pressure, force or penetration, one value a load step
+        /// mean pressure, force or penetration, one value a load step, or a given pressure
         pub load: LoadSection = Key::new(&[Form::Table(&LOAD)], "{ mean_pressure = 0.01 }"),
         /// samples of the cell
         pub grid: Sampling = Key::new(&[Form::Table(&GRID)], "{ points = 256 }").otherwise("its defaults"),
@@ -172,7 +174,8 @@ impl Case {
             let root = source.tree(&CASE)?;
             let root = TableAt::root(&root, &CASE, Span::NOWHERE);
             let sliding = self.friction.map(|own| own.direction);
-            let section = StressSection::read_in(&root.required_section("stress")?, self.counterbody(), sliding)?;
+            let base = base_depth(self.problem.bodies());
+            let section = StressSection::read_in(&root.required_section("stress")?, self.counterbody(), sliding, base)?;
             Ok(section.request(self.counterbody()))
         })
     }
@@ -214,16 +217,22 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     };
 
     let load_section = root.required_section("load")?;
-    let load = LoadSection::read_table(&load_section)?;
+    let mut load = LoadSection::read_table(&load_section)?;
+    load.pressure = load.pressure.map(|given| given.located(source));
+    load.given = counterbody.pressure().map(|given| match given.cell().is_isolated() {
+        true => Load::Force(given.force()),
+        false => Load::MeanPressure(given.force() / given.cell().area()),
+    });
     if let Some(mean) = load_section.optional("mean_pressure").filter(|_| counterbody.cell().is_isolated()) {
         let message = "`load.mean_pressure` has no meaning for an isolated contact, which has no cell to spread over";
         return Err(Refusal::new(mean.node.span, message, "not for an isolated contact")
             .help("prescribe load.force, in the unit of pressure times that of length squared, or load.penetration"));
     }
-    let file_points = counterbody.topography().map(Topography::points);
+    let of_field = || Some(counterbody.pressure()?.values()?.dim().into());
+    let file_points = counterbody.topography().map(Topography::points).or_else(of_field);
     let (surface, sampling, surface_doubts) = match surface {
         Some((section, sampling, doubts)) => (Some(section), sampling, doubts),
-        None => (None, grid::read(&grid_section, None)?, Vec::new()),
+        None => (None, grid::read(&grid_section, file_points)?, Vec::new()),
     };
     magnitude::grid(sampling, file_points, &grid_section, &cell_section, counterbody.cell())?;
     let solver_section = root.section_or_empty("solver")?;
@@ -246,7 +255,10 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         units: root.section("units")?.as_ref().map(UnitsSection::read_table).transpose()?,
         stress: root
             .section("stress")?
-            .map(|section| StressSection::read_in(&section, problem.counterbody(), friction.map(|own| own.direction)))
+            .map(|section| {
+                let (sliding, base) = (friction.map(|own| own.direction), base_depth(problem.bodies()));
+                StressSection::read_in(&section, problem.counterbody(), sliding, base)
+            })
             .transpose()?,
         localized: LocalizedSection::read_table(&root.section_or_empty("localized")?)?,
         levels,
@@ -258,6 +270,11 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         surface_doubts,
         problem: Arc::new(problem),
     })
+}
+
+/// Depth of the deepest rigid base, a length; infinite where a body has none.
+fn base_depth(bodies: &Bodies) -> f64 {
+    bodies.each().map(HalfSpace::base_depth).fold(0.0, f64::max)
 }
 
 fn title(root: &TableAt<'_>) -> Result<String, Refusal> {

@@ -138,7 +138,10 @@ fn set_in_table(
             Node { value: Value::Table(created), span: step.span }
         }
     };
-    keys.replaced(&step.name).into_iter().for_each(|other| table.remove(other));
+    // A switch that is off stands beside the keys that it excludes.
+    if !matches!(next.value, Value::Boolean(false)) {
+        keys.replaced(&step.name).into_iter().for_each(|other| table.remove(other));
+    }
     table.insert(Entry { key: step.name.clone(), key_span: step.span, node: next });
     Ok(())
 }

@@ -39,7 +39,7 @@ pub(in crate::case) trait KeyValue: Sized {
         false
     }
 
-    /// Whether it is 0 or an empty list.
+    /// Whether it is 0, false or an empty list.
     fn is_nothing(&self) -> bool {
         false
     }

@@ -13,6 +13,7 @@ use crate::body::MeanStress;
 use crate::counterbody::{Counterbody, Indenters};
 use crate::lattice::Lattice;
 use crate::notation::number;
+use crate::plain::float;
 use crate::run::places::SECTION;
 use crate::run::{self, StressRequest, Volume};
 use crate::stress::SurfaceLine;
@@ -108,16 +109,21 @@ pub enum Toward {
 }
 
 impl StressSection {
-    /// Reads the section of a case with this `counterbody`, which slides along a direction.
+    /// Reads the section of a case with this `counterbody`, which slides along a direction; `base`: depth of the rigid base, infinite
+    /// without one.
     pub(super) fn read_in(
         section: &TableAt<'_>,
         counterbody: &Counterbody,
         sliding: Option<[f64; 2]>,
+        base: f64,
     ) -> Result<Self, Refusal> {
         if let Some(cut) = section.optional("section") {
             check_levels(&cut, counterbody.levels().len())?;
         }
         let own = Self::read_table(section)?;
+        for key in ["planes", "points"] {
+            within(section, key, base)?;
+        }
         if own.section.is_some_and(|cut| cut.toward.is_none()) && sliding.is_none() {
             return Err(section.value("section")?.table()?.missing("toward"));
         }
@@ -162,6 +168,21 @@ impl StressSection {
             volume: self.volume,
         }
     }
+}
+
+/// Refuses depths below a rigid base: of numbers, or of the last number of each item.
+fn within(section: &TableAt<'_>, key: &str, base: f64) -> Result<(), Refusal> {
+    let Some(list) = section.optional(key) else { return Ok(()) };
+    for item in list.list()? {
+        let z = if matches!(item.node.value, Value::List(_)) { item.numbers::<3>()?[2] } else { item.number()? };
+        if z > base * (1.0 + 1e-12) {
+            let message = format!("`{}`: z = {} is below the rigid base at {}", item.path, float(z), float(base));
+            return Err(
+                Refusal::new(item.node.span, message, "not in the body").help("stresses are in the layers alone")
+            );
+        }
+    }
+    Ok(())
 }
 
 /// Refuses a cut from or toward a level that the case does not have.
@@ -224,7 +245,7 @@ impl KeyValue for Toward {
 /// The number N of "level N".
 fn level(value: &ValueAt<'_>, levels: usize) -> Result<usize, Refusal> {
     let wanted = match levels {
-        0 => "two numbers in brackets: beside [surface] there are no levels".to_owned(),
+        0 => "two numbers in brackets: this case has no levels".to_owned(),
         1 => "\"level 1\", the only one".to_owned(),
         _ => format!("\"level 1\" to \"level {levels}\""),
     };

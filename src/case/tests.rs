@@ -57,7 +57,10 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
     let isolated = "lattice = { kind = \"isolated\", size = 2 }\nlevels = [{ shape = \"sphere\", radius = 1 }]\n\
                     substrate = { young = 1, poisson = 0.3 }\nload = { force = { from = 1, to = 2, steps = 2, spacing = \"log\" } }\n";
     let mut found = BTreeSet::new();
-    let texts = [RICH, &other, isolated];
+    let rigid = "lattice = { kind = \"square\", period = 2 }\nlevels = [{ shape = \"sphere\", radius = 1 }]\n\
+                 layers = [{ thickness = 1, young = 1, poisson = 0.3 }]\nsubstrate = { rigid = true }\n\
+                 counterbody = { rigid = true, layers = [{ thickness = 1, young = 1, poisson = 0.3 }] }\nload = { mean_pressure = 1e-3 }\n";
+    let texts = [RICH, &other, isolated, rigid];
     let texts = texts.into_iter().chain(surfaces.iter().chain(&bodies).map(String::as_str));
     for text in embedded::all().iter().map(|(_, text)| *text).chain(texts) {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };
@@ -151,7 +154,7 @@ fn what_is_not_said_has_its_default() {
 fn the_shear_ratio_is_that_to_the_substrate() {
     let case = read(&fig2(), &[]).unwrap();
     let half_space = case.half_space();
-    let ratio = half_space.layers()[0].material().shear() / half_space.substrate().shear();
+    let ratio = half_space.layers()[0].material().shear() / half_space.material(half_space.material_count()).shear();
     assert!((ratio - 2.0).abs() < 1e-15);
 }
 

@@ -22,7 +22,7 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
     let (case, name) = read_case(case, set)?;
     if case.counterbody().indenters().is_none() {
         return Err(Failure::refused(
-            "compare needs [[levels]]: the localized method knows indenters, not a [surface]; use percoat solve",
+            "compare needs [[levels]]: the localized method knows indenters, not a [surface] or a given pressure; use percoat solve",
         ));
     }
     let folder = output_folder(common, &name)?;

@@ -8,7 +8,7 @@ use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::localized::mesh::Mesh;
 use crate::localized::stress::LocalizedField;
-use crate::localized::{self, CircleRadius, Coupled, Localized, NoIndenters, Setup, Stop};
+use crate::localized::{self, CircleRadius, Coupled, Localized, LocalizedError, Setup, Stop};
 use crate::problem::Problem;
 use crate::reading::Reading;
 use crate::run::StepRecord;
@@ -21,9 +21,9 @@ use std::sync::Arc;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ComparisonError {
-    /// A topography, which the localized method cannot solve.
+    /// A topography or a rigid base, which the localized method cannot solve.
     #[error(transparent)]
-    NoIndenters(#[from] NoIndenters),
+    Localized(#[from] LocalizedError),
     /// Coupled friction, which the localized method cannot solve.
     #[error(
         "the localized method knows the pressure of frictionless contact only, to which uncoupled friction adds its stresses: \
@@ -137,7 +137,7 @@ impl ComparisonTask {
     /// Whether both methods can solve the problem.
     ///
     /// # Errors
-    /// [`ComparisonError::NoIndenters`] for a topography, [`ComparisonError::Isolated`] for an isolated contact,
+    /// [`ComparisonError::Localized`] for a topography or a rigid base, [`ComparisonError::Isolated`] for an isolated contact,
     /// [`ComparisonError::CoupledFriction`] for coupled friction.
     pub fn check(&self) -> Result<(), ComparisonError> {
         self.indenters().map(|_| ())
@@ -146,7 +146,7 @@ impl ComparisonTask {
     /// The indenters of a problem that both methods can solve.
     fn indenters(&self) -> Result<&Indenters, ComparisonError> {
         let couples = self.problem.friction().is_some_and(Friction::couples);
-        let indenters = self.problem.counterbody().indenters().ok_or(NoIndenters)?;
+        let indenters = Localized::solvable(&self.problem)?;
         match (self.problem.cell().is_isolated(), couples) {
             (true, _) => Err(ComparisonError::Isolated),
             (false, true) => Err(ComparisonError::CoupledFriction),

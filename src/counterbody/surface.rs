@@ -27,7 +27,7 @@ pub struct Surface {
 
 impl Surface {
     /// Surface of the counterbody on a grid of its cell with `points` = [N₁, N₂]: exact for indenters, [resampled](super::Topography::depths)
-    /// for a topography.
+    /// for a topography, flat under a given pressure.
     ///
     /// # Errors
     /// [`LatticeError`] when a number of points is zero.
@@ -37,6 +37,11 @@ impl Surface {
             Counterbody::Indenters(indenters) => of_indenters(indenters, grid),
             Counterbody::Topography(topography) => {
                 let initial_gap = topography.depths(points)?;
+                Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() }
+            }
+            // Nothing stands above the body.
+            Counterbody::Pressure(_) => {
+                let initial_gap = Array2::zeros(points);
                 Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() }
             }
         })

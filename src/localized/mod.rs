@@ -50,5 +50,5 @@ mod tables;
 pub use circle::{Circle, CircleRadius};
 pub use coupled::Coupled;
 pub use solution::{Solution, Stop};
-pub use solver::{Localized, NoIndenters, Setup};
+pub use solver::{Localized, LocalizedError, Setup};
 pub use system::System;

@@ -6,6 +6,7 @@ use super::mesh::Mesh;
 use super::solution::{Solution, Stop};
 use super::spot::Spot;
 use super::system::{COARSE_INDENTERS, System};
+use crate::counterbody::Indenters;
 use crate::load::Load;
 use crate::problem::Problem;
 use std::sync::Arc;
@@ -36,10 +37,20 @@ impl Setup {
     }
 }
 
-/// Error: a topography has no indenters for the circles.
+/// Why the localized method cannot solve a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the localized method needs indenters, and a topography has none: solve it with the spectral method alone")]
-pub struct NoIndenters;
+#[non_exhaustive]
+pub enum LocalizedError {
+    /// A topography and a given pressure have no indenters for the circles.
+    #[error("the localized method needs indenters, and there are none: solve it with the spectral method alone")]
+    NoIndenters,
+    /// Far from the circle the body is taken for an elastic half-space.
+    #[error(
+        "the localized method takes the body for an elastic half-space far from the circle, and layers on a rigid base are none: solve \
+         it with the spectral method alone"
+    )]
+    RigidBase,
+}
 
 /// The localized method for a system of indenters.
 #[derive(Debug, Clone)]
@@ -51,10 +62,19 @@ impl Localized {
     /// The method for a problem, with circles of up to `count` indenters.
     ///
     /// # Errors
-    /// [`NoIndenters`] for a topography.
-    pub fn new(problem: &Problem, count: usize) -> Result<Self, NoIndenters> {
-        let indenters = problem.counterbody().indenters().ok_or(NoIndenters)?;
+    /// [`LocalizedError`] for a topography or a given pressure, and for a body on a rigid base.
+    pub fn new(problem: &Problem, count: usize) -> Result<Self, LocalizedError> {
+        let indenters = Self::solvable(problem)?;
         Ok(Self { system: Arc::new(System::new(indenters, problem.bodies(), count)) })
+    }
+
+    /// The indenters of a problem that the method can solve.
+    pub(crate) fn solvable(problem: &Problem) -> Result<&Indenters, LocalizedError> {
+        match problem.counterbody().indenters() {
+            None => Err(LocalizedError::NoIndenters),
+            Some(_) if problem.bodies().has_rigid_base() => Err(LocalizedError::RigidBase),
+            Some(indenters) => Ok(indenters),
+        }
     }
 
     /// The indenters and the half-space.

@@ -2,7 +2,7 @@
 
 use super::number::{number, with_error};
 use crate::body::{Bodies, HalfSpace, Interface, Layer, Material};
-use crate::counterbody::{Counterbody, Shape};
+use crate::counterbody::{Counterbody, GivenPressure, LoadedDisc, Shape};
 use crate::lattice::{Cell, Grid};
 use crate::units::{Unit, Units};
 
@@ -60,9 +60,24 @@ fn shape(units: &Units, shape: Shape) -> String {
     format!("{}, {sizes}", shape.name())
 }
 
+/// A given pressure in words, one line a disc.
+fn given_pressure(units: &Units, given: &GivenPressure) -> String {
+    if let Some(values) = given.values() {
+        return format!("pressure given at {} × {} samples", values.nrows(), values.ncols());
+    }
+    let discs = (1..).zip(given.loaded_discs()).map(|(number, disc): (usize, &LoadedDisc)| {
+        let [x, y, radius] = [disc.centre[0], disc.centre[1], disc.radius].map(|x| length(units, x));
+        format!("\ndisc {number}: radius {radius} around ({x}, {y}), pressure {}", pressure(units, disc.pressure))
+    });
+    format!("pressure given on discs{}", discs.collect::<String>())
+}
+
 /// The counterbody in words, one line a level.
 pub(super) fn counterbody(units: &Units, counterbody: &Counterbody) -> String {
     let own = cell(units, counterbody.cell());
+    if let Some(given) = counterbody.pressure() {
+        return format!("{own}, {}", given_pressure(units, given));
+    }
     let Some(indenters) = counterbody.indenters() else {
         let [n1, n2] = counterbody.topography().map_or([0, 0], |topography| topography.points());
         return format!("{own}, topography of {n1} × {n2} samples");
@@ -101,22 +116,24 @@ pub(super) fn bodies(units: &Units, bodies: &Bodies) -> String {
 
 /// Layers and substrate, one a line.
 fn half_space(units: &Units, half_space: &HalfSpace) -> String {
-    let substrate = half_space.substrate();
+    let substrate = half_space.substrate().material();
     let layers = (1..).zip(half_space.layers()).map(|(index, layer): (usize, &Layer)| {
         let residual = match layer.residual_stress() {
             0.0 => String::new(),
             residual => format!(", σ_r {}", pressure(units, residual)),
         };
+        let ratio =
+            substrate.map_or(String::new(), |base| format!("χ {}, ", number(layer.material().shear() / base.shear())));
         format!(
-            "layer {index}{}: thickness {}, χ {}, {}, {}{residual}\n",
+            "layer {index}{}: thickness {}, {ratio}{}, {}{residual}\n",
             layer.material().name_behind(),
             length(units, layer.thickness()),
-            number(layer.material().shear() / substrate.shear()),
             material(units, layer.material()),
             interface(units, layer.interface())
         )
     });
-    let substrate = format!("substrate{}: {}", substrate.name_behind(), material(units, substrate));
+    let substrate = substrate
+        .map_or("rigid base".to_owned(), |own| format!("substrate{}: {}", own.name_behind(), material(units, own)));
     layers.collect::<String>() + &substrate
 }
 

@@ -21,7 +21,9 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     let value = |place: [f64; 2]| snapshot.pressure_at(place);
     let most = snapshot.pressures().iter().copied().fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
-    let bar = Bar::sequential(snapshot.units.pressure_of("contact pressure", "p"), most);
+    let is_given = snapshot.step.problem().counterbody().pressure().is_some();
+    let name = if is_given { "pressure" } else { "contact pressure" };
+    let bar = Bar::sequential(snapshot.units.pressure_of(name, "p"), most);
     let [x, y] = axes(snapshot, window);
     let mut over: Vec<Over> = sliding_arrow(snapshot, view).into_iter().collect();
     over.extend(unit_cell(snapshot, view));
@@ -31,6 +33,8 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     }));
     let map = Map { title: String::new(), x, y, aspect: view.aspect(), fill: Fill::Values(bar, &value), over };
     let what = match snapshot.levels() {
+        0 if is_given && cell.is_rectangular() && !view.is_part => "White: no pressure.",
+        0 if is_given => "White: no pressure; dashed: the unit cell.",
         0 if cell.is_isolated() => "White: no contact.",
         _ if cell.is_isolated() => "Numbers are levels; white: no contact.",
         0 if cell.is_rectangular() && !view.is_part => "White: no contact; one unit cell.",

@@ -174,7 +174,9 @@ impl<'a> SectionPicture<'a> {
         let to_scale = if self.is_to_scale { "" } else { " Depth is stretched." };
         let residual = problem.bodies().each().flat_map(HalfSpace::residual_stresses).any(|stress| stress != 0.0);
         let residual = if residual { " Residual stress is in it." } else { "" };
-        let bodies = if self.sections.len() > 1 {
+        let bodies = if problem.counterbody().pressure().is_some() {
+            "; bars on top: where the pressure acts"
+        } else if self.sections.len() > 1 {
             "; above z = 0 the counterbody, below it the body; bars between them: contacts"
         } else {
             "; bars on top: contacts"

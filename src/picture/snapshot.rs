@@ -9,7 +9,7 @@ use crate::lattice::{Cell, LatticeError};
 use crate::problem::Problem;
 use crate::reading::{Criterion, Governing, Reading, Utilisation};
 use crate::spectral::Step;
-use crate::units::{Unit, Units, lowered, substrate_index};
+use crate::units::{Unit, Units, lowered, reference_index};
 
 /// One load step.
 #[derive(Debug, Clone)]
@@ -98,7 +98,6 @@ pub fn caption(title: &str, problem: &Problem, units: &Units, more: &[String]) -
 const FEW: usize = 4;
 
 fn materials(half_space: &HalfSpace, units: &Units) -> String {
-    let substrate = half_space.substrate();
     if half_space.layers().len() > FEW {
         return [many_layers(half_space, units), substrate_words(half_space, units)].join("; ");
     }
@@ -108,12 +107,18 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
         let index = lowered(number);
         let own = if single { "" } else { &index };
         let mut part = before(layer.material());
-        part += &[
-            equals(&format!("χ{own}"), &[layer.material().shear() / substrate.shear()]),
+        let stiffness = match half_space.substrate().material() {
+            Some(base) => Some(equals(&format!("χ{own}"), &[layer.material().shear() / base.shear()])),
+            None => young_words(layer.material(), own, units),
+        };
+        let others = [
             units.length_equals(&format!("h{own}"), &[layer.thickness()]),
-            equals(&format!("ν{index}"), &[layer.material().poisson()]),
-        ]
-        .join(", ");
+            equals(
+                &format!("ν{}", if half_space.material_count() == 1 { "" } else { &index }),
+                &[layer.material().poisson()],
+            ),
+        ];
+        part += &stiffness.into_iter().chain(others).collect::<Vec<_>>().join(", ");
         if layer.residual_stress() != 0.0 {
             part += &format!(", {}", units.pressure_equals(&format!("σᵣ{own}"), &[layer.residual_stress()]));
         }
@@ -137,11 +142,14 @@ fn many_layers(half_space: &HalfSpace, units: &Units) -> String {
         if least == most { vec![least] } else { vec![least, most] }
     };
     let to = |text: String| text.replace(", ", " to ");
-    let shear = half_space.substrate().shear();
+    let stiffness = match half_space.substrate().material() {
+        Some(base) => to(equals("χ", &range(&|layer| layer.material().shear() / base.shear()))),
+        None => to(units.pressure_equals("E", &range(&|layer| layer.material().young()))),
+    };
     let together: f64 = layers.iter().map(Layer::thickness).sum();
     let mut parts = vec![
         format!("{} layers, together {}", layers.len(), units.length_equals("h", &[together])),
-        to(equals("χ", &range(&|layer| layer.material().shear() / shear))),
+        stiffness,
         to(equals("ν", &range(&|layer| layer.material().poisson()))),
     ];
     let residual = range(&|layer| layer.residual_stress());
@@ -163,13 +171,16 @@ fn before(material: Material) -> String {
 }
 
 fn substrate_words(half_space: &HalfSpace, units: &Units) -> String {
-    let substrate = half_space.substrate();
-    let index = substrate_index(half_space);
-    let mut last = before(substrate) + &equals(&format!("ν{index}"), &[substrate.poisson()]);
-    if !matches!(units.pressure(), Unit::Relative(_)) {
-        last += &format!(", {}", units.pressure_equals(&format!("E{index}"), &[substrate.young()]));
-    }
-    last
+    let Some(substrate) = half_space.substrate().material() else { return "rigid base".to_owned() };
+    let index = reference_index(half_space);
+    let own = before(substrate) + &equals(&format!("ν{index}"), &[substrate.poisson()]);
+    std::iter::once(own).chain(young_words(substrate, &index, units)).collect::<Vec<_>>().join(", ")
+}
+
+/// Young's modulus; `None` where pressures are relative to one.
+fn young_words(material: Material, index: &str, units: &Units) -> Option<String> {
+    let is_relative = matches!(units.pressure(), Unit::Relative(_));
+    (!is_relative).then(|| units.pressure_equals(&format!("E{index}"), &[material.young()]))
 }
 
 fn sliding(friction: &Friction) -> String {

@@ -128,7 +128,11 @@ impl Reading {
         let highest = highest(grid, pressure, &components);
         let mut spots = spots::spots(contact, &components);
         let samples = samples(contact, edge, errors);
-        let topography = if contact.surface().owners().is_empty() {
+        let given = contact.problem().counterbody().pressure();
+        let topography = if given.is_some() {
+            // A pressure that is given may end with a jump.
+            Vec::new()
+        } else if contact.surface().owners().is_empty() {
             topography::boundaries(contact, &components, &samples)
         } else {
             spots::locate(contact, &samples, &mut spots);
@@ -140,11 +144,15 @@ impl Reading {
         let levels: Vec<LevelReading> = (1..=contact.problem().counterbody().levels().len())
             .map(|level| LevelSpots::new(contact, level, &spots).reading(&area, mean_pressure))
             .collect();
-        let fractions = Fractions {
+        let fractions = || Fractions {
             between: area.fraction(),
             // The correction by the perimeter is a mean over the directions of borders: it takes many spots.
             many: components.len() > topography::LARGEST_SPOTS && area.located() < 0.5 * area.total(),
             counted: contact.surface().owners().is_empty().then(|| CountedArea::of(grid, pressure)),
+        };
+        let fractions = match given {
+            Some(given) => Fractions::known(given.loaded_area() / cell.area()),
+            None => fractions(),
         };
         let (fraction, _) = fractions.best(|own, _| own.uncertainty);
         let typical = counts.half_load().map_or(0, |index| counts.sizes[index].0);

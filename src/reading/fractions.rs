@@ -28,6 +28,11 @@ pub(crate) struct Fractions {
 }
 
 impl Fractions {
+    /// A fraction that is known.
+    pub fn known(value: f64) -> Self {
+        Self { between: Fraction { value, uncertainty: 0.0 }, many: false, counted: None }
+    }
+
     /// The fraction between the samples, or the corrected one where its error is smaller and the spots are narrow or many; with
     /// its error. `error` takes the reading of this contact and how to find that of another one.
     pub fn best(&self, error: impl Fn(Fraction, fn(&Self) -> Option<Fraction>) -> f64) -> (Fraction, f64) {

@@ -123,7 +123,7 @@ fn peaks<'a>(
 fn overall(materials: &[Extremes]) -> Extremes {
     let largest = |peak: fn(&Extremes) -> Peak| {
         let peaks: Vec<Peak> = materials.iter().map(peak).collect();
-        Peak::highest(&peaks, 0.0).expect("there is always a substrate")
+        Peak::highest(&peaks, 0.0).expect("a body has materials")
     };
     Extremes { tau1: largest(|own| own.tau1), tension: largest(|own| own.tension), mises: largest(|own| own.mises) }
 }

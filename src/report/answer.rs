@@ -26,7 +26,12 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     } else {
         percent_with_error(reading.contact_fraction, errors.contact_fraction)
     };
-    let of_what = if is_isolated { "is the area of contact" } else { "of the surface is in contact" };
+    let of_what = match (is_isolated, step.is_given()) {
+        (true, true) => "is the area under pressure",
+        (true, false) => "is the area of contact",
+        (false, true) => "of the surface is under pressure",
+        (false, false) => "of the surface is in contact",
+    };
     let peak = reading
         .finite_peak()
         .map_or("singular".to_owned(), |peak| with_unit(units.pressure(), peak, errors.max_pressure));
@@ -34,8 +39,9 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
         let highest = highest(&reading.levels);
         let under = highest.map_or(String::new(), |level| format!(" under level {}", level.level));
         let peak = if reading.singular() { "is infinite".to_owned() } else { format!("is {peak}") };
+        let depth = if step.is_given() { "largest deflection" } else { "penetration" };
         format!(
-            "Under the {} {load} the penetration is {penetration}; {contact} {of_what}, and \
+            "Under the {} {load} the {depth} is {penetration}; {contact} {of_what}, and \
              the largest pressure {peak}{under}.",
             quantity.name()
         )
@@ -44,8 +50,16 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     };
     let mut rows: Vec<(&str, Markup)> = vec![
         (quantity.name(), numbers(&load)),
-        ("penetration", numbers(&penetration)),
-        (if is_isolated { "area of contact" } else { "part of the surface in contact" }, numbers(&contact)),
+        (if step.is_given() { "largest deflection" } else { "penetration" }, numbers(&penetration)),
+        (
+            match (is_isolated, step.is_given()) {
+                (true, true) => "area under pressure",
+                (true, false) => "area of contact",
+                (false, true) => "part of the surface under pressure",
+                (false, false) => "part of the surface in contact",
+            },
+            numbers(&contact),
+        ),
         ("peak pressure", numbers(&peak)),
         (
             if is_isolated { "elastic energy" } else { "elastic energy of a cell" },

@@ -75,7 +75,8 @@ fn is_elastic(case: &Value) -> bool {
 
 /// The layers of a body and its substrate as one table, with the numbers of their materials.
 fn materials(caption: &str, layers: &[Value], substrate: &Value) -> Markup {
-    let body: Vec<Value> = layers.iter().cloned().chain([substrate.clone()]).collect();
+    let substrate = Some(substrate.clone()).filter(|own| !on_rigid_base(own));
+    let body: Vec<Value> = layers.iter().cloned().chain(substrate).collect();
     let name = |number: usize| {
         let own = if number > layers.len() { "substrate".to_owned() } else { format!("layer\u{a0}{number}") };
         let above: usize = layers.iter().take(number - 1).map(sublayers).sum();
@@ -92,6 +93,11 @@ fn sublayers(layer: &Value) -> usize {
     layer["graded"]["sublayers"].as_u64().and_then(|count| usize::try_from(count).ok()).unwrap_or(1)
 }
 
+/// Whether a substrate is a rigid base.
+fn on_rigid_base(substrate: &Value) -> bool {
+    substrate["rigid"].as_bool().unwrap_or(false)
+}
+
 /// Counterbody and body in a sentence.
 fn sentence(case: &Value) -> String {
     let (subject, is_one) = counterbody(case);
@@ -100,9 +106,16 @@ fn sentence(case: &Value) -> String {
         own => format!("; the counterbody is one{own}"),
     };
     let body = match coating(list(case, "layers").len()) {
+        _ if on_rigid_base(&case["substrate"]) => match list(case, "layers").len() {
+            1 => "an elastic layer on a rigid base".to_owned(),
+            layers => format!("{layers} elastic layers on a rigid base"),
+        },
         own if own.is_empty() => "an uncoated elastic half-space".to_owned(),
         own => format!("an elastic half-space{own}"),
     };
+    if !case["load"]["pressure"].is_null() {
+        return format!("A given pressure acts on {body}.");
+    }
     let [pressed, slide] = if is_one { ["is pressed", "slides"] } else { ["are pressed", "slide"] };
     let slides = case["friction"]["coefficient"].as_f64();
     let slides = slides.map_or(String::new(), |mu| format!(", and {slide} over it with friction μ = {}", plain(mu)));

@@ -118,8 +118,11 @@ impl Run {
             return Err(RunError::NoLoads);
         }
         let points = self.checked_sampling()?;
-        // An isolated contact is never complete.
-        if self.loads.iter().all(|load| load.is_load_control()) || self.problem.cell().is_isolated() {
+        // An isolated contact is never complete, and complete contact of compressible layers on a rigid base bears any penetration.
+        let is_limited = !self.problem.cell().is_isolated()
+            && self.problem.bodies().mean_compliance() == 0.0
+            && self.problem.counterbody().pressure().is_none();
+        if self.loads.iter().all(|load| load.is_load_control()) || !is_limited {
             return Ok(());
         }
         let complete = Surface::new(self.problem.counterbody(), points)?.mean();

@@ -174,6 +174,11 @@ impl StepRecord {
         self.stop.solved()
     }
 
+    /// Whether its pressure was given, and nothing solved for.
+    pub fn is_given(&self) -> bool {
+        self.route == Route::Given
+    }
+
     /// How the solution was reached.
     pub fn report(&self) -> Report {
         let outer = self.friction.map_or(0, |friction| friction.outer_iterations);

@@ -68,20 +68,21 @@ impl Contact {
     }
 
     /// Penetration δ, from the mean plane of the deformed surface to the highest apex, a length: the additional
-    /// displacement w_a.
+    /// displacement w_a. On a rigid base it counts from that base and has the mean compression of the layers in it. Under a
+    /// given pressure it is the largest deflection of the samples.
     pub fn penetration(&self) -> f64 {
         self.penetration
     }
 
     /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length.
     ///
-    /// It is the work ∫ P dδ of the force P on the cell along the load path: w has zero mean, δ is measured from the mean
-    /// plane, and of E(p) = ½⟨p, Cp⟩ + ⟨p, f − δ⟩ the minimum over p ≥ 0 is −½⟨p, Cp⟩, whose derivative by δ is −P. Under
+    /// It is the work ∫ P dδ of the force P on the cell along the load path: w has zero mean and δ is measured from the mean
+    /// plane, or both from a rigid base, and of E(p) = ½⟨p, Cp⟩ + ⟨p, f − δ⟩ the minimum over p ≥ 0 is −½⟨p, Cp⟩, whose derivative by δ is −P. Under
     /// coupled friction it is the energy stored by the pressure, without the work of the traction.
     pub fn elastic_energy(&self) -> f64 {
-        // Far from an isolated contact nothing is displaced: no pressure is uniform.
-        let mean = if self.grid().cell().is_isolated() { 0.0 } else { sums::mean(&self.pressure) };
-        let shift = if self.grid().cell().is_isolated() { self.penetration } else { 0.0 };
+        // Where a uniform pressure displaces, it does work: around an isolated contact, and on a rigid base.
+        let displaces = self.grid().cell().is_isolated() || self.problem.bodies().mean_compliance() > 0.0;
+        let (mean, shift) = if displaces { (0.0, self.penetration) } else { (sums::mean(&self.pressure), 0.0) };
         // w = g − f + δ; a uniform part of the pressure does no work with a displacement without mean, and would add rounding alone.
         let f = self.surface.gaps();
         let [sum] = sums::of(f.len(), |i| [(self.pressure[i] - mean) * (self.gap[i] - f[i] + shift)]);

@@ -293,6 +293,7 @@ mod tests {
         let multiplier = convolution.multiplier(false, |[k1, k2], values| {
             values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = symbol(k1, k2));
         });
+        let multiplier = multiplier.dropping_mean();
         let (mut field, mut memory) =
             (input.iter().map(|&x| T::rounded(x)).collect::<Vec<T>>(), vec![0.0; convolution.memory()]);
         let at = |i: usize, j: usize| input[(i % n1) * n2 + j % n2] - mean;

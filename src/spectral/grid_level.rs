@@ -1,7 +1,9 @@
 //! One of the nested grids of a problem: surface, operator and unknowns.
 
 use super::body_operator::BodyOperator;
-use super::iteration::{AdmissibleSet, ContactProblem, Progress, Report, Settings, Unknowns, Working};
+use super::iteration::{
+    AdmissibleSet, Certificate, ContactProblem, Progress, Report, Settings, Stop, Unknowns, Working,
+};
 use super::operator::{ElasticOperator, Workspace};
 use super::prolongation::prolonged;
 use super::{Contact, Tangent};
@@ -26,6 +28,8 @@ pub(super) struct GridLevel {
     /// Whether contact may occur, one value per sample; `None`: everywhere.
     mask: Option<Vec<bool>>,
     operator: BodyOperator,
+    /// A given pressure with the mean 1, one value per sample; `None` where contact is solved.
+    given: Option<Vec<f64>>,
     unknowns: Unknowns,
     /// E* of the materials at the surfaces.
     modulus: f64,
@@ -75,11 +79,16 @@ impl GridLevel {
     pub fn new(problem: &Problem, surface: Surface) -> Self {
         let (grid, bodies) = (surface.grid(), problem.bodies());
         let operator = BodyOperator::new(problem, grid);
+        let given = problem.counterbody().pressure().map(|given| {
+            let (pressure, mean) = (given.on(grid), given.force() / grid.cell().area());
+            pressure.into_iter().map(|p| p / mean).collect()
+        });
         Self {
             unknowns: Unknowns::new(grid.len()),
             largest_gap: surface.largest(),
             mask: None,
             operator,
+            given,
             modulus: bodies.contact_modulus(),
             surface: Arc::new(surface),
         }
@@ -169,17 +178,20 @@ impl GridLevel {
         Tangent::new(&mut self.operator, &contact)
     }
 
-    /// Whether an isolated contact reaches the border of its window.
+    /// Whether an isolated contact reaches the border of its window; a given pressure may.
     pub fn reaches_border(&self) -> bool {
         let grid = self.surface.grid();
         let ([n1, n2], pressure) = (grid.points(), &self.unknowns.pressure);
         let rows = || (0..n2).flat_map(|j| [j, (n1 - 1) * n2 + j]);
         let columns = || (0..n1).flat_map(|i| [i * n2, i * n2 + n2 - 1]);
-        grid.cell().is_isolated() && rows().chain(columns()).any(|index| pressure[index] > 0.0)
+        grid.cell().is_isolated() && self.given.is_none() && rows().chain(columns()).any(|index| pressure[index] > 0.0)
     }
 
-    /// Whether contact is wider than the grid's spacing, on the average of the indenters that touch.
+    /// Whether contact is wider than the grid's spacing, on the average of the indenters that touch; a given pressure always is.
     pub fn is_resolved(&self) -> bool {
+        if self.given.is_some() {
+            return true;
+        }
         let (owners, pressure) = (self.surface.owners(), &self.unknowns.pressure);
         let (mut pressed, mut indenters) = (0, vec![false; self.surface.sites().len().max(1)]);
         for index in (0..pressure.len()).filter(|&i| pressure[i] > 0.0) {
@@ -198,6 +210,10 @@ impl GridLevel {
         working: &mut Working,
         progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
     ) -> (Report, f64) {
+        if let Some(given) = &self.given {
+            let report = self.load_with(given.clone(), load.on(self.surface.grid().cell()));
+            return (report, self.surface.grid().len() as f64);
+        }
         if let Some(coarser) = coarser {
             self.add_change(&coarser, settings.tolerance);
         }
@@ -215,6 +231,32 @@ impl GridLevel {
             BodyOperator::FreeSpace(operator) => with.solve(operator.as_mut(), working, progress, unknowns),
         };
         (report, (operator.convolutions() - before) * samples as f64)
+    }
+
+    /// Displaces by a given pressure of mean 1 times the load: a mean pressure, or that of the largest deflection δ. The gap of a surface
+    /// that touches nothing is w − δ.
+    fn load_with(&mut self, mut pressure: Vec<f64>, load: Control) -> Report {
+        let mut gap = pressure.clone();
+        self.operator.displace(&mut gap, &mut Workspace::default());
+        let largest = -sums::least(gap.len(), |i| -gap[i]);
+        let factor = match load {
+            Control::MeanPressure(mean) => mean,
+            Control::Penetration(deflection) => deflection / largest,
+        };
+        let deflection = factor * largest;
+        sums::update(&mut pressure, |_, p| factor * p);
+        sums::update(&mut gap, |_, w| factor * w - deflection);
+        self.unknowns = Unknowns {
+            pressure: Arc::new(pressure),
+            gap: Arc::new(gap),
+            penetration: deflection,
+            certificate: Certificate::default(),
+        };
+        Report::given(match factor {
+            0.0 => Stop::NoContact,
+            _ if factor > 0.0 && deflection.is_finite() => Stop::Converged,
+            _ => Stop::Stalled,
+        })
     }
 
     /// Adds to the pressure the change of that on the next `coarser` grid.

@@ -7,6 +7,9 @@
 //!
 //! θ between **q** and **e**: a skew part, which is odd in **q**, so that tied aliases are averaged and what is its own
 //! conjugate has none.
+//!
+//! The mean displacement of a half-space is infinite and left out; that of layers on a rigid base is the mean pressure times
+//! [`Bodies::mean_compliance`].
 
 use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
 use super::convolution::{Convolution, Convolved};
@@ -26,8 +29,9 @@ pub struct LayeredOperator {
     compliance: Multiplier,
     /// T, and the largest |T|, under coupled friction.
     skew: Option<(SkewRatio, f64)>,
-    /// Compliance at the least wavenumber.
+    /// Compliance at the least wavenumber, and under a uniform pressure.
     unit: f64,
+    mean: f64,
     convolutions: f64,
 }
 
@@ -71,8 +75,9 @@ impl LayeredOperator {
         let (double, single) = (Convolution::new(grid.points()), Convolution::new(grid.points()));
         let at = |k: f64| compliances.iter().map(|(weight, own)| weight * own.at(k)).sum::<f64>();
         let unit = at(grid.least_wavenumber());
-        // The mean displacement of a loaded half-space is infinite: displacements have zero mean. The inverse must stay
-        // positive: it takes the mean for a component of the least wavenumber.
+        let mean: f64 = compliances.iter().map(|(weight, own)| weight * own.mean()).sum();
+        // Where displacements have zero mean the inverse must stay positive: it takes the mean for a component of the least
+        // wavenumber.
         let compliance = double.multiplier(grid.cell().is_rectangular(), |first, values| {
             grid.wavenumbers(first, values);
             if first == [0, 0] {
@@ -82,8 +87,12 @@ impl LayeredOperator {
                 [(1.0, own)] => own.replace(values),
                 _ => values.iter_mut().for_each(|k| *k = at(*k)),
             }
+            if first == [0, 0] && mean != 0.0 {
+                values[0] = mean;
+            }
         });
-        Self { double, single, compliance, skew: None, unit, convolutions: 0.0 }
+        let compliance = if mean != 0.0 { compliance } else { compliance.dropping_mean() };
+        Self { double, single, compliance, skew: None, unit, mean, convolutions: 0.0 }
     }
 
     /// Convolutions so far; one in single precision counts half.
@@ -96,7 +105,7 @@ impl LayeredOperator {
         self.skew.as_ref().map_or(0.0, |&(_, largest)| largest)
     }
 
-    /// p → w: displacement into the body with zero mean (a length), from pressure and the traction that goes with it.
+    /// p → w: displacement into the body (a length), with zero mean unless a body has a rigid base, from pressure and the traction that goes with it.
     pub fn displacement(&mut self, field: &mut [f64], workspace: &mut Workspace) {
         // On the threads that share the work, where no pass has to wake them.
         rayon::scope(|_| self.displace(field, workspace));
@@ -109,7 +118,8 @@ impl LayeredOperator {
         in_place(&self.single, action, &self.compliance, field, workspace);
     }
 
-    /// w → p: the pressure that displaces so. The mean is treated like a component of the least wavenumber.
+    /// w → p: the pressure that displaces so. Where displacements have zero mean it is treated like a component of the least
+    /// wavenumber.
     pub fn pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
         self.convolutions += 1.0;
         let action = self.skew.as_ref().map_or(Action::Divide(1.0), |(ratio, _)| Action::DivideSkewed(1.0, ratio));
@@ -131,6 +141,10 @@ impl ElasticOperator for LayeredOperator {
 
     fn unit(&self) -> f64 {
         self.unit
+    }
+
+    fn mean_compliance(&self) -> f64 {
+        self.mean
     }
 
     fn coupling(&self) -> f64 {

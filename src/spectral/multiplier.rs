@@ -16,12 +16,20 @@ pub struct Multiplier {
     rows: usize,
     /// 1/(N₁N₂).
     normalisation: f64,
+    /// Whether products have zero mean: the value of the component (0, 0) is then for division alone.
+    drops_mean: bool,
 }
 
 impl Multiplier {
     /// With the values K/(N₁N₂) of `table`, N₁ `rows`.
     pub(super) fn new(table: Vec<f64>, rows: usize, normalisation: f64) -> Self {
-        Self { table, rows, normalisation }
+        Self { table, rows, normalisation, drops_mean: false }
+    }
+
+    /// The multiplier whose products have zero mean; its value of the component (0, 0) is for division alone.
+    #[must_use]
+    pub fn dropping_mean(self) -> Self {
+        Self { drops_mean: true, ..self }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -63,18 +71,16 @@ impl SkewPart {
 /// Use of the multiplier K, or H, in a convolution.
 #[derive(Debug, Clone, Copy)]
 pub enum Action<'a> {
-    /// u = F⁻¹[cK · F p] with a factor c, of zero mean: the component (0, 0) is dropped.
+    /// u = F⁻¹[cK · F p] or F⁻¹[cH · F p] with a factor c; of zero mean where the multiplier [drops](Multiplier::dropping_mean) it.
     Multiply(f64),
     /// u = F⁻¹[c F p / K].
     Divide(f64),
-    /// u = F⁻¹[cK(1 − iT) · F p], of zero mean.
+    /// u = F⁻¹[cK(1 − iT) · F p]; of zero mean where the multiplier drops it.
     MultiplySkewed(f64, &'a SkewRatio),
     /// u = F⁻¹[c F p / K(1 − iT)].
     DivideSkewed(f64, &'a SkewRatio),
-    /// u = F⁻¹[cH · F p], with its mean.
-    Apply(f64),
-    /// u = F⁻¹[c(H − iG) · F p], with its mean.
-    ApplySkewed(f64, &'a SkewPart),
+    /// u = F⁻¹[c(H − iG) · F p].
+    MultiplyComplex(f64, &'a SkewPart),
 }
 
 impl Action<'_> {
@@ -87,7 +93,7 @@ impl Action<'_> {
             let own = (whole + first) * LANES..(whole + first + rows) * LANES;
             let (table, normalisation) = (&multiplier.table[own.clone()], multiplier.normalisation);
             match self {
-                Self::Multiply(factor) | Self::MultiplySkewed(factor, _) | Self::Apply(factor) => {
+                Self::Multiply(factor) | Self::MultiplySkewed(factor, _) => {
                     vectorised!(simd => times(simd, factor, table, lines, lane));
                 }
                 Self::Divide(factor) | Self::DivideSkewed(factor, _) => {
@@ -95,20 +101,20 @@ impl Action<'_> {
                     let (numerator, common) = (normalisation, 1.0 / (factor * normalisation));
                     vectorised!(simd => over(simd, numerator, common, table, lines, lane));
                 }
-                Self::ApplySkewed(factor, skew) => {
+                Self::MultiplyComplex(factor, skew) => {
                     let skew = &skew.table[own.clone()];
                     vectorised!(simd => times_complex(simd, factor, [table, skew], lines, lane));
                 }
             }
             match self {
-                Self::Multiply(_) | Self::Divide(_) | Self::Apply(_) | Self::ApplySkewed(..) => {}
+                Self::Multiply(_) | Self::Divide(_) | Self::MultiplyComplex(..) => {}
                 Self::MultiplySkewed(_, ratio) => {
                     vectorised!(simd => multiply_skew(simd, &ratio.table[own], lines, lane))
                 }
                 Self::DivideSkewed(_, ratio) => vectorised!(simd => divide_skew(simd, &ratio.table[own], lines, lane)),
             }
         }
-        if let (Self::Multiply(_) | Self::MultiplySkewed(..), 0, 0) = (self, tile, first) {
+        if let (true, Self::Multiply(_) | Self::MultiplySkewed(..), 0, 0) = (multiplier.drops_mean, self, tile, first) {
             (lines[0], lines[T::WIDTH]) = (T::zero(), T::zero());
         }
     }

@@ -38,15 +38,17 @@ pub enum TractionUpdate {
 pub enum Surroundings {
     /// Their periodic images. The mean displacement of a loaded half-space is infinite: w has zero mean, a uniform pressure
     /// displaces nothing, C is positive on pressures without mean. Contact may be complete, for which no penetration beyond the
-    /// mean of the initial gap is needed, and C⁻¹ is exact.
+    /// mean of the initial gap is needed, and C⁻¹ is exact. On a rigid base a uniform pressure displaces by the
+    /// [mean compliance](ElasticOperator::mean_compliance): where that is positive, C is positive on all pressures, and contact
+    /// bears any penetration.
     Periodic,
     /// Nothing. w → 0 far away, a uniform pressure displaces too, C is positive on all pressures. Contact lies within the samples,
     /// and what stands for C⁻¹ is only near to it: good for a preconditioner, not for a bound.
     FreeSpace,
 }
 
-/// Linear elastic operator A of a body on a grid: w = A p, with zero mean in [periodic](Surroundings) surroundings. C is its
-/// symmetric part, positive on pressures without mean; without coupled friction A = C.
+/// Linear elastic operator A of a body on a grid: w = A p, in [periodic](Surroundings) surroundings with zero mean unless it has a
+/// mean compliance. C is its symmetric part, positive on pressures without mean; without coupled friction A = C.
 ///
 /// Pressures and displacements that count are in double precision; what only leads to them is in single precision, in units
 /// in which C at the least wavenumber is one.
@@ -66,6 +68,11 @@ pub trait ElasticOperator {
 
     /// C at the least wavenumber, a length per pressure: the unit of single precision.
     fn unit(&self) -> f64;
+
+    /// w under a uniform pressure, over the pressure, in periodic surroundings; 0 where w has zero mean.
+    fn mean_compliance(&self) -> f64 {
+        0.0
+    }
 
     /// Largest |C⁻¹(A − C)|, by which the part of coupled friction exceeds or falls below the symmetric one; 0 without it.
     fn coupling(&self) -> f64;
@@ -88,11 +95,12 @@ pub trait ElasticOperator {
         pressure: impl ByRows<f32>,
     ) -> Self::Rows<'a, f32>;
 
-    /// The preconditioner C⁻¹, or what is near to it, in single precision; the mean is treated like a component of the least wavenumber.
+    /// The preconditioner C⁻¹, or what is near to it, in single precision; where w has zero mean it is treated like a component of
+    /// the least wavenumber.
     fn preconditioned<'a>(&'a mut self, memory: &'a mut [f64], residual: impl ByRows<f32>) -> Self::Rows<'a, f32>;
 
-    /// w → C⁻¹ w in place, in double precision; the mean is treated like a component of the least wavenumber. In free space it is
-    /// the preconditioner.
+    /// w → C⁻¹ w in place, in double precision; where w has zero mean it is treated like a component of the least wavenumber. In free
+    /// space it is the preconditioner.
     fn symmetric_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace);
 
     /// p → w = A p in place.

@@ -113,9 +113,12 @@ impl Solver {
         self.levels[0].surface()
     }
 
-    /// Penetration at which contact becomes complete: the mean of the initial gap on the finest grid, a length.
-    pub fn full_contact_penetration(&self) -> f64 {
-        self.surface().mean()
+    /// Least penetration of complete contact, a length: the mean of the initial gap on the finest grid, and on a rigid base the mean
+    /// displacement under the [pressure](Self::full_contact_pressure) of complete contact.
+    pub fn full_contact_penetration(&mut self) -> f64 {
+        let mean_compliance = self.problem.bodies().mean_compliance();
+        let compression = if mean_compliance > 0.0 { mean_compliance * self.full_contact_pressure() } else { 0.0 };
+        self.surface().mean() + compression
     }
 
     /// Least mean pressure of complete contact on the finest grid: that of the pressure which displaces the surface by

@@ -59,7 +59,7 @@ impl Step {
         self.finest.pressure()
     }
 
-    /// Displacement w into the body with zero mean, a length; axes along a₁ and a₂.
+    /// Displacement w into the body, a length, on a periodic cell with zero mean, on a rigid base from that; axes along a₁ and a₂.
     pub fn displacement(&self) -> Array2<f64> {
         if self.pressure().iter().all(|&p| p == 0.0) {
             return Array2::zeros(self.grid().points());

@@ -50,12 +50,27 @@ impl<'a> CoarserField<'a> {
     }
 }
 
+/// What lies near the surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NearSurface {
+    /// Depth above which it is near, a length.
+    pub depth: f64,
+    /// How far stresses may ring there, a pressure.
+    pub ringing: f64,
+}
+
 impl Contender {
     /// Estimated error of the value, from the coarser grid and the `resolution`, the samples along the radius of the smallest
-    /// spot; above the depth `near`, a length, the series converges slowly.
-    pub fn error(&self, measure: StressMeasure, coarser: &CoarserField<'_>, resolution: f64, near: f64) -> f64 {
+    /// spot; near the `surface` the series converges slowly, and may ring.
+    pub fn error(
+        &self,
+        measure: StressMeasure,
+        coarser: &CoarserField<'_>,
+        resolution: f64,
+        surface: NearSurface,
+    ) -> f64 {
         let Peak { value, position, .. } = self.peak;
-        let coarse = coarser.value(self, measure, near);
+        let coarse = coarser.value(self, measure, surface.depth);
         if let Some(crest) = self.crest {
             return crest.scale * crest.error(Some(coarse));
         }
@@ -64,8 +79,10 @@ impl Contender {
             StressMeasure::Opening => DEEP_OPENING_ERROR,
             _ => DEEP_SHEAR_ERROR,
         };
-        let open = if position[2] < near { SHALLOW_ERROR / resolution } else { deep / resolution.powi(2) };
-        CHANGE_SAFETY * (value - coarse).abs() + measure.rise(&self.state, open * self.size)
+        let is_near = position[2] < surface.depth;
+        let open = if is_near { SHALLOW_ERROR / resolution } else { deep / resolution.powi(2) };
+        let ringing = if is_near { surface.ringing } else { 0.0 };
+        CHANGE_SAFETY * (value - coarse).abs() + measure.rise(&self.state, open * self.size + ringing)
     }
 }
 

@@ -193,7 +193,7 @@ fn counts(sides: [f64; 2]) -> [usize; 2] {
 fn intervals(half_space: &HalfSpace, sides: [f64; 2]) -> Vec<Interval> {
     let (shorter, longer) = (sides[0].min(sides[1]), sides[0].max(sides[1]));
     let mut all = Vec::new();
-    for material in 1..=half_space.layers().len() + 1 {
+    for material in 1..=half_space.material_count() {
         let (mut top, bottom) = half_space.faces(material);
         let bottom = bottom.min(DEEPEST * longer);
         while top < bottom {

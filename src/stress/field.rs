@@ -8,7 +8,7 @@ use super::series::{Response, Series};
 use super::series_grid::spread;
 use super::tables::Tables;
 use super::tensor::StressState;
-use crate::body::{Bodies, Depth, HalfSpace, Interface, InteriorTable, Layer, MeanStress, Side};
+use crate::body::{Bodies, Depth, HalfSpace, Interface, InteriorTable, MeanStress, Side};
 use crate::friction::Friction;
 use crate::lattice::{Grid, NotOnGrid};
 use crate::notation::number;
@@ -19,10 +19,11 @@ use std::sync::Arc;
 
 pub(super) use crate::body::REACH;
 
-/// The traction on a surface, and Dundurs' β of the materials that meet there.
+/// The traction on a surface, Dundurs' β of the materials that meet there, and whether the pressure is that of a contact.
 struct SurfaceTraction<'a> {
     friction: Option<&'a Friction>,
     beta: f64,
+    is_contact: bool,
 }
 
 /// The stress field of one body in a load step.
@@ -66,7 +67,8 @@ impl StressField {
             Side::Body => bodies.dundurs_beta(),
             Side::Counterbody => -bodies.dundurs_beta(),
         };
-        let surface = SurfaceTraction { friction: friction.as_ref(), beta };
+        let is_contact = problem.counterbody().pressure().is_none();
+        let surface = SurfaceTraction { friction: friction.as_ref(), beta, is_contact };
         Self::of_samples(contact.grid(), contact.pressures(), bodies.on(Some(side)), &surface, mean, tables)
     }
 
@@ -84,14 +86,15 @@ impl StressField {
         grid.check(pressure.dim().into())?;
         let samples: Vec<f64> = pressure.iter().copied().collect();
         let beta = Bodies::from(half_space.clone()).dundurs_beta();
-        Ok(Self::of_samples(grid, &samples, half_space, &SurfaceTraction { friction, beta }, mean, Arc::default()))
+        let surface = SurfaceTraction { friction, beta, is_contact: true };
+        Ok(Self::of_samples(grid, &samples, half_space, &surface, mean, Arc::default()))
     }
 
     fn of_samples(
         grid: &Arc<Grid>,
         pressure: &[f64],
         half_space: &HalfSpace,
-        &SurfaceTraction { friction, beta }: &SurfaceTraction<'_>,
+        &SurfaceTraction { friction, beta, is_contact }: &SurfaceTraction<'_>,
         mean: MeanStress,
         tables: Arc<Tables>,
     ) -> Self {
@@ -103,6 +106,7 @@ impl StressField {
             series.mean = 0.0;
             FarField::new(tables.far(grid.cell(), half_space, traction), grid, pressure, series_grid.cell())
         });
+        let regions = Regions::new(&series_grid, &spread);
         Self {
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
@@ -111,7 +115,7 @@ impl StressField {
             tables,
             mean: mean_states(half_space, mean, series.mean, traction.unwrap_or_default()),
             mean_stress: mean,
-            regions: Regions::new(&series_grid, &spread),
+            regions: if is_contact { regions } else { regions.without_edges(&series_grid, &spread) },
             series_grid,
             traction,
             edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(beta)),
@@ -166,12 +170,12 @@ impl StressField {
 
     /// Poisson's ratio ν of a material, from 1.
     pub(super) fn poisson(&self, material: usize) -> f64 {
-        self.half_space.layers().get(material - 1).map_or(self.half_space.substrate(), Layer::material).poisson()
+        self.half_space.material(material).poisson()
     }
 
-    /// Number of materials, layers + 1.
+    /// Number of materials.
     pub(super) fn materials(&self) -> usize {
-        self.half_space.layers().len() + 1
+        self.half_space.material_count()
     }
 
     /// The grid of the pressure.
@@ -253,7 +257,8 @@ impl fmt::Display for StressField {
 /// State at the upper face of each material under the mean pressure p̄ and the mean `traction` μp̄ **e**, and the derivative of
 /// its displacement by depth. σ_xz = −μp̄ e_x and σ_yz = −μp̄ e_y at every depth; residual stresses are added.
 ///
-/// Displacements are measured from the mean plane of the deformed surface; those under a lateral mean strain are left out.
+/// Displacements are measured from the mean plane of the deformed surface, or from a rigid base; those under a lateral mean strain are
+/// left out.
 fn mean_states(
     half_space: &HalfSpace,
     mean: MeanStress,
@@ -280,6 +285,11 @@ fn mean_states(
                 displacement.iter_mut().zip(jumps).for_each(|(u, jump)| *u += jump);
             }
         }
+    }
+    if half_space.substrate().is_rigid() {
+        // What they are at the base has been counted from the surface.
+        let all = states.iter_mut().flat_map(|(state, _)| state.displacement.iter_mut().zip(displacement));
+        all.for_each(|(u, base)| *u -= base);
     }
     states
 }

@@ -9,7 +9,7 @@
 //! covers those of its rivals.
 
 use super::constants::SHALLOW;
-use super::contender::{CoarserField, Contender, Contenders, stated};
+use super::contender::{CoarserField, Contender, Contenders, NearSurface, stated};
 use super::crest::Crest;
 use super::field::StressField;
 use super::measure::{MATERIAL_MEASURES, StressMeasure};
@@ -65,6 +65,8 @@ pub struct Maxima {
     pub resolution: f64,
     /// Distance between neighbouring samples, a length.
     pub spacing: f64,
+    /// How far stresses on the surface may ring beside jumps of a given pressure, a pressure; zero under a contact.
+    pub ringing: f64,
 }
 
 /// Contenders for the maxima, in the order of the maxima.
@@ -85,9 +87,23 @@ impl ContenderLists {
 
 impl Maxima {
     pub(super) fn new(contenders: ContenderLists, crest: Option<Crest>, resolution: f64, spacing: f64) -> Self {
-        let none =
-            Self { materials: vec![], faces: vec![], interfaces: vec![], crest, contenders, resolution, spacing };
+        let none = Self {
+            materials: vec![],
+            faces: vec![],
+            interfaces: vec![],
+            crest,
+            contenders,
+            resolution,
+            spacing,
+            ringing: 0.0,
+        };
         none.stated()
+    }
+
+    /// The maxima under a pressure beside whose jumps stresses on the surface may ring by this much.
+    #[must_use]
+    pub(super) fn ringing_by(self, ringing: f64) -> Self {
+        Self { ringing, ..self }
     }
 
     /// The maxima of the contenders.
@@ -130,7 +146,8 @@ impl Maxima {
     /// three times the error, plus a part of the size of the stress that n samples along the radius of the smallest spot leave
     /// open: 0.015 n⁻² for τ₁, von Mises and shears, 0.01 n⁻² for the opening stress of an interface, 0.1 n⁻² for a tension, within
     /// two samples of the surface 0.2 n⁻¹. The size of the stress is √(Σσᵢⱼ²) of the stresses of the waves at the position: mean and
-    /// residual stresses do not depend on the grid. For a stress on the surface the error is that of its [`Crest`].
+    /// residual stresses do not depend on the grid. For a stress on the surface the error is that of its [`Crest`]; beside a jump of a
+    /// given pressure the waves of the grid ring, and within two samples of the surface 0.09 of the largest jump is added.
     /// `tests/library/stated_errors.rs` shows that these errors hold.
     ///
     /// The error of a maximum is the largest value plus error of its contenders, less the value: no less than the
@@ -143,7 +160,9 @@ impl Maxima {
     /// The maxima with their estimated errors; `None` when `goes_on`, called between contenders, returns false.
     #[must_use]
     pub fn with_errors_while(mut self, coarser: &StressField, goes_on: &dyn Fn() -> bool) -> Option<Self> {
-        let (coarser, resolution, near) = (CoarserField::new(coarser), self.resolution, SHALLOW * self.spacing);
+        let coarser = CoarserField::new(coarser);
+        let surface = NearSurface { depth: SHALLOW * self.spacing, ringing: self.ringing };
+        let resolution = self.resolution;
         let mut known: Vec<(StressMeasure, Contender)> = Vec::new();
         for (measure, contender) in self.contenders.each() {
             // The largest value on a face contends in its material too.
@@ -154,7 +173,7 @@ impl Maxima {
             contender.peak.error = match same {
                 Some((_, same)) => same.peak.error,
                 None if !goes_on() => return None,
-                None => Some(contender.error(*measure, &coarser, resolution, near)),
+                None => Some(contender.error(*measure, &coarser, resolution, surface)),
             };
             known.push((*measure, *contender));
         }

@@ -13,7 +13,13 @@ pub(super) struct Regions {
     count: u32,
     /// Number of samples of each spot and open region.
     sizes: Vec<usize>,
+    /// Of a pressure that is given, by which waves of the grid may ring on the surface, a pressure; `None` of a contact, which vanishes
+    /// at its edge like a power of the distance.
+    ringing: Option<f64>,
 }
+
+/// Overshoot of the waves of a grid beside a jump, over the jump (Gibbs).
+const OVERSHOOT: f64 = 0.09;
 
 impl Regions {
     /// Spots and open regions of a `pressure`, one value per sample.
@@ -25,12 +31,31 @@ impl Regions {
         for (number, spot) in (0..).zip(&all) {
             spot.indices(grid).for_each(|run| of[run].fill(number));
         }
-        Self { of, count, sizes: all.iter().map(|spot| spot.size()).collect() }
+        Self { of, count, sizes: all.iter().map(|spot| spot.size()).collect(), ringing: None }
     }
 
-    /// Whether contact has an edge: it is neither complete nor absent.
+    /// The regions of a pressure that is not of a contact: it may end with a jump, and has no edges.
+    #[must_use]
+    pub fn without_edges(self, grid: &Grid, pressure: &[f64]) -> Self {
+        let [n1, n2] = grid.points();
+        // From a sample to the one after the next: one between them may have a part of the jump.
+        let jump = |index: usize| {
+            let (i, j) = (index / n2, index % n2);
+            let [along, across] = [(i + 2) % n1 * n2 + j, i * n2 + (j + 2) % n2];
+            (pressure[index] - pressure[along]).abs().max((pressure[index] - pressure[across]).abs())
+        };
+        let jumps = (0..pressure.len()).map(jump).fold(0.0, f64::max);
+        Self { ringing: Some(OVERSHOOT * jumps), ..self }
+    }
+
+    /// How far stresses on the surface may ring beside jumps of a given pressure, a pressure; zero under a contact.
+    pub fn ringing(&self) -> f64 {
+        self.ringing.unwrap_or(0.0)
+    }
+
+    /// Whether contact has an edge: it is neither complete nor absent, nor a pressure that is given.
     pub fn have_edges(&self) -> bool {
-        0 < self.count && (self.count as usize) < self.sizes.len()
+        self.ringing.is_none() && 0 < self.count && (self.count as usize) < self.sizes.len()
     }
 
     /// Whether a sample is in contact.

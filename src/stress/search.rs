@@ -90,7 +90,8 @@ impl StressField {
             }
         }
         let crest = of_measure(&crests, StressMeasure::Tension).map(|&(_, crest)| crest);
-        Some(Maxima::new(all, crest, self.regions().least_resolution(), self.series_grid().spacing()))
+        let own = Maxima::new(all, crest, self.regions().least_resolution(), self.series_grid().spacing());
+        Some(own.ringing_by(self.regions().ringing()))
     }
 
     /// The largest samples of a plane, and the contenders on a face; on the surface they are the `crests`.

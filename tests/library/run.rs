@@ -202,7 +202,7 @@ fn a_cell_too_oblong_for_any_grid_is_refused_by_check_and_by_solve() {
 #[test]
 fn a_penetration_beyond_complete_contact_is_refused() {
     let problem = PAPER[0].problem();
-    let solver = Solver::new(problem.clone(), [48, 48], percoat::Settings::default()).unwrap();
+    let mut solver = Solver::new(problem.clone(), [48, 48], percoat::Settings::default()).unwrap();
     let complete = solver.full_contact_penetration();
     let run = |part: f64| {
         let loads = vec![Load::Penetration(0.1 * complete), Load::Penetration(part * complete)];

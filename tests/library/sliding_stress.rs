@@ -139,7 +139,7 @@ fn interfaces_pass_tractions_on_and_displacements_as_they_are_held() {
 fn residual_stress_adds_to_its_layer_alone() {
     let mut stack = layers(Interface::Bonded).layers().to_vec();
     stack[0] = stack[0].with_residual_stress(2.0).unwrap();
-    let substrate = layers(Interface::Bonded).substrate();
+    let substrate = layers(Interface::Bonded).material(3);
     let problem = |layers: Vec<Layer>| {
         Problem::new(Hills::random(&mut Random(3), 12, 4, 0.05).topography(36), HalfSpace::new(layers, substrate))
             .sliding(friction())

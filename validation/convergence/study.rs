@@ -84,7 +84,7 @@ fn run() -> Result<Outcome, StudyError> {
 fn errors(points: usize, shift: [f64; 2]) -> Result<[f64; 5], StudyError> {
     let [s, t] = shift.map(|steps| steps / points as f64);
     let case = case("convergence", CASE, &[format!("levels.0.sites=[[{s}, {t}]]")])?;
-    let modulus = case.half_space().substrate().contact_modulus();
+    let modulus = case.half_space().surface_material().contact_modulus();
     let system = System::single(modulus, TRIANGULAR, vec![paraboloid(1.0)]);
     let exact = system.contacts(&[RADIUS])[0];
     let mut steps = Steps::of(&case, points)?;

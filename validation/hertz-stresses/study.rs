@@ -55,7 +55,7 @@ fn run(ratios: &[f64]) -> Result<Outcome, StudyError> {
         Data::new("maxima", &["nu", "tau1", "tau1_exact", "depth", "depth_exact", "tension", "tension_exact"]);
     for &nu in ratios {
         let case = case("hertz-stresses", CASE, &[format!("substrate.poisson={nu}")])?;
-        let modulus = case.half_space().substrate().contact_modulus();
+        let modulus = case.half_space().surface_material().contact_modulus();
         let contact = System::single(modulus, TRIANGULAR, vec![paraboloid(1.0)]).contacts(&[RADIUS])[0];
         let load = Load::MeanPressure(contact.load / case.counterbody().cell().area());
         let mut steps = Steps::of(&case, POINTS)?;

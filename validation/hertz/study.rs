@@ -91,7 +91,7 @@ fn coating(outcome: &mut Outcome) -> Result<Data, StudyError> {
         let layers = format!("layers=[{{ thickness = {}, shear_ratio = {chi}, poisson = {nu} }}]", ratio * radius);
         let case = case("hertz", CASE, &[layers])?;
         let mut steps = Steps::of(&case, (SAMPLES / radius) as usize)?;
-        let substrate = case.half_space().substrate().contact_modulus();
+        let substrate = case.half_space().material(2).contact_modulus();
         let load = load(radius, coating.modulus());
         let found = steps.loaded(load / case.counterbody().cell().area())?;
         let [hard, soft] = [coating.modulus(), substrate].map(|modulus| Hertz::loaded(RADIUS, load, modulus).peak);
@@ -111,7 +111,7 @@ fn coating(outcome: &mut Outcome) -> Result<Data, StudyError> {
         images(coating.modulus(), load)?,
         2e-4,
     ));
-    let soft_modulus = coating.half_space().substrate().contact_modulus();
+    let soft_modulus = coating.half_space().material(2).contact_modulus();
     let thin = found.last().copied().unwrap_or(f64::NAN);
     let soft_among_images = images(soft_modulus, load)?;
     outcome.checks.push(Check::relative(

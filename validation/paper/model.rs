@@ -97,7 +97,7 @@ impl Model {
     /// The coating for the closed forms.
     pub fn coating(&self) -> Result<Coating, StudyError> {
         let body = self.case.half_space();
-        let (coating, substrate) = (body.surface_material(), body.substrate());
+        let (coating, substrate) = (body.surface_material(), body.material(2));
         let chi = coating.shear() / substrate.shear();
         Ok(Coating::new(chi, [coating.poisson(), substrate.poisson()], self.thickness())?)
     }

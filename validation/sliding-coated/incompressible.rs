@@ -60,7 +60,7 @@ pub fn stacks() -> Result<Data, StudyError> {
         let scale = along.max(vertical.abs());
         data.rows.push(vec![
             half_space.layers().len() as f64,
-            layer.material().shear() / half_space.substrate().shear(),
+            layer.material().shear() / half_space.material(half_space.material_count()).shear(),
             layer.thickness() * reference.wavenumber,
             added / scale,
             vertical / scale,

@@ -59,7 +59,7 @@ struct Solved {
 impl Solved {
     fn new(nu: f64, radius: f64, samples: usize) -> Result<Self, StudyError> {
         let case = case("sliding-sphere", CASE, &[format!("substrate.poisson={nu}")])?;
-        let modulus = case.half_space().substrate().contact_modulus();
+        let modulus = case.half_space().surface_material().contact_modulus();
         let contact = System::single(modulus, TRIANGULAR, vec![paraboloid(1.0)]).contacts(&[radius])[0];
         let mut steps = Steps::of(&case, (samples as f64 / radius).round() as usize)?;
         let step = steps.step(Load::MeanPressure(contact.load / case.counterbody().cell().area()))?;

@@ -32,16 +32,19 @@ pub(in crate::case) fn direction(value: &ValueAt<'_>) -> Result<[f64; 2], Refusa
 /// Refuses layers and interfaces whose ratios to cell and substrate are not [allowed](RATIO).
 pub(in crate::case) fn layers(half_space: &HalfSpace, sections: &[&TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
     let side = cell.reduced().longer_side();
-    let substrate = half_space.substrate().shear();
+    // Layers on a rigid base are compared with the one at the surface.
+    let (reference, of) = match half_space.substrate().material() {
+        Some(substrate) => (substrate.shear(), "the substrate's"),
+        None => (half_space.surface_material().shear(), "that of the first layer"),
+    };
     for (layer, section) in half_space.layers().iter().zip(sections) {
         let refuse = |key: &str, what: String, help: &str| {
             let span = section.optional(key).map_or(section.span, |value| value.node.span);
             Refusal::new(span, format!("`{}`: {what}", section.path(key)), "beyond double precision").help(help)
         };
         let shear = layer.material().shear();
-        if !RATIO.contains(&(shear / substrate)) {
-            let what =
-                format!("the shear modulus {} is {} times the substrate's", float(shear), short(shear / substrate));
+        if !RATIO.contains(&(shear / reference)) {
+            let what = format!("the shear modulus {} is {} times {of}", float(shear), short(shear / reference));
             let key =
                 ["young", "graded"].into_iter().find(|key| section.optional(key).is_some()).unwrap_or("shear_ratio");
             return Err(refuse(key, what, "between 1e-12 and 1e12 times are carried; are both in one unit?"));

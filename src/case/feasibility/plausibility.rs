@@ -70,9 +70,10 @@ fn pressures(case: &Case) -> Option<String> {
 
 /// Every material of both bodies with its name.
 fn materials(case: &Case) -> impl Iterator<Item = (Material, String)> {
-    let own = names(&case.layers, "").chain([SUBSTRATE.to_owned()]);
+    let own = names(&case.layers, "").chain((!case.substrate.rigid.0).then(|| SUBSTRATE.to_owned()));
     let above = case.counterbody.iter().flat_map(|above| names(&above.layers.0, "counterbody."));
-    let above = above.chain([COUNTERBODY.to_owned()]);
+    let is_elastic = case.counterbody.as_ref().is_some_and(|above| !above.rigid.0);
+    let above = above.chain(is_elastic.then(|| COUNTERBODY.to_owned()));
     case.problem().bodies().each().flat_map(HalfSpace::materials).zip(own.chain(above))
 }
 

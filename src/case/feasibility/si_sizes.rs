@@ -98,6 +98,8 @@ fn lengths(case: &Case) -> Vec<(String, f64)> {
         ("a side of the cell".to_owned(), sides[0].min(sides[1])),
         ("a side of the cell".to_owned(), sides[0].max(sides[1])),
     ];
+    // A given pressure may be that on a road or a foundation.
+    all.retain(|_| counterbody.pressure().is_none());
     all.dedup_by(|a, b| a.1 == b.1);
     let levels = counterbody.levels().iter().map(Level::shape).enumerate();
     all.extend(levels.filter_map(|(number, shape): (usize, Shape)| match shape {
@@ -128,12 +130,14 @@ fn range(topography: &Topography) -> f64 {
 fn interfaces(case: &Case, materials: &[(Material, String)]) -> Vec<String> {
     let mut rest = materials;
     let layers = case.problem().bodies().each().flat_map(|own| {
-        let (own_materials, other) = rest.split_at(own.layers().len() + 1);
+        let (own_materials, other) = rest.split_at(own.material_count());
         rest = other;
-        own.layers().iter().zip(own_materials.windows(2))
+        // On a rigid base the last layer alone.
+        let beside = (0..).map(|number| &own_materials[number..own_materials.len().min(number + 2)]);
+        own.layers().iter().zip(beside)
     });
     let strengths = layers.flat_map(|(layer, beside): (&Layer, _)| {
-        let (softer, name) = beside.iter().min_by(|a, b| a.0.young().total_cmp(&b.0.young())).expect("two of them");
+        let (softer, name) = beside.iter().min_by(|a, b| a.0.young().total_cmp(&b.0.young())).expect("the layer at least");
         let own = layer.interface_strength();
         let of = [("normal", own.normal), ("shear", own.shear)];
         of.into_iter().filter_map(move |(key, value)| {

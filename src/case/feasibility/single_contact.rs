@@ -108,14 +108,16 @@ fn radius(force: f64, modulus: f64, (c, n): (f64, f64)) -> f64 {
     (force * (n + 1.0) / (2.0 * n * modulus * kappa(n) * c)).powf(1.0 / (n + 1.0))
 }
 
-/// The larger E* of surfaces and substrates, with which the radius is the smaller one.
+/// The larger E* of surfaces and elastic substrates, with which the radius is the smaller one.
 fn stiffer_modulus(bodies: &Bodies) -> f64 {
-    bodies.substrate_modulus().max(bodies.contact_modulus())
+    let surfaces = bodies.contact_modulus();
+    bodies.substrate_modulus().map_or(surfaces, |modulus| modulus.max(surfaces))
 }
 
-/// The smaller E* of surfaces and substrates, with which the radius is the larger one.
+/// The smaller E* of surfaces and elastic substrates, with which the radius is the larger one.
 fn softer_modulus(bodies: &Bodies) -> f64 {
-    bodies.substrate_modulus().min(bodies.contact_modulus())
+    let surfaces = bodies.contact_modulus();
+    bodies.substrate_modulus().map_or(surfaces, |modulus| modulus.min(surfaces))
 }
 
 /// κ_n = √π Γ(n/2+1)/Γ((n+1)/2) = n ∫₀^{π/2} sinⁿ⁻¹θ dθ = ∫ (sin θ/θ)ⁿ⁻¹ dt over t = θⁿ, to a thousandth.

@@ -118,7 +118,7 @@ mod tests {
         let plain = case("{ young = [2, 2], poisson = [0.2, 0.2], sublayers = 7 }");
         let material = Material::from_young(2.0, 0.2).unwrap();
         let layer = Layer::new(material, 1.0, Interface::Bonded).unwrap();
-        let one = HalfSpace::new(vec![layer], plain.half_space().substrate());
+        let one = HalfSpace::new(vec![layer], plain.half_space().material(8));
         assert!(difference(plain.problem().bodies(), &one.into(), [0.1, 30.0]) < 1e-12);
         assert_eq!(plain.half_space().layers().len(), 7);
         assert!(sublayer_error(&plain).unwrap() < 1e-12);

@@ -44,7 +44,7 @@ pub(in crate::case) struct Key {
 pub(in crate::case) enum Written {
     /// Unless it is absent.
     WhereGiven,
-    /// Unless it is absent, 0 or an empty list.
+    /// Unless it is absent, 0, false or an empty list.
     UnlessNothing,
     /// Never: the case is written with other keys of the same meaning.
     Never,
@@ -119,7 +119,7 @@ impl Key {
         }
     }
 
-    /// The key is left out of a written case where its value is 0 or an empty list.
+    /// The key is left out of a written case where its value is 0, false or an empty list.
     pub(in crate::case) const fn omitted_as_nothing(self) -> Self {
         Self { written: Written::UnlessNothing, ..self }
     }

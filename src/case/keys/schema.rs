@@ -107,7 +107,7 @@ fn exclusions(keys: &'static Keys) -> Vec<Value> {
     let mut rules = Vec::new();
     for (index, key) in keys.all.iter().enumerate() {
         let later = keys.all[index + 1..].iter().filter(|other| key.kinds.is_empty() && key.excludes(other));
-        rules.extend(later.map(|other| json!({ "not": { "required": [key.name, other.name] } })));
+        rules.extend(later.map(|other| exclusion(key, other)));
         let others = keys.instead(key.name);
         if is_required(key) && !others.is_empty() {
             let one: Vec<Value> =
@@ -116,6 +116,15 @@ fn exclusions(keys: &'static Keys) -> Vec<Value> {
         }
     }
     rules
+}
+
+/// Not both keys; a switch excludes others where it is on.
+fn exclusion(key: &Key, other: &Key) -> Value {
+    let mut both = json!({ "required": [key.name, other.name] });
+    for switch in [key, other].into_iter().filter(|own| matches!(own.forms, [Form::Boolean])) {
+        both["properties"] = json!({ switch.name: { "const": true } });
+    }
+    json!({ "not": both })
 }
 
 /// Required and excluded keys of a table of each kind.

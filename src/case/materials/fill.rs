@@ -84,8 +84,11 @@ impl Filling<'_> {
         }) else {
             return Ok(());
         };
-        let is_absent =
-            |key: &&Key| !std::iter::once(key.name).chain(keys.excluded(key.name)).any(|own| table.get(own).is_some());
+        // A switch that is off excludes nothing.
+        let is_given = |entry: &Entry| entry.key == key.name || !matches!(entry.node.value, Value::Boolean(false));
+        let is_absent = |key: &&Key| {
+            !std::iter::once(key.name).chain(keys.excluded(key.name)).any(|own| table.get(own).is_some_and(is_given))
+        };
         let absent: Vec<&Key> = key.fills.iter().filter_map(|own| keys.get(own)).filter(is_absent).collect();
         let material = match absent.iter().any(|key| key.absent == Absent::Refused) {
             true => Some((self.find(&name, path, span)?.clone(), self.factor(path, span)?)),
@@ -195,7 +198,11 @@ mod tests {
         ] {
             let lines = format!("substrate = {{ material = \"AISI 304\" }}\nunits = {{ pressure = \"{unit}\" }}");
             let own = valid(&lines, "", &[]).substrate;
-            assert_eq!((own.young, own.poisson, own.yield_strength), (young, 0.29, Some(yielding)), "{unit}");
+            assert_eq!(
+                (own.young, own.poisson, own.yield_strength),
+                (Some(young), Some(0.29), Some(yielding)),
+                "{unit}"
+            );
             assert_eq!((own.name.as_deref(), own.material.as_deref()), (Some("AISI 304"), Some("AISI 304")));
             // The ultimate strength of a ductile steel is none at which it cracks.
             assert_eq!(own.tensile_strength, None);
@@ -231,7 +238,7 @@ mod tests {
         // Without the file, and with numbers that no library has.
         let text = text.replace("207000.0", "206000.0");
         let again = Case::read(&Source { text: text.clone(), ..Source::default() }, &[]).unwrap();
-        assert_eq!((again.substrate.young, &again.layers), (206e3, &case.layers));
+        assert_eq!((again.substrate.young, &again.layers), (Some(206e3), &case.layers));
         // Only the path of the file depends on where it is read.
         let without = |text: &str| text.lines().filter(|line| !line.starts_with("materials = ")).collect::<String>();
         assert_eq!(without(&again.to_toml()), without(&text));
@@ -241,10 +248,10 @@ mod tests {
     fn another_material_takes_the_place_of_the_numbers_before_it() {
         let lines = "substrate = { young = 1, poisson = 0.3, yield_strength = 2, name = \"a\" }\nunits = { pressure = \"GPa\" }";
         let own = valid(lines, "", &["substrate.material=TiN"]).substrate;
-        assert_eq!((own.young, own.poisson, own.yield_strength), (430.0, 0.25, None));
+        assert_eq!((own.young, own.poisson, own.yield_strength), (Some(430.0), Some(0.25), None));
         assert_eq!(own.name.as_deref(), Some("TiN"));
         let later = valid(lines, "", &["substrate.material=TiN", "substrate.young=300"]).substrate;
-        assert_eq!((later.young, later.poisson), (300.0, 0.25));
+        assert_eq!((later.young, later.poisson), (Some(300.0), Some(0.25)));
     }
 
     #[test]
@@ -253,7 +260,7 @@ mod tests {
             let lines = format!("{file}substrate = {{ material = \"TiN\" }}\nunits = {{ pressure = \"GPa\" }}");
             valid(&lines, OWN, &[]).substrate.young
         };
-        assert_eq!((of(""), of("materials = \"own.toml\"\n")), (430.0, 1.0));
+        assert_eq!((of(""), of("materials = \"own.toml\"\n")), (Some(430.0), Some(1.0)));
     }
 
     #[test]

@@ -139,7 +139,7 @@ pub(super) fn read(
         fault.help.into_iter().fold(refusal, Refusal::help)
     };
     let Stored { heights: Heights { points, mut values }, sides, unit, lines_along_a1, mut doubts } =
-        stored(source, &path, written)?.map_err(refuse)?;
+        stored(source, &path, written, "one period of heights")?.map_err(refuse)?;
     let treatment = treatment.of_file(unit.as_ref(), length).map_err(refuse)?;
     values.iter_mut().for_each(|height| *height *= treatment.scale);
     let Heights { values, .. } = Heights::new(points, values).map_err(refuse)?;
@@ -157,8 +157,14 @@ pub(super) fn read(
     Ok(FromFile { heights, run_out, period, treatment, lines_along_a1, doubts })
 }
 
-/// The heights in a file; a refusal where there is no such file, or its format is not known.
-fn stored(source: &Source, path: &Path, written: &ValueAt<'_>) -> Result<Result<Stored, Fault>, Refusal> {
+/// The numbers in a file of heights, or of what is `needed` in their place; a refusal where there is no such file, or its format is
+/// not known.
+pub(in crate::case) fn stored(
+    source: &Source,
+    path: &Path,
+    written: &ValueAt<'_>,
+    needed: &str,
+) -> Result<Result<Stored, Fault>, Refusal> {
     let shown = path.display();
     if let Some(array) = source.arrays.get(written.text()?) {
         return Ok(Stored::of(array));
@@ -170,9 +176,9 @@ fn stored(source: &Source, path: &Path, written: &ValueAt<'_>) -> Result<Result<
     }
     let (reader, bytes) = source.open(written.text()?).map_err(|error| {
         let message = format!("`{}`: cannot read {shown}: {error}", written.path);
-        Refusal::new(written.node.span, message, "this file").help(
-            "needed: one period of heights, float64 in a `.npy` file for example; a path is relative to the case file",
-        )
+        Refusal::new(written.node.span, message, "this file").help(format!(
+            "needed: {needed}, float64 in a `.npy` file for example; a path is relative to the case file"
+        ))
     })?;
     Ok(Stored::read(reader, bytes, format))
 }

@@ -25,7 +25,7 @@ impl Hertz {
 
 /// Peak pressure, contact radius and penetration by Hertz of the ball on the bare substrates, under the force of the last converged
 /// step with contact, and the relative differences of that step from them, in two lines; `None` unless the contact is isolated and that
-/// of one ball.
+/// of one ball, or where no substrate is elastic.
 pub fn hertz(case: &Case, steps: &[StepRecord], units: &Units) -> Option<[String; 2]> {
     let problem = case.problem();
     let [level] = problem.counterbody().levels() else { return None };
@@ -36,7 +36,7 @@ pub fn hertz(case: &Case, steps: &[StepRecord], units: &Units) -> Option<[String
     }
     let step = steps.iter().rev().find(|step| step.reading.touches() && step.converged())?;
     let Reading { force, penetration, .. } = step.reading;
-    let hertz = Hertz::new(force, ball, problem.bodies().substrate_modulus());
+    let hertz = Hertz::new(force, ball, problem.bodies().substrate_modulus()?);
     let [load, peak, radius, approach] = [
         units.force().with_unit(force, number),
         units.pressure().with_unit(hertz.peak, number),

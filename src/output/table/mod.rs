@@ -184,8 +184,11 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
     let [load_unit, penetration] = units_of_loads(steps, units);
     let quantity = units.quantity();
     let pressure = units.pressure().suited(readings().filter_map(Reading::finite_peak));
-    let mut header =
-        vec![load_unit.headed(units.quantity().name()), penetration.headed("penetration"), "contact".to_owned()];
+    let [depth, area] = match steps.first().is_some_and(StepRecord::is_given) {
+        true => ["largest deflection", "under pressure"],
+        false => ["penetration", "contact"],
+    };
+    let mut header = vec![load_unit.headed(units.quantity().name()), penetration.headed(depth), area.to_owned()];
     header.extend((1..=levels).map(|level| pressure.headed(&format!("peak {level}"))));
     header.extend((1..=levels).map(|level| format!("share {level}")));
     let energy = units.energy().suited(readings().map(|reading| reading.elastic_energy));
@@ -248,6 +251,9 @@ pub(crate) fn percent_with_error(x: f64, error: Option<f64>) -> String {
 /// Convergence of the load steps, in a line.
 pub fn solved(steps: &[StepRecord]) -> String {
     let [n1, n2] = steps.last().map_or([0, 0], |step| step.points);
+    if steps.iter().any(StepRecord::is_given) {
+        return format!("displacements by the given pressure on {n1} × {n2} samples");
+    }
     let most = steps.iter().map(|step| step.iterations).max().unwrap_or(0);
     let gap = largest(steps.iter().map(|step| step.certificate.energy_gap));
     let done = steps.iter().filter(|step| step.converged()).count();
@@ -277,8 +283,9 @@ pub fn largest_errors(steps: &[StepRecord]) -> Option<String> {
     };
     let readings = || steps.iter().map(|step| &step.reading);
     let levels = || readings().flat_map(|reading| &reading.levels);
+    let depth = if steps.iter().any(StepRecord::is_given) { "largest deflection" } else { "penetration" };
     let named = [
-        ("penetration", readings().filter_map(|s| relative(s.penetration, s.errors.penetration)).reduce(f64::max)),
+        (depth, readings().filter_map(|s| relative(s.penetration, s.errors.penetration)).reduce(f64::max)),
         (
             "peak pressure",
             readings().filter_map(|s| relative(s.finite_peak()?, s.errors.max_pressure)).reduce(f64::max),

@@ -160,7 +160,7 @@ impl FreeSpaceOperator {
 
     /// Use of the kernel times a common factor, and of the odd one under coupled friction.
     fn applied(&self, factor: f64) -> Action<'_> {
-        self.skew.as_ref().map_or(Action::Apply(factor), |skew| Action::ApplySkewed(factor, skew))
+        self.skew.as_ref().map_or(Action::Multiply(factor), |skew| Action::MultiplyComplex(factor, skew))
     }
 }
 
@@ -211,7 +211,7 @@ impl ElasticOperator for FreeSpaceOperator {
         let factor = 1.0 / self.unit;
         let action = match traction {
             TractionUpdate::Updated => self.applied(factor),
-            TractionUpdate::Lagged => Action::Apply(factor),
+            TractionUpdate::Lagged => Action::Multiply(factor),
         };
         self.single.convolve(action, &self.kernel, memory, pressure)
     }

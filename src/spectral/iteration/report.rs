@@ -84,6 +84,8 @@ pub enum Route {
         /// Mean pressures tried.
         trials: usize,
     },
+    /// None: the pressure is given.
+    Given,
 }
 
 impl Route {
@@ -101,6 +103,7 @@ impl Route {
             Self::WithoutContinuation => "without-continuation",
             Self::BaselineAfterStall => "baseline-after-stall",
             Self::LoadSearch { .. } => "load-search",
+            Self::Given => "given",
         }
     }
 }
@@ -135,6 +138,11 @@ pub struct Report {
 }
 
 impl Report {
+    /// Report of a pressure that is given and not found.
+    pub(in crate::spectral) fn given(stop: Stop) -> Self {
+        Self::new(stop, Route::Given, 0, 0.0)
+    }
+
     /// Report of one iteration, without outer ones.
     pub(super) fn new(stop: Stop, route: Route, iterations: usize, residual: f64) -> Self {
         Self { stop, route, iterations, outer: 0, residual }
@@ -143,13 +151,16 @@ impl Report {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.route == Route::Given {
+            return write!(f, "{}, the pressure is given", self.stop);
+        }
         write!(f, "{} after {} iterations", self.stop, self.iterations)?;
         if self.outer > 0 {
             write!(f, " ({} outer)", self.outer)?;
         }
         write!(f, ", ε = {:.1e}", self.residual)?;
         match self.route {
-            Route::Direct | Route::Outer | Route::Baseline => Ok(()),
+            Route::Direct | Route::Outer | Route::Baseline | Route::Given => Ok(()),
             Route::WithoutContinuation => write!(f, ", without continuing the residual beyond contact"),
             Route::BaselineAfterStall => write!(f, ", fell back to Polonsky–Keer"),
             Route::LoadSearch { trials } => write!(f, ", by {trials} trials of the mean pressure"),

@@ -56,7 +56,9 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
             }
             Control::MeanPressure(_) => iterate(self, 0, unknowns),
             Control::Penetration(penetration) => {
-                if may_be_complete && penetration >= sums::mean(gap) {
+                // Complete contact on a rigid base bears any penetration.
+                let is_limited = may_be_complete && self.operator.mean_compliance() == 0.0;
+                if is_limited && penetration >= sums::mean(gap) {
                     // Nothing of the step before is an answer.
                     unknowns.clear();
                     ConvergenceCheck::new(self, unknowns);

@@ -76,6 +76,15 @@ impl Bases {
             elastic,
             graded_above,
             format!("{window}{}", BODY.replace("mean_pressure", "force")),
+            format!(
+                "{plain}{}{}counterbody = {{ rigid = true, layers = [{{ thickness = 1.0, young = 2.0, poisson = 0.2 }}] }}\n",
+                BODY.replace("young = 1.0, poisson = 0.3", "rigid = true"),
+                layer("young = 2.0, poisson = 0.2")
+            ),
+            format!(
+                "lattice = {{ kind = \"isolated\", size = 2.0 }}\n{}",
+                BODY.replace("mean_pressure = 1e-3", "pressure = { disc = [[0.0, 0.0, 0.1]], value = 0.7 }")
+            ),
             BODY.to_owned(),
         ];
         Self { folder, cases: texts.iter().map(|text| text.parse().unwrap()).collect() }

@@ -119,9 +119,11 @@ fn probes(form: &Form) -> Vec<Probe> {
     }
 }
 
-/// Whether a value of one form may be one of another: the bounds of an integer are not those of a list.
+/// Whether a value of one form may be one of another: the bounds of an integer are not those of a list, and of a table its keys are
+/// checked.
 fn is_of(value: &str, forms: &[Form]) -> bool {
-    forms.iter().flat_map(probes).any(|probe| probe.admitted && probe.value == value)
+    let is_table = value.starts_with('{') && forms.iter().any(|form| matches!(form, Form::Table(_)));
+    is_table || forms.iter().flat_map(probes).any(|probe| probe.admitted && probe.value == value)
 }
 
 #[test]
