@@ -1,8 +1,8 @@
 //! Parameters of a layered body from a measured indentation curve: force P and penetration δ of one indenter.
 //!
-//! The model is the isolated contact: δ(P) by the whole solver at [a few loads](curve), between which ln δ is interpolated over
+//! The model is the isolated contact: δ(P) by the whole solver at a few loads, between which ln δ is interpolated over
 //! ln P, and ∂δ/∂θ by one linear solve at each ([`Tangent`](crate::Tangent)). A zero that was missed by δ₀ and a frame of the
-//! compliance C_f add δ₀ + C_f P. [Least squares](least_squares) of the measured penetrations give the parameters, and their
+//! compliance C_f add δ₀ + C_f P. Least squares of the measured penetrations give the parameters, and their
 //! covariance s²(JᵀJ)⁻¹ with s² the sum of squares over the degrees of freedom.
 //!
 //! A parameter whose standard error exceeds [`MOST_UNCERTAIN`] of it is not stated: the curve does not contain it.

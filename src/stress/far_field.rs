@@ -17,7 +17,9 @@ use super::depth_response::DepthResponse;
 use super::far_plane::{FarPlane, polynomials};
 use super::series::Response;
 use super::tensor::StressState;
-use crate::body::{Amplitudes, Antiplane, Depth, HalfSpace, InteriorTable};
+#[cfg(any(feature = "cli", test))]
+use crate::body::{Amplitudes, Antiplane};
+use crate::body::{Depth, HalfSpace, InteriorTable};
 use crate::lattice::waves::Waves;
 use crate::lattice::{Cell, Grid, LatticeError};
 use rayon::prelude::*;

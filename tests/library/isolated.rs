@@ -1,7 +1,7 @@
 //! One contact in free space, by the whole solver: closed forms, windows, stresses.
 
 use ndarray::Array2;
-use percoat::run::{Run, Sampling, StepRecord};
+use percoat::run::{Run, Sampling};
 use percoat::spectral::Stop;
 use percoat::{
     Bodies, Cell, Depth, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, MeanStress,
@@ -249,9 +249,16 @@ fn a_topography_in_a_window_has_its_stiffness_and_no_parts_of_the_window() {
         let exact = 2.0 * radius / (1.0 - NU * NU);
         let (found, error) = (rough.stiffness.unwrap(), rough.stiffness_error.unwrap());
         assert!((found / exact - 1.0).abs() < 1e-2 && (found - exact).abs() < error, "{found} ± {error}, {exact}");
-        let text = serde_json::to_string(step).unwrap();
-        let read: StepRecord = serde_json::from_str(&text).unwrap();
-        assert_eq!(serde_json::to_string(&read).unwrap(), text);
-        assert!(text.contains("\"mean_gap\":null") && text.contains("\"density\":null"), "{text}");
+        #[cfg(feature = "cli")]
+        is_read_back(step);
     }
+}
+
+/// A record with numbers that have no meaning in a window is read back as it was written.
+#[cfg(feature = "cli")]
+fn is_read_back(step: &percoat::run::StepRecord) {
+    let text = serde_json::to_string(step).unwrap();
+    let read: percoat::run::StepRecord = serde_json::from_str(&text).unwrap();
+    assert_eq!(serde_json::to_string(&read).unwrap(), text);
+    assert!(text.contains("\"mean_gap\":null") && text.contains("\"density\":null"), "{text}");
 }
