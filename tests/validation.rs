@@ -76,6 +76,7 @@ studies! {
     sliding_coated = "sliding-coated",
     wavy = "wavy",
     isolated = "isolated",
+    free_space = "free-space",
     thin_coatings = "thin-coatings",
     rings = "rings",
     hertz_stresses = "hertz-stresses",

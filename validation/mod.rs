@@ -11,6 +11,7 @@
 //! assert!(outcome.checks.iter().all(|check| check.holds()));
 //! ```
 
+mod alone;
 mod check;
 #[path = "convergence/study.rs"]
 mod convergence;
@@ -20,6 +21,8 @@ mod disc;
 mod discretisation;
 mod draw;
 pub mod exact;
+#[path = "free-space/study.rs"]
+mod free_space;
 #[path = "hertz/study.rs"]
 mod hertz;
 #[path = "hertz-stresses/study.rs"]
@@ -67,7 +70,7 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, contradictions, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 28] = [
+pub const STUDIES: [Study; 29] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -77,6 +80,7 @@ pub const STUDIES: [Study; 28] = [
     sliding_coated::STUDY,
     wavy::STUDY,
     isolated::STUDY,
+    free_space::STUDY,
     thin_coatings::STUDY,
     rings::STUDY,
     hertz_stresses::STUDY,
