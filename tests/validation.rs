@@ -77,6 +77,7 @@ studies! {
     wavy = "wavy",
     isolated = "isolated",
     free_space = "free-space",
+    two_bodies = "two-bodies",
     thin_coatings = "thin-coatings",
     rings = "rings",
     hertz_stresses = "hertz-stresses",

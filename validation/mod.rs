@@ -60,6 +60,8 @@ mod sliding_wave;
 mod steps;
 #[path = "thin-coatings/study.rs"]
 mod thin_coatings;
+#[path = "two-bodies/study.rs"]
+mod two_bodies;
 #[path = "wavy/study.rs"]
 mod wavy;
 #[path = "westergaard/study.rs"]
@@ -70,7 +72,7 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, contradictions, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 29] = [
+pub const STUDIES: [Study; 30] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -81,6 +83,7 @@ pub const STUDIES: [Study; 29] = [
     wavy::STUDY,
     isolated::STUDY,
     free_space::STUDY,
+    two_bodies::STUDY,
     thin_coatings::STUDY,
     rings::STUDY,
     hertz_stresses::STUDY,
