@@ -78,6 +78,7 @@ studies! {
     isolated = "isolated",
     free_space = "free-space",
     two_bodies = "two-bodies",
+    identification = "identification",
     thin_coatings = "thin-coatings",
     rings = "rings",
     hertz_stresses = "hertz-stresses",

@@ -27,6 +27,8 @@ mod free_space;
 mod hertz;
 #[path = "hertz-stresses/study.rs"]
 mod hertz_stresses;
+#[path = "identification/study.rs"]
+mod identification;
 #[path = "isolated/study.rs"]
 mod isolated;
 #[path = "iterations/study.rs"]
@@ -72,7 +74,7 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, contradictions, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 30] = [
+pub const STUDIES: [Study; 31] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -84,6 +86,7 @@ pub const STUDIES: [Study; 30] = [
     isolated::STUDY,
     free_space::STUDY,
     two_bodies::STUDY,
+    identification::STUDY,
     thin_coatings::STUDY,
     rings::STUDY,
     hertz_stresses::STUDY,
