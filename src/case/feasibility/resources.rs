@@ -180,8 +180,9 @@ fn of_limits(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pic
     let elastic = case.problem().bodies().each().count() as u64;
     let series = of_series(case, samples);
     let own = elastic * (STRESS * series + STATE * (SECTION[0] * SECTION[1]) as u64);
-    // The steps that are shown stay in memory.
-    let stress = own + SEARCH * series + of_shells(case, series) + EVENTS as u64 * STEP * samples;
+    // The steps that are shown stay in memory while those at higher limits are solved.
+    let shown = Criterion::all(case.problem().bodies()).len().clamp(1, EVENTS) as u64 - 1;
+    let stress = own + SEARCH * series + of_shells(case, series) + shown * STEP * samples;
     let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
     let disk = COMPARISON + if pictures { (1 + EVENTS as u64) * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
