@@ -25,7 +25,7 @@ const PROGRAM: u64 = 15 * MEBIBYTE;
 const READING: u64 = 20;
 /// Per sample, in place of [`READING`]: waves, their coefficients and the search for maxima, and the plane that is written.
 const STRESS: u64 = 92;
-const PLANE: u64 = 24;
+const PLANE: u64 = 32;
 /// Per sample: memory of the stresses of earlier steps that the allocator keeps, in a path and in a search for a limit; and
 /// coefficients of pressure and traction where no two waves share theirs.
 const AGAIN: u64 = 72;
