@@ -18,7 +18,7 @@ use crate::spectral::Step;
 pub const WINDOW: f64 = 2.7;
 /// Samples along its side.
 pub const POINTS: usize = 128;
-/// What is compared, and its relative tolerance.
+/// Quantities of a single contact that are compared with their reference, each with its relative tolerance.
 pub const QUANTITIES: [(&str, f64); 4] = [("delta", 3e-4), ("p0", 1e-3), ("a", 2e-3), ("S", 1.4e-3)];
 /// Tolerance of the solver: below the errors of the grid.
 const TOLERANCE: f64 = 1e-10;
