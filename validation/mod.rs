@@ -11,6 +11,7 @@
 //! assert!(outcome.checks.iter().all(|check| check.holds()));
 //! ```
 
+mod alone;
 mod check;
 #[path = "convergence/study.rs"]
 mod convergence;
@@ -20,10 +21,14 @@ mod disc;
 mod discretisation;
 mod draw;
 pub mod exact;
+#[path = "free-space/study.rs"]
+mod free_space;
 #[path = "hertz/study.rs"]
 mod hertz;
 #[path = "hertz-stresses/study.rs"]
 mod hertz_stresses;
+#[path = "identification/study.rs"]
+mod identification;
 #[path = "isolated/study.rs"]
 mod isolated;
 #[path = "iterations/study.rs"]
@@ -57,6 +62,8 @@ mod sliding_wave;
 mod steps;
 #[path = "thin-coatings/study.rs"]
 mod thin_coatings;
+#[path = "two-bodies/study.rs"]
+mod two_bodies;
 #[path = "wavy/study.rs"]
 mod wavy;
 #[path = "westergaard/study.rs"]
@@ -67,7 +74,7 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, contradictions, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 28] = [
+pub const STUDIES: [Study; 31] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -77,6 +84,9 @@ pub const STUDIES: [Study; 28] = [
     sliding_coated::STUDY,
     wavy::STUDY,
     isolated::STUDY,
+    free_space::STUDY,
+    two_bodies::STUDY,
+    identification::STUDY,
     thin_coatings::STUDY,
     rings::STUDY,
     hertz_stresses::STUDY,

@@ -1,7 +1,7 @@
 //! Load steps of a study, each of which must have converged.
 
 use super::StudyError;
-use crate::body::HalfSpace;
+use crate::body::Bodies;
 use crate::case::{Case, Source};
 use crate::counterbody::{Counterbody, Topography};
 use crate::lattice::Cell;
@@ -20,11 +20,15 @@ pub struct Steps {
 impl Steps {
     pub fn new(
         counterbody: impl Into<Counterbody>,
-        half_space: &HalfSpace,
+        bodies: impl Into<Bodies>,
         points: [usize; 2],
     ) -> Result<Self, StudyError> {
-        let problem = Problem::new(counterbody, half_space.clone());
-        Ok(Self { solver: Solver::new(problem, points, Settings::default())? })
+        Self::to(Problem::new(counterbody, bodies), points, Settings::default().tolerance)
+    }
+
+    /// The steps of a problem, solved to a tolerance.
+    pub fn to(problem: Problem, points: [usize; 2], tolerance: f64) -> Result<Self, StudyError> {
+        Ok(Self { solver: Solver::new(problem, points, Settings { tolerance, ..Settings::default() })? })
     }
 
     /// The problem of a case, on `points` × `points` samples.

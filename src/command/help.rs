@@ -33,7 +33,7 @@ help!(
     IDENTIFY,
     "0 done; 2 refused: the curve does not determine the keys, or is\nno curve; 4 input or output failed; 130 interrupted",
     "identify data.csv mine.toml --free layers.0.young",
-    "identify data.csv mine.toml --free layers.0.young,substrate.young,offset"
+    "identify data.csv mine.toml --free layers.0.young,offset"
 );
 help!(
     SWEEP,

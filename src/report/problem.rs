@@ -131,7 +131,7 @@ fn coating(layers: usize) -> String {
     }
 }
 
-/// What is pressed into the body, and whether it is one thing.
+/// The indenters or the topography as the subject of the sentence, and whether it is singular.
 fn counterbody(case: &Value) -> (String, bool) {
     let (levels, is_isolated) = (list(case, "levels"), is_isolated(case));
     let [of, one, several] =

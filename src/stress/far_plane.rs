@@ -33,7 +33,7 @@ impl<const K: usize> FarPlane<K> {
         FarPlane { counts: self.counts, coefficients, corner: self.corner }
     }
 
-    /// Place in [−1, 1] of a fraction of the cell of the series; beyond the window that of its border.
+    /// Place in the window, −1 to 1, of a fraction of the cell of the series; [`BEYOND`] its border at most.
     fn inside(&self, axis: usize, fraction: f64) -> f64 {
         (self.corner[axis] + 4.0 * fraction).clamp(-BEYOND, BEYOND)
     }

@@ -73,7 +73,7 @@ fn keep<T>(entries: &mut Vec<T>, entry: T) {
     entries.push(entry);
 }
 
-/// Whether two grids have the same samples, so that their waves are the same.
+/// Whether two grids have the same cell and the same numbers of samples, and with them the same waves.
 fn is_same(one: &Arc<Grid>, other: &Arc<Grid>) -> bool {
     Arc::ptr_eq(one, other) || one.cell() == other.cell() && one.points() == other.points()
 }

@@ -1,12 +1,19 @@
-"""Load-penetration data of a coated sample for identification, exact derivatives, and a noisy copy.
+"""Makes indentation.csv, indentation_noisy.csv and indentation_derivatives.csv: the loading curve of a coated sample, a noisy copy,
+and exact derivatives.   pip install mpmath numpy scipy; python generate.py (some minutes)
 
 Rigid sphere (paraboloid) R = 10 um, coating h = 1 um, E = 300 GPa, nu = .2, bonded on E = 70 GPa, nu = .3.
 Units um and GPa, so that forces come in GPa um^2 = mN.
 """
+import sys
+from pathlib import Path
+
 import numpy as np
 from scipy.optimize import brentq
-from indent import Body, gauss, solve
-from layered import transfer
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE.parent))
+from indentation import Body, gauss, solve  # noqa: E402
+from layered import transfer  # noqa: E402
 
 R, H, EC, NC, ES, NS = 10.0, 1.0, 300.0, 0.2, 70.0, 0.3
 AMAX = 2.5
@@ -37,21 +44,16 @@ def main():
             worst = max(worst, max(abs(s[k] / t[k] - 1) for k in ('delta', 'a', 'p0', 'S')))
     head = ('# Loading curve, rigid paraboloid R = 10 um on coating h = 1 um, E = 300 GPa, nu = 0.2, bonded to E = 70 GPa, nu = 0.3; free space, frictionless.\n'
             '# delta: approach of distant points.')
-    with open('indentation_exact.csv', 'w') as out:
-        out.write(head + f' Integral equation; relative change of every column on doubling all nodes <= {worst:.0e} (5 rows).\n'
-                  'force_mN,penetration_um,contact_radius_um,peak_pressure_GPa,stiffness_mN_per_um\n')
-        for r in rows:
-            out.write(','.join('%.14g' % v for v in r) + '\n')
-    with open('indentation.csv', 'w') as out:
+    with open(HERE / 'indentation.csv', 'w') as out:
         out.write(head + ' Exact to 1e-11.\nforce_mN,penetration_um\n')
         for r in rows:
             out.write('%.14g,%.14g\n' % r[:2])
     noise = np.random.default_rng(20260101).normal(0, 0.5e-3, len(rows))
-    with open('indentation_noisy.csv', 'w') as out:
+    with open(HERE / 'indentation_noisy.csv', 'w') as out:
         out.write(head + ' Gaussian noise of 0.5 nm standard deviation in the penetration (numpy default_rng(20260101)).\nforce_mN,penetration_um\n')
         for r, n in zip(rows, noise):
             out.write('%.14g,%.9f\n' % (r[0], r[1] + n))
-    print('doubling', worst)
+    print('largest relative change on doubling all nodes', worst)
     loads = (0.5, 2, 10, 30, 100)
     step = 0.02
 
@@ -62,7 +64,7 @@ def main():
         low = (15 * d[0] - 6 * d[1] + d[2]) / 10
         return best, abs(best - low)
 
-    with open('indentation_derivatives.csv', 'w') as out:
+    with open(HERE / 'indentation_derivatives.csv', 'w') as out:
         out.write(head + ' Derivatives of delta at fixed force (um), central differences of order 8, step 0.02 in the logarithm;\n'
                   '# err_*: difference to order 6. scaling: (d_lnEc + d_lnEs + P/S) / (P/S), zero exactly (delta depends on P/E).\n'
                   '# scaling_h: (d_lnh + d_lnR + 2 P/S - delta) / delta, zero exactly (lengths scale together at fixed P/h^2).\n'

@@ -1,4 +1,4 @@
-"""Isolated rigid paraboloid r^2/(2R) pressed on layered bodies (free space, frictionless), contact radius a given.
+"""For the scripts that make reference tables: isolated rigid paraboloid r^2/(2R) pressed on layered bodies (free space, frictionless), contact radius a given.
 
 u_z(r) = (2/E*) int_0^inf T(k) P(k) J0(kr) dk,  P(k) = int_0^a p r J0(kr) dr = (E*/pi) int_0^a phi(t) cos(kt) dt.
 Abel's operator d/dx int_0^x r (.)/sqrt(x^2-r^2) dr turns u_z = delta - r^2/(2R) into

@@ -1,4 +1,6 @@
-"""Normal compliance of a layered elastic half-space, one wave at a time.
+"""Normal compliance of a layered elastic half-space, one wave at a time, for the scripts that make reference tables.
+
+Nothing of percoat enters.   pip install mpmath numpy; python layered.py prints its checks.
 
 Derivation.  Wave p = N(0) e^{iqx} on the surface, s = q z.  With a stress function F(s)
     sigma_zz = -F, sigma_xz = -i F', sigma_xx = F''      (equilibrium),   F'''' - 2F'' + F = 0,
@@ -130,7 +132,7 @@ def t_closed(x, chi, nu1, nu2):
 
 
 def t_smooth(x, chi, nu1, nu2):
-    """One layer on a frictionless interface, closed form (ANCHORS 5), for checks only."""
+    """One layer on a frictionless interface, closed form, for checks only."""
     x = np.asarray(x, dtype=LD)
     rho = LD(chi) * (1 - LD(nu2)) / (1 - LD(nu1))
     th = np.exp(-2 * x)
@@ -153,7 +155,7 @@ if __name__ == '__main__':
                 (.5, .45, .3, 1, 'bonded', .687768355896), (.5, .45, .3, 1, 'frictionless', 1.03780023197), (.5, .45, .3, 2, 'bonded', .874281670537)]:
         t = float(one([row[3]], row[0], row[1], row[2], row[4])[0])
         worst = max(worst, abs(t / row[5] - 1))
-    print('ANCHORS 2.6, worst relative difference (printed digits 1e-12):', worst)
+    print('independent values of T, worst relative difference (printed digits 1e-12):', worst)
     x = np.geomspace(1e-3, 60, 400)
     for chi, n1, n2 in [(10, .2, .3), (100, .2, .3), (.01, .5, .3), (1e3, .3, .3), (1e-3, .3, .5)]:
         b = np.abs(one(x, chi, n1, n2, 'bonded') / t_closed(x, chi, n1, n2) - 1)
