@@ -44,6 +44,7 @@ pub use rough::{RoughReading, SpotSizes, stiffness};
 #[cfg(feature = "cli")]
 pub(crate) use section::{LargestInSection, SectionMeasure};
 pub use strength::{Criterion, Utilisation};
+pub(crate) use stress::utilisations_while;
 pub use stress::{StressReading, tears, tips};
 pub use touch::{FirstTouch, first_touches};
 pub use verdict::Verdict;

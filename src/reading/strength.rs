@@ -220,16 +220,21 @@ impl Utilisation {
                 Criterion::Cracking(material) => stress.in_material(material)?.tension,
                 Criterion::Delamination(interface) => stress.on_interface(interface)?.delamination?,
             };
-            let strength = criterion.strength(bodies)?;
-            let error = peak.error.map(|error| error / strength);
-            let taken = peak.value / strength;
-            // Nothing fails by being pressed, and the error is that of what is above 0; what is not a number stays so.
-            let (value, error) =
-                if taken < 0.0 { (0.0, error.map(|error| (taken + error).max(0.0))) } else { (taken, error) };
-            let rival = peak.rival.map(|rival| rival.position);
-            Some(Self { rival, ..Self::new(criterion, value, error, peak.position) })
+            Self::by_peak(bodies, criterion, peak)
         };
         Criterion::all(bodies).into_iter().filter_map(of).collect()
+    }
+
+    /// The utilisation of a criterion by its largest stress; `None` without a strength.
+    pub(super) fn by_peak(bodies: &Bodies, criterion: Criterion, peak: Peak) -> Option<Self> {
+        let strength = criterion.strength(bodies)?;
+        let error = peak.error.map(|error| error / strength);
+        let taken = peak.value / strength;
+        // Nothing fails by being pressed, and the error is that of what is above 0; what is not a number stays so.
+        let (value, error) =
+            if taken < 0.0 { (0.0, error.map(|error| (taken + error).max(0.0))) } else { (taken, error) };
+        let rival = peak.rival.map(|rival| rival.position);
+        Some(Self { rival, ..Self::new(criterion, value, error, peak.position) })
     }
 }
 

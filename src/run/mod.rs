@@ -48,7 +48,7 @@ use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::load::{Load, LoadQuantity};
 use crate::problem::Problem;
-use crate::reading::{Criterion, StressReading};
+use crate::reading::{self, Criterion, StressReading};
 use crate::spectral::{OtherGrids, Settings, Solver, Step};
 use crate::stress::{StressFields, Tables};
 use std::cell::Cell;
@@ -66,8 +66,10 @@ const CHECKED_GRID: usize = 3;
 enum Loading {
     /// A step of a load path: the contact stiffness is read too.
     Path,
-    /// A search for limit loads.
+    /// A load of a search for limits: of stresses those by which strengths are judged.
     Search,
+    /// A limit that is shown, with all stresses.
+    Limit,
 }
 
 /// A run: loads solved one after another, on one grid or on finer and finer ones.
@@ -258,11 +260,17 @@ impl Run {
         if let Some(fields) = fields.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
             let ended = Cell::new(None);
             let goes_on = || recorder.searching().map_err(|error| ended.set(Some(error))).is_ok();
-            let stress = StressReading::of_while(&step, &record.reading, fields, &goes_on);
+            let bodies = self.problem.bodies();
+            let judged = match loading {
+                Loading::Search => reading::utilisations_while(&step, &record.reading, fields, &goes_on)
+                    .map(|utilisations| record.clone().with_utilisations(utilisations)),
+                Loading::Path | Loading::Limit => StressReading::of_while(&step, &record.reading, fields, &goes_on)
+                    .map(|stress| record.clone().with_stress(stress, bodies)),
+            };
             if let Some(error) = ended.into_inner() {
                 return Err(RunError::Recorder(error));
             }
-            record = record.with_stress(stress.expect("nothing has ended the search"), self.problem.bodies());
+            record = judged.expect("nothing has ended the search");
         }
         record.seconds = recorder.clock().zip(began).map(|(now, began)| before + now - began);
         recorder.step(&step, &record, fields.as_ref()).map_err(RunError::Recorder)?;

@@ -48,7 +48,7 @@ pub struct StepRecord {
     /// How contact and traction were solved together; `None` without friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<Sliding>,
-    /// Largest stresses; `None` where they are not computed, and without contact.
+    /// Largest stresses; `None` where they are not computed, without contact, and under loads of a search for limits that are not shown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stress: Option<StressReading>,
     /// Utilisation of each criterion with a strength; empty without contact.
@@ -148,11 +148,15 @@ impl StepRecord {
 
     /// The record with its largest stresses, and the utilisations of the strengths of the bodies.
     #[must_use]
-    pub fn with_stress(mut self, stress: StressReading, bodies: &Bodies) -> Self {
-        self.strength = Utilisation::all(bodies, &stress);
-        self.governing = Governing::of(&self.strength);
-        self.stress = Some(stress);
-        self.judged()
+    pub fn with_stress(self, stress: StressReading, bodies: &Bodies) -> Self {
+        let strength = Utilisation::all(bodies, &stress);
+        Self { stress: Some(stress), ..self }.with_utilisations(strength)
+    }
+
+    /// The record with the utilisations of the strengths of the bodies.
+    #[must_use]
+    pub(super) fn with_utilisations(self, strength: Vec<Utilisation>) -> Self {
+        Self { governing: Governing::of(&strength), strength, ..self }.judged()
     }
 
     /// The utilisation of a criterion; `None` without contact, or a strength.

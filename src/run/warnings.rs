@@ -146,9 +146,14 @@ fn rough_surface(steps: &[Numbered]) -> Option<String> {
     ))
 }
 
+/// Whether stresses were searched, all or those of strengths.
+fn has_stresses(step: &StepRecord) -> bool {
+    step.stress.is_some() || !step.strength.is_empty()
+}
+
 /// Stresses of contacts that fill much of their cell, in which the mean lateral stress has a large part.
 fn mean_matters(problem: &Problem, steps: &[Numbered]) -> Option<String> {
-    let fills = |step: &StepRecord| step.stress.is_some() && step.reading.contact_fraction > FILLED;
+    let fills = |step: &StepRecord| has_stresses(step) && step.reading.contact_fraction > FILLED;
     problem.counterbody().indenters()?;
     let list = list(steps, fills)?;
     Some(format!(

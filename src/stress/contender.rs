@@ -38,8 +38,9 @@ pub(super) struct CoarserField<'a> {
 }
 
 impl<'a> CoarserField<'a> {
-    pub fn new(field: &'a StressField) -> Self {
-        Self { field, crests: field.crests() }
+    /// The field, and its crests by some `measures`.
+    pub fn new(field: &'a StressField, measures: &[StressMeasure]) -> Self {
+        Self { field, crests: if measures.is_empty() { Vec::new() } else { field.crests_of(measures) } }
     }
 
     /// Value of a measure on the coarser grid at the position of a contender; for the largest value on the surface the largest

@@ -12,7 +12,7 @@ use super::constants::{
 };
 use super::cubic::CubicInterpolation;
 use super::field::{REACH, StressField};
-use super::measure::{MATERIAL_MEASURES, RunningMaxima, StressMeasure};
+use super::measure::{RunningMaxima, StressMeasure};
 use super::peak::Peak;
 use super::smoothed_surface::SmoothedSurface;
 use super::tensor::StressState;
@@ -91,12 +91,7 @@ struct SurfaceReading {
 }
 
 impl StressField {
-    /// The largest tension, τ₁ and von Mises on the surface; none where contact has no edge: it is complete, or absent.
-    pub(super) fn crests(&self) -> Vec<(StressMeasure, Crest)> {
-        self.crests_of(&MATERIAL_MEASURES)
-    }
-
-    /// The largest values of some measures on the surface; none where contact has no edge.
+    /// The largest values of some measures on the surface; none where contact has no edge: it is complete, or absent.
     pub(super) fn crests_of(&self, measures: &[StressMeasure]) -> Vec<(StressMeasure, Crest)> {
         if !self.regions().have_edges() {
             return Vec::new();

@@ -193,6 +193,13 @@ impl StressField {
         self.far.as_ref().map(|far| far.plane(depth))
     }
 
+    /// Prepares what some depths need, all threads at once.
+    pub(super) fn read_ahead(&self, depths: impl Iterator<Item = Depth>) {
+        if let Some(far) = &self.far {
+            far.read_ahead(depths);
+        }
+    }
+
     /// Wavenumbers of the shells with qz up to `reach` at a depth.
     pub(super) fn wavenumbers_within(&self, depth: Depth, reach: f64) -> &[f64] {
         let waves = &self.series.waves;

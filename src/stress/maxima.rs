@@ -8,10 +8,10 @@
 //! maximum inside, found from the largest sample of each depth. Each contender has its own error, and the error of the maximum
 //! covers those of its rivals.
 
-use super::constants::SHALLOW;
-use super::contender::{CoarserField, Contender, Contenders, NearSurface, stated};
+use super::contender::Contenders;
 use super::crest::Crest;
 use super::field::StressField;
+use super::found::FoundStresses;
 use super::measure::{MATERIAL_MEASURES, StressMeasure};
 use super::peak::Peak;
 use crate::body::InterfaceId;
@@ -59,81 +59,37 @@ pub struct Maxima {
     pub interfaces: Vec<Carried>,
     /// The largest tension on the surface with its uncertainty; `None` where contact has no edge.
     pub crest: Option<Crest>,
-    /// Contenders of which the maxima are the largest.
-    contenders: ContenderLists,
     /// Samples along the radius of a disc as large as the smallest contact spot.
     pub resolution: f64,
-    /// Distance between neighbouring samples, a length.
-    pub spacing: f64,
-    /// How far stresses on the surface may ring beside jumps of a given pressure, a pressure; zero under a contact.
-    pub ringing: f64,
-}
-
-/// Contenders for the maxima, in the order of the maxima.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct ContenderLists {
-    pub materials: Vec<Contenders>,
-    pub faces: Vec<Contenders>,
-    /// Each interface, from 1, with its contenders.
-    pub interfaces: Vec<(InterfaceId, Contenders)>,
-}
-
-impl ContenderLists {
-    fn each(&mut self) -> impl Iterator<Item = &mut (StressMeasure, Contender)> {
-        let interfaces = self.interfaces.iter_mut().map(|(_, contenders)| contenders);
-        self.materials.iter_mut().chain(&mut self.faces).chain(interfaces).flatten()
-    }
+    found: FoundStresses,
 }
 
 impl Maxima {
-    pub(super) fn new(contenders: ContenderLists, crest: Option<Crest>, resolution: f64, spacing: f64) -> Self {
-        let none = Self {
-            materials: vec![],
-            faces: vec![],
-            interfaces: vec![],
-            crest,
-            contenders,
-            resolution,
-            spacing,
-            ringing: 0.0,
-        };
-        none.stated()
-    }
-
-    /// The maxima under a pressure beside whose jumps stresses on the surface may ring by this much.
-    #[must_use]
-    pub(super) fn ringing_by(self, ringing: f64) -> Self {
-        Self { ringing, ..self }
-    }
-
-    /// The maxima of the contenders.
-    fn stated(mut self) -> Self {
-        let apart = SHALLOW * self.spacing;
+    /// The maxima of what a search for all measures has found.
+    pub(super) fn new(found: FoundStresses) -> Self {
         let extremes = |contenders: &Contenders| {
-            let [tau1, tension, mises] = MATERIAL_MEASURES.map(|measure| {
-                stated(contenders, measure, apart).expect("each material and each face has one of each")
-            });
+            let [tau1, tension, mises] = MATERIAL_MEASURES
+                .map(|measure| found.stated(contenders, measure).expect("each material and each face has one of each"));
             Extremes { tau1, tension, mises }
         };
-        self.materials = self.contenders.materials.iter().map(extremes).collect();
-        self.faces = self.contenders.faces.iter().map(extremes).collect();
+        let materials = found.contenders.materials.iter().map(extremes).collect();
+        let faces = found.contenders.faces.iter().map(extremes).collect();
         let carried = |(interface, contenders): &(InterfaceId, Contenders)| {
-            let strength = contenders.iter().map(|(measure, _)| *measure).find(StressMeasure::is_delamination);
             Some(Carried {
                 interface: *interface,
-                normal: stated(contenders, StressMeasure::Opening, apart)?,
-                shear: stated(contenders, StressMeasure::Shear, apart)?,
-                delamination: strength.and_then(|measure| stated(contenders, measure, apart)),
+                normal: found.stated(contenders, StressMeasure::Opening)?,
+                shear: found.stated(contenders, StressMeasure::Shear)?,
+                delamination: found.delamination(contenders),
             })
         };
-        self.interfaces = self.contenders.interfaces.iter().filter_map(carried).collect();
-        self
+        let interfaces = found.contenders.interfaces.iter().filter_map(carried).collect();
+        Self { materials, faces, interfaces, crest: found.crest, resolution: found.resolution, found }
     }
 
     /// Estimated relative error of the largest tension on the surface; without [`Self::with_errors`] from this grid alone; 0 where
     /// contact has no edge.
     pub fn surface_error(&self) -> f64 {
-        let surface = self.contenders.faces.first().into_iter().flatten();
+        let surface = self.found.contenders.faces.first().into_iter().flatten();
         let own = surface
             .filter(|(of, _)| *of == StressMeasure::Tension)
             .find_map(|(_, own)| Some((own.crest?, own.peak.error)));
@@ -159,24 +115,7 @@ impl Maxima {
 
     /// The maxima with their estimated errors; `None` when `goes_on`, called between contenders, returns false.
     #[must_use]
-    pub fn with_errors_while(mut self, coarser: &StressField, goes_on: &dyn Fn() -> bool) -> Option<Self> {
-        let coarser = CoarserField::new(coarser);
-        let surface = NearSurface { depth: SHALLOW * self.spacing, ringing: self.ringing };
-        let resolution = self.resolution;
-        let mut known: Vec<(StressMeasure, Contender)> = Vec::new();
-        for (measure, contender) in self.contenders.each() {
-            // The largest value on a face contends in its material too.
-            let same = known.iter().find(|(of, other)| {
-                of == measure
-                    && (other.peak.position, other.peak.material) == (contender.peak.position, contender.peak.material)
-            });
-            contender.peak.error = match same {
-                Some((_, same)) => same.peak.error,
-                None if !goes_on() => return None,
-                None => Some(contender.error(*measure, &coarser, resolution, surface)),
-            };
-            known.push((*measure, *contender));
-        }
-        Some(self.stated())
+    pub fn with_errors_while(self, coarser: &StressField, goes_on: &dyn Fn() -> bool) -> Option<Self> {
+        self.found.with_errors(coarser, goes_on).map(Self::new)
     }
 }

@@ -1,7 +1,7 @@
 //! Stress measures whose largest values are searched.
 
 use super::tensor::StressState;
-use crate::body::InterfaceStrength;
+use crate::body::{InterfaceStrength, Strength};
 use crate::numeric::search::first_largest;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -29,9 +29,37 @@ pub(super) enum StressMeasure {
 pub(super) const MATERIAL_MEASURES: [StressMeasure; 3] =
     [StressMeasure::Tau1, StressMeasure::Tension, StressMeasure::Mises];
 
+/// Which largest stresses are searched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sought {
+    /// All measures of each material, each face and each interface.
+    All,
+    /// Those by which strengths are judged, where there are strengths.
+    Strengths,
+}
+
+impl Sought {
+    /// Measures of a material of this strength.
+    pub fn in_material(self, strength: Strength) -> Vec<StressMeasure> {
+        let is_sought = |measure: &StressMeasure| match (self, measure) {
+            (Self::All, _) => true,
+            (Self::Strengths, StressMeasure::Tension) => strength.tensile.is_some(),
+            (Self::Strengths, StressMeasure::Mises) => strength.yielding.is_some(),
+            (Self::Strengths, _) => false,
+        };
+        MATERIAL_MEASURES.into_iter().filter(is_sought).collect()
+    }
+
+    /// Further measures on an interface of this strength.
+    pub fn on_interface(self, strength: InterfaceStrength) -> Vec<StressMeasure> {
+        let all = StressMeasure::of_interface(strength);
+        all.filter(|measure| self == Self::All || measure.is_delamination()).collect()
+    }
+}
+
 impl StressMeasure {
     /// Further measures that are maximised on an interface of the given strength.
-    pub fn of_interface(strength: InterfaceStrength) -> impl Iterator<Item = Self> {
+    fn of_interface(strength: InterfaceStrength) -> impl Iterator<Item = Self> {
         let delamination = (!strength.is_empty()).then_some(Self::Delamination(strength));
         [Self::Opening, Self::Shear].into_iter().chain(delamination)
     }

@@ -13,12 +13,25 @@ use super::constants::{EQUAL_BY_SYMMETRY, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES
 use super::contender::{Contender, Contenders};
 use super::crest::Crest;
 use super::field::{REACH, StressField};
-use super::maxima::{ContenderLists, Maxima};
-use super::measure::{MATERIAL_MEASURES, StressMeasure};
+use super::found::{ContenderLists, FoundStresses};
+use super::maxima::Maxima;
+use super::measure::{MATERIAL_MEASURES, Sought, StressMeasure};
 use super::peak::Peak;
 use super::plane_search::{Candidate, SEARCH_REACH};
 use super::tensor::StressState;
-use crate::body::{Depth, Layer};
+use crate::body::{Depth, Layer, Strength};
+
+/// What the searches in all materials share.
+#[derive(Clone, Copy)]
+struct Search<'a> {
+    /// The smallest and the largest contact radius, lengths.
+    radii: [f64; 2],
+    sought: Sought,
+    /// The largest values on the surface.
+    crests: &'a [(StressMeasure, Crest)],
+    /// Whether the search goes on, called between planes and between climbs.
+    goes_on: &'a dyn Fn() -> bool,
+}
 
 /// The largest samples of a plane.
 #[derive(Debug)]
@@ -49,49 +62,80 @@ impl StressField {
     /// Maxima over all materials, faces and interfaces; `None` when `goes_on`, called between planes and between searches,
     /// returns false. `radii` as in [`Self::maxima`].
     pub fn maxima_while(&self, radii: [f64; 2], goes_on: &dyn Fn() -> bool) -> Option<Maxima> {
-        let mut all = ContenderLists::default();
-        let crests = self.crests();
-        for material in 1..=self.materials() {
-            let strength = self.half_space().layers().get(material - 1).map(Layer::interface_strength);
-            let depths = self.search_depths(material, radii);
-            let plane = |index: usize| {
-                let is_interface = index + 1 == depths.len();
-                let tractions = strength.filter(|_| is_interface).into_iter().flat_map(StressMeasure::of_interface);
-                let measures: Vec<StressMeasure> = MATERIAL_MEASURES.into_iter().chain(tractions).collect();
-                let is_face = index == 0 || strength.is_some() && is_interface;
-                let depth = Depth { z: depths[index], material };
-                let crests = if depth == Depth::SURFACE { &crests[..] } else { &[] };
-                goes_on().then(|| self.search_plane(depth, radii[0], &measures, is_face, crests))
-            };
-            let planes: Vec<SearchedPlane> = (0..depths.len()).map(plane).collect::<Option<_>>()?;
-            let is_overall = |contender: &&(StressMeasure, Contender)| MATERIAL_MEASURES.contains(&contender.0);
-            let mut own: Contenders =
-                planes.iter().flat_map(|plane| plane.on_face.iter().filter(is_overall)).copied().collect();
-            let mut inside: Contenders = Vec::new();
-            for measure in MATERIAL_MEASURES {
-                let own = self.inside(&planes, &depths, measure, goes_on)?;
-                inside.extend(own.into_iter().map(|inside| (measure, inside)));
-            }
-            // A search from inside that ends on a face, higher than the values along the face, contends on the face too.
-            let faces = planes.iter().zip(&depths).filter(|(plane, _)| !plane.on_face.is_empty());
-            all.faces.extend(faces.map(|(plane, &depth)| {
-                let is_there = |(_, other): &&(StressMeasure, Contender)| {
-                    depth > 0.0 && (other.peak.position[2] - depth).abs() <= 1e-9 * depth
-                };
-                let along = plane.on_face.iter().filter(is_overall);
-                along.chain(inside.iter().filter(is_there)).copied().collect::<Contenders>()
-            }));
-            own.extend(inside);
-            all.materials.push(own);
-            if strength.is_some() {
-                let lower = planes.last().map(|plane| plane.on_face.clone()).unwrap_or_default();
-                let interface = self.half_space().interface_id(material);
-                all.interfaces.push((interface, lower.into_iter().filter(|own| !is_overall(&own)).collect()));
-            }
+        self.found(radii, Sought::All, goes_on).map(Maxima::new)
+    }
+
+    /// The contenders for what is `sought`; `None` when `goes_on` returns false.
+    pub(super) fn found(&self, radii: [f64; 2], sought: Sought, goes_on: &dyn Fn() -> bool) -> Option<FoundStresses> {
+        let strengths: Vec<Strength> = self.half_space().strengths().collect();
+        let of_surface = sought.in_material(strengths[0]);
+        let crests = if of_surface.is_empty() { Vec::new() } else { self.crests_of(&of_surface) };
+        let (search, mut contenders) = (Search { radii, sought, crests: &crests, goes_on }, ContenderLists::default());
+        for (material, &strength) in (1..).zip(&strengths) {
+            self.add_contenders(material, &sought.in_material(strength), &search, &mut contenders)?;
         }
-        let crest = of_measure(&crests, StressMeasure::Tension).map(|&(_, crest)| crest);
-        let own = Maxima::new(all, crest, self.regions().least_resolution(), self.series_grid().spacing());
-        Some(own.ringing_by(self.regions().ringing()))
+        Some(FoundStresses {
+            contenders,
+            crest: of_measure(&crests, StressMeasure::Tension).map(|&(_, crest)| crest),
+            resolution: self.regions().least_resolution(),
+            spacing: self.series_grid().spacing(),
+            ringing: self.regions().ringing(),
+        })
+    }
+
+    /// Adds the contenders for some `measures` in a material and on its faces, and on the interface below it; `None` when the search
+    /// does not go on.
+    fn add_contenders(
+        &self,
+        material: usize,
+        measures: &[StressMeasure],
+        search: &Search<'_>,
+        all: &mut ContenderLists,
+    ) -> Option<()> {
+        let Search { radii, sought, crests, goes_on } = *search;
+        let strength = self.half_space().layers().get(material - 1).map(Layer::interface_strength);
+        let tractions = strength.map_or(Vec::new(), |strength| sought.on_interface(strength));
+        let mut depths = self.search_depths(material, radii);
+        if measures.is_empty() {
+            // Nothing is sought but on the interface.
+            depths = depths.into_iter().next_back().filter(|_| !tractions.is_empty()).into_iter().collect();
+        }
+        self.read_ahead(depths.iter().map(|&z| Depth { z, material }));
+        let plane = |index: usize| {
+            let is_interface = index + 1 == depths.len();
+            let tractions = tractions.iter().filter(|_| is_interface);
+            let own: Vec<StressMeasure> = measures.iter().chain(tractions).copied().collect();
+            let depth = Depth { z: depths[index], material };
+            let is_face = depth.z == self.half_space().faces(material).0 || strength.is_some() && is_interface;
+            let crests = if depth == Depth::SURFACE { crests } else { &[] };
+            goes_on().then(|| self.search_plane(depth, radii[0], &own, is_face, crests))
+        };
+        let planes: Vec<SearchedPlane> = (0..depths.len()).map(plane).collect::<Option<_>>()?;
+        let is_overall = |contender: &&(StressMeasure, Contender)| MATERIAL_MEASURES.contains(&contender.0);
+        let mut own: Contenders =
+            planes.iter().flat_map(|plane| plane.on_face.iter().filter(is_overall)).copied().collect();
+        let mut inside: Contenders = Vec::new();
+        for &measure in measures {
+            let own = self.inside(&planes, &depths, measure, goes_on)?;
+            inside.extend(own.into_iter().map(|inside| (measure, inside)));
+        }
+        // A search from inside that ends on a face, higher than the values along the face, contends on the face too.
+        let faces = planes.iter().zip(&depths).filter(|(plane, _)| !plane.on_face.is_empty());
+        all.faces.extend(faces.map(|(plane, &depth)| {
+            let is_there = |(_, other): &&(StressMeasure, Contender)| {
+                depth > 0.0 && (other.peak.position[2] - depth).abs() <= 1e-9 * depth
+            };
+            let along = plane.on_face.iter().filter(is_overall);
+            along.chain(inside.iter().filter(is_there)).copied().collect::<Contenders>()
+        }));
+        own.extend(inside);
+        all.materials.push(own);
+        if strength.is_some() {
+            let lower = planes.last().map(|plane| plane.on_face.clone()).unwrap_or_default();
+            let interface = self.half_space().interface_id(material);
+            all.interfaces.push((interface, lower.into_iter().filter(|own| !is_overall(&own)).collect()));
+        }
+        Some(())
     }
 
     /// The largest samples of a plane, and the contenders on a face; on the surface they are the `crests`.

@@ -125,6 +125,7 @@ impl<'a> LineField<'a> {
 
     /// States on the vertical section below the line: for each depth those at its points.
     fn rows(&self, depths: &[Depth]) -> Vec<Vec<StressState>> {
+        self.field.read_ahead(depths.iter().copied());
         let shallow = self.field.shallow();
         let between = |depth: &Depth| depth.material == 1 && depth.z > 0.0 && depth.z < shallow;
         let at = |z: f64| self.row(&self.line, Depth { z, material: 1 });

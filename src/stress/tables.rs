@@ -1,6 +1,6 @@
 //! Tables of the interior on the grids of a run, set up once for all loads.
 
-use super::far_field::FarTables;
+use super::far_tables::FarTables;
 use super::series_grid::series_grid;
 use crate::body::{HalfSpace, InteriorTable, LayeredResponse};
 use crate::lattice::{Cell, Grid};

@@ -104,7 +104,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let is_load = |limit: &&&Limit| limit.load() > 0.0 && limit.load().is_finite();
         let events: Vec<Limit> = limits.ordered().iter().filter(is_load).take(EVENTS).map(|limit| **limit).collect();
         for limit in events {
-            let record = search.solve(limit.load())?.clone();
+            let record = search.solve_for(limit.load(), Loading::Limit)?.clone();
             // Rounding decides between places that are equal by symmetry: the place is that of the step that is shown.
             let limit = limit.moved_to(search.utilisation(&record, limit.criterion).position);
             limits.limits.iter_mut().filter(|own| own.criterion == limit.criterion).for_each(|own| *own = limit);
@@ -113,13 +113,18 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         Ok(Limits { steps: search.steps, ..limits })
     }
 
-    /// Solves a load and keeps its record.
+    /// Solves a load of the search and keeps its record.
     fn solve(&mut self, load: f64) -> Result<&StepRecord, RunError<R::Error>> {
+        self.solve_for(load, Loading::Search)
+    }
+
+    /// Solves a load and keeps its record.
+    fn solve_for(&mut self, load: f64, loading: Loading) -> Result<&StepRecord, RunError<R::Error>> {
         // The memory of a step is freed before the next one needs as much.
         self.last = None;
         let prescribed = self.quantity.load(load);
         let (record, step) =
-            self.run.solve_load(&mut self.solver, &self.tables, prescribed, (Loading::Search, None), self.recorder)?;
+            self.run.solve_load(&mut self.solver, &self.tables, prescribed, (loading, None), self.recorder)?;
         self.last = Some(step);
         // The load of a reading is the prescribed one to rounding.
         let quantity = self.quantity;

@@ -1,0 +1,238 @@
+//! Stresses of an isolated contact: the waves that the periodic series lacks, and their amplitudes, which no pressure changes.
+//!
+//! The waves are those of cells each twice as large as the one before, with smooth cuts between them; their amplitudes are tabulated
+//! at the nodes of polynomials in depth, see [`super::far_field`].
+
+use super::depth_response::DepthResponse;
+use super::far_plane::nodes;
+use super::tensor::StressState;
+#[cfg(any(feature = "cli", test))]
+use crate::body::{Amplitudes, Antiplane};
+use crate::body::{Depth, HalfSpace, InteriorTable};
+use crate::lattice::waves::Waves;
+use crate::lattice::{Cell, Grid, LatticeError};
+#[cfg(any(feature = "cli", test))]
+use rustfft::num_complex::Complex64;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// β: ½ erfc β = 2e-7 is left at both ends of a cut.
+const STEEPNESS: f64 = 3.6;
+/// β′: e^{−β′²} = 1e-6 of a part reaches the images.
+const REMOTENESS: f64 = 3.7;
+/// Number of cells, each twice as large as the one before: the last one has 2⁻²² of the least wavenumber.
+const CELLS: usize = 22;
+/// Nodes of the polynomials along a side as long as the shorter one; by the distance of the images they leave 10⁻⁷ of the difference.
+const ACROSS: usize = 10;
+/// Nodes more along the longer side for each shorter side that it is longer: the images are as close beside all of it.
+const MORE_ACROSS: f64 = 8.0;
+/// Largest number of nodes of the polynomials in depth.
+const DOWN: usize = 8;
+/// Depth over the longer side of the window down to which the field is tabulated.
+const DEEPEST: f64 = 4.0;
+/// What the polynomials over an interval of depth leave of the difference, by the distance of the images.
+const LEFT_IN_DEPTH: f64 = 1e-7;
+/// Components: six stresses and three displacements.
+pub(super) const COMPONENTS: usize = 9;
+
+/// The smooth cut.
+fn cut(ratio: f64) -> f64 {
+    0.5 * libm::erfc(STEEPNESS * (ratio - 1.0))
+}
+
+/// The waves of one cell with their weights.
+#[derive(Debug)]
+pub(super) struct Part {
+    pub cell: Cell,
+    pub waves: Arc<Waves>,
+    /// Weight of each shell.
+    pub weights: Vec<f64>,
+    interiors: InteriorTable,
+}
+
+/// What does not depend on the pressure: the waves of all cells, and their amplitudes at the nodes in depth.
+#[derive(Debug)]
+pub(crate) struct FarTables {
+    pub(super) window: Cell,
+    pub(super) half_space: HalfSpace,
+    traction: Option<[f64; 2]>,
+    /// Numbers of nodes along x and y.
+    pub(super) counts: [usize; 2],
+    pub(super) parts: Vec<Part>,
+    /// Ends of the intervals of depth with their materials, and of each node the response of each part.
+    pub(super) segments: Vec<(Interval, Vec<Vec<DepthResponse>>)>,
+}
+
+/// An interval of depth in one material, lengths.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Interval {
+    pub material: usize,
+    pub ends: [f64; 2],
+    /// Number of nodes.
+    nodes: usize,
+}
+
+impl FarTables {
+    /// Tables for a window on a half-space, under pressures and the `traction` per unit of them.
+    pub fn new(window: Cell, half_space: &HalfSpace, traction: Option<[f64; 2]>) -> Result<Self, LatticeError> {
+        let sides = sides(window);
+        let shorter = sides[0].min(sides[1]);
+        let limit = |number: usize| limit(shorter, number);
+        let mut parts = Vec::new();
+        for number in 0..CELLS {
+            let (own, points) = part(sides, number);
+            let own = Cell::window(own)?;
+            let waves = Arc::clone(Grid::new(own, points)?.waves());
+            let weight = |&q: &f64| match number {
+                0 => -cut(q / limit(0)),
+                _ if number + 1 == CELLS => cut(q / limit(number - 1)),
+                _ => cut(q / limit(number - 1)) - cut(q / limit(number)),
+            };
+            let weights = waves.wavenumbers().iter().map(weight).collect();
+            let interiors =
+                InteriorTable::new(Arc::clone(half_space.response()), waves.wavenumbers(), traction.is_some());
+            parts.push(Part { cell: own, waves, weights, interiors });
+        }
+        let (half_space, counts) = (half_space.clone(), counts(sides));
+        let mut own = Self { window, half_space, traction, counts, parts, segments: Vec::new() };
+        let tabulated = |interval: Interval| {
+            let depths = nodes(interval.nodes).into_iter().map(|x| interval.depth(x));
+            (interval, depths.map(|depth| own.responses(depth)).collect())
+        };
+        own.segments = intervals(&own.half_space, sides).into_iter().map(tabulated).collect();
+        Ok(own)
+    }
+
+    /// Memory of the tables of a window on a half-space, and of the fields of one load, bytes at most.
+    #[cfg(any(feature = "cli", test))]
+    pub fn bytes(window: Cell, half_space: &HalfSpace, slides: bool) -> usize {
+        let sides = sides(window);
+        let depths: usize = intervals(half_space, sides).iter().map(|own| own.nodes).sum();
+        // A wave and its mirror image along x have one wavenumber, in a square four waves.
+        let together = if sides[0] == sides[1] { 4 } else { 2 };
+        let response = size_of::<Amplitudes>() + size_of::<f64>();
+        let sliding = if slides { size_of::<Amplitudes>() + size_of::<Antiplane>() } else { 0 };
+        let of_part = |number: usize| {
+            let (_, [n1, n2]) = part(sides, number);
+            // A wave and its conjugate count once; the longest waves have fewer partners.
+            let waves = n1 * n2 / 2;
+            let shells = waves / together + n1 + n2;
+            let interiors = InteriorTable::bytes(half_space, slides, |_| shells);
+            waves * (size_of::<Complex64>() + size_of::<u32>()) + shells * depths * (response + sliding) + interiors
+        };
+        let [n1, n2] = counts(sides);
+        (0..CELLS).map(of_part).sum::<usize>() + depths * n1 * n2 * COMPONENTS * size_of::<f64>()
+    }
+
+    /// Whether they are those of a window on a half-space under this traction.
+    pub fn are_of(&self, window: Cell, half_space: &HalfSpace, traction: Option<[f64; 2]>) -> bool {
+        self.window == window && self.traction == traction && self.half_space.response() == half_space.response()
+    }
+
+    /// The response of each part at a depth.
+    pub(super) fn responses(&self, depth: Depth) -> Vec<DepthResponse> {
+        let of = |part: &Part| {
+            let wavenumbers = part.waves.wavenumbers();
+            DepthResponse::new(&part.interiors, depth, wavenumbers, self.traction, StressState::default())
+        };
+        self.parts.iter().map(of).collect()
+    }
+}
+
+/// Sides of a window along x and y, lengths.
+fn sides(window: Cell) -> [f64; 2] {
+    let [a1, a2] = window.vectors();
+    [a1[0], a2[1]]
+}
+
+/// q_j of the cell of a number around a window with this `shorter` side, 1/length.
+fn limit(shorter: f64, number: usize) -> f64 {
+    // From the middle of an image to the far side of the window.
+    let remote = 2f64.powi(1 + number as i32) * shorter - shorter;
+    2.0 * STEEPNESS * REMOTENESS / remote
+}
+
+/// Sides of the cell of a number around a window of these sides, and the points of a grid that holds its waves up to twice the limit.
+fn part(sides: [f64; 2], number: usize) -> ([f64; 2], [usize; 2]) {
+    let own = sides.map(|side| side * 2f64.powi(1 + number as i32));
+    let most = 2.0 * limit(sides[0].min(sides[1]), number.saturating_sub(1));
+    (own, own.map(|side| 2 * (most * side / TAU).ceil() as usize + 2))
+}
+
+/// Numbers of nodes along the sides of a window.
+fn counts(sides: [f64; 2]) -> [usize; 2] {
+    let shorter = sides[0].min(sides[1]);
+    sides.map(|side| ACROSS + (MORE_ACROSS * (side / shorter - 1.0)).ceil() as usize)
+}
+
+/// Intervals of depth in each material, down to a few times the window of these sides.
+fn intervals(half_space: &HalfSpace, sides: [f64; 2]) -> Vec<Interval> {
+    let (shorter, longer) = (sides[0].min(sides[1]), sides[0].max(sides[1]));
+    let mut all = Vec::new();
+    for material in 1..=half_space.material_count() {
+        let (mut top, bottom) = half_space.faces(material);
+        let bottom = bottom.min(DEEPEST * longer);
+        while top < bottom {
+            // Twice as deep from interval to interval, half the window at least.
+            let least = (0.5 * shorter).max(top);
+            let next = (top + least).min(bottom);
+            // The images are more than twice `least` away from the middle of the interval.
+            let ratio = 0.25 * (next - top) / least;
+            let nodes = ((LEFT_IN_DEPTH.ln() / ratio.ln()).ceil() as usize).clamp(2, DOWN);
+            all.push(Interval { material, ends: [top, next], nodes });
+            top = next;
+        }
+    }
+    all
+}
+
+impl Interval {
+    /// The depth at x in [−1, 1].
+    fn depth(&self, x: f64) -> Depth {
+        let [top, bottom] = self.ends;
+        Depth { z: top + 0.5 * (1.0 + x) * (bottom - top), material: self.material }
+    }
+
+    /// x of a depth, in [−1, 1].
+    pub(super) fn place(&self, z: f64) -> f64 {
+        let [top, bottom] = self.ends;
+        (2.0 * z - top - bottom) / (bottom - top)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{Interface, Layer, Material};
+
+    /// Bytes of what a table holds, counted.
+    fn held(tables: &FarTables) -> usize {
+        let responses = tables.segments.iter().flat_map(|(_, nodes)| nodes.iter().flatten());
+        let amplitudes: usize = responses.map(|own| own.normal.len()).sum();
+        amplitudes * (size_of::<Amplitudes>() + size_of::<f64>())
+    }
+
+    /// Square and slender windows, one thick layer and many thin ones.
+    #[test]
+    fn the_memory_stated_holds_the_tables() {
+        let material = |shear| Material::from_shear(shear, 0.3).unwrap();
+        let layers = |count: usize, h: f64| vec![Layer::new(material(2.0), h, Interface::Bonded).unwrap(); count];
+        for (sides, layers) in [([1.0; 2], layers(1, 0.3)), ([3.0, 1.0], layers(8, 0.01)), ([1.0, 6.0], layers(0, 1.0))]
+        {
+            let (window, half_space) = (Cell::window(sides).unwrap(), HalfSpace::new(layers, material(1.0)));
+            let tables = FarTables::new(window, &half_space, None).unwrap();
+            let (held, stated) = (held(&tables), FarTables::bytes(window, &half_space, false));
+            assert!(held <= stated && stated < 2 * held + 20_000_000, "{sides:?}: {held}, {stated}");
+        }
+    }
+
+    #[test]
+    fn few_nodes_suffice_in_thin_layers() {
+        let material = Material::from_shear(1.0, 0.3).unwrap();
+        let layer = |h: f64| Layer::new(material, h, Interface::Bonded).unwrap();
+        let half_space = HalfSpace::new(vec![layer(1e-4), layer(0.02), layer(0.4)], material);
+        let nodes: Vec<usize> = intervals(&half_space, [1.0, 2.0]).iter().map(|own| own.nodes).collect();
+        // The last interval is cut off where the table ends.
+        assert!(nodes[..4] == [2, 4, 8, 8] && nodes.iter().all(|own| (2..=DOWN).contains(own)), "{nodes:?}");
+    }
+}

@@ -1,0 +1,54 @@
+//! The largest stresses by which the strengths of a body are judged, without those that no strength limits.
+
+use super::contender::Contenders;
+use super::field::StressField;
+use super::found::FoundStresses;
+use super::measure::{Sought, StressMeasure};
+use super::peak::Peak;
+
+/// Largest stresses of a body by which its strengths are judged; `None` where it has none.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StrengthPeaks {
+    /// σ₁ in each material with a tensile strength, from the surface down.
+    pub tension: Vec<Option<Peak>>,
+    /// Von Mises in each material with a yield strength, from the surface down.
+    pub mises: Vec<Option<Peak>>,
+    /// Utilisation of each interface with a strength, from the surface down.
+    pub delamination: Vec<Option<Peak>>,
+}
+
+impl StrengthPeaks {
+    fn new(found: &FoundStresses) -> Self {
+        let of = |measure: StressMeasure| {
+            let stated = |contenders: &Contenders| found.stated(contenders, measure);
+            found.contenders.materials.iter().map(stated).collect()
+        };
+        let [tension, mises] = [StressMeasure::Tension, StressMeasure::Mises].map(of);
+        let interfaces = found.contenders.interfaces.iter();
+        let delamination = interfaces.map(|(_, contenders)| found.delamination(contenders)).collect();
+        Self { tension, mises, delamination }
+    }
+
+    /// Every peak.
+    pub fn each(&mut self) -> impl Iterator<Item = &mut Peak> {
+        self.tension.iter_mut().chain(&mut self.mises).chain(&mut self.delamination).flatten()
+    }
+}
+
+impl StressField {
+    /// The largest stresses by which strengths are judged, those of [`Self::maxima`], with errors by the `coarser` field; `None` when
+    /// `goes_on`, called many times, returns false. `radii` as in [`Self::maxima`].
+    pub(crate) fn strength_peaks_while(
+        &self,
+        radii: [f64; 2],
+        coarser: Option<&Self>,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<StrengthPeaks> {
+        let found = self.found(radii, Sought::Strengths, goes_on)?;
+        let found = match coarser {
+            Some(coarser) => found.with_errors(coarser, goes_on)?,
+            None => found,
+        };
+        Some(StrengthPeaks::new(&found))
+    }
+}
