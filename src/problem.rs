@@ -38,6 +38,12 @@ impl Problem {
         }
     }
 
+    /// The same indenters in a window `factor` times as wide and as high; `None` unless they are an isolated contact.
+    pub(crate) fn widened(&self, factor: f64) -> Option<Self> {
+        let counterbody = self.counterbody.indenters()?.widened(factor)?.into();
+        Some(Self { counterbody, ..self.clone() })
+    }
+
     /// The shape of the counterbody.
     pub fn counterbody(&self) -> &Counterbody {
         &self.counterbody

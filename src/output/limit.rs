@@ -29,6 +29,9 @@ pub struct LimitFile {
     pub searched: Option<[f64; 2]>,
     /// Load at which contact becomes complete; `None` where it never does.
     pub complete_contact: Option<f64>,
+    /// Sides of the largest window in which loads were solved; `None` where an isolated contact had room in its own in all.
+    #[serde(default)]
+    pub window: Option<[f64; 2]>,
     /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
     pub change: Option<f64>,
     /// The limit of each criterion.
@@ -62,6 +65,7 @@ impl LimitFile {
             first: limits.first().map(|limit| FirstLimit { limit: *limit, rivals: limits.rivals() }),
             searched: ends.map(|(first, last)| [load(first), load(last)]),
             complete_contact: Some(limits.complete).filter(|pressure| pressure.is_finite()),
+            window: limits.window,
             change: limits.change,
             limits: limits.limits.clone(),
             steps: limits.steps.clone(),
@@ -91,6 +95,7 @@ impl LimitFile {
             shown: Vec::new(),
             quantity: self.limits.first().map_or(LoadQuantity::MeanPressure, |limit| limit.quantity),
             complete: self.complete_contact.unwrap_or(f64::INFINITY),
+            window: self.window,
             change: self.change,
             end: None,
             warnings: self.warnings.clone(),

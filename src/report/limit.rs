@@ -4,7 +4,7 @@ use super::ReportError;
 use super::answer::doubts;
 use super::certificate::certificate;
 use super::figures::{PictureText, figures};
-use super::markup::{numbers, tag, with};
+use super::markup::{Markup, numbers, tag, with};
 use super::part::{Part, assumed, by, case_text, case_to_copy, section, warnings};
 use super::problem::problem;
 use super::resolution::{resolution, upper};
@@ -58,6 +58,8 @@ pub(super) fn part(results: &Results, file: &LimitFile) -> Result<Part, ReportEr
                 ),
                 table("Limit loads; ± is the estimated error of the grid", &found.table),
                 assumed(case, true),
+                tables::wider_windows(&limits, &units)
+                    .map_or(Markup::default(), |words| tag("p", numbers(&upper(&words)))),
             ],
         ),
         section("problem", "Problem", vec![problem(case), tag("p", measured_in(&units))]),

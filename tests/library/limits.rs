@@ -7,8 +7,8 @@ use percoat::body::{InterfaceStrength, Strength};
 use percoat::reading::Criterion;
 use percoat::run::{At, Limit, Limits, Recorder, RefinementEnd, RunError, StepRecord};
 use percoat::{
-    Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, LoadQuantity, Material, Problem, Run, Sampling, Shape,
-    Solver, Step, StressFields,
+    Cell, Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, LoadQuantity, Material, Problem, Run, Sampling,
+    Shape, Solver, Step, StressFields,
 };
 use std::convert::Infallible;
 
@@ -326,6 +326,7 @@ fn an_error_is_told_with_what_else_may_come_first() {
             shown: Vec::new(),
             quantity,
             complete: f64::INFINITY,
+            window: None,
             change: None,
             end: None,
             warnings,
@@ -369,4 +370,28 @@ fn the_first_failure_is_that_of_a_hump_below_the_load_of_the_case() {
         "{least} {from} {reached}"
     );
     assert!(sure < 1.07 * to && sure > to / 1.07, "{sure} {to}");
+}
+
+/// The sphere of [`coated`] alone: the limits found in a narrow window, which its contact outgrows, are those found in a wide one,
+/// within the errors that both state.
+#[test]
+fn a_contact_that_outgrows_its_window_has_the_limits_of_a_wide_one() {
+    let periodic = coated([1.0, 1.0]);
+    let level = periodic.counterbody().indenters().unwrap().levels()[0];
+    let found = |side: f64, points: usize| {
+        let lattice = Lattice::new(Cell::window([side; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+        let problem = Problem::new(one_level(lattice, level), periodic.half_space().clone());
+        limits(problem.sliding(*periodic.friction().unwrap()).unwrap(), Load::Force(1.0), points)
+    };
+    let (narrow, wide) = (found(4.0, 32), found(40.0, 96));
+    let [width, height] = narrow.window.expect("a contact too large for its window");
+    assert!(width == height && width >= 8.0 && wide.window.is_none(), "{width}, {:?}", wide.window);
+    for (own, other) in narrow.limits.iter().zip(&wide.limits) {
+        let ends = |limit: &Limit| limit.interval();
+        let ([from, to], [low, high]) = (ends(own), ends(other));
+        assert!(own.load().is_finite() && from <= high && low <= to, "{own:?}, {other:?}");
+    }
+    assert!(narrow.converged() && narrow.warnings.iter().all(|words| !words.contains("lattice.size")));
+    // Ordered by load, whatever the window.
+    assert!(loads(&narrow).windows(2).all(|pair| pair[0] < pair[1]));
 }

@@ -96,10 +96,21 @@ pub fn limited(case: &Case, found: &Limits, width: usize) -> String {
     }
     text += &format!("{}\n\n", limits(found, &case.units()).fitted(width));
     text += &Assumptions::of(case).lines(true, width);
+    if let Some(words) = wider_windows(found, &case.units()) {
+        text += &format!("{words}\n");
+    }
     if let Some(change) = found.change {
         text += &format!("change from the next coarser grid: {change:.1e}\n");
     }
     text
+}
+
+/// That loads were solved in larger windows than that of the case, and how large these are; `None` where none was.
+pub fn wider_windows(found: &Limits, units: &Units) -> Option<String> {
+    let [width, height] = found.window?;
+    let unit = units.length().suited([width, height]);
+    let sides = unit.behind(&format!("{} × {}", number(unit.shown(width)), number(unit.shown(height))));
+    Some(format!("loads for which the contact is too large for its window are solved in windows of up to {sides}"))
 }
 
 /// The text of `percoat compare`: both methods under the last load of a case.

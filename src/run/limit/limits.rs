@@ -100,6 +100,8 @@ pub struct Limits {
     pub quantity: LoadQuantity,
     /// Load at which contact becomes complete on the last grid; infinite for an isolated contact.
     pub complete: f64,
+    /// Sides of the largest window in which loads were solved, lengths; `None` where an isolated contact had room in its own in all.
+    pub window: Option<[f64; 2]>,
     /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
     pub change: Option<f64>,
     /// Reason of the end of the refinement; `None` without one.

@@ -14,6 +14,9 @@
 //! load grows by a factor of four at most. A topography has spots that begin to touch at any load: a hump that is narrower than
 //! the slopes between the loads suggest is not found.
 //!
+//! Where an isolated contact of indenters has no room in its window any more, higher loads are solved in a window twice as large, up to
+//! six times one after another. A topography ends with its window.
+//!
 //! Beyond complete contact the shape adds nothing, and stresses grow by those of a uniform pressure: no limit is searched for
 //! there. Shapes with ridges between them come into complete contact under an infinite pressure only; on a grid under a finite
 //! one, where the search ends.
@@ -25,6 +28,7 @@ mod limits;
 mod record;
 mod search;
 mod section;
+mod windows;
 mod words;
 
 pub use limits::{At, Limit, LimitStep, Limits, first, rivals};

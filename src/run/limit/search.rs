@@ -2,6 +2,7 @@
 
 use super::band::{Crossing, UtilisationBand};
 use super::limits::is_complete;
+use super::windows::Windows;
 use super::{At, Limit, LimitStep, Limits};
 use crate::body::{HalfSpace, Layer};
 use crate::load::LoadQuantity;
@@ -36,6 +37,9 @@ const TOUCHING: f64 = 1e-3;
 /// A search on one grid.
 pub(super) struct LimitSearch<'a, R: Recorder> {
     run: &'a Run,
+    windows: Windows,
+    /// The window of the solver.
+    window: usize,
     solver: Solver,
     /// Tables that the stresses of all loads share.
     tables: Arc<Tables>,
@@ -45,8 +49,6 @@ pub(super) struct LimitSearch<'a, R: Recorder> {
     complete: f64,
     /// A load of the order at which contact fills the cell or the window; infinite for a flat surface.
     filling: f64,
-    /// The largest load to be solved: that of complete contact, or the last one under which an isolated contact has room.
-    largest: f64,
     /// The solved loads, by ascending load.
     steps: Vec<StepRecord>,
     /// The step of the load that was solved last.
@@ -66,10 +68,10 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let filling = complete.map_or(f64::INFINITY, |pressure| pressure * per_pressure);
         // An isolated contact is never complete, but fills its window under a load of this order.
         let complete = if run.problem.cell().is_isolated() { f64::INFINITY } else { filling };
+        let windows = Windows::new(Arc::clone(&run.problem), complete);
         let (tables, steps) = (Arc::default(), Vec::new());
-        let last = None;
         let mut search =
-            Self { run, solver, tables, quantity, complete, filling, largest: complete, steps, last, recorder };
+            Self { run, windows, window: 0, solver, tables, quantity, complete, filling, steps, last: None, recorder };
         let bodies = run.problem.bodies();
         let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
             Criterion::all(bodies).into_iter().partition(|criterion| criterion.at_rest(bodies) >= 1.0);
@@ -97,6 +99,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             shown: Vec::new(),
             quantity,
             complete,
+            window: search.largest_window(),
             change: None,
             end: None,
             warnings: Vec::new(),
@@ -122,6 +125,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     fn solve_for(&mut self, load: f64, loading: Loading) -> Result<&StepRecord, RunError<R::Error>> {
         // The memory of a step is freed before the next one needs as much.
         self.last = None;
+        self.enter(self.windows.of(load))?;
         let prescribed = self.quantity.load(load);
         let (record, step) =
             self.run.solve_load(&mut self.solver, &self.tables, prescribed, (loading, None), self.recorder)?;
@@ -135,6 +139,26 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             _ => self.steps.insert(place, record),
         }
         Ok(&self.steps[place])
+    }
+
+    /// Sides of the largest window in which loads were solved, where it is not the problem's own.
+    fn largest_window(&self) -> Option<[f64; 2]> {
+        let last = self.windows.of(self.load_of(self.steps.len().checked_sub(1)?));
+        let [[width, _], [_, height]] = self.windows.problem(last).cell().vectors();
+        (last > 0).then_some([width, height])
+    }
+
+    /// Sets the solver up for a window, unless it is there.
+    fn enter(&mut self, window: usize) -> Result<(), RunError<R::Error>> {
+        if window != self.window {
+            let (problem, points) = (Arc::clone(self.windows.problem(window)), self.solver.grid().points());
+            // The tables of one window are kept at a time.
+            self.tables = Arc::default();
+            self.solver = Solver::new(problem, points, self.run.settings)?;
+            self.window = window;
+            self.recorder.begin(&self.solver).map_err(RunError::Recorder)?;
+        }
+        Ok(())
     }
 
     /// The first load: a part of that of complete contact, or the least strength where contact is complete under any
@@ -185,16 +209,18 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         for _ in 0..DOUBLINGS {
             let has_samples = self.steps.iter().any(|step| self.is_readable(&step.reading));
             let holds = |&criterion: &Criterion| !self.band(criterion).fails();
-            if at_border || highest >= self.largest || has_samples && !sought.iter().any(holds) {
+            if at_border || highest >= self.windows.largest() || has_samples && !sought.iter().any(holds) {
                 break;
             }
             let before = highest;
-            highest = (2.0 * highest).min(self.largest);
+            highest = (2.0 * highest).min(self.windows.largest());
             if self.solve(highest)?.stop == Stop::AtBorder {
                 // Contact has no room in its window: the load says nothing.
                 self.steps.pop();
-                self.largest = before;
-                break;
+                highest = before;
+                if !self.windows.end_at(before) {
+                    break;
+                }
             }
         }
         let readable = self.steps.iter().position(|step| self.is_readable(&step.reading));
