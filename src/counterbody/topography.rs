@@ -1,19 +1,26 @@
-//! One period of a measured or generated topography.
+//! One period of a measured or generated topography, or the roughness of a ball.
 
-use super::CounterbodyError;
 use super::roughness::{RunOut, Spectrum, apex};
+use super::{CounterbodyError, Shape};
 use crate::lattice::{Cell, LatticeError};
+use crate::notation::number;
 use ndarray::{Array2, ArrayView2};
 use std::borrow::Cow;
 use std::fmt;
 
-/// One period of a measured or generated topography.
+/// Where between the middle and the nearer border of its window the profile of a ball goes over into a plane for the search of the apex,
+/// and how steeply: at half the way it differs from the ball by 5·10⁻⁶ of the plane's depth.
+const PLANE_FROM: (f64, f64) = (0.72, 14.0);
+
+/// One period of a measured or generated topography, or the roughness of a ball in the window of an isolated contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Topography {
     cell: Cell,
     /// Lengths, in standard layout.
     heights: Array2<f64>,
     run_out: Option<RunOut>,
+    /// Radius of the ball that the heights stand on, a length.
+    ball: Option<f64>,
 }
 
 impl Topography {
@@ -31,13 +38,31 @@ impl Topography {
             return Err(CounterbodyError::Height { place: [i, j], value });
         }
         let heights = if heights.is_standard_layout() { heights } else { heights.as_standard_layout().into_owned() };
-        Ok(Self { cell, heights, run_out: None })
+        Ok(Self { cell, heights, run_out: None, ball: None })
     }
 
     /// The topography, whose heights were [tapered](super::roughness::tapered), with the run-out at the border of the cell.
     #[must_use]
     pub fn with_run_out(self, run_out: RunOut) -> Self {
         Self { run_out: Some(run_out), ..self }
+    }
+
+    /// The topography on a ball of the `radius` > 0, a length, whose apex is the middle of the window of an isolated contact: heights are
+    /// those above the ball, h − R + √(R² − r²).
+    ///
+    /// # Errors
+    /// [`CounterbodyError::Ball`] for another radius, and in a periodic cell.
+    pub fn on_ball(self, radius: f64) -> Result<Self, CounterbodyError> {
+        if self.cell.is_isolated() && radius > 0.0 && radius.is_finite() {
+            Ok(Self { ball: Some(radius), ..self })
+        } else {
+            Err(CounterbodyError::Ball(radius))
+        }
+    }
+
+    /// Radius of the ball that the heights stand on, a length; `None` on a plane.
+    pub fn ball(&self) -> Option<f64> {
+        self.ball
     }
 
     /// Run-out at the border of the cell; `None` without a taper.
@@ -58,7 +83,7 @@ impl Topography {
         self.cell
     }
 
-    /// Heights, lengths; axes along a₁ and a₂.
+    /// Heights, lengths, without the ball that they stand on; axes along a₁ and a₂.
     pub fn heights(&self) -> ArrayView2<'_, f64> {
         self.heights.view()
     }
@@ -68,7 +93,7 @@ impl Topography {
         self.heights.dim().into()
     }
 
-    /// Depths below the apex on a grid of `points` = [N₁, N₂], lengths ≥ 0: of the [sum of waves](Spectrum::resampled) through all
+    /// Depths, of the ball too, below the apex on a grid of `points` = [N₁, N₂], lengths ≥ 0: of the [sum of waves](Spectrum::resampled) through all
     /// samples, without those that the grid cannot hold. The apex is the highest point of that sum, also between the samples: all
     /// grids that hold all waves measure from the same point.
     ///
@@ -79,15 +104,36 @@ impl Topography {
             true => self.heights.clone(),
             false => Spectrum::of(self.cell, self.heights.view())?.resampled(points)?,
         };
-        let apex = apex(self.cell, on_grid.view())?;
-        Ok(on_grid.mapv_into(|height| apex - height))
+        let Some(radius) = self.ball else {
+            let apex = apex(self.cell, on_grid.view())?;
+            return Ok(on_grid.mapv_into(|height| apex - height));
+        };
+        // Waves hold no corner: the ball becomes a plane where the apex is not.
+        let (ball, [[width, _], [_, height]]) = (Shape::Sphere { radius }, self.cell.vectors());
+        let (border, points) = (0.5 * width.min(height), points.map(|n| n as f64));
+        let lowest = ball.profile(border);
+        let (from, steepness) = PLANE_FROM;
+        let distance = |(i, j): (usize, usize)| {
+            let [x, y] = self.cell.point([i as f64 / points[0], j as f64 / points[1]]);
+            x.hypot(y)
+        };
+        let below = |at: (usize, usize)| {
+            let (r, plane) = (distance(at), 0.5 * libm::erfc(steepness * (from - distance(at) / border)));
+            ball.profile(r.min(border)) * (1.0 - plane) + lowest * plane
+        };
+        let smooth = Array2::from_shape_fn(on_grid.dim(), |at| on_grid[at] - below(at));
+        let height = |at: (usize, usize)| on_grid[at] - ball.profile(distance(at));
+        let highest = on_grid.indexed_iter().map(|(at, _)| height(at)).fold(f64::NEG_INFINITY, f64::max);
+        let apex = apex(self.cell, smooth.view())?.max(highest);
+        Ok(Array2::from_shape_fn(on_grid.dim(), |at| apex - height(at)))
     }
 }
 
 impl fmt::Display for Topography {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [n1, n2] = self.points();
-        write!(f, "{}, topography of {n1} × {n2} samples", self.cell)
+        write!(f, "{}, topography of {n1} × {n2} samples", self.cell)?;
+        self.ball.map_or(Ok(()), |radius| write!(f, " on a ball of radius {}", number(radius)))
     }
 }
 
@@ -129,6 +175,44 @@ mod tests {
             let depths = surface.depths([n, n]).unwrap();
             assert!(depths.indexed_iter().all(|((i, _), d)| (d - (1.0 - wave(1, i, n))).abs() < 1e-13), "{n}");
         }
+    }
+
+    /// A smooth ball is that of the indenters, also where its apex is between the samples or it is tilted; roughness stands on it.
+    #[test]
+    fn a_ball_lies_below_its_roughness() {
+        let window = Cell::window([1.0, 1.6]).unwrap();
+        let ball = Shape::Sphere { radius: 3.0 };
+        for points in [[48, 64], [33, 51]] {
+            let distance = |i: usize, j: usize, [n1, n2]: [usize; 2]| {
+                let [x, y] = window.point([i as f64 / n1 as f64, j as f64 / n2 as f64]);
+                x.hypot(y)
+            };
+            let smooth = Topography::new(window, Array2::zeros(points)).unwrap().on_ball(3.0).unwrap();
+            let depths = smooth.depths(points).unwrap();
+            for ((i, j), depth) in depths.indexed_iter() {
+                // The apex is found to what the waves of its grid leave of the step into the plane.
+                assert!((depth - ball.profile(distance(i, j, points))).abs() < 1e-7, "{points:?} {i} {j}: {depth}");
+            }
+            // Waves of whole periods: on a finer grid the same surface below the same apex.
+            let wave = |i: usize, n: usize| 1e-3 * (std::f64::consts::TAU * 3.0 * i as f64 / n as f64).cos();
+            let rough = Array2::from_shape_fn(points, |(i, _)| wave(i, points[0]));
+            let rough = Topography::new(window, rough).unwrap().on_ball(3.0).unwrap();
+            let fine = [96, 128];
+            let (own, finer) = (rough.depths(points).unwrap(), rough.depths(fine).unwrap());
+            let apex = 1e-3 * (std::f64::consts::TAU * 1.5).cos();
+            let highest = |depths: &Array2<f64>, points: [usize; 2]| {
+                let all = depths
+                    .indexed_iter()
+                    .map(|((i, j), depth)| depth - ball.profile(distance(i, j, points)) + wave(i, points[0]));
+                all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], own| [low.min(own), high.max(own)])
+            };
+            let ([low, high], [from, to]) = (highest(&own, points), highest(&finer, fine));
+            // What is left is the height of the apex: one number on both grids, above the middle, where the wave has a trough.
+            assert!(high - low < 1e-14 && to - from < 1e-14 && (high - to).abs() < 1e-7, "{low} {high} {from} {to}");
+            assert!(high > apex && high < 1e-3, "{high}");
+        }
+        let periodic = Topography::new(Cell::square(1.0).unwrap(), Array2::zeros((4, 4))).unwrap();
+        assert_eq!(periodic.on_ball(3.0), Err(CounterbodyError::Ball(3.0)));
     }
 
     #[test]

@@ -262,3 +262,22 @@ fn is_read_back(step: &percoat::run::StepRecord) {
     assert_eq!(serde_json::to_string(&read).unwrap(), text);
     assert!(text.contains("\"mean_gap\":null") && text.contains("\"density\":null"), "{text}");
 }
+
+/// A ball without roughness, as heights, is the sphere of the indenters.
+#[test]
+fn a_smooth_ball_of_heights_is_a_sphere() {
+    let (window, points, radius) = (Cell::window([1.0, 1.4]).unwrap(), [48, 60], 2.0);
+    let half_space = HalfSpace::new(vec![], Material::from_young(0.91, 0.3).unwrap());
+    let lattice = Lattice::new(window, vec![vec![[0.5; 2]]]).unwrap();
+    let level = Level::new(Shape::Sphere { radius }, 0.0).unwrap();
+    let sphere = Problem::new(Indenters::new(lattice, vec![level]).unwrap(), half_space.clone());
+    let heights = Topography::new(window, Array2::zeros(points)).unwrap().on_ball(radius).unwrap();
+    let [own, other] = [Problem::new(heights, half_space), sphere].map(|problem| {
+        let step = Solver::new(problem, points, Settings::default()).unwrap().solve(Load::Penetration(0.02));
+        assert!(step.report.stop.solved());
+        (step.reading().force, step.pressure().to_owned())
+    });
+    let peak = other.1.iter().copied().fold(0.0, f64::max);
+    assert!((own.0 / other.0 - 1.0).abs() < 1e-6, "{} {}", own.0, other.0);
+    assert!(own.1.iter().zip(&other.1).all(|(a, b)| (a - b).abs() < 1e-5 * peak));
+}

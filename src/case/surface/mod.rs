@@ -86,7 +86,7 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     let squeezed = own.and_then(|own| squeezed(own, cell));
     let name = heights.text()?;
     let path = around.source.path(name).map_or(name.to_owned(), |path| path.to_string_lossy().into_owned());
-    let topography = topography(section, cell, on_grid)?;
+    let topography = topography(section, own_section.radius, cell, on_grid)?;
     let topography = run_out.into_iter().fold(topography, Topography::with_run_out);
     let Treatment { own_scale, name: unit, level, window, .. } = treatment;
     Ok(Read {
@@ -98,6 +98,7 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
             pixel: None,
             level: Some(level),
             window: window.map(|window| Taper(Some(window))),
+            radius: own_section.radius,
             random: None,
             lines_along_a1,
         },
@@ -160,9 +161,9 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
         .map_err(|error| refuse(error.to_string()))?;
     let lost = loss([spectrum.rms_slope(), whole], points);
     Ok(Read {
+        topography: topography(section, own_section.radius, cell, spectrum.into_heights())?,
         section: SurfaceSection { period: None, random: Some(own), ..own_section },
         lattice,
-        topography: topography(section, cell, spectrum.into_heights())?,
         sampling,
         doubts: lost.into_iter().collect(),
     })
@@ -231,9 +232,20 @@ fn room(section: &TableAt<'_>, [n1, n2]: [usize; 2]) -> Result<(), Refusal> {
     })
 }
 
-fn topography(section: &TableAt<'_>, cell: Cell, heights: Array2<f64>) -> Result<Topography, Refusal> {
-    Topography::new(cell, heights)
-        .map_err(|error| Refusal::new(section.span, format!("`surface`: {error}"), "no topography"))
+fn topography(
+    section: &TableAt<'_>,
+    radius: Option<f64>,
+    cell: Cell,
+    heights: Array2<f64>,
+) -> Result<Topography, Refusal> {
+    let plane = Topography::new(cell, heights)
+        .map_err(|error| Refusal::new(section.span, format!("`surface`: {error}"), "no topography"))?;
+    let Some(radius) = radius else { return Ok(plane) };
+    plane.on_ball(radius).map_err(|error| {
+        let span = section.optional("radius").map_or(section.span, |key| key.node.span);
+        Refusal::new(span, format!("`surface.radius`: {error}"), "a ball is one contact")
+            .help("give [lattice] kind = \"isolated\" with its size, or leave the radius out")
+    })
 }
 
 /// A warning where a grid of `points` keeps the rms slope `held` of `whole`.

@@ -85,6 +85,10 @@ impl Bases {
                 "lattice = {{ kind = \"isolated\", size = 2.0 }}\n{}",
                 BODY.replace("mean_pressure = 1e-3", "pressure = { disc = [[0.0, 0.0, 0.1]], value = 0.7 }")
             ),
+            format!(
+                "lattice = {{ kind = \"isolated\", size = 2.0 }}\nsurface = {{ heights = \"surface.npy\", radius = 3.0 }}\n{}",
+                BODY.replace("mean_pressure", "force")
+            ),
             BODY.to_owned(),
         ];
         Self { folder, cases: texts.iter().map(|text| text.parse().unwrap()).collect() }
