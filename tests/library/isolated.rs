@@ -227,6 +227,19 @@ fn a_slender_window_has_the_stresses_of_a_square_one() {
     assert!(beyond.zz.is_nan() && square.points(Depth { z: 0.1, material: 1 }, &[[0.0, 0.6 * side]])[0].zz.is_finite());
 }
 
+/// A window has no mean pressure; a cell has no force that another cell of the same system would have.
+#[test]
+fn a_stress_field_says_the_load_that_its_contact_has() {
+    let free = solved(problem(bare(), 3.0), 32, Load::Force(0.5));
+    let said = StressField::new(free.finest(), MeanStress::Confined).to_string();
+    assert!(said.ends_with(", 1 materials, force 0.50000"), "{said}");
+    let indenter = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+    let cell = Indenters::new(Lattice::square(2.0, 1).unwrap(), vec![indenter]).unwrap();
+    let step = solved(Problem::new(cell, bare()), 32, Load::Force(0.5));
+    let said = StressField::new(step.finest(), MeanStress::Confined).to_string();
+    assert!(said.ends_with(", 1 materials, mean pressure 0.12500"), "{said}");
+}
+
 /// The paraboloid as a topography: by Hertz dP/dδ = 2E*a; what would be of the window's area is not there.
 #[test]
 fn a_topography_in_a_window_has_its_stiffness_and_no_parts_of_the_window() {
