@@ -45,6 +45,14 @@ impl LoadQuantity {
         }
     }
 
+    /// Its key in case files and results.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::MeanPressure => "mean_pressure",
+            Self::Force => "force",
+        }
+    }
+
     /// A load of this quantity.
     pub fn load(self, value: f64) -> Load {
         match self {

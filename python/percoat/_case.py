@@ -27,6 +27,7 @@ class Check(Record):
     load: Record
     first_touch: Optional[list[Optional[float]]]
     first_touch_error: Optional[list[Optional[float]]]
+    first_touch_quantity: Optional[str]
     sublayer_error: Optional[float]
     surface: Optional[Record]
     warnings: list[str]
@@ -65,7 +66,8 @@ def case(case: CaseLike, *, set: Settings = None) -> dict[str, Any]:
 def check(case: CaseLike, *, set: Settings = None, threads: Optional[int] = None) -> Check:
     """What a case means: cell, materials, memory, first touches. Nothing is solved.
 
-    Lengths and pressures are in the units of the case, memory and disk in bytes.
+    Lengths, pressures and forces are in the units of the case, memory and disk in bytes. Loads of first touch are mean pressures, or
+    forces where the case gives forces or an isolated contact: ``first_touch_quantity`` says which.
 
     Examples
     --------

@@ -367,6 +367,7 @@ def test_a_check_tells_first_touches_memory_and_load() -> None:
     # Levels 2 and 3 touch at .00094 and .00365 (ANCHORS 4.2), with the last digit rounded.
     assert told.first_touch is not None and told.first_touch[0] == 0.0
     assert told.first_touch[1:] == pytest.approx([0.00094, 0.00365], abs=1e-5)
+    assert told.first_touch_quantity == "mean_pressure"
     # Eight bytes a sample in ten fields at least, and no more than is there.
     assert 10 * 8 * 192 * 192 < told.memory < told.memory_available
     assert told.surface is None and told.warnings == [] and told.sublayer_error is None
@@ -376,7 +377,7 @@ def test_a_check_tells_first_touches_memory_and_load() -> None:
 def test_a_check_tells_what_a_surface_is_like() -> None:
     told = percoat.check(wave())
     # A wave of amplitude Δ: Δ/√2, k Δ/√2, and flatter than normal: 3/2.
-    assert told.surface is not None and told.first_touch is None
+    assert told.surface is not None and told.first_touch is None and told.first_touch_quantity is None
     assert told.surface.rms_height == pytest.approx(0.01 / np.sqrt(2.0), rel=1e-12)
     assert told.surface.rms_slope == pytest.approx(np.pi * 0.01 / np.sqrt(2.0), rel=1e-12)
     assert told.surface.kurtosis == pytest.approx(1.5, rel=1e-12)

@@ -31,7 +31,7 @@ section! {
         /// tensile strength, compared with the largest principal stress
         pub tensile_strength: Option<f64> = TENSILE,
         /// whether it is rigid below its coating, without moduli, name and strengths; the interface of the last layer joins it to the base
-        pub rigid: Rigid = RIGID.instead_of("young").and_of(&["poisson", "material", "name", "yield_strength", "tensile_strength"]),
+        pub rigid: Rigid = RIGID,
         /// its coating, one section `[[counterbody.layers]]` a layer from its surface inward, with the keys of `[[layers]]`
         pub layers: Coating =
             Key::new(&[Form::Sections(&LAYER, LAYERS)], "[{ thickness = 0.5, young = 300.0, poisson = 0.25 }]")

@@ -28,9 +28,10 @@ pub(super) const YIELD: Key =
     Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
 pub(super) const TENSILE: Key =
     Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
-/// Keys of a substrate that a rigid base does not have.
-const ELASTIC: [&str; 6] = ["young", "poisson", "material", "name", "yield_strength", "tensile_strength"];
-pub(super) const RIGID: Key = Key::new(&[Form::Boolean], "true").otherwise("elastic").omitted_as_nothing();
+/// Keys of a substrate that a rigid base does not have, beside `young`.
+const ELASTIC: [&str; 5] = ["poisson", "material", "name", "yield_strength", "tensile_strength"];
+pub(super) const RIGID: Key =
+    Key::new(&[Form::Boolean], "true").otherwise("elastic").omitted_as_nothing().instead_of("young").and_of(&ELASTIC);
 
 /// Whether a substrate is a rigid base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -110,7 +111,7 @@ section! {
         /// tensile strength, compared with the largest principal stress
         pub tensile_strength: Option<f64> = TENSILE,
         /// whether it is a rigid base, without moduli, name and strengths; the interface of the last layer joins it to the base
-        pub rigid: Rigid = RIGID.instead_of("young").and_of(&["poisson", "material", "name", "yield_strength", "tensile_strength"]),
+        pub rigid: Rigid = RIGID,
     }
 }
 
@@ -124,7 +125,7 @@ pub(super) fn modulus_or_rigid(is_rigid: bool, section: &TableAt<'_>) -> Result<
     if !is_rigid {
         return ["young", "poisson"].into_iter().try_for_each(|key| section.value(key).map(drop));
     }
-    let Some(value) = ELASTIC.into_iter().find_map(|key| section.optional(key)) else { return Ok(()) };
+    let Some(value) = ["young"].into_iter().chain(ELASTIC).find_map(|key| section.optional(key)) else { return Ok(()) };
     let message = format!("`{}` has no meaning: `{}` = true has no material", value.path, section.path("rigid"));
     Err(Refusal::new(value.node.span, message, "not of a rigid base").help("remove it, or `rigid`"))
 }

@@ -5,12 +5,12 @@ use super::pictures::PictureOptions;
 use super::plan::plan;
 use super::results::Results;
 use super::terminal;
-use crate::case::{Case, Source};
 use crate::output::{Plan, SWEEP_LOG, Writer};
 use crate::picture;
 use crate::sweep::{self, Description, Log, Row, Status};
 use crate::units::Units;
 use std::collections::HashSet;
+use std::path::Path;
 
 /// Files of the result, without those of single combinations.
 pub fn may_write(pictures: &PictureOptions) -> Plan {
@@ -29,9 +29,7 @@ pub fn finish(
     drop(Log::begin(&staging, &description.identity(), rows)?);
     results.write("sweep.csv", &sweep::table(rows))?;
     results.write("sweep.json", &description.to_json())?;
-    let text = description.case.clone();
-    let common = Source { name: "the common case".to_owned(), text, ..Source::default() };
-    let units = Case::read(&common, &[]).map_or_else(|_| Units::unknown(), |case| case.units());
+    let units = description.first_case(rows, Path::new("")).map_or_else(Units::unknown, |case| case.units());
     pictures.write(&staging, "sweep", || picture::sweep(&description.title, &units, rows))?;
     let warnings = if saying.json { Vec::new() } else { [warnings(rows), failures(rows)].concat() };
     results.finish(|| description.to_json(), String::new, || counts(description), &warnings)?;

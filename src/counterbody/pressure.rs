@@ -114,6 +114,14 @@ impl GivenPressure {
         }
     }
 
+    /// The largest pressure; where discs overlap that of each.
+    pub fn highest(&self) -> f64 {
+        match &self.distribution {
+            Distribution::Discs(discs) => discs.iter().map(|own| own.pressure).fold(0.0, f64::max),
+            Distribution::Field(values) => values.iter().copied().fold(0.0, f64::max),
+        }
+    }
+
     /// Area under pressure in the cell, a length squared; where discs overlap that of each.
     pub fn loaded_area(&self) -> f64 {
         match &self.distribution {

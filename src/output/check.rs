@@ -5,7 +5,7 @@ use super::number::number;
 use crate::case::resources::{Job, Needs, needs};
 use crate::case::{Case, ORIENTATION, RandomSection, SurfaceSection, foreseen, plausibility, sublayer_error};
 use crate::counterbody::roughness::{Spectrum, Statistics};
-use crate::lattice::{Grid, LatticeError};
+use crate::lattice::{Cell, Grid, LatticeError};
 use crate::load::LoadQuantity;
 use crate::machine::{Capacity, bytes};
 use crate::plain;
@@ -24,8 +24,6 @@ const POINTS: usize = 192;
 /// Summary of a case before it is solved.
 #[derive(Debug, Clone)]
 pub struct Check {
-    /// Area of the cell, a length squared.
-    area: f64,
     /// Its title, or its name where it has none.
     pub title: String,
     /// Counterbody and half-space in words.
@@ -63,8 +61,10 @@ pub struct Check {
 pub struct Touches {
     /// The grid on which they were found, points along a₁ and a₂.
     pub points: [usize; 2],
-    /// First touch of each level; `None` for a level hidden behind the others.
-    pub levels: Vec<Option<FirstTouch>>,
+    /// The quantity of their loads.
+    pub quantity: LoadQuantity,
+    /// Load and its error at the first touch of each level; `None` for a level hidden behind the others.
+    pub levels: Vec<Option<(f64, Option<f64>)>>,
 }
 
 /// Roughness of a topography.
@@ -113,9 +113,11 @@ impl Check {
             }
         };
         let solving = |pictures| needs(case, points, Job::Solve { pictures, fields: true });
-        let touches = touches(case, grids[0])?;
-        let pressures = touches.as_ref().map_or(Vec::new(), Touches::pressures);
+        let (touches_on, found) = touches(case, grids[0])?.unzip();
+        let pressure = |touch: &Option<FirstTouch>| touch.map(|touch| touch.mean_pressure);
+        let pressures: Vec<Option<f64>> = found.iter().flatten().map(pressure).collect();
         let warnings = [plausibility::of_case(case), foreseen(case, &pressures)].concat();
+        let touches = touches_on.zip(found).map(|(points, found)| Touches::new(points, &found, units.quantity(), cell));
         let counts = || case.layers.iter().map(crate::case::LayerSection::sublayers).collect();
         Ok(Self {
             title: if case.title.is_empty() { name.to_owned() } else { case.title.clone() },
@@ -123,7 +125,6 @@ impl Check {
                 described::counterbody(&units, case.counterbody()),
                 described::bodies(&units, case.problem().bodies()),
             ],
-            area: cell.area(),
             units,
             sublayers: sublayer_error(case).map(|error| (counts(), error)),
             points,
@@ -151,8 +152,9 @@ impl Check {
             "memory_available": room.memory,
             "disk": needs.disk,
             "load": { *quantity: loads },
-            "first_touch": self.touches.as_ref().map(Touches::pressures),
+            "first_touch": self.touches.as_ref().map(Touches::loads),
             "first_touch_error": self.touches.as_ref().map(Touches::errors),
+            "first_touch_quantity": self.touches.as_ref().map(|touches| touches.quantity.key()),
             "sublayer_error": self.sublayers.as_ref().map(|(_, error)| error),
             "surface": self.surface.as_ref().map(Roughness::json),
             "warnings": warnings,
@@ -162,14 +164,26 @@ impl Check {
 }
 
 impl Touches {
-    /// Mean pressure at first touch, level by level.
-    fn pressures(&self) -> Vec<Option<f64>> {
-        self.levels.iter().map(|touch| touch.map(|touch| touch.mean_pressure)).collect()
+    /// First touches found on a grid of these points over the cell, in a quantity of loads.
+    fn new(points: [usize; 2], found: &[Option<FirstTouch>], quantity: LoadQuantity, cell: Cell) -> Self {
+        let per_pressure = match quantity {
+            LoadQuantity::MeanPressure => 1.0,
+            LoadQuantity::Force => cell.area(),
+        };
+        let load = |FirstTouch { mean_pressure, error }: FirstTouch| {
+            (mean_pressure * per_pressure, error.map(|error| error * per_pressure))
+        };
+        Self { points, quantity, levels: found.iter().map(|touch| touch.map(load)).collect() }
     }
 
-    /// Errors of the mean pressures, level by level.
+    /// Load at first touch, level by level.
+    fn loads(&self) -> Vec<Option<f64>> {
+        self.levels.iter().map(|touch| touch.map(|(load, _)| load)).collect()
+    }
+
+    /// Errors of the loads, level by level.
     fn errors(&self) -> Vec<Option<f64>> {
-        self.levels.iter().map(|touch| touch.and_then(|touch| touch.error)).collect()
+        self.levels.iter().map(|touch| touch.and_then(|(_, error)| error)).collect()
     }
 }
 
@@ -198,8 +212,11 @@ impl Roughness {
     }
 }
 
+/// First touches found on a grid, points along a₁ and a₂, level by level.
+type FoundTouches = ([usize; 2], Vec<Option<FirstTouch>>);
+
 /// First touches of the levels; `first` is the coarsest grid of the case, for which there is memory.
-fn touches(case: &Case, first: [usize; 2]) -> Result<Option<Touches>, LatticeError> {
+fn touches(case: &Case, first: [usize; 2]) -> Result<Option<FoundTouches>, LatticeError> {
     // A single isolated contact touches under any load.
     let is_single = case.problem().cell().is_isolated() && case.counterbody().levels().len() == 1;
     if case.counterbody().indenters().is_none() || is_single {
@@ -209,7 +226,7 @@ fn touches(case: &Case, first: [usize; 2]) -> Result<Option<Touches>, LatticeErr
     // A long cell would have many points.
     let points = if n1 * n2 <= 4 * POINTS * POINTS { [n1, n2] } else { first };
     let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver)?;
-    Ok(Some(Touches { points, levels: first_touches(&mut solver) }))
+    Ok(Some((points, first_touches(&mut solver))))
 }
 
 /// The names of the units in a line; empty where they have none.
@@ -253,18 +270,13 @@ impl fmt::Display for Check {
             1 => writeln!(f, "load: {} {first}", self.quantity)?,
             count => writeln!(f, "load: {} {first} … {last}, {count} steps", self.quantity)?,
         }
-        if let Some(Touches { points: [n1, n2], levels }) = &self.touches {
+        if let Some(Touches { points: [n1, n2], quantity, levels }) = &self.touches {
             writeln!(f, "first touch, on {n1} × {n2} samples:")?;
             for (level, touch) in (1..).zip(levels) {
-                match touch {
-                    Some(FirstTouch { mean_pressure, error }) => {
-                        let per_pressure = match self.units.quantity() {
-                            LoadQuantity::MeanPressure => 1.0,
-                            LoadQuantity::Force => self.area,
-                        };
-                        let (load, error) = (mean_pressure * per_pressure, error.map(|error| error * per_pressure));
+                match *touch {
+                    Some((load, error)) => {
                         let load = described::load_with_error(&self.units, load, error);
-                        writeln!(f, "  level {level}: {} {load}", self.units.quantity().name())?;
+                        writeln!(f, "  level {level}: {} {load}", quantity.name())?;
                     }
                     None => writeln!(f, "  level {level}: never, it is hidden behind the others")?,
                 }
@@ -304,5 +316,39 @@ impl Roughness {
             writeln!(f, "  its window's run-out at the border left out")?;
         }
         if self.from_file { writeln!(f, "{ORIENTATION}") } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Source;
+    use std::f64::consts::PI;
+
+    /// Two paraboloids far from each other, the lower one by d: the upper one carries 4/3 E* δ^{3/2} when the surface under the lower
+    /// one, at a distance r, has come up to it: δ = d + P/(πE*r).
+    #[test]
+    fn levels_of_an_isolated_contact_first_touch_at_a_force() {
+        let modulus = 1.0 / 0.91;
+        let force = |depth: f64| 4.0 / 3.0 * modulus * f64::powf(depth, 1.5);
+        let exact = force((0..60).fold(0.04, |depth, _| 0.04 + force(depth) / (PI * modulus * 3.0)));
+        for load in ["force = 0.1", "penetration = 0.1"] {
+            let text = format!(
+                "lattice = {{ kind = \"isolated\", size = 6.0 }}\nload = {{ {load} }}\ngrid = {{ points = 64 }}\n\
+                 levels = [{{ shape = \"paraboloid\", radius = 1.0, height = 0.04, sites = [[-0.25, 0.0]] }}, \
+                 {{ shape = \"paraboloid\", radius = 1.0, height = 0.0, sites = [[0.25, 0.0]] }}]\n\
+                 substrate = {{ young = 1.0, poisson = 0.3 }}\nunits = {{ length = \"µm\", pressure = \"GPa\" }}\n"
+            );
+            let source = Source { name: "case".to_owned(), text, ..Source::default() };
+            let room = Capacity { memory: u64::MAX, disk: u64::MAX };
+            let check = Check::of(&Case::read(&source, &[]).unwrap(), "case", room).unwrap();
+            let told = check.json();
+            assert_eq!((&told["first_touch_quantity"], &told["first_touch"][0]), (&json!("force"), &json!(0.0)));
+            let [found, error] =
+                ["first_touch", "first_touch_error"].map(|key| told[key][1].as_f64().unwrap_or(f64::NAN));
+            assert!((found - exact).abs() < error && error < 0.05 * exact, "{found} ± {error}, {exact}");
+            let stated = format!("  level 2: force {}\u{a0}mN", crate::output::with_error(found, Some(error)));
+            assert!(check.to_string().contains(&stated), "{stated}:\n{check}");
+        }
     }
 }

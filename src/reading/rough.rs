@@ -11,8 +11,8 @@
 //! basis of the samples' lattice, squares on a square cell, with eight neighbours; on a hexagonal cell they are hexagons, whose
 //! six neighbours all share edges.
 //!
-//! **Stiffness.** [`stiffness`] is dp̄/dδ from neighbouring load steps: with the mean gap ū, dp̄/dδ = −dp̄/dū. Of an isolated contact it
-//! is dP/dδ.
+//! **Stiffness.** [`stiffness`] is dp̄/dδ from neighbouring load steps: with the mean gap ū, dp̄/dδ = −dp̄/dū. An isolated contact has its
+//! exact dP/dδ by [`Tangent`](crate::Tangent) instead, except under friction that couples.
 //!
 //! **An isolated contact** has no area to which parts, densities and a mean gap could be related: it lies in a window of any size.
 //! Of these it has none, not a number each; the area of contact, the spots and the stiffness do not depend on the window.
@@ -49,8 +49,8 @@ pub struct RoughReading {
     /// Estimated discretisation error of the mean gap, a length; `None` without a coarser grid, and for an isolated contact.
     #[serde(default)]
     pub mean_gap_error: Option<f64>,
-    /// Normal stiffness: dp̄/dδ, pressure per length, of an isolated contact dP/dδ, force per length; `None` without neighbouring
-    /// load steps.
+    /// Normal stiffness dp̄/dδ by the neighbouring load steps, pressure per length; `None` without them. Of an isolated contact dP/dδ,
+    /// force per length, under friction that couples alone: `None` where the step has its contact stiffness by the tangent.
     pub stiffness: Option<f64>,
     /// Estimated error of the stiffness, in its unit.
     pub stiffness_error: Option<f64>,

@@ -9,6 +9,9 @@ use crate::reading::LevelReading;
 use crate::run::StepRecord;
 use crate::units::Units;
 
+/// Label of the stiffness of an isolated contact.
+const STIFFNESS: &str = "stiffness dP/dδ, a force per length";
+
 /// The first section of a run: a sentence on the last load step with contact, and a table of its numbers.
 pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     let number = steps.iter().rposition(|step| step.reading.touches()).map_or(steps.len(), |index| index + 1);
@@ -92,13 +95,11 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
         if !is_isolated {
             rows.push(("mean gap", numbers(&with_unit(units.length(), rough.mean_gap, rough.mean_gap_error))));
         }
-        let of = if is_isolated {
-            "stiffness dP/dδ, a force per length"
-        } else {
-            "stiffness dp̄/dδ, a pressure per length"
-        };
+        let of = if is_isolated { STIFFNESS } else { "stiffness dp̄/dδ, a pressure per length" };
         rows.extend(stiffness.map(|text| (of, numbers(&text))));
     }
+    let stiffness = step.contact_stiffness.map(|stiffness| with_error(stiffness, step.contact_stiffness_error));
+    rows.extend(stiffness.map(|text| (STIFFNESS, numbers(&text))));
     let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());
     vec![with("p", &[("class", "answer")], numbers(&sentence)), pairs(&step_of, &rows)].into()
 }

@@ -31,7 +31,8 @@ pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError
     let read = case_of(text, &results.folder);
     // The keys of a case that cannot be read are sorted alphabetically.
     let keys_of_case = read.as_ref().map(|case| json!(case)).or_else(|| toml::from_str(text).ok()).unwrap_or_default();
-    let units = units_of(&UnitNames::default(), read.as_ref(), &keys_of_case);
+    let first = description.first_case(rows, &results.folder);
+    let units = units_of(&UnitNames::default(), first.as_ref(), &keys_of_case);
     let quantity = rows.iter().flat_map(|row| &row.results).find_map(SweepResult::quantity);
     let units = quantity.map_or(units.clone(), |quantity| units.with_loads_in(quantity));
     let given = keys.iter().map(|key| vec![key.key.clone(), key.values.len().to_string(), values(key)]);

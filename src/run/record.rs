@@ -130,7 +130,8 @@ impl StepRecord {
         Self { contact_stiffness, contact_stiffness_error, ..self }
     }
 
-    /// Adds the stiffness dp̄/dδ, of an isolated contact dP/dδ, which depends on all steps of a path on a topography.
+    /// Adds the stiffness dp̄/dδ of topographies, which depends on all steps of a path; of an isolated contact dP/dδ, where its
+    /// tangent has not given it.
     pub(super) fn add_stiffness(steps: &mut [Self]) {
         // Steps that have not converged are left out.
         let place = |step: &Self| {
@@ -140,7 +141,8 @@ impl StepRecord {
         };
         let path: Vec<[f64; 2]> = steps.iter().map(place).collect();
         for (step, found) in steps.iter_mut().zip(stiffness(&path)) {
-            if let (Some(rough), Some([value, error])) = (&mut step.rough, found) {
+            let is_wanted = step.contact_stiffness.is_none();
+            if let (Some(rough), Some([value, error])) = (step.rough.as_mut().filter(|_| is_wanted), found) {
                 (rough.stiffness, rough.stiffness_error) = (Some(value), Some(error));
             }
         }

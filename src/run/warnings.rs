@@ -196,7 +196,8 @@ fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
         .filter(|(_, level, _)| !matches!(levels[level - 1].shape(), Shape::Cone { .. }))
         .max_by(|a: &(usize, usize, f64), b| slope(a.1, a.2).total_cmp(&slope(b.1, b.2)));
     let (step, level, radius) = steepest.filter(|&(_, level, radius)| slope(level, radius) > STEEP)?;
-    Some(flank(&format!("step {step}"), level, levels[level - 1].shape(), radius))
+    let question = "are lengths, load and moduli in consistent units?";
+    Some(flank(&format!("step {step}"), level, levels[level - 1].shape(), radius, question))
 }
 
 fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<String> {
@@ -215,19 +216,19 @@ fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     ))
 }
 
-/// Warning that the flank of a level is steep at the edge of a contact of radius a.
-pub(crate) fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String {
+/// Warning that the flank of a level is steep at the edge of a contact of radius a, with a question that says what to do.
+pub(crate) fn flank(context: &str, level: usize, shape: Shape, a: f64, question: &str) -> String {
     let size = match shape {
-        Shape::Paraboloid { radius } => format!("{} of its radius {}", ratio(a / radius), number(radius)),
-        Shape::Sphere { radius } if a >= radius => {
-            format!("beyond the equator of its sphere of radius {}", number(radius))
+        Shape::Paraboloid { radius } | Shape::Sphere { radius } if a >= radius => {
+            format!("larger than its radius {}", number(radius))
         }
-        Shape::Sphere { radius } => format!("{} of its radius {}", ratio(a / radius), number(radius)),
+        Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
+            format!("{} of its radius {}", ratio(a / radius), number(radius))
+        }
         _ => format!("where its flank has the slope {}", ratio(shape.slope(a))),
     };
     format!(
-        "{context}: the contact radius {} of level {level} is {size}: strains are not small any more; are radius, period, \
-         load and moduli in consistent units?",
+        "{context}: the contact radius {} of level {level} is {size}: strains are not small any more; {question}",
         number(a)
     )
 }

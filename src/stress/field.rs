@@ -11,7 +11,7 @@ use super::tensor::StressState;
 use crate::body::{Bodies, Depth, HalfSpace, Interface, InteriorTable, MeanStress, Side};
 use crate::friction::Friction;
 use crate::lattice::{Grid, NotOnGrid};
-use crate::notation::number;
+use crate::load::Load;
 use crate::spectral::Contact;
 use ndarray::ArrayView2;
 use std::fmt;
@@ -42,6 +42,8 @@ pub struct StressField {
     /// State under the mean pressure at the upper face of each material, and the derivative of its displacement by depth.
     mean: Vec<(StressState, [f64; 3])>,
     mean_stress: MeanStress,
+    /// The mean pressure over the cell, or the force on an isolated contact.
+    load: Load,
     regions: Regions,
     /// μ **e** of a sliding counterbody; `None` without traction.
     traction: Option<[f64; 2]>,
@@ -100,6 +102,10 @@ impl StressField {
     ) -> Self {
         let (series_grid, spread) = (tables.series_grid(grid), spread(grid, pressure));
         let mut series = Series::new(&series_grid, &spread);
+        let load = match grid.cell().is_isolated() {
+            true => Load::Force(series.mean * series_grid.cell().area()),
+            false => Load::MeanPressure(series.mean),
+        };
         let traction = friction.map(Friction::traction).filter(|traction| *traction != [0.0; 2]);
         let far = grid.cell().is_isolated().then(|| {
             // The free field has no mean.
@@ -115,6 +121,7 @@ impl StressField {
             tables,
             mean: mean_states(half_space, mean, series.mean, traction.unwrap_or_default()),
             mean_stress: mean,
+            load,
             regions: if is_contact { regions } else { regions.without_edges(&series_grid, &spread) },
             series_grid,
             traction,
@@ -252,11 +259,11 @@ impl fmt::Display for StressField {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "stress field of {} plane waves in {} shells, {} materials, mean pressure {}",
+            "stress field of {} plane waves in {} shells, {} materials, {}",
             self.series.coefficients.len(),
             self.series.waves.wavenumbers().len(),
             self.materials(),
-            number(self.series.mean)
+            self.load
         )
     }
 }

@@ -3,11 +3,13 @@
 use super::combinations::Combinations;
 use super::row::{Row, Status};
 use super::task::Task;
+use crate::case::{Case, Source};
 use crate::output::columns::{csv, names};
 use crate::output::{checksum, digest};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::{BTreeSet, HashMap};
+use std::path::Path;
 
 /// One row for each combination and load step, by ascending combination.
 pub fn table(rows: &[Row]) -> String {
@@ -123,6 +125,17 @@ impl Description {
     pub fn identity(&self) -> String {
         let Self { percoat, title, case, task, fingerprint, of, .. } = self;
         digest(&format!("{percoat}\n{} {of} {fingerprint}\n{title}\n{case}", task.name()))
+    }
+
+    /// The common case, as its first combination with results among these has it: what a setting has put in the place of a key of the
+    /// file is the setting's. `None` where it cannot be read; paths in it are relative to the `folder`.
+    pub fn first_case(&self, rows: &[Row], folder: &Path) -> Option<Case> {
+        let (name, text) = ("the common case".to_owned(), self.case.clone());
+        let source = Source { name, text, folder: folder.to_owned(), ..Source::default() };
+        let first = rows.iter().find(|row| !row.results.is_empty());
+        let set = |row: &Row| row.settings.iter().map(|(key, value)| format!("{key}={value}")).collect::<Vec<_>>();
+        let own = first.and_then(|row| Case::read(&source, &set(row)).ok());
+        own.or_else(|| Case::read(&source, &[]).ok())
     }
 
     /// The content of `sweep.json`.

@@ -160,6 +160,34 @@ load = { mean_pressure = 0.07 }
 grid = { points = 48 }
 "#;
 
+/// The case has a mean pressure and the sweep sets a force, or the reverse.
+#[test]
+fn a_sweep_states_loads_in_the_quantity_that_was_set() {
+    let desk = Desk::new();
+    for (fixed, swept, [said, axis], other) in [
+        ("mean_pressure = 0.07", "load.force=20,28", ["force", "force P (unit of force)"], "mean pressure"),
+        ("force = 28", "load.mean_pressure=0.05,0.07", ["mean pressure", "mean pressure p̄ (unit of E)"], "force"),
+    ] {
+        desk.write("case.toml", BOND.replace("mean_pressure = 0.07", fixed));
+        let keys = ["--set", "layers.0.thickness=1,2", "--set", swept, "--zip"];
+        for task in [&[][..], &["--limit"]] {
+            let folder = format!("{said}{}", task.len());
+            let begin = ["sweep", "case.toml", "-o", &folder, "--pictures", "svg"];
+            let answer = desk.percoat(&[&begin[..], &keys, task].concat());
+            assert!([0, 3].contains(&answer.code), "{}", answer.err);
+            let page = words(&report(&desk, &folder));
+            let (page, picture) = (told(&page), Folder(desk.path(&folder)).text("sweep.svg").replace('\u{a0}', " "));
+            if task.is_empty() {
+                let has = |name: &str| page.contains(&format!("<th scope=\"col\" class=\"number\">{name}<"));
+                assert!(has(said) && !has(other), "{page}");
+            } else {
+                assert!(page.contains(&format!("the {said} of each limit")), "{page}");
+                assert!(picture.contains(axis) && !picture.contains(other), "{picture}");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_page_of_a_limit_says_first_what_fails_first() {
     let desk = Desk::new();

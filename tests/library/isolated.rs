@@ -227,14 +227,37 @@ fn a_slender_window_has_the_stresses_of_a_square_one() {
     assert!(beyond.zz.is_nan() && square.points(Depth { z: 0.1, material: 1 }, &[[0.0, 0.6 * side]])[0].zz.is_finite());
 }
 
-/// The paraboloid as a topography: by Hertz dP/dδ = 2E*a; what would be of the window's area is not there.
+/// A window has no mean pressure; a cell has no force that another cell of the same system would have.
 #[test]
-fn a_topography_in_a_window_has_its_stiffness_and_no_parts_of_the_window() {
+fn a_stress_field_says_the_load_that_its_contact_has() {
+    let free = solved(problem(bare(), 3.0), 32, Load::Force(0.5));
+    let said = StressField::new(free.finest(), MeanStress::Confined).to_string();
+    assert!(said.ends_with(", 1 materials, force 0.50000"), "{said}");
+    let indenter = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+    let cell = Indenters::new(Lattice::square(2.0, 1).unwrap(), vec![indenter]).unwrap();
+    let step = solved(Problem::new(cell, bare()), 32, Load::Force(0.5));
+    let said = StressField::new(step.finest(), MeanStress::Confined).to_string();
+    assert!(said.ends_with(", 1 materials, mean pressure 0.12500"), "{said}");
+}
+
+/// The paraboloid as a topography: by Hertz dP/dδ = 2E*a; what would be of the window's area is not there. The stiffness is that of the
+/// tangent, and under friction that couples, which has none, of the neighbouring loads.
+#[test]
+fn a_topography_in_a_window_has_its_stiffness_once_and_no_parts_of_the_window() {
+    for friction in [0.0, 0.05] {
+        topography_in_a_window(friction);
+    }
+}
+
+fn topography_in_a_window(friction: f64) {
     let (window, points) = (3.0, 96);
     let cell = Cell::window([window; 2]).unwrap();
     let place = |index: usize| (index as f64 / points as f64 - 0.5) * window;
     let heights = Array2::from_shape_fn([points; 2], |(i, j)| -0.5 * (place(i).powi(2) + place(j).powi(2)));
-    let problem = Problem::new(Topography::new(cell, heights).unwrap(), bare());
+    let mut problem = Problem::new(Topography::new(cell, heights).unwrap(), bare());
+    if friction > 0.0 {
+        problem = problem.sliding(Friction::new(friction, [1.0, 0.0]).unwrap()).unwrap();
+    }
     let loads: Vec<Load> = (0..5).map(|k| Load::Force(0.2 * 1.2f64.powi(k))).collect();
     let steps = Run::new(problem, loads, Sampling::Points([points; 2])).solve(&mut ()).unwrap().steps;
     for step in &steps {
@@ -247,7 +270,10 @@ fn a_topography_in_a_window_has_its_stiffness_and_no_parts_of_the_window() {
         assert_eq!(names, ["pressure", "spot_area"]);
         let radius = (0.75 * step.reading.force * (1.0 - NU * NU)).cbrt();
         let exact = 2.0 * radius / (1.0 - NU * NU);
-        let (found, error) = (rough.stiffness.unwrap(), rough.stiffness_error.unwrap());
+        let by_tangent = step.contact_stiffness.zip(step.contact_stiffness_error);
+        let by_neighbours = rough.stiffness.zip(rough.stiffness_error);
+        assert_eq!((by_tangent.is_some(), by_neighbours.is_some()), (friction == 0.0, friction > 0.0));
+        let (found, error) = by_tangent.or(by_neighbours).unwrap();
         assert!((found / exact - 1.0).abs() < 1e-2 && (found - exact).abs() < error, "{found} ± {error}, {exact}");
         #[cfg(feature = "cli")]
         is_read_back(step);

@@ -2,9 +2,11 @@
 //!
 //! `magnitude` refuses ratios beyond double precision while the case is read. [`resources`] estimates memory and disk of a run; an
 //! [`Allowed`] job fits into them. [`plausibility`] warns of units mixed up, `si_sizes` of values that no material has in SI units,
-//! `sublayers` of graded layers with too few sublayers, `single_contact` of steep flanks and coarse grids.
+//! `sublayers` of graded layers with too few sublayers, `single_contact` of steep flanks and coarse grids, `ball` of contacts of balls that
+//! no solid bears.
 
 mod allowed;
+mod ball;
 pub(super) mod magnitude;
 pub mod plausibility;
 pub mod resources;

@@ -1,6 +1,6 @@
 //! Warnings about a case that can be solved but is implausible: units mixed up, strains that are not small.
 
-use super::{si_sizes, sublayers};
+use super::{ball, si_sizes, sublayers};
 use crate::body::{HalfSpace, Interface, Layer, Material, MeanStress};
 use crate::case::{Case, LayerSection};
 use crate::counterbody::{Level, Shape, Topography};
@@ -28,6 +28,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
     doubts.extend(friction(case));
     doubts.extend(drifting(case, cell));
     doubts.extend(lengths(case, cell));
+    doubts.extend(ball::doubts(case));
     doubts.extend(sublayers::doubt(case));
     if counterbody.indenters().is_some() {
         doubts.extend(heights(counterbody.levels(), cell));
@@ -53,15 +54,26 @@ fn names<'a>(layers: &'a [LayerSection], prefix: &'static str) -> impl Iterator<
     })
 }
 
+/// A mean pressure, or a given pressure, that is high beside a modulus. What an isolated contact bears is not told by its window.
 fn pressures(case: &Case) -> Option<String> {
-    let highest = case.mean_pressures()?.iter().copied().fold(0.0, f64::max);
     let (material, name) = materials(case).min_by(|a, b| a.0.young().total_cmp(&b.0.young()))?;
-    let part = highest / material.young();
+    let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let (pressure, load) = if let Some(given) = case.counterbody().pressure() {
+        (given.highest(), format!("the highest load.pressure, {},", number(given.highest())))
+    } else if case.problem().cell().is_isolated() {
+        return None;
+    } else {
+        let (pressure, own) = (highest(&case.mean_pressures()?), number(highest(case.load.values())));
+        match case.load.quantity() {
+            "force" => (pressure, format!("load.force = {own}, a mean pressure of {} on the cell,", number(pressure))),
+            quantity => (pressure, format!("load.{quantity} = {own}")),
+        }
+    };
+    let part = pressure / material.young();
     (part > HIGH).then(|| {
         format!(
-            "load.mean_pressure = {} is {} of Young's modulus {} of {name}: strains are not small any more; are load and \
-             moduli in one unit, not one in MPa and the other in GPa?",
-            number(highest),
+            "{load} is {} of Young's modulus {} of {name}: strains are not small any more; are load and moduli in one unit, not \
+             one in MPa and the other in GPa?",
             ratio(part),
             number(material.young())
         )
@@ -213,6 +225,10 @@ fn drifting(case: &Case, cell: Cell) -> Vec<String> {
     let (Some(friction), Some(loads)) = (case.problem().friction(), case.mean_pressures()) else {
         return Vec::new();
     };
+    // A single contact has no mean friction.
+    if cell.is_isolated() {
+        return Vec::new();
+    }
     let traction = friction.coefficient() * loads.iter().copied().fold(0.0, f64::max);
     let [side, other] = cell.vectors().map(|[x, y]| x.hypot(y));
     let period = side.min(other);
@@ -298,6 +314,30 @@ mod tests {
             for word in words {
                 assert!(said.contains(word), "{overrides:?}: \"{word}\" does not stand in\n{said}");
             }
+        }
+    }
+
+    #[test]
+    fn a_load_is_named_by_the_key_that_the_case_has() {
+        for (name, set, words) in [
+            (
+                "fig2",
+                "load.mean_pressure=60",
+                "load.mean_pressure = 60.000 is 60.00 of Young's modulus 1.0000 of the substrate",
+            ),
+            (
+                "fig2",
+                "load.force=200",
+                "load.force = 200.00, a mean pressure of 76.980 on the cell, is 76.98 of Young's modulus 1.0000 of the substrate",
+            ),
+            (
+                "pavement",
+                "load.pressure.value=60",
+                "the highest load.pressure, 60.000, is 1.20 of Young's modulus 50.000 of the substrate",
+            ),
+        ] {
+            let said = doubts(name, &[set]).join("\n");
+            assert!(said.contains(words) && said.matches("Young's modulus").count() == 1, "{set}: {said}");
         }
     }
 

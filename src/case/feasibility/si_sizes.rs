@@ -31,7 +31,7 @@ pub(super) fn doubts(case: &Case, materials: &[(Material, String)]) -> Vec<Strin
 }
 
 /// The power of ten of an SI unit.
-fn exponent(unit: &Unit) -> Option<i32> {
+pub(super) fn exponent(unit: &Unit) -> Option<i32> {
     match unit {
         Unit::Si { exponent, .. } => Some(*exponent),
         _ => None,

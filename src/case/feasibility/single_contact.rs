@@ -7,8 +7,14 @@ use crate::lattice::Grid;
 use crate::notation::number;
 use crate::reading::FEW_SAMPLES;
 use crate::run::Sampling;
-use crate::run::warnings::{STEEP, flank};
+use crate::run::warnings::{STEEP, flank, ratio};
+use crate::units::Unit;
 use std::f64::consts::FRAC_PI_2;
+
+/// Width of a window over that of the contact from which on a smaller window is advised.
+const WIDE: f64 = 6.0;
+/// Width of a window over that of the contact that leaves room enough.
+const ROOM: f64 = 1.3;
 
 /// Warnings about steep flanks at the highest load and few samples at the lowest. `touches` are the mean pressures of first touch
 /// of the levels, where known.
@@ -18,20 +24,32 @@ pub fn foreseen(case: &Case, touches: &[Option<f64>]) -> Vec<String> {
 
 /// A flank that is steep at the highest load; cones are not checked.
 fn steep_flank(case: &Case) -> Option<String> {
-    let (Some(indenters), Some(loads)) = (case.counterbody().indenters(), case.mean_pressures()) else {
-        return None;
-    };
-    let lattice = indenters.lattice();
-    let load = loads.iter().copied().fold(0.0, f64::max);
-    let sites: usize = lattice.sites().iter().map(Vec::len).sum();
-    let force = load * lattice.cell().area() / sites as f64;
     let modulus = stiffer_modulus(case.problem().bodies());
-    let levels = (1..).zip(indenters.levels().iter().map(Level::shape));
+    let levels = (1..).zip(case.counterbody().levels().iter().map(Level::shape));
     let flanks = levels.filter(|(_, shape)| !matches!(shape, Shape::Cone { .. }));
-    let mut estimates = flanks.map(|(number, shape)| (number, shape, radius(force, modulus, power_law(shape))));
+    let mut estimates =
+        flanks.filter_map(|(number, shape)| Some((number, shape, highest_radius(case, shape, modulus)?)));
     let (number, shape, radius) =
         estimates.find(|&(_, shape, radius): &(usize, Shape, f64)| shape.slope(radius) > STEEP)?;
-    Some(flank("by the formulas of a single contact", number, shape, radius))
+    let question = format!("is {}?", measured(case, number - 1));
+    Some(flank("by the formulas of a single contact", number, shape, radius, &question))
+}
+
+/// Size of a level, by its index, and load with the units in which the case has them: "levels\[0\].radius in µm, and load.force in mN".
+pub(super) fn measured(case: &Case, index: usize) -> String {
+    let (units, quantity) = (case.units(), case.load.quantity());
+    let named = |unit: &Unit, other: &str| unit.name().unwrap_or_else(|| other.to_owned());
+    let length = named(units.length(), "the unit of the other lengths");
+    let load = match quantity {
+        "force" => named(&units.force(), "the unit of pressure times that of length squared"),
+        "penetration" => length.clone(),
+        _ => named(units.pressure(), "the unit of the moduli"),
+    };
+    let size = match case.counterbody().levels()[index].shape() {
+        Shape::Paraboloid { .. } | Shape::Sphere { .. } => format!("levels[{index}].radius"),
+        Shape::Cone { .. } | Shape::Power { .. } => "every length".to_owned(),
+    };
+    format!("{size} in {length}, and load.{quantity} in {load}")
 }
 
 /// An isolated contact that will hardly have room in its window at the highest load.
@@ -42,19 +60,14 @@ fn narrow_window(case: &Case) -> Option<String> {
     if !indenters.lattice().cell().is_isolated() || sites != 1 {
         return None;
     }
-    let (c, n) = power_law(indenters.levels()[0].shape());
-    let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-    let radius = match &case.load.force {
-        Some(_) => radius(highest(case.load.values()), softer_modulus(case.problem().bodies()), (c, n)),
-        None => (highest(case.load.values()) / (kappa(n) * c)).powf(1.0 / n),
-    };
+    let radius = highest_radius(case, indenters.levels()[0].shape(), softer_modulus(case.problem().bodies()))?;
     (2.0 * radius > 0.9 * width.min(height)).then(|| {
         format!(
             "by the formulas of a single contact the contact will be about {} wide, and lattice.size is {}: contact must stay \
              inside the window; enlarge lattice.size to {}",
             number(2.0 * radius),
             number(width.min(height)),
-            number(2.6 * radius)
+            number(2.0 * ROOM * radius)
         )
     })
 }
@@ -68,7 +81,7 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
     let grid = Grid::new(lattice.cell(), *points).ok()?;
     let (number_of_highest, highest) =
         (1..).zip(indenters.levels()).max_by(|a, b| a.1.height().total_cmp(&b.1.height()))?;
-    let (c, n) = power_law(highest.shape());
+    let shape = highest.shape();
     let lowest = |values: &[f64]| values.iter().copied().filter(|load| *load > 0.0).reduce(f64::min);
     let prescribed = lowest(case.load.values())?;
     let radius = match case.mean_pressures() {
@@ -79,19 +92,56 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
             let sites = lattice.sites().iter().enumerate().filter(|(level, _)| touching(*level));
             let sites = sites.map(|(_, sites)| sites.len()).sum::<usize>().max(1);
             let force = load * lattice.cell().area() / sites as f64;
-            radius(force, stiffer_modulus(case.problem().bodies()), (c, n))
+            radius(force, stiffer_modulus(case.problem().bodies()), power_law(shape))
         }
-        None => (prescribed / (kappa(n) * c)).powf(1.0 / n),
+        None => radius_at(prescribed, power_law(shape)),
     };
     let samples = radius / grid.sample_area().sqrt();
     (samples < FEW_SAMPLES).then(|| {
         format!(
             "at load.{} = {} the contact radius of level {number_of_highest} will have about {samples:.1} samples, by the \
-             formulas of a single contact: radii and peak pressures are rough below {FEW_SAMPLES}; raise grid.points",
+             formulas of a single contact: radii and peak pressures are rough below {FEW_SAMPLES}; raise grid.points{}",
             case.load.quantity(),
-            number(prescribed)
+            number(prescribed),
+            wide_window(case).unwrap_or_default()
         )
     })
+}
+
+/// What else helps where the window of an isolated contact is many times as wide as the contact, as words that go on.
+fn wide_window(case: &Case) -> Option<String> {
+    let lattice = case.counterbody().indenters()?.lattice();
+    let sites: usize = lattice.sites().iter().map(Vec::len).sum();
+    let [[width, _], [_, height]] = lattice.cell().vectors();
+    let level = case.counterbody().levels()[0].shape();
+    let contact = 2.0 * highest_radius(case, level, softer_modulus(case.problem().bodies()))?;
+    let times = width.min(height) / contact;
+    (lattice.cell().is_isolated() && sites == 1 && times > WIDE).then(|| {
+        format!(
+            ", or lower lattice.size to {}: the window is {} times as wide as the contact at the highest load, with {}",
+            number(ROOM * contact),
+            ratio(times),
+            measured(case, 0)
+        )
+    })
+}
+
+/// Contact radius of an indenter of this shape alone at the highest load, of which each in the cell has its part, on a half-space of this
+/// E*; `None` for a penetration of several indenters.
+pub(super) fn highest_radius(case: &Case, shape: Shape, modulus: f64) -> Option<f64> {
+    let lattice = case.counterbody().indenters()?.lattice();
+    let sites: usize = lattice.sites().iter().map(Vec::len).sum();
+    let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    match case.mean_pressures() {
+        Some(loads) => {
+            let force = highest(&loads) * lattice.cell().area() / sites as f64;
+            Some(radius(force, modulus, power_law(shape)))
+        }
+        None if lattice.cell().is_isolated() && sites == 1 => {
+            Some(radius_at(highest(case.load.values()), power_law(shape)))
+        }
+        None => None,
+    }
 }
 
 /// c and n of the profile c rⁿ. A sphere is a paraboloid where its contact is small.
@@ -108,14 +158,19 @@ fn radius(force: f64, modulus: f64, (c, n): (f64, f64)) -> f64 {
     (force * (n + 1.0) / (2.0 * n * modulus * kappa(n) * c)).powf(1.0 / (n + 1.0))
 }
 
+/// Contact radius of a single indenter c rⁿ at the penetration δ = κ_n c aⁿ.
+fn radius_at(penetration: f64, (c, n): (f64, f64)) -> f64 {
+    (penetration / (kappa(n) * c)).powf(1.0 / n)
+}
+
 /// The larger E* of surfaces and elastic substrates, with which the radius is the smaller one.
-fn stiffer_modulus(bodies: &Bodies) -> f64 {
+pub(super) fn stiffer_modulus(bodies: &Bodies) -> f64 {
     let surfaces = bodies.contact_modulus();
     bodies.substrate_modulus().map_or(surfaces, |modulus| modulus.max(surfaces))
 }
 
 /// The smaller E* of surfaces and elastic substrates, with which the radius is the larger one.
-fn softer_modulus(bodies: &Bodies) -> f64 {
+pub(super) fn softer_modulus(bodies: &Bodies) -> f64 {
     let surfaces = bodies.contact_modulus();
     bodies.substrate_modulus().map_or(surfaces, |modulus| modulus.min(surfaces))
 }
@@ -142,10 +197,10 @@ mod tests {
     }
 
     #[test]
-    fn contact_beyond_the_equator_is_foreseen() {
+    fn a_contact_larger_than_its_ball_is_foreseen() {
         let text = "lattice={kind=\"square\",period=10}\nlevels=[{shape=\"sphere\",radius=1}]\n\
                     substrate={young=1,poisson=0.3}\nload={mean_pressure=0.05}";
-        assert!(foreseen(&case(text), &[]).join("").contains("equator"));
+        assert!(foreseen(&case(text), &[]).join("").contains("larger than its radius 1.0000"));
     }
 
     #[test]
