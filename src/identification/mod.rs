@@ -7,12 +7,21 @@
 //!
 //! A parameter whose standard error exceeds [`MOST_UNCERTAIN`] of it is not stated: the curve does not contain it.
 
+mod covariance;
 mod curve;
+mod error;
 mod fit;
 mod least_squares;
+mod parameter;
+mod search;
+mod student;
 
+pub use covariance::MOST_UNCERTAIN;
 pub use curve::CurveError;
-pub use fit::{Estimate, Identification, IdentificationError, MOST_UNCERTAIN, Model, Parameter, Quantity};
+pub use error::{IdentificationError, Undetermined};
+pub use fit::{Estimate, Identification};
+pub use parameter::{Parameter, Quantity};
+pub use search::Model;
 
 use crate::notation::number;
 
