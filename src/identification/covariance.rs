@@ -1,7 +1,7 @@
 //! The covariance s²(JᵀJ)⁻¹ of the parameters t at a minimum, and the refusal where the curve does not tell them.
 
 use super::error::{IdentificationError, Undetermined};
-use super::least_squares::{self, Minimum};
+use super::least_squares;
 use super::parameter::{FreeParameters, Quantity};
 
 /// Largest standard error of a parameter, relative to it, with which it is stated.
@@ -18,7 +18,7 @@ pub(super) struct Covariance {
 }
 
 impl Covariance {
-    /// The covariance of parameters that the curve determines, with the variance s² of a residual. `radii` are those of the contact
+    /// The covariance of parameters that the curve determines, at t with the Jacobian there and the variance s² of a residual. `radii` are those of the contact
     /// at the minimum, lengths.
     ///
     /// # Errors
@@ -26,20 +26,19 @@ impl Covariance {
     /// proportion, and for the one of the largest relative error where that is beyond [`MOST_UNCERTAIN`].
     pub(super) fn new<E>(
         free: FreeParameters<'_>,
-        found: &Minimum,
+        (place, jacobian): (&[f64], &[Vec<f64>]),
         variance: f64,
         radii: [f64; 2],
     ) -> Result<Self, IdentificationError<E>> {
-        let jacobian = &found.linearised.1;
         let normal = least_squares::normal(jacobian);
         if let Some(k) = (0..normal.len()).find(|&k| normal[k][k] <= 1e-16 * jacobian.len() as f64) {
             return Err(IdentificationError::NoInfluence(free.name(k)));
         }
         let undetermined = match least_squares::inverse(&normal) {
-            None => parallel(free, &found.place, &normal, radii),
+            None => parallel(free, place, &normal, radii),
             Some(inverse) => {
                 let own = Self { variance, inverse };
-                match own.undetermined(free, &found.place, radii) {
+                match own.undetermined(free, place, radii) {
                     None => return Ok(own),
                     Some(undetermined) => undetermined,
                 }

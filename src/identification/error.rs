@@ -24,12 +24,49 @@ pub enum IdentificationError<E> {
     /// A parameter on which penetrations do not depend.
     #[error("{0} has no influence on the penetrations: it cannot be found from them")]
     NoInfluence(String),
+    /// The search ends where the model has no values beside those of the last step.
+    #[error(
+        "the search for the parameters does not converge, start nearer to them or free fewer: at its next values {0}"
+    )]
+    Refused(NoValue<E>),
     /// The search does not end.
     #[error("the search for the parameters does not converge: start nearer to them, or free fewer")]
     NotConverged,
     /// The curve does not contain a parameter.
     #[error("{0}")]
     Undetermined(Undetermined),
+    /// The listener has stopped the search.
+    #[error("stopped before its end")]
+    Stopped,
+}
+
+/// Why a model has no penetrations at values of its parameters.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NoValue<E> {
+    /// The model refuses the values.
+    #[error("the model is refused: {0}")]
+    Model(E),
+    /// It has no indentation curve, or a load of it is not solved.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
+    /// A value lies outside of what is searched.
+    #[error("{0}")]
+    Outside(String),
+    /// The listener has stopped the search.
+    #[error("the search is stopped")]
+    Stopped,
+}
+
+impl<E> NoValue<E> {
+    /// The error of a search whose start has no value.
+    pub(super) fn at_the_start(self) -> IdentificationError<E> {
+        match self {
+            Self::Model(error) => IdentificationError::Model(error),
+            Self::Curve(error) => IdentificationError::Curve(error),
+            Self::Stopped => IdentificationError::Stopped,
+            Self::Outside(_) => IdentificationError::Refused(self),
+        }
+    }
 }
 
 /// A parameter that the curve does not contain.

@@ -3,13 +3,14 @@
 use super::Measurement;
 use super::covariance::Covariance;
 use super::curve::{self, IndentationCurve};
-use super::error::IdentificationError;
-use super::least_squares::{self, Minimum};
+use super::error::{IdentificationError, NoValue};
+use super::least_squares::{self, End, Linearised, Minimum};
 use super::parameter::Parameter;
-use super::search::{Model, Search};
+use super::search::{Listener, Model, Search};
 use super::student;
 use crate::notation::number;
 use std::fmt;
+use std::ops::ControlFlow;
 
 /// A parameter found.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,6 +62,19 @@ impl Identification {
         parameters: &[Parameter],
         measured: &Measurement,
     ) -> Result<Self, IdentificationError<E>> {
+        Self::new_with_progress(model, parameters, measured, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// As [`Identification::new`]. Calls `progress` after each trial of values; `Break` ends the search.
+    ///
+    /// # Errors
+    /// Those of [`Identification::new`], and [`IdentificationError::Stopped`].
+    pub fn new_with_progress<E: Send>(
+        model: &Model<'_, E>,
+        parameters: &[Parameter],
+        measured: &Measurement,
+        progress: &mut Listener<'_>,
+    ) -> Result<Self, IdentificationError<E>> {
         let (points, count) = (measured.forces().len(), parameters.len());
         if points <= count {
             return Err(IdentificationError::TooFew { points, parameters: count });
@@ -68,35 +82,33 @@ impl Identification {
         let mut search = Search::new(model, parameters, measured);
         let start = vec![0.0; count];
         curve::check(&search.problem(&start, None).map_err(IdentificationError::Model)?)?;
-        let found = least_squares::minimise(start, |t| search.linearised(t));
-        let Some(found) = found else {
-            return Err(search.failure.map_or(IdentificationError::NotConverged, IdentificationError::Curve));
-        };
-        // The curve of the last trial is that of a step that did not lower the sum, next to the minimum.
-        let curve = search.last.take().ok_or(IdentificationError::NotConverged)?;
-        let estimated = Self::at(&search, measured, &found, &curve);
-        // A search along what the curve does not contain has no end: that is the reason to be given.
-        if !found.converged && estimated.is_ok() {
-            return Err(IdentificationError::NotConverged);
+        let found = least_squares::minimise(start, |t| search.trial(t, progress)).map_err(NoValue::at_the_start)?;
+        if matches!(found.end, End::Refused(NoValue::Stopped)) {
+            return Err(IdentificationError::Stopped);
         }
-        estimated
+        // A search along what the curve does not contain has no end: that is the reason to be given.
+        let estimated = Self::at(&search, measured, &found)?;
+        match found.end {
+            End::Converged => Ok(estimated),
+            End::Refused(reason) => Err(IdentificationError::Refused(reason)),
+            End::Exhausted => Err(IdentificationError::NotConverged),
+        }
     }
 
-    /// What is stated at the minimum of a search, whose curve is given.
+    /// What is stated at the minimum of a search.
     fn at<E: Send>(
         search: &Search<'_, E>,
         measured: &Measurement,
-        found: &Minimum,
-        curve: &IndentationCurve,
+        found: &Minimum<IndentationCurve, NoValue<E>>,
     ) -> Result<Self, IdentificationError<E>> {
-        let (residuals, jacobian) = &found.linearised;
+        let Linearised { residuals, jacobian, model: curve } = &found.linearised;
         let count = found.place.len();
         let freedom = residuals.len() - count;
         let reduced = least_squares::sum(residuals) / freedom as f64;
         // Known deviations are taken as they are, unless the fit is worse.
         let variance = if measured.deviations().is_some() { reduced.max(1.0) } else { reduced };
         let radii = curve.radii();
-        let covariance = Covariance::new(search.free, found, variance, radii)?;
+        let covariance = Covariance::new(search.free, (&found.place, jacobian), variance, radii)?;
         let estimate = |k: usize| {
             let (t, deviation) = (found.place[k], covariance.deviation(k));
             let reach = student::quantile(freedom) * deviation;
@@ -107,7 +119,7 @@ impl Identification {
                 interval: [t - reach, t + reach].map(|t| search.free.value(k, t)),
             }
         };
-        let lengths: Vec<f64> = residuals.iter().enumerate().map(|(i, r)| r * search.deviation(i)).collect();
+        let lengths = search.lengths(residuals);
         Ok(Self {
             estimates: (0..count).map(estimate).collect(),
             correlation: (0..count)
@@ -115,7 +127,7 @@ impl Identification {
                 .collect(),
             fitted: lengths.iter().zip(measured.penetrations()).map(|(r, measured)| measured + r).collect(),
             band: jacobian.iter().enumerate().map(|(i, row)| search.deviation(i) * covariance.along(row)).collect(),
-            rms: (least_squares::sum(&lengths) / lengths.len() as f64).sqrt(),
+            rms: search.rms(residuals),
             freedom,
             reduced_chi_square: measured.deviations().map(|_| reduced),
             model_error: curve.error(),

@@ -18,10 +18,10 @@ mod student;
 
 pub use covariance::MOST_UNCERTAIN;
 pub use curve::CurveError;
-pub use error::{IdentificationError, Undetermined};
+pub use error::{IdentificationError, NoValue, Undetermined};
 pub use fit::{Estimate, Identification};
 pub use parameter::{Parameter, Quantity};
-pub use search::Model;
+pub use search::{Listener, Model, Trial};
 
 use crate::notation::number;
 

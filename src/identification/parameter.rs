@@ -1,5 +1,7 @@
 //! A free parameter and its scale: the search takes place in t, all of whose entries have the scale 1 and start from 0.
 
+use crate::notation::number;
+
 /// What a parameter is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
@@ -68,9 +70,13 @@ impl FreeParameters<'_> {
         }
     }
 
-    /// Whether t lies outside of what is searched.
-    pub(super) fn is_too_far(&self, place: &[f64]) -> bool {
-        let too_far = |(t, own): (&f64, &Parameter)| own.quantity == Quantity::Positive && t.abs() > FARTHEST;
-        place.iter().zip(self.all).any(too_far)
+    /// The first value at t that lies outside of what is searched, in words.
+    pub(super) fn outside(&self, place: &[f64]) -> Option<String> {
+        (0..place.len()).find_map(|k| {
+            let Parameter { name, quantity, start } = &self.all[k];
+            let is_too_far = *quantity == Quantity::Positive && place[k].abs() > FARTHEST;
+            is_too_far
+                .then(|| format!("{name} is no longer between a thousandth and a thousand times {}", number(*start)))
+        })
     }
 }

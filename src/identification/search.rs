@@ -2,12 +2,14 @@
 //! Jacobian, of which [`least_squares`] finds the minimum.
 
 use super::Measurement;
-use super::curve::{CurveError, IndentationCurve, Perturbed};
-use super::least_squares::Linearised;
+use super::curve::{IndentationCurve, Perturbed};
+use super::error::NoValue;
+use super::least_squares::{self, Linearised};
 use super::parameter::{FreeParameters, Parameter, Quantity};
 use crate::problem::Problem;
 use crate::spectral::Settings;
 use std::fmt;
+use std::ops::ControlFlow;
 
 /// Step of difference quotients, in parameters whose scale is 1.
 const STEP: f64 = 2e-3;
@@ -29,14 +31,26 @@ impl<E> fmt::Debug for Model<'_, E> {
     }
 }
 
+/// Progress of a search: a trial of values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trial {
+    /// Its number, from 1.
+    pub number: usize,
+    /// Root mean square of measured minus computed penetrations, a length; `None` where the model has no value.
+    pub rms: Option<f64>,
+}
+
+/// Hears of each trial of a search; `Break` ends it.
+pub type Listener<'a> = dyn FnMut(Trial) -> ControlFlow<()> + 'a;
+
 /// A search for parameters.
 pub(super) struct Search<'a, E> {
     model: &'a Model<'a, E>,
     pub(super) free: FreeParameters<'a>,
     measured: &'a Measurement,
     windows: Vec<f64>,
-    pub(super) last: Option<IndentationCurve>,
-    pub(super) failure: Option<CurveError>,
+    trials: usize,
+    is_stopped: bool,
 }
 
 impl<'a, E: Send> Search<'a, E> {
@@ -44,7 +58,7 @@ impl<'a, E: Send> Search<'a, E> {
         let largest = |all: &[f64]| all.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let (penetration, force) = (largest(measured.penetrations()), largest(measured.forces()));
         let free = FreeParameters { all: parameters, units: [penetration, penetration / force] };
-        Self { model, free, measured, windows: Vec::new(), last: None, failure: None }
+        Self { model, free, measured, windows: Vec::new(), trials: 0, is_stopped: false }
     }
 
     /// The problem at t, of which the entry `moved` is changed by a step.
@@ -78,31 +92,47 @@ impl<'a, E: Send> Search<'a, E> {
         Ok(Perturbed { problem, quotients })
     }
 
-    /// Residuals and Jacobian at t; `None` where the model refuses the values.
-    pub(super) fn linearised(&mut self, t: &[f64]) -> Option<Linearised> {
-        if self.free.is_too_far(t) {
-            return None;
+    /// Residuals and Jacobian at t, with the curve there, and tells of them.
+    pub(super) fn trial(
+        &mut self,
+        t: &[f64],
+        listener: &mut Listener<'_>,
+    ) -> Result<Linearised<IndentationCurve>, NoValue<E>> {
+        if self.is_stopped {
+            return Err(NoValue::Stopped);
         }
-        let perturbed = self.perturbed(t).ok()?;
+        let linearised = self.linearised(t);
+        self.trials += 1;
+        let rms = linearised.as_ref().ok().map(|own| self.rms(&own.residuals));
+        match listener(Trial { number: self.trials, rms }) {
+            ControlFlow::Continue(()) => linearised,
+            ControlFlow::Break(()) => {
+                self.is_stopped = true;
+                Err(NoValue::Stopped)
+            }
+        }
+    }
+
+    fn linearised(&mut self, t: &[f64]) -> Result<Linearised<IndentationCurve>, NoValue<E>> {
+        if let Some(outside) = self.free.outside(t) {
+            return Err(NoValue::Outside(outside));
+        }
+        let perturbed = self.perturbed(t).map_err(NoValue::Model)?;
         let forces = self.measured.forces();
         let range = [forces.iter().copied().fold(f64::INFINITY, f64::min), forces.iter().copied().fold(0.0, f64::max)];
         let Model { points, settings, .. } = *self.model;
-        let curve = match IndentationCurve::new(&perturbed, range, points, settings, &mut self.windows) {
-            Ok(curve) => curve,
-            Err(error) => {
-                self.failure = Some(error);
-                return None;
-            }
-        };
+        // Windows of contacts that are not solved are no start for others.
+        let mut windows = self.windows.clone();
+        let model = IndentationCurve::new(&perturbed, range, points, settings, &mut windows)?;
+        self.windows = windows;
         let rows = (0..forces.len()).map(|i| {
-            let (fitted, derivatives) = self.fitted(&curve, t, forces[i]);
+            let (fitted, derivatives) = self.fitted(&model, t, forces[i]);
             let deviation = self.deviation(i);
             let residual = (fitted - self.measured.penetrations()[i]) / deviation;
             (residual, derivatives.into_iter().map(|own| own / deviation).collect())
         });
-        let linearised = rows.unzip();
-        self.last = Some(curve);
-        Some(linearised)
+        let (residuals, jacobian) = rows.unzip();
+        Ok(Linearised { residuals, jacobian, model })
     }
 
     /// Penetration of the fit under a force, and its derivatives by t.
@@ -120,6 +150,16 @@ impl<'a, E: Send> Search<'a, E> {
         };
         let derivatives = (0..t.len()).map(&mut derivative).collect();
         (penetration, derivatives)
+    }
+
+    /// Fitted minus measured penetrations of residuals, lengths.
+    pub(super) fn lengths(&self, residuals: &[f64]) -> Vec<f64> {
+        residuals.iter().enumerate().map(|(i, r)| r * self.deviation(i)).collect()
+    }
+
+    /// Root mean square of measured minus fitted penetrations, a length.
+    pub(super) fn rms(&self, residuals: &[f64]) -> f64 {
+        (least_squares::sum(&self.lengths(residuals)) / residuals.len() as f64).sqrt()
     }
 
     /// Length by which a residual is measured: the deviation of its point, or the largest penetration.
