@@ -2,9 +2,10 @@
 
 use super::error::{IdentificationError, Undetermined};
 use super::least_squares;
-use super::parameter::{FreeParameters, Quantity};
+use super::parameter::FreeParameters;
 
-/// Largest standard error of a parameter, relative to it, with which it is stated.
+/// Largest standard error of a parameter with which it is stated, relative to its value; of one between bounds, to half of the way between
+/// them.
 pub const MOST_UNCERTAIN: f64 = 0.5;
 /// Correlation of two parameters from which on one of them must be known from elsewhere.
 const CORRELATED: f64 = 0.9;
@@ -67,11 +68,7 @@ impl Covariance {
     /// The parameter of the largest relative error where that is beyond [`MOST_UNCERTAIN`].
     fn undetermined(&self, free: FreeParameters<'_>, place: &[f64], radii: [f64; 2]) -> Option<Undetermined> {
         let count = self.inverse.len();
-        let relative = |k: usize| match free.all[k].quantity {
-            Quantity::Positive | Quantity::Number => self.deviation(k),
-            // They may well be 0.
-            Quantity::Offset | Quantity::FrameCompliance => 0.0,
-        };
+        let relative = |k: usize| free.relative(k, self.deviation(k));
         let worst = (0..count).max_by(|&a, &b| relative(a).total_cmp(&relative(b)));
         let worst = worst.filter(|&worst| relative(worst).is_nan() || relative(worst) > MOST_UNCERTAIN)?;
         let others = (0..count).filter(|&other| other != worst);

@@ -21,7 +21,7 @@ pub struct Estimate {
     pub value: f64,
     /// Its standard error, in the unit of the value.
     pub error: f64,
-    /// The interval that holds it with a probability of 95 %.
+    /// The interval that holds it with a probability of 95 %, as far as its bounds reach.
     pub interval: [f64; 2],
 }
 
@@ -116,7 +116,7 @@ impl Identification {
                 parameter: search.free.all[k].clone(),
                 value: search.free.value(k, t),
                 error: deviation * search.free.slope(k, t).abs(),
-                interval: [t - reach, t + reach].map(|t| search.free.value(k, t)),
+                interval: [t - reach, t + reach].map(|t| search.free.bounded(k, t)),
             }
         };
         let lengths = search.lengths(residuals);

@@ -5,7 +5,7 @@
 //! compliance C_f add δ₀ + C_f P. Least squares of the measured penetrations give the parameters, and their
 //! covariance s²(JᵀJ)⁻¹ with s² the sum of squares over the degrees of freedom.
 //!
-//! A parameter whose standard error exceeds [`MOST_UNCERTAIN`] of it is not stated: the curve does not contain it.
+//! A parameter whose standard error exceeds [`MOST_UNCERTAIN`] of it, or of half the way between its bounds, is not stated: the curve does not contain it.
 
 mod covariance;
 mod curve;

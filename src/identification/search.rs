@@ -141,7 +141,7 @@ impl<'a, E: Send> Search<'a, E> {
         let mut of_model = of_model.into_iter();
         let mut derivative = |k: usize| {
             let part = match self.free.all[k].quantity {
-                Quantity::Positive | Quantity::Number => return of_model.next().unwrap_or(0.0),
+                Quantity::Positive | Quantity::Bounded(_) => return of_model.next().unwrap_or(0.0),
                 Quantity::Offset => 1.0,
                 Quantity::FrameCompliance => force,
             };

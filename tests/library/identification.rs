@@ -47,7 +47,7 @@ fn found(
     const NAMES: [&str; 4] = ["coating", "poisson", "thickness", "substrate"];
     let parameter = |&(index, start): &(usize, f64)| Parameter {
         name: NAMES[index].to_owned(),
-        quantity: if index == 1 { Quantity::Number } else { Quantity::Positive },
+        quantity: if index == 1 { Quantity::Bounded([0.0, 0.5]) } else { Quantity::Positive },
         start,
     };
     let more = more.iter().map(|&quantity| Parameter { name: format!("{quantity:?}"), quantity, start: 0.0 });
