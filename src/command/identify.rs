@@ -7,6 +7,8 @@ use super::plan::plan;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
+use crate::case::feasibility::Allowed;
+use crate::case::resources::Job;
 use crate::case::{Case, CaseError, IdentificationTask, plausibility};
 use crate::identification::{Identification, IdentificationError, Measurement};
 use crate::output::{self, IdentificationFile, Writer, fitted, identified};
@@ -24,6 +26,7 @@ pub fn run(data: &Path, case: &Path, free: &[String], set: &[String], common: &C
     let task = IdentificationTask::new(&source, set, &own, free)
         .map_err(|error| Failure::Refused(format!("--free: {error}")))?;
     let folder = output_folder(common, &name)?;
+    Allowed::new(&own, &folder, Job::Identify { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
     let plan = plan(Writer::Identify, &["identification.json", "identification.csv"], pictures, &["identification"]);
     let results = Results::claim(folder, plan, common.saying())?;
     let (found, best) = find(&task, &own, &measured, common)?;

@@ -17,7 +17,7 @@ mod search;
 mod student;
 
 pub use covariance::MOST_UNCERTAIN;
-pub use curve::CurveError;
+pub use curve::{CurveError, MOST_NODES};
 pub use error::{IdentificationError, NoValue, Undetermined};
 pub use fit::{Estimate, Identification};
 pub use parameter::{Parameter, Quantity};
