@@ -73,7 +73,7 @@ pub mod localized;
 #[cfg(feature = "cli")]
 pub mod machine;
 #[cfg(feature = "cli")]
-mod measurements;
+pub mod measurements;
 mod notation;
 mod numeric;
 #[cfg(feature = "cli")]

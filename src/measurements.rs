@@ -2,7 +2,8 @@
 //!
 //! The first line names the columns: `force` and `penetration` in the units of the case, or with a unit behind the name as in
 //! `force_mN`, `penetration_nm`, which is converted where the case names its units; `penetration_error` is the standard deviation
-//! of each penetration. Other columns are left out. Lines that begin with `#`, and empty ones, are comments.
+//! of each penetration. Other columns are left out. Lines that begin with `#`, and empty ones, are comments. Columns that stand in no
+//! table but in memory are read alike.
 
 use crate::identification::{Measurement, MeasurementError};
 use crate::plain;
@@ -16,11 +17,12 @@ pub enum Fault {
     Empty,
     /// A column that is needed is missing.
     #[error(
-        "line {line}: no column `{name}` among {found}; name it, with a unit if it is another than the case's: `{name}_{unit}`"
+        "{}no column `{name}` among {found}; name it, with a unit if it is another than the case's: `{name}_{unit}`",
+        at(*.line)
     )]
     Missing {
-        /// Line of the names, from 1.
-        line: usize,
+        /// Line of the names, from 1; `None` where columns stand in no table.
+        line: Option<usize>,
         /// The column.
         name: &'static str,
         /// The columns that are there.
@@ -29,13 +31,13 @@ pub enum Fault {
         unit: &'static str,
     },
     /// A column that is there twice.
-    #[error("line {0}: `{1}` is there twice, in different units or not: keep one")]
-    Twice(usize, String),
+    #[error("{}`{}` is there twice, in different units or not: keep one", at(*.0), .1)]
+    Twice(Option<usize>, String),
     /// A unit that is not known.
-    #[error("line {line}: `{unit}` is no unit of {quantity}: use SI units with a prefix, as {example}")]
+    #[error("{}`{unit}` is no unit of {quantity}: use SI units with a prefix, as {example}", at(*.line))]
     Unit {
         /// Line of the names.
-        line: usize,
+        line: Option<usize>,
         /// The unit.
         unit: String,
         /// The quantity.
@@ -45,9 +47,12 @@ pub enum Fault {
     },
     /// The case does not name its units.
     #[error(
-        "line {0}: the case does not name SI units, so that `{1}` cannot be converted: add [units], or give the column in the case's unit as `{2}`"
+        "{}the case does not name SI units, so that `{}` cannot be converted: add [units], or give the column in the case's unit as `{}`",
+        at(*.0),
+        .1,
+        .2
     )]
-    Unnamed(usize, String, &'static str),
+    Unnamed(Option<usize>, String, &'static str),
     /// A line with another number of cells.
     #[error("line {line}: {found} cells, but {expected} columns are named")]
     Cells {
@@ -71,6 +76,10 @@ pub enum Fault {
     /// Values that are no curve.
     #[error("{}{}", .1.map_or(String::new(), |line| format!("line {line}, ")), .0)]
     Values(MeasurementError, Option<usize>),
+}
+
+fn at(line: Option<usize>) -> String {
+    line.map_or(String::new(), |line| format!("line {line}: "))
 }
 
 /// A column that is read: its place in a line, and the factor to the unit of the case.
@@ -105,16 +114,7 @@ pub fn read(text: &str, units: &Units) -> Result<Measurement, Fault> {
     if names.iter().all(|name| name.parse::<f64>().is_ok()) {
         return Err(Fault::Empty);
     }
-    let column = |kind: &Kind| column(&names, kind, line, units);
-    let missing = |kind: &Kind| Fault::Missing {
-        line,
-        name: kind.name,
-        found: plain::line(&names.join(", ")).to_string(),
-        unit: kind.example,
-    };
-    let force = column(&FORCE)?.ok_or_else(|| missing(&FORCE))?;
-    let penetration = column(&PENETRATION)?.ok_or_else(|| missing(&PENETRATION))?;
-    let deviation = column(&DEVIATION)?;
+    let Columns { force, penetration, deviation } = Columns::find(&names, Some(line), units)?;
     let (mut forces, mut penetrations, mut deviations, mut numbers) = (vec![], vec![], vec![], vec![]);
     for (line, row) in lines {
         let row: Vec<&str> = cells(row).collect();
@@ -145,12 +145,49 @@ pub fn read(text: &str, units: &Units) -> Result<Measurement, Fault> {
     })
 }
 
+/// The curve of columns in memory with these names, in the `units` of the case.
+///
+/// # Errors
+/// [`Fault`] without a line.
+pub fn of_columns(columns: &[(String, Vec<f64>)], units: &Units) -> Result<Measurement, Fault> {
+    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+    let Columns { force, penetration, deviation } = Columns::find(&names, None, units)?;
+    let converted = |Column { place, factor }: Column| columns[place].1.iter().map(|x| x * factor).collect();
+    Measurement::new(converted(force), converted(penetration), deviation.map(converted))
+        .map_err(|error| Fault::Values(error, None))
+}
+
+/// The columns of a curve.
+struct Columns {
+    force: Column,
+    penetration: Column,
+    deviation: Option<Column>,
+}
+
+impl Columns {
+    /// The columns among those with these names, which stand in a line of a table.
+    fn find(names: &[&str], line: Option<usize>, units: &Units) -> Result<Self, Fault> {
+        let column = |kind: &Kind| column(names, kind, line, units);
+        let missing = |kind: &Kind| Fault::Missing {
+            line,
+            name: kind.name,
+            found: plain::line(&names.join(", ")).to_string(),
+            unit: kind.example,
+        };
+        Ok(Self {
+            force: column(&FORCE)?.ok_or_else(|| missing(&FORCE))?,
+            penetration: column(&PENETRATION)?.ok_or_else(|| missing(&PENETRATION))?,
+            deviation: column(&DEVIATION)?,
+        })
+    }
+}
+
 fn cells(line: &str) -> impl Iterator<Item = &str> {
     line.split(',').map(|cell| cell.trim().trim_matches('"'))
 }
 
 /// The column of a kind; `None` where there is none.
-fn column(names: &[&str], kind: &Kind, line: usize, units: &Units) -> Result<Option<Column>, Fault> {
+fn column(names: &[&str], kind: &Kind, line: Option<usize>, units: &Units) -> Result<Option<Column>, Fault> {
     let is_other = |rest: &str| kind.name == PENETRATION.name && rest.starts_with("_error");
     let unit = |name: &str| -> Option<Option<String>> {
         let rest = name.strip_prefix(kind.name)?;
@@ -217,5 +254,16 @@ mod tests {
         }
         let unnamed = read("force_mN,penetration\n1,2\n", &Units::unknown()).unwrap_err().to_string();
         assert!(unnamed.contains("does not name SI units") && unnamed.contains("`force`"), "{unnamed}");
+    }
+
+    #[test]
+    fn columns_in_memory_are_those_of_a_table() {
+        let columns = |names: [&str; 2]| names.map(|name| (name.to_owned(), vec![2000.0, 4e3]));
+        let own = of_columns(&columns(["penetration_nm", "force_µN"]), &units()).unwrap();
+        let table = read("force_µN,penetration_nm\n2000,2000\n4000,4000\n", &units()).unwrap();
+        assert_eq!(own, table);
+        let fault = |names| of_columns(&columns(names), &units()).unwrap_err().to_string();
+        assert!(fault(["force", "depth"]).starts_with("no column `penetration` among force, depth"));
+        assert!(fault(["force", "force_N"]).starts_with("`force_N` is there twice"));
     }
 }

@@ -20,6 +20,7 @@ from percoat._case import Check, case, cases, check, explain, materials, schema
 from percoat._compare import Comparison, compare
 from percoat._core import CaseError, Progress, __version__
 from percoat._half_space import HalfSpace, kernel
+from percoat._identify import Identification, identify
 from percoat._limit import Limits, limit
 from percoat._record import Record
 from percoat._solve import COMPONENTS, Plane, Result, Section, Step, solve
@@ -34,6 +35,7 @@ __all__ = [
     "Columns",
     "Comparison",
     "HalfSpace",
+    "Identification",
     "Limits",
     "NotConverged",
     "PercoatWarning",
@@ -49,6 +51,7 @@ __all__ = [
     "check",
     "compare",
     "explain",
+    "identify",
     "kernel",
     "limit",
     "materials",

@@ -58,7 +58,7 @@ class Progress:
 
     @property
     def unit(self) -> str:
-        """Counted things: ``step``, ``combination`` or ``part``; ``load`` where their number is not known."""
+        """Counted things: ``step``, ``combination`` or ``part``; ``load`` or ``trial`` where their number is not known."""
     @property
     def done(self) -> int:
         """Number of those that are done."""
@@ -67,7 +67,7 @@ class Progress:
         """Number of all; 0 where it is not known."""
     @property
     def points(self) -> Optional[Tuple[int, int]]:
-        """Points of the present grid along a₁ and a₂; ``None`` for a sweep."""
+        """Points of the present grid along a₁ and a₂; ``None`` for a sweep and a search for parameters."""
     @property
     def iteration(self) -> int:
         """Iterations so far on that grid."""
@@ -92,6 +92,14 @@ def outcome_text(case: Case, summary: _Keys, width: int) -> str: ...
 def step(case: Case, index: int, points: List[int], bytes: bytes) -> Step: ...
 def limit(case: Case, threads: Optional[int] = None, progress: _Listener = None) -> Tuple[_Keys, bool]: ...
 def limit_text(case: Case, limits: _Keys, width: int) -> str: ...
+def identify(
+    case: Case,
+    data: Union[str, PathLike[str], List[Tuple[str, _Array]]],
+    free: List[str],
+    width: int,
+    threads: Optional[int] = None,
+    progress: _Listener = None,
+) -> Tuple[_Keys, Dict[str, Optional[_Array]], str, List[str]]: ...
 def sweep(
     case: Union[str, PathLike[str], Mapping[str, Any], Case],
     set: Mapping[str, Any],

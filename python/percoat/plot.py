@@ -16,6 +16,7 @@ from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 from numpy.typing import NDArray
 
+from percoat._identify import Identification
 from percoat._limit import criterion_name
 from percoat._solve import COMPONENTS, Array, Plane, Result, Section, Step
 
@@ -28,7 +29,7 @@ try:
 except ModuleNotFoundError as error:
     raise ImportError('percoat.plot needs Matplotlib: pip install "percoat[plot]"') from error
 
-__all__ = ["contact", "curve", "plane", "pressure", "section"]
+__all__ = ["contact", "curve", "fit", "plane", "pressure", "section"]
 
 Window = Tuple[float, float, float, float]
 Units = Optional[Mapping[str, Optional[str]]]
@@ -255,6 +256,49 @@ def curve(
     if ax.get_xscale() == "linear":
         # Numbers such as 0.0475 stand side by side.
         ax.locator_params(axis="x", nbins=5)
+    return ax
+
+
+def fit(
+    found: Identification, *, difference: bool = False, ax: Optional[Axes] = None, **artist: Any
+) -> Axes:
+    """Draw a measured indentation curve with its fit.
+
+    The band is that of two standard errors of the fit, by those of the parameters alone: measured points scatter by their
+    own deviations besides, which are their bars where they are known.
+
+    Parameters
+    ----------
+    found
+        From :func:`percoat.identify`.
+    difference
+        Measured less fitted penetrations instead of the penetrations.
+    ax
+        Where to draw; a new figure if it is not said.
+    artist
+        For :meth:`matplotlib.axes.Axes.errorbar`, by which the measured points are drawn.
+
+    Examples
+    --------
+    >>> import numpy as np, percoat.plot
+    >>> case = percoat.case("ball-on-disc", set={"grid.points": 64, "load.force": [1e3, 2e3, 5e3]})
+    >>> curve = [(step.force, step.penetration) for step in percoat.solve(case)]
+    >>> found = percoat.identify(case, np.array(curve), ["substrate.young"])
+    >>> percoat.plot.fit(found).get_ylabel()
+    'penetration (µm)'
+    """
+    ax = _axes(ax)
+    order = np.argsort(found.force)
+    force, below = found.force[order], found.fitted[order] if difference else 0.0
+    fitted, band = found.fitted[order] - below, 2.0 * found.fitted_error[order]
+    bars = None if found.penetration_error is None else found.penetration_error[order]
+    points = {"fmt": ".", "color": "C0", "label": "measured", **artist}
+    ax.errorbar(force, found.penetration[order] - below, bars, **points)
+    (line,) = ax.plot(force, fitted, color="C1", label="fit")
+    ax.fill_between(force, fitted - band, fitted + band, color=line.get_color(), alpha=0.3, linewidth=0.0)
+    ax.legend()
+    name = "measured − fit" if difference else "penetration"
+    ax.set(xlabel=_label("force", "force", found.units), ylabel=_label(name, "length", found.units))
     return ax
 
 

@@ -8,6 +8,7 @@ mod command;
 mod compare;
 mod errors;
 mod half_space;
+mod identify;
 mod interior;
 mod limit;
 mod materials;
@@ -31,6 +32,8 @@ mod _core {
     use super::errors::CaseError;
     #[pymodule_export]
     use super::half_space::HalfSpace;
+    #[pymodule_export]
+    use super::identify::identify;
     #[pymodule_export]
     use super::limit::{limit, limit_text};
     #[pymodule_export]

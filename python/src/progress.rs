@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 #[pyclass(frozen, skip_from_py_object, module = "percoat._core")]
 #[derive(Debug, Clone)]
 pub struct Progress {
-    /// Counted things: `step`, `combination` or `part`; `load` where their number is not known.
+    /// Counted things: `step`, `combination` or `part`; `load` or `trial` where their number is not known.
     #[pyo3(get)]
     pub unit: &'static str,
     /// Number of those that are done.
@@ -15,7 +15,7 @@ pub struct Progress {
     /// Number of all; 0 where it is not known.
     #[pyo3(get)]
     pub of: usize,
-    /// Points of the present grid along a₁ and a₂; `None` for a sweep.
+    /// Points of the present grid along a₁ and a₂; `None` for a sweep and a search for parameters.
     #[pyo3(get)]
     pub points: Option<(usize, usize)>,
     /// Iterations so far on that grid.

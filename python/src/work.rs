@@ -1,8 +1,8 @@
 //! Work on threads that never touch the interpreter, with progress and Ctrl-C.
 //!
 //! The thread of the caller waits without the lock of the interpreter, calls the callable `progress`, and checks for Ctrl-C, on
-//! which it raises at once. The work then stops: a solution between two iterations, stresses between two rows, points or planes;
-//! other work ends when it is done.
+//! which it raises at once. The work then stops: a solution between two iterations, stresses between two rows, points or planes, a
+//! search for parameters between two trials; other work ends when it is done.
 
 use crate::errors::refused;
 use crate::progress::Progress;

@@ -17,7 +17,7 @@ matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.collections import QuadMesh  # noqa: E402
+from matplotlib.collections import LineCollection, PolyCollection, QuadMesh  # noqa: E402
 from matplotlib.colors import LogNorm  # noqa: E402
 
 from percoat import plot  # noqa: E402
@@ -249,6 +249,37 @@ def test_a_curve_crosses_out_what_has_not_converged() -> None:
     (cross,) = [line for line in ax.lines if line.get_label() == "not converged"]
     assert cross.get_xdata().tolist() == [step.penetration for step in failed]
     assert cross.get_ydata().tolist() == [step.mean_pressure for step in failed]
+
+
+def test_a_fit_has_its_points_and_the_band_of_its_parameters() -> None:
+    force, penetration = np.array([3.0, 1.0, 2.0]), np.array([0.0291, 0.0141, 0.0221])
+    case = {
+        "lattice": {"kind": "isolated", "size": 4.0},
+        "levels": [{"shape": "paraboloid", "radius": 10.0}],
+        "substrate": {"young": 100.0, "poisson": 0.3},
+        "load": {"force": 1.0},
+        "units": {"length": "µm", "pressure": "GPa"},
+        "grid": {"points": 32},
+    }
+    curve = (force, penetration, np.full(3, 1e-4))
+    found = percoat.identify(case, curve, ["substrate.young"])
+    order = [1, 2, 0]
+    for difference in (False, True):
+        ax = plot.fit(found, difference=difference, color="black")
+        below = found.fitted[order] if difference else np.zeros(3)
+        measured, fitted = ax.lines[0], ax.lines[-1]
+        assert measured.get_color() == "black" and measured.get_xdata().tolist() == [1.0, 2.0, 3.0]
+        assert measured.get_ydata() == pytest.approx(penetration[order] - below, abs=1e-15)
+        assert fitted.get_ydata() == pytest.approx(found.fitted[order] - below, abs=1e-15)
+        (band,) = [own for own in ax.collections if isinstance(own, PolyCollection)]
+        reach = band.get_paths()[0].vertices[:, 1]
+        widest = 2.0 * found.fitted_error[0]
+        assert np.max(reach) == pytest.approx(fitted.get_ydata()[-1] + widest, rel=1e-12)
+        name = "measured − fit" if difference else "penetration"
+        assert (ax.get_xlabel(), ax.get_ylabel()) == ("force (GPa µm²)", f"{name} (µm)")
+        # Deviations that are known are the bars of the points.
+        (bars,) = [own for own in ax.collections if isinstance(own, LineCollection)]
+        assert bars.get_segments()[0][:, 1] == pytest.approx(measured.get_ydata()[0] + 1e-4 * np.array([-1, 1]), abs=1e-15)
 
 
 def test_everything_is_drawn_where_it_is_said(oblique: percoat.Result) -> None:

@@ -81,6 +81,11 @@ limits: percoat.Limits = percoat.limit(case, set={"substrate.yield_strength": 0.
 if limits.first is not None:
     print(limits.first.mean_pressure, limits.converged, [own.criterion for own in limits.limits])
 
+found: percoat.Identification = percoat.identify(case, (np.ones(3), [0.1, 0.2, 0.3]), ["offset"], threads=1)
+value: float = found.values["offset"] + found.errors["offset"] + found.intervals["offset"][0] + found.rms_residual
+misfit: NDArray[np.float64] = found.penetration - found.fitted + found.fitted_error @ found.correlation
+print(percoat.identify(case, Path("curve.csv"), "offset", set=["grid.points=64"]), found.case, found.contact_radii[0])
+
 columns: percoat.Columns = percoat.sweep(case, {"layers.0.thickness": [0.1, 0.2]}, zip=True, limit=False)
 print(columns.rows, columns["penetration"])
 
@@ -108,6 +113,8 @@ MISTAKES = [
     'percoat.solve("fig2").steps[0].penetration.upper()',
     'percoat.solve("fig2").steps[0].plane("deep")',
     'percoat.sweep("fig2", 3)',
+    'percoat.identify("fig2", 3.0, ["offset"])',
+    'percoat.identify("fig2", "curve.csv", ["offset"]).values.upper()',
     'percoat.kernel("fig2", 1.0, traction=3)',
     'percoat.check("fig2").points.upper()',
     'percoat.nothing',

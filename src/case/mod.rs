@@ -5,7 +5,7 @@
 //!
 //! One file a section: lattice, levels, surface, layers (with the substrate, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
 //! friction, units, stress, localized; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
-//! makes of them the texts of `percoat explain` and the schema; `materials` is the library. A document is parsed to a tree (`node`), changed by `overrides`,
+//! makes of them the texts of `percoat explain` and the schema; `identification` lets numbers be free; `materials` is the library. A document is parsed to a tree (`node`), changed by `overrides`,
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
 //!
 //! ```
@@ -25,6 +25,7 @@ mod given;
 mod grading;
 mod grid;
 mod half_space;
+mod identification;
 mod interface;
 mod keys;
 mod lattice;
@@ -63,6 +64,7 @@ pub use given::{DiscsSection, GivenSection, Pressures};
 pub use grading::{Grading, Law};
 pub use grid::Points;
 pub use half_space::half_space;
+pub use identification::{IdentificationTask, NotFree};
 pub use interface::{InterfaceSection, InterfaceStrengthSection, InterfaceWord, SpringSection};
 pub use keys::{Explanation, UnknownKey, explain, overview, schema};
 pub use lattice::{LatticeKind, LatticeSection};

@@ -21,8 +21,10 @@ const KEPT: [f64; 2] = [0.55, 0.85];
 const TRIALS: usize = 40;
 /// Samples along a side on which windows are tried.
 const COARSE: usize = 32;
-/// Nodes for a load alone, more for each factor e of the loads, and the largest number.
-const NODES: [f64; 3] = [4.0, 0.9, 12.0];
+/// Nodes for a load alone, and more for each factor e of the loads.
+const NODES: [f64; 2] = [4.0, 0.9];
+/// Most nodes of a curve, whose loads are solved at the same time.
+pub const MOST_NODES: usize = 12;
 
 /// Why a model has no indentation curve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -143,8 +145,8 @@ pub fn check(problem: &Problem) -> Result<(), CurveError> {
 /// Chebyshev nodes between two places, which they do not reach.
 fn places([least, most]: [f64; 2]) -> Vec<f64> {
     let length = most - least;
-    let [alone, more, most_nodes] = NODES;
-    let count = if length < 1e-9 { 1 } else { (alone + more * length).ceil().min(most_nodes) as usize };
+    let [alone, more] = NODES;
+    let count = if length < 1e-9 { 1 } else { ((alone + more * length).ceil() as usize).min(MOST_NODES) };
     let node = |k: usize| least + 0.5 * length * (1.0 - (PI * (k as f64 + 0.5) / count as f64).cos());
     (0..count).map(node).collect()
 }

@@ -4,20 +4,39 @@
 //!
 //! λ smaller after a step that lowers the sum, larger after one that does not. The scale of each parameter drops out.
 
-/// Residuals and their Jacobian, one row for each residual.
-pub type Linearised = (Vec<f64>, Vec<Vec<f64>>);
-
-/// The minimum found.
+/// A model at parameters t: residuals and their Jacobian, one row for each residual, and what else is known of it there.
 #[derive(Debug, Clone)]
-pub struct Minimum {
+pub struct Linearised<M> {
+    /// Residuals r.
+    pub residuals: Vec<f64>,
+    /// J, one row for each residual.
+    pub jacobian: Vec<Vec<f64>>,
+    /// What else is known of the model at t.
+    pub model: M,
+}
+
+/// The lowest place of a search.
+#[derive(Debug, Clone)]
+pub struct Minimum<M, R> {
     /// The parameters t.
     pub place: Vec<f64>,
-    /// Residuals and Jacobian there.
-    pub linearised: Linearised,
+    /// The model there, not at a later trial.
+    pub linearised: Linearised<M>,
     /// Steps that lowered the sum.
     pub steps: usize,
-    /// Whether a step changed the parameters, and predicted a fall of the sum, by less than the tolerance.
-    pub converged: bool,
+    /// How the search ended.
+    pub end: End<R>,
+}
+
+/// How a search ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum End<R> {
+    /// A step changed each parameter by less than the tolerance.
+    Converged,
+    /// It has not converged, and the model had no value at the end of a step; of several the reason of the last.
+    Refused(R),
+    /// It has not converged: no step lowers the sum any more, or too many do.
+    Exhausted,
 }
 
 /// Most trials of a step.
@@ -27,35 +46,52 @@ const TOLERANCE: f64 = 1e-6;
 /// λ at the beginning, its factors after a step and after a failed one, and the largest.
 const DAMPING: [f64; 4] = [1e-3, 0.2, 5.0, 1e10];
 
-/// The minimum from a start; `at` gives `None` where the model has no value.
-pub fn minimise(start: Vec<f64>, mut at: impl FnMut(&[f64]) -> Option<Linearised>) -> Option<Minimum> {
-    let mut own = Minimum { linearised: at(&start)?, place: start, steps: 0, converged: false };
-    let [mut damping, down, up, most] = DAMPING;
+/// The minimum from a start; `at` gives a reason where the model has no value. A step there is tried again shorter.
+///
+/// # Errors
+/// The reason of a start without a value.
+pub fn minimise<M, R>(
+    start: Vec<f64>,
+    mut at: impl FnMut(&[f64]) -> Result<Linearised<M>, R>,
+) -> Result<Minimum<M, R>, R> {
+    let mut own = Minimum { linearised: at(&start)?, place: start, steps: 0, end: End::Exhausted };
+    let ([mut damping, down, up, most], mut refused) = (DAMPING, None);
     for _ in 0..TRIALS {
-        let (residuals, jacobian) = &own.linearised;
+        let Linearised { residuals, jacobian, .. } = &own.linearised;
         let (normal, gradient) = (normal(jacobian), gradient(residuals, jacobian));
         let mut damped = normal.clone();
         for (k, row) in damped.iter_mut().enumerate() {
             row[k] += damping * normal[k][k].max(f64::MIN_POSITIVE);
         }
-        let step = factor(&damped).map(|factor| solve(&factor, &gradient));
-        let trial = step.as_ref().map(|step| own.place.iter().zip(step).map(|(t, step)| t - step).collect::<Vec<_>>());
-        let small = step.as_ref().is_some_and(|step| step.iter().all(|step| step.abs() <= TOLERANCE));
-        let square = sum(residuals);
-        match trial.and_then(|trial| Some((at(&trial)?, trial))) {
-            Some((linearised, trial)) if sum(&linearised.0) <= square => {
-                own = Minimum { place: trial, linearised, steps: own.steps + 1, converged: small };
-                damping *= down;
+        let mut change = up;
+        if let Some(step) = factor(&damped).map(|factor| solve(&factor, &gradient)) {
+            let trial: Vec<f64> = own.place.iter().zip(&step).map(|(t, step)| t - step).collect();
+            let small = step.iter().all(|step| step.abs() <= TOLERANCE);
+            match at(&trial) {
+                Ok(linearised) => {
+                    if sum(&linearised.residuals) <= sum(residuals) {
+                        own = Minimum { place: trial, linearised, steps: own.steps + 1, end: End::Exhausted };
+                        change = down;
+                    }
+                    // Where it is not lower only rounding, and the samples of a contact, are left.
+                    if small {
+                        return Ok(Minimum { end: End::Converged, ..own });
+                    }
+                }
+                Err(reason) => {
+                    refused = Some(reason);
+                    if small {
+                        break;
+                    }
+                }
             }
-            // Only rounding, and the samples of a contact, are left.
-            _ if small => own.converged = true,
-            _ => damping *= up,
         }
-        if own.converged || damping > most {
+        damping *= change;
+        if damping > most {
             break;
         }
     }
-    Some(own)
+    Ok(Minimum { end: refused.map_or(End::Exhausted, End::Refused), ..own })
 }
 
 /// Σ rᵢ².
@@ -124,21 +160,26 @@ pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
 mod tests {
     use super::*;
 
+    fn linearised<M>(rows: impl IntoIterator<Item = (f64, Vec<f64>)>, model: M) -> Linearised<M> {
+        let (residuals, jacobian) = rows.into_iter().unzip();
+        Linearised { residuals, jacobian, model }
+    }
+
     /// y = a e^{−bx} with a and b by their logarithms.
-    fn decay(t: &[f64]) -> Linearised {
+    fn decay(t: &[f64]) -> Linearised<()> {
         let [a, b] = [t[0].exp(), t[1].exp()];
         let of = |k: usize| {
             let x = k as f64 / 5.0;
             let (own, known) = (a * (-b * x).exp(), 3.0 * (-0.7 * x).exp());
             (own - known, vec![own, -own * b * x])
         };
-        (0..12).map(of).unzip()
+        linearised((0..12).map(of), ())
     }
 
     #[test]
     fn an_exponential_is_found_from_far_away() {
-        let found = minimise(vec![-2.0, 1.5], |t| Some(decay(t))).unwrap();
-        assert!(found.converged && sum(&found.linearised.0) < 1e-16, "{found:?}");
+        let found = minimise(vec![-2.0, 1.5], |t| Ok::<_, ()>(decay(t))).unwrap();
+        assert!(found.end == End::Converged && sum(&found.linearised.residuals) < 1e-16, "{found:?}");
         assert!((found.place[0].exp() - 3.0).abs() < 1e-7 && (found.place[1].exp() - 0.7).abs() < 1e-7);
     }
 
@@ -155,16 +196,46 @@ mod tests {
         assert!(inverse(&[vec![1.0, 2.0], vec![2.0, 4.0]]).is_none());
         let parallel = minimise(vec![0.0, 0.0], |t| {
             let r = t[0] + t[1] - 1.0;
-            Some((vec![r, 2.0 * r], vec![vec![1.0, 1.0], vec![2.0, 2.0]]))
+            Ok::<_, ()>(linearised([(r, vec![1.0, 1.0]), (2.0 * r, vec![2.0, 2.0])], ()))
         });
-        assert!(sum(&parallel.unwrap().linearised.0) < 1e-12);
+        assert!(sum(&parallel.unwrap().linearised.residuals) < 1e-12);
+    }
+
+    /// t − 0.4, with a slope that is too flat: steps go too far, up to a border.
+    fn beyond(border: f64) -> impl FnMut(&[f64]) -> Result<Linearised<()>, f64> {
+        move |t| if t[0] < border { Ok(linearised([(t[0] - 0.4, vec![0.1])], ())) } else { Err(t[0]) }
     }
 
     /// Where the model has no value a step is shortened.
     #[test]
     fn steps_stay_where_the_model_has_a_value() {
-        let of = |t: &[f64]| (t[0] < 0.5).then(|| (vec![t[0] - 0.4], vec![vec![0.1]]));
-        let found = minimise(vec![0.0], of).unwrap();
+        let found = minimise(vec![0.0], beyond(0.5)).unwrap();
         assert!((found.place[0] - 0.4).abs() < 0.1, "{found:?}");
+    }
+
+    /// Where none is accepted any more the search has not converged, and the last reason is given; that of a start is its error.
+    #[test]
+    fn a_search_that_ends_at_a_border_gives_the_reason() {
+        let found = minimise(vec![0.0], beyond(0.3)).unwrap();
+        let End::Refused(last) = found.end else { panic!("{found:?}") };
+        assert!(found.place[0] < 0.3 && last >= 0.3, "{found:?}");
+        assert_eq!(minimise(vec![0.7], beyond(0.3)).unwrap_err(), 0.7);
+    }
+
+    /// All trials after the second are worse, as those of a contact whose samples change.
+    #[test]
+    fn what_else_is_known_is_that_of_the_accepted_place() {
+        let mut trials = Vec::new();
+        let found = minimise(vec![1.0, 0.0], |t| {
+            trials.push(t.to_vec());
+            let Linearised { mut residuals, jacobian, .. } = decay(t);
+            if trials.len() > 2 {
+                residuals.iter_mut().for_each(|r| *r += 100.0);
+            }
+            Ok::<_, ()>(Linearised { residuals, jacobian, model: t.to_vec() })
+        });
+        let found = found.unwrap();
+        assert!(trials.len() > 3 && found.steps == 1, "{} trials, {found:?}", trials.len());
+        assert_eq!((&found.linearised.model, &found.place), (&trials[1], &trials[1]));
     }
 }

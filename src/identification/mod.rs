@@ -5,14 +5,23 @@
 //! compliance C_f add δ₀ + C_f P. Least squares of the measured penetrations give the parameters, and their
 //! covariance s²(JᵀJ)⁻¹ with s² the sum of squares over the degrees of freedom.
 //!
-//! A parameter whose standard error exceeds [`MOST_UNCERTAIN`] of it is not stated: the curve does not contain it.
+//! A parameter whose standard error exceeds [`MOST_UNCERTAIN`] of it, or of half the way between its bounds, is not stated: the curve does not contain it.
 
+mod covariance;
 mod curve;
+mod error;
 mod fit;
 mod least_squares;
+mod parameter;
+mod search;
+mod student;
 
-pub use curve::CurveError;
-pub use fit::{Estimate, Identification, IdentificationError, MOST_UNCERTAIN, Model, Parameter, Quantity};
+pub use covariance::MOST_UNCERTAIN;
+pub use curve::{CurveError, MOST_NODES};
+pub use error::{IdentificationError, NoValue, Undetermined};
+pub use fit::{Estimate, Identification};
+pub use parameter::{Parameter, Quantity};
+pub use search::{Listener, Model, Trial};
 
 use crate::notation::number;
 

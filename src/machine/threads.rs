@@ -57,8 +57,8 @@ impl Threads {
         PER_CORE * cores()
     }
 
-    /// Number of threads of the process.
-    pub(super) fn used() -> usize {
+    /// Number of threads of the process: the one that was set, else that of [`Threads::new`] without a wish.
+    pub fn used() -> usize {
         match USED.load(Ordering::Relaxed) {
             0 => Self::new("", None).map_or_else(|_| cores(), |threads| threads.count),
             used => used,

@@ -5,7 +5,7 @@ use super::number::{number, with_error};
 use super::summary::UnitNames;
 use super::table::Table;
 use crate::case::Case;
-use crate::identification::{Estimate, Identification, Measurement};
+use crate::identification::{Estimate, Identification, Measurement, Trial};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -80,6 +80,12 @@ pub fn fitted(measured: &Measurement, found: &Identification) -> String {
         writeln!(text, "{force},{penetration},{fitted},{band}").expect("a String takes any text");
     }
     text
+}
+
+/// A trial of the search in words, in lengths of the case.
+pub fn trial(case: &Case, trial: Trial) -> String {
+    let residual = trial.rms.map(|rms| case.units().length().with_unit(rms, number));
+    format!("trial {}, residual {}", trial.number, residual.unwrap_or("unknown: no contact is solved there".to_owned()))
 }
 
 /// The text of `percoat identify`.

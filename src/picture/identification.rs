@@ -8,7 +8,8 @@ use super::number::short;
 use crate::identification::{Identification, Measurement};
 use crate::units::Units;
 
-/// The picture: measured and fitted penetrations over the force, and their differences with the band of two standard errors of the fit.
+/// The picture: measured and fitted penetrations over the force, and their differences with the band of two standard errors of the fit, by
+/// those of the parameters alone: measured points scatter by their own deviations besides.
 pub fn identification(title: &str, units: &Units, measured: &Measurement, found: &Identification) -> Canvas {
     let mut order: Vec<usize> = (0..measured.forces().len()).collect();
     order.sort_by(|&a, &b| measured.forces()[a].total_cmp(&measured.forces()[b]));

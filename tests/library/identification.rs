@@ -1,10 +1,13 @@
 //! Moduli and thickness of a coating from its indentation curve. The curves are those of an integral equation for the
 //! axisymmetric contact, with and without noise (`validation/identification`), not of this program.
 
-use percoat::identification::{Estimate, Identification, IdentificationError, Measurement, Model, Parameter, Quantity};
+use percoat::identification::{
+    CurveError, Estimate, Identification, IdentificationError, Measurement, Model, NoValue, Parameter, Quantity, Trial,
+};
 use percoat::{
     Cell, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Material, MaterialError, Problem, Settings, Shape,
 };
+use std::ops::ControlFlow;
 
 const EXACT: &str = include_str!("../../validation/identification/indentation.csv");
 const NOISY: &str = include_str!("../../validation/identification/indentation_noisy.csv");
@@ -23,10 +26,14 @@ fn measured(text: &str, every: usize) -> Measurement {
 
 /// A ball of 10 µm on a coating: E, ν and h of the coating, E of the substrate; µm and GPa.
 fn problem(values: &[f64]) -> Result<Problem, MaterialError> {
+    under_ball(10.0, values)
+}
+
+fn under_ball(radius: f64, values: &[f64]) -> Result<Problem, MaterialError> {
     let &[coating, poisson, thickness, substrate] = values else { unreachable!("four values") };
     let layer = Layer::new(Material::from_young(coating, poisson)?, thickness, Interface::Bonded).unwrap();
     let lattice = Lattice::new(Cell::window([4.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
-    let level = Level::new(Shape::Paraboloid { radius: 10.0 }, 0.0).unwrap();
+    let level = Level::new(Shape::Paraboloid { radius }, 0.0).unwrap();
     let half_space = HalfSpace::new(vec![layer], Material::from_young(substrate, 0.3)?);
     Ok(Problem::new(Indenters::new(lattice, vec![level]).unwrap(), half_space))
 }
@@ -40,7 +47,7 @@ fn found(
     const NAMES: [&str; 4] = ["coating", "poisson", "thickness", "substrate"];
     let parameter = |&(index, start): &(usize, f64)| Parameter {
         name: NAMES[index].to_owned(),
-        quantity: if index == 1 { Quantity::Number } else { Quantity::Positive },
+        quantity: if index == 1 { Quantity::Bounded([0.0, 0.5]) } else { Quantity::Positive },
         start,
     };
     let more = more.iter().map(|&quantity| Parameter { name: format!("{quantity:?}"), quantity, start: 0.0 });
@@ -111,4 +118,49 @@ fn the_standard_error_of_one_parameter_is_the_noise_over_its_derivatives() {
         let (error, expected) = (own.estimates[0].error / own.estimates[0].value, noise / slopes);
         assert!((error / expected - 1.0).abs() < 0.01, "{index}: {error}, {expected}");
     }
+}
+
+/// Where the coating is stiffer than 200, on which the exact curve insists, the ball is so large that no window holds its contact: the search
+/// ends below, and says which load it is; from a start there it is the start that is refused.
+#[test]
+fn a_load_that_is_not_solved_on_the_way_is_the_reason_that_is_given() {
+    let measured = measured(EXACT, 6);
+    let from = |start: f64| {
+        let radius = |coating: f64| if coating > 200.0 { 1e60 } else { 10.0 };
+        let problem = |values: &[f64]| under_ball(radius(values[0]), &[values[0], 0.2, 1.0, 70.0]);
+        let settings = Settings { tolerance: 1e-9, ..Settings::default() };
+        let free = Parameter { name: "coating".to_owned(), quantity: Quantity::Positive, start };
+        Identification::new(&Model { problem: &problem, points: 48, settings }, &[free], &measured)
+    };
+    let ended = from(150.0).unwrap_err();
+    assert!(matches!(ended, IdentificationError::Refused(NoValue::Curve(CurveError::NotSolved(..)))), "{ended}");
+    let told = ended.to_string();
+    assert!(told.contains("does not converge") && told.contains("under the force"), "{told}");
+    let refused = from(250.0).unwrap_err();
+    assert!(matches!(refused, IdentificationError::Curve(CurveError::NotSolved(..))), "{refused}");
+}
+
+#[test]
+fn a_search_can_be_stopped_and_tells_of_its_trials() {
+    let measured = measured(EXACT, 6);
+    let problem = |values: &[f64]| problem(&[values[0], 0.2, 1.0, 70.0]);
+    let settings = Settings { tolerance: 1e-9, ..Settings::default() };
+    let model = Model { problem: &problem, points: 48, settings };
+    let free = [Parameter { name: "coating".to_owned(), quantity: Quantity::Positive, start: 150.0 }];
+    let mut heard: Vec<Trial> = Vec::new();
+    let own = Identification::new_with_progress(&model, &free, &measured, &mut |trial| {
+        heard.push(trial);
+        ControlFlow::Continue(())
+    });
+    let own = own.unwrap();
+    assert!(heard.iter().map(|trial| trial.number).eq(1..=heard.len()) && heard.len() > own.steps, "{heard:?}");
+    // The result is that of the best trial.
+    let least = heard.iter().filter_map(|trial| trial.rms).fold(f64::INFINITY, f64::min);
+    assert!((own.rms / least - 1.0).abs() < 1e-12, "{own}, {heard:?}");
+    let mut trials = 0;
+    let stopped = Identification::new_with_progress(&model, &free, &measured, &mut |_| {
+        trials += 1;
+        if trials < 2 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    assert!(stopped == Err(IdentificationError::Stopped) && trials == 2, "{stopped:?}");
 }

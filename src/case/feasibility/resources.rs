@@ -5,11 +5,12 @@
 //! below a quarter in all that were measured.
 
 use crate::body::{HalfSpace, InteriorTable};
-use crate::case::{Case, StressSection};
+use crate::case::{Case, StressSection, identification};
 use crate::counterbody::Topography;
 use crate::friction::Friction;
+use crate::identification::MOST_NODES;
 use crate::localized::Setup;
-use crate::machine::{Capacity, bytes};
+use crate::machine::{Capacity, Threads, bytes};
 use crate::numeric::fourier::fast_points;
 use crate::reading::Criterion;
 use crate::run::places::SECTION;
@@ -57,6 +58,9 @@ const CHECKPOINTS: u64 = 43;
 const STEP: u64 = 31;
 /// Per sample: a step at a limit that is shown, pressure and gap of its grids.
 const SHOWN: u64 = 21;
+/// Per sample: a step, its tangent, and problems at other values in its window; and what a thread takes that works on them.
+const TANGENT: u64 = 84;
+const THREAD: u64 = 2 * MEBIBYTE / 5;
 /// Per sample: its position and level.
 const PLACES: u64 = 20;
 /// A picture on disk, in both formats.
@@ -81,6 +85,11 @@ pub enum Job {
     },
     /// `percoat compare`, with its picture or without.
     Compare {
+        /// Whether the picture is drawn.
+        pictures: bool,
+    },
+    /// `percoat identify`, with its picture or without.
+    Identify {
         /// Whether the picture is drawn.
         pictures: bool,
     },
@@ -118,6 +127,7 @@ pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
         Job::Keep => of_keeping(case, samples, [grids, working, heights]),
         Job::Limit { pictures } => of_limits(case, samples, [grids, working, heights], pictures),
         Job::Compare { pictures } => of_comparing(case, samples, grids + working + heights, pictures),
+        Job::Identify { pictures } => of_identifying(grids + working + TANGENT * samples, pictures),
     };
     Needs { memory: needs.memory + needs.memory / 10, ..needs }
 }
@@ -203,6 +213,14 @@ fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> Needs
     Needs { memory: comparing.max(drawing), disk, disk_while_running: disk }
 }
 
+/// A search for parameters: nodes of a curve, of which every thread has one.
+fn of_identifying(node: u64, pictures: bool) -> Needs {
+    let disk = COMPARISON + if pictures { PICTURE } else { 0 };
+    let drawing = if pictures { PROGRAM + CURVES } else { 0 };
+    let solving = PROGRAM + Threads::used().min(MOST_NODES) as u64 * (node + THREAD);
+    Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
+}
+
 /// Memory of a stress field, and bytes written a step: those that are gathered at the end, and a volume.
 fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u64, u64, u64) {
     let sides = |z: &f64| half_space.depths(*z).len() as u64;
@@ -275,9 +293,10 @@ pub fn largest_points(case: &Case, points: [usize; 2], room: Capacity, job: Job)
 /// by [`Needs::fit`] when they are reached.
 pub fn refusal(case: &Case, room: Capacity, job: Job) -> Option<String> {
     let key = if matches!(case.grid, Sampling::Accuracy(_)) { "grid.accuracy" } else { "grid.points" };
-    let points = match case.grid.grids(&case.counterbody().cell()) {
-        Ok(grids) => grids[0],
-        Err(error) => return Some(format!("{key}: {error}")),
+    let points = match (job, case.grid.grids(&case.counterbody().cell())) {
+        (Job::Identify { .. }, _) => [identification::points(case); 2],
+        (_, Ok(grids)) => grids[0],
+        (_, Err(error)) => return Some(format!("{key}: {error}")),
     };
     let needs = needs(case, points, job);
     let what = if needs.memory > room.memory {
@@ -385,6 +404,24 @@ mod tests {
             println!("compare {points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
             assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
         }
+    }
+
+    /// Windows are no finer than an identification needs, whatever grid the case has.
+    #[test]
+    fn an_identification_that_memory_does_not_hold_is_refused() {
+        let job = Job::Identify { pictures: false };
+        let ball = |overrides: &[&str]| {
+            let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+            Case::read(&embedded::source("ball-on-disc").unwrap(), &overrides).unwrap()
+        };
+        let room = |memory: u64| Capacity { memory: memory * MEBIBYTE, disk: u64::MAX };
+        for fine in ["grid.points=8192", "grid={accuracy=1e-3}"] {
+            assert_eq!(refusal(&ball(&[fine]), room(64), job), None);
+            let said = refusal(&ball(&[fine]), room(17), job).unwrap();
+            assert!(said.contains("96 × 96 samples take about") && said.contains("17 MiB are available"), "{said}");
+        }
+        let said = refusal(&ball(&["grid.points=64"]), room(17), job).unwrap();
+        assert!(said.starts_with("grid.points: 64 × 64 samples"), "{said}");
     }
 
     #[test]

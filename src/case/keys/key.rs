@@ -98,6 +98,20 @@ impl Form {
             _ => None,
         }
     }
+
+    /// The range of a number in it at a dotted path, items counted from 0; `None` where no number stands.
+    fn range(&'static self, path: &str) -> Option<Range> {
+        let (item, rest) = path.split_once('.').unwrap_or((path, ""));
+        let index = || item.parse::<usize>().ok();
+        match self {
+            Self::Number(range) => path.is_empty().then_some(*range),
+            Self::Table(keys) => keys.range(path),
+            Self::Sections(keys, _) => index().and_then(|_| keys.range(rest)),
+            Self::List { of, .. } => index().and_then(|_| of.range(rest)),
+            Self::Tuple(_, items) => items.get(index()?)?.range(rest),
+            _ => None,
+        }
+    }
 }
 
 impl Key {
@@ -201,6 +215,12 @@ impl Keys {
 
     pub(in crate::case) fn get(&self, name: &str) -> Option<&'static Key> {
         self.all.iter().find(|key| key.name == name)
+    }
+
+    /// The range of the number at a dotted path, items counted from 0, as `layers.0.young`; `None` where no number stands.
+    pub(in crate::case) fn range(&'static self, path: &str) -> Option<Range> {
+        let (name, rest) = path.split_once('.').unwrap_or((path, ""));
+        self.get(name)?.forms.iter().find_map(|form| form.range(rest))
     }
 
     /// The keys of the tables inside one of its keys; none for an unknown key.

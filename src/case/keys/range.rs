@@ -2,6 +2,7 @@
 
 use std::ops::{Bound, RangeBounds};
 
+use crate::identification::Quantity;
 use crate::plain::float;
 use crate::units::CARRIED;
 
@@ -61,6 +62,14 @@ impl Range {
         // No other unit helps for 0.
         let help = (x != 0.0).then_some(WHY);
         if carried { Ok(x) } else { Err(Beyond { wanted: wanted.to_owned(), help }) }
+    }
+
+    /// How a fit searches for a number of it: by its logarithm, or between its bounds where it has two.
+    pub(in crate::case) fn quantity(self) -> Quantity {
+        match self {
+            Self::Within(Bound::Included(low), Bound::Included(high)) => Quantity::Bounded([low, high]),
+            _ => Quantity::Positive,
+        }
     }
 
     /// Its bounds without those of double precision.

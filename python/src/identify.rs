@@ -1,0 +1,89 @@
+//! `percoat.identify`: numbers of a case from a measured indentation curve.
+
+use crate::case::{self, Case};
+use crate::errors::{refused, unreadable};
+use crate::progress::Progress;
+use crate::record::to_python;
+use crate::work;
+use numpy::{PyArray1, PyReadonlyArray1, ToPyArray};
+use percoat::case::resources::Job;
+use percoat::case::{IdentificationTask, plausibility};
+use percoat::identification::{IdentificationError, Measurement};
+use percoat::output::{self, IdentificationFile, identified};
+use percoat::{measurements, plain};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What was found as a dict, the arrays of the curve and its fit, the table, and the warnings.
+type Found<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, String, Vec<String>);
+
+/// The values of the numbers `free` of a case from a curve, the path of a table or columns with their names: a dict with the keys of
+/// `identification.json`, arrays of the curve and its fit, the table of the command line in lines of `width` letters, and warnings.
+#[pyfunction]
+#[pyo3(signature = (case, data, free, width, threads = None, progress = None))]
+pub fn identify<'py>(
+    py: Python<'py>,
+    case: &Bound<'py, Case>,
+    data: &Bound<'py, PyAny>,
+    free: Vec<String>,
+    width: usize,
+    threads: Option<i64>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Found<'py>> {
+    let own = Arc::clone(&case.get().own);
+    let measured = measured(data, &own)?;
+    let curve = measured.clone();
+    let (source, _) = case::source(case.as_any())?;
+    case.get().allow(Job::Identify { pictures: false })?;
+    let found = work::run(py, threads, progress, move |listener| {
+        let told = |error: IdentificationError<_>| error.to_string();
+        let task = IdentificationTask::new(&source, &[], &own, &free).map_err(|error| format!("free: {error}"))?;
+        let (found, best) = task
+            .find(&measured, &mut |trial| {
+                let phase = output::trial(&own, trial);
+                listener.tell(true, |seconds| Progress {
+                    unit: "trial",
+                    done: trial.number,
+                    of: 0,
+                    points: None,
+                    iteration: 0,
+                    residual: f64::NAN,
+                    phase,
+                    seconds,
+                });
+                if listener.stops() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            })
+            .map_err(told)?;
+        let text = identified(&found, &best, width);
+        Ok::<_, String>((IdentificationFile::new(&found, &best), text, plausibility::of_case(&best), found))
+    })?;
+    let (file, text, warnings, found) = found.map_err(refused)?;
+    let arrays = PyDict::new(py);
+    let columns = [
+        ("force", Some(curve.forces())),
+        ("penetration", Some(curve.penetrations())),
+        ("penetration_error", curve.deviations()),
+        ("fitted", Some(&found.fitted[..])),
+        ("fitted_error", Some(&found.band[..])),
+    ];
+    for (name, column) in columns {
+        arrays.set_item(name, column.map(|column: &[f64]| -> Bound<'py, PyArray1<f64>> { column.to_pyarray(py) }))?;
+    }
+    Ok((to_python(py, &file)?, arrays, text, warnings))
+}
+
+/// The measured curve of a table, or of columns `(name, array)`.
+fn measured(data: &Bound<'_, PyAny>, case: &percoat::case::Case) -> PyResult<Measurement> {
+    if let Ok(path) = data.extract::<PathBuf>() {
+        let text = std::fs::read_to_string(&path).map_err(|error| unreadable(&path, &error))?;
+        let fault = |fault| refused(format!("{}: {fault}", plain::path(&path)));
+        return measurements::read(&text, &case.units()).map_err(fault);
+    }
+    let columns: Vec<(String, PyReadonlyArray1<'_, f64>)> = data.extract()?;
+    let columns: Vec<(String, Vec<f64>)> =
+        columns.into_iter().map(|(name, own)| (name, own.as_array().to_vec())).collect();
+    measurements::of_columns(&columns, &case.units()).map_err(refused)
+}
