@@ -85,7 +85,8 @@ impl Step {
         if reading.touches() {
             let levels = self.problem().counterbody().levels();
             let exponents: Vec<f64> = levels.iter().map(|level| level.shape().exponent()).collect();
-            let grids = Grids { fine: &reading, coarser: &coarser, load: self.load };
+            let is_given = self.problem().counterbody().pressure().is_some();
+            let grids = Grids { fine: &reading, coarser: &coarser, load: self.load, is_given };
             let of_levels: Vec<LevelErrors> =
                 exponents.iter().enumerate().map(|(index, &exponent)| grids.level_errors(index, exponent)).collect();
             reading.errors = grids.errors(&of_levels, &exponents);
@@ -142,6 +143,8 @@ struct Grids<'a> {
     coarser: &'a [Reading],
     /// The prescribed load.
     load: Load,
+    /// Whether the pressure is given: its peak has no law.
+    is_given: bool,
 }
 
 impl Grids<'_> {
@@ -170,7 +173,8 @@ impl Grids<'_> {
         let energy = self.error(safety, fine.elastic_energy * stored, &|reading| Some(reading.elastic_energy));
         let loaded = fine.levels.iter().zip(exponents).filter(|(level, _)| level.load > 0.0);
         let sharpest = loaded.map(|(_, &exponent)| exponent).fold(2.0, f64::min);
-        let peak = fine.grid_peak() * peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest);
+        let law = if self.is_given { 0.0 } else { peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest) };
+        let peak = fine.grid_peak() * law;
         // The highest of all may be that of any level that reaches as high within its own error.
         let peaks = fine.levels.iter().zip(of_levels);
         let peaks = peaks.filter_map(|(own, errors)| Some(own.finite_peak()? + errors.max_pressure?));

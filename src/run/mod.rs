@@ -250,7 +250,8 @@ impl Run {
             }
         };
         let mut record = StepRecord::new(&step, step.reading());
-        if loading == Loading::Path && self.problem.cell().is_isolated() && step.report.stop.solved() {
+        let is_indented = self.problem.cell().is_isolated() && !record.is_given();
+        if loading == Loading::Path && is_indented && step.report.stop.solved() {
             record = record.with_tangent(solver.tangent().as_ref());
         }
         let fields = self.mean_stress().map(|mean| {

@@ -49,6 +49,7 @@ fn a_disc_on_a_half_space_has_its_closed_forms() {
     assert!((w[[80, 80]] / deepest - 1.0).abs() < 2e-4 && (w[[120, 80]] / deepest * PI / 2.0 - 1.0).abs() < 2e-3);
     assert!((reading.contact_area / (PI * a * a) - 1.0).abs() < 1e-12 && reading.levels.is_empty());
     assert!((reading.max_pressure / p - 1.0).abs() < 1e-3, "{}", reading.max_pressure);
+    assert!(reading.errors.max_pressure.is_some_and(|error| error < 1e-3 * p), "{:?}", reading.errors);
     let field = StressField::new(step.finest(), MeanStress::HalfSpace);
     for z in [0.25, 0.5, 1.0, 2.0, 5.0] {
         let state = field.points(Depth { z, material: 1 }, &[[0.0, 0.0]])[0];
@@ -225,6 +226,8 @@ fn the_limit_is_the_load_over_its_utilisation() {
     let outcome = run.solve(&mut ()).unwrap();
     let record = &outcome.steps[0];
     assert!(record.is_given() && record.converged() && record.rough.is_none() && record.strength.len() == 3);
+    // What is given has no contact stiffness.
+    assert!(record.contact_stiffness.is_none());
     let limits = run.limits(&mut ()).unwrap();
     for own in &record.strength {
         let limit = limits.limits.iter().find(|limit| limit.criterion == own.criterion).unwrap();
