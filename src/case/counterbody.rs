@@ -18,14 +18,16 @@ pub(super) struct CounterbodySections<'a> {
     /// The section that gives the cell: `[lattice]`, or `[surface]` with a size of its own.
     pub(super) cell_section: TableAt<'a>,
     pub(super) grid_section: TableAt<'a>,
-    /// A surface with its grid and warnings; `None` for levels and a given pressure.
-    pub(super) surface: Option<(SurfaceSection, Sampling, Vec<String>)>,
+    /// A surface with its grid; `None` for levels and a given pressure.
+    pub(super) surface: Option<(SurfaceSection, Sampling)>,
+    /// Warnings about the file of a surface or of a given pressure.
+    pub(super) doubts: Vec<String>,
     pub(super) counterbody: Counterbody,
 }
 
 /// The levels of indenters, the surface, or the given pressure.
 pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<CounterbodySections<'a>, Refusal> {
-    if let Some(pressure) = given::read(root, source)? {
+    if let Some((pressure, doubts)) = given::read(root, source, length_unit(root)?.as_deref())? {
         let cell_section = root.required_section("lattice")?;
         return Ok(CounterbodySections {
             levels: Vec::new(),
@@ -33,6 +35,7 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
             cell_section,
             grid_section: root.section_or_empty("grid")?,
             surface: None,
+            doubts,
             counterbody: Counterbody::from(pressure),
         });
     }
@@ -59,7 +62,8 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
             lattice: read.lattice,
             cell_section: lattice_section.unwrap_or(section),
             grid_section,
-            surface: Some((read.section, read.sampling, read.doubts)),
+            surface: Some((read.section, read.sampling)),
+            doubts: read.doubts,
             counterbody: Counterbody::from(read.topography),
         });
     }
@@ -73,7 +77,15 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
     let counterbody = Indenters::new(lattice, built)
         .map(Counterbody::from)
         .map_err(|error| Refusal::new(cell_section.span, format!("`lattice`: {error}"), "no counterbody"))?;
-    Ok(CounterbodySections { levels, lattice: lattice_section, cell_section, grid_section, surface: None, counterbody })
+    Ok(CounterbodySections {
+        levels,
+        lattice: lattice_section,
+        cell_section,
+        grid_section,
+        surface: None,
+        doubts: Vec::new(),
+        counterbody,
+    })
 }
 
 /// `units.length`, where the case names its units.

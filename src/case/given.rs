@@ -13,6 +13,9 @@ use super::source::Source;
 use super::surface;
 use super::value::ValueAt;
 use crate::counterbody::{CounterbodyError, GivenPressure, LoadedDisc};
+use crate::heights::{HeightsUnit, Length, Stored, unit};
+use crate::lattice::Cell;
+use crate::notation::number;
 use crate::numeric::array::field;
 
 /// Most discs of a load.
@@ -84,8 +87,13 @@ fn one_value_each(own: &DiscsSection, section: &TableAt<'_>) -> Result<(), Refus
     Err(refusal.help(format!("received {values} for {discs} discs")))
 }
 
-/// The given pressure of a case; `None` where it prescribes another load.
-pub(super) fn read(root: &TableAt<'_>, source: &Source) -> Result<Option<GivenPressure>, Refusal> {
+/// The given pressure of a case with warnings about its file; `None` where it prescribes another load. `length`: the unit of the
+/// case's lengths, if any.
+pub(super) fn read(
+    root: &TableAt<'_>,
+    source: &Source,
+    length: Option<&str>,
+) -> Result<Option<(GivenPressure, Vec<String>)>, Refusal> {
     let load = root.section("load")?;
     let Some(value) = load.and_then(|load| load.optional("pressure")) else { return Ok(None) };
     let own = GivenSection::read(&value)?;
@@ -103,6 +111,7 @@ pub(super) fn read(root: &TableAt<'_>, source: &Source) -> Result<Option<GivenPr
         let own = key.as_ref().unwrap_or(&value);
         Refusal::new(own.node.span, format!("`{}`: {error}", own.path), "this pressure")
     };
+    let mut doubts = Vec::new();
     let given = match own {
         GivenSection::Discs(DiscsSection { disc, value: Pressures(pressures) }) => {
             let loaded = |(index, [x, y, radius]): (usize, [f64; 3])| {
@@ -119,16 +128,39 @@ pub(super) fn read(root: &TableAt<'_>, source: &Source) -> Result<Option<GivenPr
         GivenSection::File(name) => {
             let path = source.path(&name).unwrap_or_else(|| PathBuf::from(&name));
             let stored = surface::stored(source, &path, &value, "pressures at equally spaced samples of the cell")?;
-            let heights = stored.map_err(|fault| {
+            let stored = stored.map_err(|fault| {
                 let message = format!("`{}`: {} {}", value.path, path.display(), fault.what);
                 let refusal = Refusal::new(value.node.span, message, fault.label);
                 fault.help.into_iter().fold(refusal, Refusal::help)
             })?;
-            GivenPressure::field(cell, field(heights.heights.points, heights.heights.values))
+            doubts = doubts_of(&stored, &value.path, cell, length);
+            GivenPressure::field(cell, field(stored.heights.points, stored.heights.values))
                 .map_err(|error| refuse(error, None))
         }
     };
-    given.map(Some)
+    Ok(Some((given?, doubts)))
+}
+
+/// Warnings about a file of pressures: those of its format, sides other than those of the cell, and a unit of length.
+fn doubts_of(stored: &Stored, path: &str, cell: Cell, length: Option<&str>) -> Vec<String> {
+    let side = |own: &Length| match &own.unit {
+        None => Some(own.value),
+        Some(unit) => Some(own.value * unit::factor(unit, length?).ok()?),
+    };
+    let sides = stored.sides.as_ref().and_then(|[one, two]| Some([side(one)?, side(two)?]));
+    let of_cell = cell.vectors().map(|[x, y]| x.hypot(y));
+    let differs = |own: &[f64; 2]| (0..2).any(|axis| (own[axis] / of_cell[axis] - 1.0).abs() > 0.01);
+    let stretched = sides.filter(differs).map(|own| {
+        let [own, cell] = [own, of_cell].map(|sides| sides.map(number).join(" × "));
+        format!("`{path}`: its file says that it is {own} large, and is laid on the cell, {cell}: make both equal")
+    });
+    let unit = match &stored.unit {
+        Some(HeightsUnit::Known(unit)) => Some(format!(
+            "`{path}`: its file says that its numbers are in {unit}, a length; they are read as pressures in the unit of the case"
+        )),
+        _ => None,
+    };
+    stored.doubts.iter().cloned().chain(stretched).chain(unit).collect()
 }
 
 impl GivenSection {
@@ -138,5 +170,30 @@ impl GivenSection {
             Self::File(name) => Self::File(source.path(&name).map_or(name, |path| path.to_string_lossy().into_owned())),
             discs => discs,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_of_other_sides_or_in_a_unit_of_length_is_doubted() {
+        let cell = Cell::window([10.0, 5.0]).unwrap();
+        let stored = |sides: [f64; 2], unit: Option<HeightsUnit>| {
+            let array = ndarray::Array2::from_elem([4, 4], 1.0).into_dyn();
+            let side = |value: f64| Length { value, unit: Some("mm".to_owned()) };
+            Stored { sides: Some(sides.map(side)), unit, ..Stored::of(&array).unwrap() }
+        };
+        let doubts = |own: &Stored| doubts_of(own, "load.pressure", cell, Some("µm"));
+        assert_eq!(doubts(&stored([0.01, 0.005], None)), Vec::<String>::new());
+        assert_eq!(
+            doubts(&stored([0.004, 0.005], Some(HeightsUnit::Known("nm".to_owned())))),
+            [
+                "`load.pressure`: its file says that it is 4.0000 × 5.0000 large, and is laid on the cell, 10.000 × 5.0000: make both \
+                 equal",
+                "`load.pressure`: its file says that its numbers are in nm, a length; they are read as pressures in the unit of the case",
+            ]
+        );
     }
 }

@@ -92,7 +92,7 @@ section! { whole
     }
     beside {
         /// Warnings about its surface, a sentence each.
-        surface_doubts: Vec<String>,
+        file_doubts: Vec<String>,
         problem: Arc<Problem>,
     }
 }
@@ -139,8 +139,8 @@ impl Case {
     }
 
     /// Warnings about its surface, a sentence each.
-    pub(super) fn surface_doubts(&self) -> &[String] {
-        &self.surface_doubts
+    pub(super) fn file_doubts(&self) -> &[String] {
+        &self.file_doubts
     }
 
     /// The task of `percoat compare`: the last load by both methods.
@@ -202,7 +202,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let root = TableAt::root(&root, &CASE, Span::new(0, end..end));
     root.only()?;
     let title = title(&root)?;
-    let CounterbodySections { levels, lattice, cell_section, grid_section, surface, counterbody } =
+    let CounterbodySections { levels, lattice, cell_section, grid_section, surface, doubts: file_doubts, counterbody } =
         counterbody::read(&root, source)?;
     let body = layers::read(&root)?;
     let elastic_section = root.section("counterbody")?;
@@ -230,9 +230,9 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     }
     let of_field = || Some(counterbody.pressure()?.values()?.dim().into());
     let file_points = counterbody.topography().map(Topography::points).or_else(of_field);
-    let (surface, sampling, surface_doubts) = match surface {
-        Some((section, sampling, doubts)) => (Some(section), sampling, doubts),
-        None => (None, grid::read(&grid_section, file_points)?, Vec::new()),
+    let (surface, sampling) = match surface {
+        Some((section, sampling)) => (Some(section), sampling),
+        None => (None, grid::read(&grid_section, file_points)?),
     };
     magnitude::grid(sampling, file_points, &grid_section, &cell_section, counterbody.cell())?;
     let solver_section = root.section_or_empty("solver")?;
@@ -267,7 +267,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         substrate: body.substrate,
         counterbody: elastic.map(|(own, _)| own),
         load,
-        surface_doubts,
+        file_doubts,
         problem: Arc::new(problem),
     })
 }

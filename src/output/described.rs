@@ -79,8 +79,11 @@ pub(super) fn counterbody(units: &Units, counterbody: &Counterbody) -> String {
         return format!("{own}, {}", given_pressure(units, given));
     }
     let Some(indenters) = counterbody.indenters() else {
-        let [n1, n2] = counterbody.topography().map_or([0, 0], |topography| topography.points());
-        return format!("{own}, topography of {n1} × {n2} samples");
+        let topography = counterbody.topography();
+        let [n1, n2] = topography.map_or([0, 0], |topography| topography.points());
+        let ball = topography.and_then(|topography| topography.ball());
+        let ball = ball.map_or(String::new(), |radius| format!(" on a ball of radius {}", length(units, radius)));
+        return format!("{own}, topography of {n1} × {n2} samples{ball}");
     };
     let counts: Vec<String> = indenters.lattice().sites().iter().map(|sites| sites.len().to_string()).collect();
     let levels = (1..).zip(indenters.levels().iter().zip(indenters.drops()));

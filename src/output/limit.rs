@@ -87,7 +87,7 @@ impl LimitFile {
         indented(self)
     }
 
-    /// The limits, without the step of the picture and the end of the refinement, which the file does not keep.
+    /// The limits, without the step of the picture and the ends of search and refinement, which the file does not keep.
     pub fn limits(&self) -> Limits {
         Limits {
             limits: self.limits.clone(),
@@ -96,6 +96,7 @@ impl LimitFile {
             quantity: self.limits.first().map_or(LoadQuantity::MeanPressure, |limit| limit.quantity),
             complete: self.complete_contact.unwrap_or(f64::INFINITY),
             window: self.window,
+            ends_at_border: false,
             change: self.change,
             end: None,
             warnings: self.warnings.clone(),

@@ -150,10 +150,8 @@ impl Reading {
             many: components.len() > topography::LARGEST_SPOTS && area.located() < 0.5 * area.total(),
             counted: contact.surface().owners().is_empty().then(|| CountedArea::of(grid, pressure)),
         };
-        let fractions = match given {
-            Some(given) => Fractions::known(given.loaded_area() / cell.area()),
-            None => fractions(),
-        };
+        let known = given.and_then(|given| given.loaded_area());
+        let fractions = known.map_or_else(fractions, |area| Fractions::known(area / cell.area()));
         let (fraction, _) = fractions.best(|own, _| own.uncertainty);
         let typical = counts.half_load().map_or(0, |index| counts.sizes[index].0);
         let spot_resolution = (typical as f64 / PI).sqrt();

@@ -28,7 +28,7 @@ pub(crate) struct Fractions {
 }
 
 impl Fractions {
-    /// A fraction that is known.
+    /// A fraction without uncertainty: that of a given pressure on discs.
     pub fn known(value: f64) -> Self {
         Self { between: Fraction { value, uncertainty: 0.0 }, many: false, counted: None }
     }

@@ -27,6 +27,7 @@ mod rough;
 mod section;
 mod spots;
 mod strength;
+mod strength_search;
 mod stress;
 mod topography;
 mod touch;
@@ -44,7 +45,7 @@ pub use rough::{RoughReading, SpotSizes, stiffness};
 #[cfg(feature = "cli")]
 pub(crate) use section::{LargestInSection, SectionMeasure};
 pub use strength::{Criterion, Utilisation};
-pub(crate) use stress::utilisations_while;
+pub(crate) use strength_search::utilisations_while;
 pub use stress::{StressReading, tears, tips};
 pub use touch::{FirstTouch, first_touches};
 pub use verdict::Verdict;

@@ -1,14 +1,14 @@
 //! The largest stresses of a step in coating and substrate of the body, and of the counterbody where it is elastic, with their
 //! errors.
 
-use super::{Criterion, Reading, Utilisation};
+use super::Reading;
 use crate::body::{HalfSpace, InterfaceId, MaterialId};
 use crate::counterbody::Site;
 use crate::friction::Friction;
 use crate::numeric::serialised;
 use crate::spectral::Step;
 use crate::stress::maxima::{Carried, Extremes, Maxima};
-use crate::stress::{Peak, StrengthPeaks, StressField, StressFields};
+use crate::stress::{Peak, StressField, StressFields};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -89,59 +89,28 @@ fn in_body(
     Some(maxima)
 }
 
-/// The utilisations of a step that has contact by a search for the stresses of the criteria alone, those of [`StressReading::of`];
-/// `None` when `goes_on`, called many times a second during the search, returns false.
-pub(crate) fn utilisations_while(
-    step: &Step,
-    reading: &Reading,
-    fields: &StressFields,
-    goes_on: &dyn Fn() -> bool,
-) -> Option<Vec<Utilisation>> {
-    let coarser = step.coarser().first().map(|contact| fields.of_other(contact));
-    let (bodies, radii) = (step.problem().bodies(), contact_radii(step, reading));
-    let mut all = Vec::new();
-    for field in fields.each().filter(|field| field.half_space().has_strengths()) {
-        let side = field.half_space().side();
-        let mut peaks = field.strength_peaks_while(radii, coarser.as_ref().map(|coarser| coarser.on(side)), goes_on)?;
-        peaks.each().for_each(|peak| move_beside_site(step, peak));
-        if let Some(tip) = Tip::of(step, reading, field.half_space()) {
-            let StrengthPeaks { tension, mises, .. } = &mut peaks;
-            mises[0].iter_mut().for_each(|peak| tip.press(peak));
-            tension[0].iter_mut().filter(|_| tip.tears).for_each(|peak| tip.press(peak));
-        }
-        let peak = |criterion: Criterion| match criterion {
-            Criterion::Yield(material) => peaks.mises[material.number - 1],
-            Criterion::Cracking(material) => peaks.tension[material.number - 1],
-            Criterion::Delamination(interface) => peaks.delamination[interface.number - 1],
-        };
-        let own = Criterion::all(bodies).into_iter().filter(|criterion| criterion.side() == side);
-        all.extend(own.filter_map(|criterion| Utilisation::by_peak(bodies, criterion, peak(criterion)?)));
-    }
-    Some(all)
-}
-
 /// Moves a peak and its rival to the images nearest to an indenter of the first cell.
-fn move_beside_site(step: &Step, peak: &mut Peak) {
+pub(super) fn move_beside_site(step: &Step, peak: &mut Peak) {
     peak.position = beside_site(step, peak.position);
     peak.rival.iter_mut().for_each(|rival| rival.position = beside_site(step, rival.position));
 }
 
 /// A tip in contact: the body below is infinitely stressed, whatever a grid shows of it.
-struct Tip {
+pub(super) struct Tip {
     position: [f64; 3],
     material: MaterialId,
     /// Whether tension is infinite too.
-    tears: bool,
+    pub tears: bool,
 }
 
 impl Tip {
-    fn of(step: &Step, reading: &Reading, half_space: &HalfSpace) -> Option<Self> {
+    pub fn of(step: &Step, reading: &Reading, half_space: &HalfSpace) -> Option<Self> {
         let [x, y] = step.grid().cell().point(tips(step, reading, half_space).next()?.place);
         let material = half_space.material_id(1);
         Some(Self { position: [x, y, 0.0], material, tears: tears(step, half_space) })
     }
 
-    fn press(&self, peak: &mut Peak) {
+    pub fn press(&self, peak: &mut Peak) {
         let Self { position, material, .. } = *self;
         *peak = Peak { value: f64::INFINITY, position, material, error: None, rival: None, ..*peak };
     }
@@ -211,78 +180,22 @@ fn beside_site(step: &Step, [x, y, z]: [f64; 3]) -> [f64; 3] {
 
 /// Smallest and largest contact radius of a step; where contacts have no radius, that of a disc of the whole contact's
 /// area. The smallest is taken to have four samples at least.
-fn contact_radii(step: &Step, reading: &Reading) -> [f64; 2] {
+///
+/// A given pressure has the radii of its discs, or that of its smallest spot.
+pub(super) fn contact_radii(step: &Step, reading: &Reading) -> [f64; 2] {
     let grid = step.grid();
+    if let Some(given) = step.problem().counterbody().pressure() {
+        let radii = given.loaded_discs().iter().filter(|disc| disc.pressure > 0.0).map(|disc| disc.radius);
+        let of_spot = |&(samples, _): &(usize, f64)| (samples as f64 * grid.sample_area() / PI).sqrt();
+        let counts = step.finest().spots(None);
+        let radii: Vec<f64> = radii.chain(counts.sizes.iter().map(of_spot)).collect();
+        let least = radii.iter().copied().fold(f64::INFINITY, f64::min).max(4.0 * grid.spacing());
+        return [least, radii.iter().copied().fold(least, f64::max)];
+    }
     let whole = (reading.contact_area / PI).sqrt();
     let touching = reading.levels.iter().filter(|level| level.load > 0.0);
     let radii: Vec<f64> = touching.filter_map(|level| level.contact_radius).collect();
     let least = radii.iter().copied().fold(whole, f64::min).max(4.0 * grid.spacing());
     let most = if radii.is_empty() { whole } else { radii.iter().copied().fold(0.0, f64::max) };
     [least, most.max(least)]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::body::{Interface, InterfaceStrength, Layer, Material, MeanStress, Strength};
-    use crate::counterbody::{Indenters, Level, Shape};
-    use crate::lattice::{Cell, Lattice};
-    use crate::problem::Problem;
-    use crate::spectral::{Settings, Solver};
-    use crate::{Bodies, Load};
-
-    fn material(young: f64) -> Material {
-        Material::from_young(young, 0.3).unwrap()
-    }
-
-    fn layer(strength: Strength, interface: InterfaceStrength) -> Layer {
-        let own = Layer::new(material(2.0), 0.05, Interface::Bonded).unwrap().with_residual_stress(-0.01).unwrap();
-        own.with_strengths(strength, interface).unwrap()
-    }
-
-    /// One search finds all stresses, the other those by which strengths are judged: the utilisations are the same bit for bit. Materials
-    /// without strengths, with one and with both; interfaces with and without; friction, two bodies, a tip, periodic and isolated.
-    #[test]
-    fn a_search_for_strengths_alone_finds_the_same_utilisations() {
-        let strength = |yielding: Option<f64>, tensile: Option<f64>| Strength { yielding, tensile };
-        let bond = InterfaceStrength { normal: Some(0.02), shear: Some(0.05) };
-        let all = layer(strength(Some(0.3), Some(0.1)), bond);
-        let bodies = [
-            HalfSpace::new(vec![layer(strength(None, None), InterfaceStrength::default()), all.clone()], material(1.0)),
-            HalfSpace::new(vec![layer(strength(None, Some(0.1)), InterfaceStrength::default())], material(1.0))
-                .with_substrate_strength(strength(Some(0.2), None))
-                .unwrap(),
-            HalfSpace::new(vec![layer(strength(None, None), bond)], material(1.0)),
-        ];
-        let counterbody = HalfSpace::new(vec![all], material(3.0));
-        let cells = [Cell::square(1.0).unwrap(), Cell::window([1.0; 2]).unwrap()];
-        let [periodic, isolated] = cells.map(|cell| Lattice::new(cell, vec![vec![[0.5; 2]]]).unwrap());
-        let indenters = |lattice: &Lattice, shape: Shape| {
-            Indenters::new(lattice.clone(), vec![Level::new(shape, 0.0).unwrap()]).unwrap()
-        };
-        let (ball, cone) = (Shape::Paraboloid { radius: 2.0 }, Shape::Cone { slope: 0.1 });
-        let mut compared = 0;
-        for (index, body) in bodies.iter().enumerate() {
-            let elastic = Bodies::elastic(body.clone(), counterbody.clone());
-            let problems = [
-                Problem::new(indenters(&periodic, ball), body.clone())
-                    .sliding(Friction::new(0.3, [0.6, 0.8]).unwrap())
-                    .unwrap(),
-                Problem::new(indenters(&periodic, cone), body.clone()),
-                Problem::new(indenters(&isolated, ball), elastic),
-            ];
-            for problem in problems {
-                let mut solver = Solver::new(problem, [32; 2], Settings::default()).unwrap();
-                let step = solver.solve(Load::Force(0.01));
-                let (reading, fields) = (step.reading(), StressFields::new(step.finest(), MeanStress::Confined));
-                let all = Utilisation::all(step.problem().bodies(), &StressReading::of(&step, &reading, &fields));
-                let own = utilisations_while(&step, &reading, &fields, &|| true).unwrap();
-                assert!(own == all && !own.is_empty(), "{index}: {own:?}, {all:?}");
-                assert!(own.iter().all(|own| own.error.is_some() || own.value.is_infinite()));
-                assert_eq!(utilisations_while(&step, &reading, &fields, &|| false), None);
-                compared += own.len();
-            }
-        }
-        assert!(compared > 20, "{compared}");
-    }
 }

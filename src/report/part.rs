@@ -72,7 +72,8 @@ pub(super) fn by(version: &str) -> Markup {
 fn assumptions(case: &Value) -> Assumptions {
     let mean = if case["stress"]["mean"] == "half-space" { MeanStress::HalfSpace } else { MeanStress::default() };
     let isolated = case["lattice"]["kind"] == "isolated";
-    Assumptions { mean, isolated, elastic: !case["counterbody"].is_null() }
+    let rigid = case["counterbody"].is_null() && case["load"]["pressure"].is_null();
+    Assumptions { mean, isolated, rigid }
 }
 
 /// What largest stresses, or with them strengths, of a case assume, a paragraph each.

@@ -55,6 +55,7 @@ pub(super) fn of_judged(
         small_spots(judged),
         end.and_then(|end| not_accurate(end, change)),
         rough_surface(judged),
+        edges_of_discs(problem, judged),
         mean_matters(problem, judged),
         at_border(problem, judged),
         steep_flank(problem, judged),
@@ -114,6 +115,12 @@ fn small_spots(steps: &[Numbered]) -> Option<String> {
             && !is_complete(reading)
     };
     let list = list(steps, rough)?;
+    if steps.iter().any(|(_, step)| step.is_given()) {
+        return Some(format!(
+            "half of the load lies on spots of less than {FEW_SAMPLES} samples to the radius: stresses near the surface are rough; raise \
+             grid.points"
+        ));
+    }
     Some(format!(
         "half of the load lies on contact spots of less than {FEW_SAMPLES} samples to the radius in step {list}: contact area \
          and pressures are rough; give the topography on more points"
@@ -144,6 +151,19 @@ fn rough_surface(steps: &[Numbered]) -> Option<String> {
          grid.points",
         100.0 * worst
     ))
+}
+
+/// Stresses on the surface at the edges of discs under a uniform traction, which no grid resolves.
+fn edges_of_discs(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let given = problem.counterbody().pressure()?;
+    let slides = problem.friction().is_some_and(|friction| friction.coefficient() > 0.0);
+    let is_read = slides && steps.iter().any(|(_, step)| has_stresses(step));
+    (is_read && !given.loaded_discs().is_empty()).then(|| {
+        "a traction that ends with a jump at the edge of a disc makes lateral stresses there that grow like the logarithm of the distance, \
+         without bound: what is stated on the surface is that at about a sample from the edge, and what fails there fails on a fine grid \
+         at less; give a pressure that falls to zero from a file, or judge below the surface"
+            .to_owned()
+    })
 }
 
 /// Whether stresses were searched, all or those of strengths.

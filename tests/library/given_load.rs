@@ -213,6 +213,25 @@ fn largest_stresses_under_a_disc_are_within_their_errors() {
     }
 }
 
+/// A small disc beside a large one: the largest stress is below the small one, whose pressure is higher, at a depth of its own size.
+#[test]
+fn the_largest_stress_is_found_under_the_smallest_disc() {
+    let body = HalfSpace::new(vec![], young(1.0, 0.3));
+    let mises = |discs: &[LoadedDisc]| {
+        let given = window([6.0, 4.0], discs);
+        let load = Load::Force(given.force());
+        let run = Run::new(Problem::new(given, body.clone()), vec![load], Sampling::Points([240, 160]));
+        let run = Run { stress: Some(StressRequest::default()), ..run };
+        run.solve(&mut ()).unwrap().steps[0].stress.clone().unwrap().overall.mises
+    };
+    let (large, small) = (disc([-0.8, 0.0], 1.2, 0.009), disc([1.6, 0.0], 0.15, 0.011));
+    let (both, alone) = (mises(&[large, small]), mises(&[small]));
+    let [x, y, z] = both.position;
+    assert!((x - 1.6).hypot(y) < 0.15 && z < 0.3, "{both:?}");
+    // The large disc presses its surroundings a little.
+    assert!((both.value / alone.value - 1.0).abs() < 0.1, "{both:?}, {alone:?}");
+}
+
 /// Under a given pressure stresses are proportional to it: the load at which something fails follows from the utilisation.
 #[test]
 fn the_limit_is_the_load_over_its_utilisation() {
@@ -220,20 +239,23 @@ fn the_limit_is_the_load_over_its_utilisation() {
     let layer = Layer::new(young(5.0, 0.25), 0.3, Interface::Bonded).unwrap();
     let layer = layer.with_strengths(strength, InterfaceStrength { normal: None, shear: Some(0.02) }).unwrap();
     let body = HalfSpace::new(vec![layer], young(1.0, 0.3)).with_substrate_strength(strength).unwrap();
-    let given = window([3.0, 3.0], &[disc([0.0, 0.0], 0.5, 0.04)]);
-    let force = given.force();
-    let run = Run::new(Problem::new(given, body), vec![Load::Force(force)], Sampling::Points([96; 2]));
-    let outcome = run.solve(&mut ()).unwrap();
-    let record = &outcome.steps[0];
-    assert!(record.is_given() && record.converged() && record.rough.is_none() && record.strength.len() == 3);
-    // What is given has no contact stiffness.
-    assert!(record.contact_stiffness.is_none());
-    let limits = run.limits(&mut ()).unwrap();
-    for own in &record.strength {
-        let limit = limits.limits.iter().find(|limit| limit.criterion == own.criterion).unwrap();
-        let At::Load { load, .. } = limit.at else { panic!("{limit:?}") };
-        assert!((load * own.value / force - 1.0).abs() < 2e-3, "{:?}: {load}, {}", own.criterion, own.value);
-        assert!(own.error.is_some_and(|error| error < 0.02 * own.value), "{own:?}");
+    // The small disc has two samples along its radius.
+    for radius in [0.5, 0.07] {
+        let given = window([3.0, 3.0], &[disc([0.0, 0.0], radius, 0.04)]);
+        let force = given.force();
+        let run = Run::new(Problem::new(given, body.clone()), vec![Load::Force(force)], Sampling::Points([96; 2]));
+        let outcome = run.solve(&mut ()).unwrap();
+        let record = &outcome.steps[0];
+        assert!(record.is_given() && record.converged() && record.rough.is_none() && record.strength.len() == 3);
+        // What is given has no contact stiffness.
+        assert!(record.contact_stiffness.is_none());
+        let limits = run.limits(&mut ()).unwrap();
+        for own in &record.strength {
+            let limit = limits.limits.iter().find(|limit| limit.criterion == own.criterion).unwrap();
+            let At::Load { load, .. } = limit.at else { panic!("{radius}: {limit:?}") };
+            assert!((load * own.value / force - 1.0).abs() < 2e-3, "{:?}: {load}, {}", own.criterion, own.value);
+            assert!(radius < 0.1 || own.error.is_some_and(|error| error < 0.02 * own.value), "{own:?}");
+        }
+        assert!(Criterion::all(run.problem.bodies()).len() == 3);
     }
-    assert!(Criterion::all(run.problem.bodies()).len() == 3);
 }

@@ -35,7 +35,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
     }
     doubts.extend(counterbody.levels().iter().enumerate().filter_map(|(index, level)| steep_cone(index, level)));
     doubts.extend(counterbody.topography().and_then(topography));
-    doubts.extend_from_slice(case.surface_doubts());
+    doubts.extend_from_slice(case.file_doubts());
     if case.stress.as_ref().is_some_and(|stress| stress.mean == MeanStress::HalfSpace) {
         doubts.extend(slipping(case, cell));
     }

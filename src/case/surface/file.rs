@@ -138,7 +138,7 @@ pub(super) fn read(
         let refusal = Refusal::new(written.node.span, message, fault.label);
         fault.help.into_iter().fold(refusal, Refusal::help)
     };
-    let Stored { heights: Heights { points, mut values }, sides, unit, lines_along_a1, mut doubts } =
+    let Stored { heights: Heights { points, mut values }, sides, unit, lines_along_a1, doubts } =
         stored(source, &path, written, "one period of heights")?.map_err(refuse)?;
     let treatment = treatment.of_file(unit.as_ref(), length).map_err(refuse)?;
     values.iter_mut().for_each(|height| *height *= treatment.scale);
@@ -152,7 +152,6 @@ pub(super) fn read(
         Treatment { level: true, .. } => (levelled(heights), None),
         _ => (heights, None),
     };
-    doubts.extend(not_periodic(&heights, &treatment));
     let period = sides.and_then(|sides| treatment.sides(sides, length));
     Ok(FromFile { heights, run_out, period, treatment, lines_along_a1, doubts })
 }
@@ -184,7 +183,7 @@ pub(in crate::case) fn stored(
 }
 
 /// A warning where the surface jumps between two periods.
-fn not_periodic(heights: &Array2<f64>, treatment: &Treatment) -> Option<String> {
+pub(super) fn not_periodic(heights: &Array2<f64>, treatment: &Treatment) -> Option<String> {
     let jumps = border_jumps(heights.view());
     let (axis, jump) = if jumps[0] >= jumps[1] { ("a₁", jumps[0]) } else { ("a₂", jumps[1]) };
     let advice = match treatment {

@@ -78,6 +78,7 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     let points: [usize; 2] = stored.dim().into();
     let (lattice, cell) = cell(&own_section, section, around, points, own)?;
     let across = across(points, cell);
+    let jump = if cell.is_isolated() { None } else { file::not_periodic(&stored, &treatment) };
     let sampling = grid::read(&around.grid, Some(points))?;
     let (on_grid, lost) = match sampling {
         Sampling::Points(wanted) if wanted != points => resampled(heights, cell, stored, wanted)?,
@@ -105,7 +106,7 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
         lattice,
         topography,
         sampling,
-        doubts: doubts.into_iter().chain(across).chain(lost).chain(squeezed).collect(),
+        doubts: doubts.into_iter().chain(jump).chain(across).chain(lost).chain(squeezed).collect(),
     })
 }
 

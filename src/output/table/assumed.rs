@@ -24,8 +24,8 @@ pub struct Assumptions {
     pub mean: MeanStress,
     /// Whether contact is isolated.
     pub isolated: bool,
-    /// Whether the counterbody is elastic.
-    pub elastic: bool,
+    /// Whether indenters or a topography are rigid; a given pressure has none.
+    pub rigid: bool,
 }
 
 impl Assumptions {
@@ -35,14 +35,14 @@ impl Assumptions {
         Self {
             mean: case.mean_stress(),
             isolated: problem.cell().is_isolated(),
-            elastic: problem.bodies().counterbody().is_some(),
+            rigid: problem.bodies().counterbody().is_none() && problem.counterbody().pressure().is_none(),
         }
     }
 
     /// A sentence for each that matters; `with_strength`: beside strengths.
     pub fn sentences(self, with_strength: bool) -> Vec<&'static str> {
         let mean = (!self.isolated).then(|| mean_stress(self.mean));
-        let rigid = (with_strength && !self.elastic).then_some(RIGID);
+        let rigid = (with_strength && self.rigid).then_some(RIGID);
         mean.into_iter().chain(rigid).collect()
     }
 

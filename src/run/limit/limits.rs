@@ -102,6 +102,8 @@ pub struct Limits {
     pub complete: f64,
     /// Sides of the largest window in which loads were solved, lengths; `None` where an isolated contact had room in its own in all.
     pub window: Option<[f64; 2]>,
+    /// Whether the search ended because an isolated contact had no room under higher loads.
+    pub ends_at_border: bool,
     /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
     pub change: Option<f64>,
     /// Reason of the end of the refinement; `None` without one.
@@ -275,7 +277,7 @@ impl Limits {
         };
         let judged: Vec<Numbered> = all.iter().copied().filter(is_limit).collect();
         let is_open = |limit: &Limit| matches!(limit.at, At::Never { .. } | At::Undecided { .. });
-        let room = self.limits.iter().any(is_open) && problem.cell().is_isolated();
+        let room = self.limits.iter().any(is_open) && self.ends_at_border;
         let room = room.then(|| {
             "the search ends where contact has no room in its window any more: enlarge lattice.size to look further"
                 .to_owned()

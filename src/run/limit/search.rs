@@ -100,6 +100,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             quantity,
             complete,
             window: search.largest_window(),
+            ends_at_border: search.complete.is_infinite() && search.windows.largest().is_finite(),
             change: None,
             end: None,
             warnings: Vec::new(),
@@ -193,6 +194,10 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             at_border = self.solve(lowest)?.stop == Stop::AtBorder;
             self.steps.truncate(1);
         }
+        while at_border && self.windows.end_at(0.0) {
+            self.steps.clear();
+            at_border = self.solve(lowest)?.stop == Stop::AtBorder;
+        }
         let mut highest = lowest;
         for _ in 0..DOUBLINGS {
             // Where contact is complete under any load, loads are halved until everything holds.
@@ -231,6 +236,10 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
 
     /// Whether the contact of the best resolved level, or that of a topography, has enough samples for its stresses.
     fn is_readable(&self, reading: &Reading) -> bool {
+        // What is given does not grow with the load.
+        if self.run.problem.counterbody().pressure().is_some() {
+            return true;
+        }
         let samples = reading.contact_area / self.solver.grid().sample_area();
         let whole = (samples / PI).sqrt();
         let of_levels = reading.levels.iter().map(|level| level.resolution).reduce(f64::max);

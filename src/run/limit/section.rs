@@ -21,7 +21,8 @@ impl LimitStep {
     pub fn sections(&self, run: &Run) -> Option<Vec<VerticalSection>> {
         let Self { limit, step, .. } = self;
         let [x, y, z] = limit.position()?;
-        let (bodies, cell) = (run.problem.bodies(), run.problem.cell());
+        // The window of the step may be larger than that of the case.
+        let (bodies, cell) = (run.problem.bodies(), step.grid().cell());
         let direction = run.problem.friction().map_or([1.0, 0.0], Friction::direction);
         let reading = step.reading();
         let radius = (reading.contact_area / (PI * reading.contact_spots.max(1) as f64)).sqrt();

@@ -1,0 +1,105 @@
+//! The utilisations of a step by a search for the stresses of its criteria alone.
+
+use super::stress::{Tip, contact_radii, move_beside_site};
+use super::{Criterion, Reading, Utilisation};
+use crate::spectral::Step;
+use crate::stress::{StrengthPeaks, StressFields};
+
+/// The utilisations of a step that has contact by a search for the stresses of the criteria alone, those of [`StressReading::of`](super::StressReading::of);
+/// `None` when `goes_on`, called many times a second during the search, returns false.
+pub(crate) fn utilisations_while(
+    step: &Step,
+    reading: &Reading,
+    fields: &StressFields,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<Utilisation>> {
+    let coarser = step.coarser().first().map(|contact| fields.of_other(contact));
+    let (bodies, radii) = (step.problem().bodies(), contact_radii(step, reading));
+    let mut all = Vec::new();
+    for field in fields.each().filter(|field| field.half_space().has_strengths()) {
+        let side = field.half_space().side();
+        let mut peaks = field.strength_peaks_while(radii, coarser.as_ref().map(|coarser| coarser.on(side)), goes_on)?;
+        peaks.each().for_each(|peak| move_beside_site(step, peak));
+        if let Some(tip) = Tip::of(step, reading, field.half_space()) {
+            let StrengthPeaks { tension, mises, .. } = &mut peaks;
+            mises[0].iter_mut().for_each(|peak| tip.press(peak));
+            tension[0].iter_mut().filter(|_| tip.tears).for_each(|peak| tip.press(peak));
+        }
+        let peak = |criterion: Criterion| match criterion {
+            Criterion::Yield(material) => peaks.mises[material.number - 1],
+            Criterion::Cracking(material) => peaks.tension[material.number - 1],
+            Criterion::Delamination(interface) => peaks.delamination[interface.number - 1],
+        };
+        let own = Criterion::all(bodies).into_iter().filter(|criterion| criterion.side() == side);
+        all.extend(own.filter_map(|criterion| Utilisation::by_peak(bodies, criterion, peak(criterion)?)));
+    }
+    Some(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::StressReading;
+    use super::*;
+    use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MeanStress, Strength};
+    use crate::counterbody::{Indenters, Level, Shape};
+    use crate::friction::Friction;
+    use crate::lattice::{Cell, Lattice};
+    use crate::problem::Problem;
+    use crate::spectral::{Settings, Solver};
+    use crate::{Bodies, Load};
+
+    fn material(young: f64) -> Material {
+        Material::from_young(young, 0.3).unwrap()
+    }
+
+    fn layer(strength: Strength, interface: InterfaceStrength) -> Layer {
+        let own = Layer::new(material(2.0), 0.05, Interface::Bonded).unwrap().with_residual_stress(-0.01).unwrap();
+        own.with_strengths(strength, interface).unwrap()
+    }
+
+    /// One search finds all stresses, the other those by which strengths are judged: the utilisations are the same bit for bit. Materials
+    /// without strengths, with one and with both; interfaces with and without; friction, two bodies, a tip, periodic and isolated.
+    #[test]
+    fn a_search_for_strengths_alone_finds_the_same_utilisations() {
+        let strength = |yielding: Option<f64>, tensile: Option<f64>| Strength { yielding, tensile };
+        let bond = InterfaceStrength { normal: Some(0.02), shear: Some(0.05) };
+        let all = layer(strength(Some(0.3), Some(0.1)), bond);
+        let bodies = [
+            HalfSpace::new(vec![layer(strength(None, None), InterfaceStrength::default()), all.clone()], material(1.0)),
+            HalfSpace::new(vec![layer(strength(None, Some(0.1)), InterfaceStrength::default())], material(1.0))
+                .with_substrate_strength(strength(Some(0.2), None))
+                .unwrap(),
+            HalfSpace::new(vec![layer(strength(None, None), bond)], material(1.0)),
+        ];
+        let counterbody = HalfSpace::new(vec![all], material(3.0));
+        let cells = [Cell::square(1.0).unwrap(), Cell::window([1.0; 2]).unwrap()];
+        let [periodic, isolated] = cells.map(|cell| Lattice::new(cell, vec![vec![[0.5; 2]]]).unwrap());
+        let indenters = |lattice: &Lattice, shape: Shape| {
+            Indenters::new(lattice.clone(), vec![Level::new(shape, 0.0).unwrap()]).unwrap()
+        };
+        let (ball, cone) = (Shape::Paraboloid { radius: 2.0 }, Shape::Cone { slope: 0.1 });
+        let mut compared = 0;
+        for (index, body) in bodies.iter().enumerate() {
+            let elastic = Bodies::elastic(body.clone(), counterbody.clone());
+            let problems = [
+                Problem::new(indenters(&periodic, ball), body.clone())
+                    .sliding(Friction::new(0.3, [0.6, 0.8]).unwrap())
+                    .unwrap(),
+                Problem::new(indenters(&periodic, cone), body.clone()),
+                Problem::new(indenters(&isolated, ball), elastic),
+            ];
+            for problem in problems {
+                let mut solver = Solver::new(problem, [64; 2], Settings::default()).unwrap();
+                let step = solver.solve(Load::Force(0.01));
+                let (reading, fields) = (step.reading(), StressFields::new(step.finest(), MeanStress::Confined));
+                let all = Utilisation::all(step.problem().bodies(), &StressReading::of(&step, &reading, &fields));
+                let own = utilisations_while(&step, &reading, &fields, &|| true).unwrap();
+                assert!(own == all && !own.is_empty(), "{index}: {own:?}, {all:?}");
+                assert!(own.iter().all(|own| own.error.is_some() || own.value.is_infinite()));
+                assert_eq!(utilisations_while(&step, &reading, &fields, &|| false), None);
+                compared += own.len();
+            }
+        }
+        assert!(compared > 20, "{compared}");
+    }
+}
