@@ -3,6 +3,8 @@
 use crate::program::{Desk, number};
 use serde_json::Value;
 use std::fs;
+#[cfg(target_os = "linux")]
+use std::process::Command;
 
 const CURVE: &str = include_str!("../../validation/identification/indentation_noisy.csv");
 
@@ -93,4 +95,18 @@ fn what_cannot_be_identified_is_refused_with_what_to_do() {
     refused(&["short.csv", "case.toml", "--free", "layers.0.young"], &["short.csv: line 3: 1 cells"]);
     desk.write("one.csv", "force,penetration\n1,0.01\n");
     refused(&["one.csv", "case.toml", "--free", "layers.0.young"], &["more points than parameters"]);
+}
+
+/// A shell that may take little memory stands for a machine that has little.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_memory_does_not_hold_is_refused_before_anything_is_written() {
+    let desk = desk();
+    let percoat = assert_cmd::cargo::cargo_bin!("percoat");
+    let arguments = "identify curve.csv case.toml --free layers.0.young --threads 1 -o out";
+    let command = format!("ulimit -v 100000 && exec {} {arguments}", percoat.display());
+    let ended = Command::new("sh").args(["-c", &command]).current_dir(desk.path("")).output().unwrap();
+    let said = String::from_utf8(ended.stderr).unwrap();
+    assert!(ended.status.code() == Some(2) && said.contains("48 × 48 samples take about"), "{said}");
+    assert!(!desk.path("out").exists());
 }
