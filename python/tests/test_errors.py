@@ -433,7 +433,7 @@ def test_a_section_is_refused_as_in_a_case(three_levels: percoat.Result, flat_wa
     assert ours == refusal(lambda: percoat.case("fig2", set={"stress.section": cut}))
     assert "stress.section={" in ours and 'not the text "level 9"' in ours
     # A topography has no levels.
-    told = "`stress.section.from` must be two numbers in brackets: beside [surface] there are no levels"
+    told = "`stress.section.from` must be two numbers in brackets: this case has no levels"
     assert told in refusal(lambda: flat_wave[0].section("level 1", (1, 0)))
 
 
