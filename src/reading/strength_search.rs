@@ -65,7 +65,7 @@ mod tests {
         let bond = InterfaceStrength { normal: Some(0.02), shear: Some(0.05) };
         let all = layer(strength(Some(0.3), Some(0.1)), bond);
         let bodies = [
-            HalfSpace::new(vec![layer(strength(None, None), InterfaceStrength::default()), all.clone()], material(1.0)),
+            HalfSpace::new(vec![layer(strength(None, None), InterfaceStrength::default()), all], material(1.0)),
             HalfSpace::new(vec![layer(strength(None, Some(0.1)), InterfaceStrength::default())], material(1.0))
                 .with_substrate_strength(strength(Some(0.2), None))
                 .unwrap(),
