@@ -114,8 +114,8 @@ impl Part {
                 for (&p, &t) in pressure[i * n2..][..n2].iter().zip(&across).filter(|(p, _)| **p > 0.0) {
                     let (step, mut own) = (phase(1, t), Complex64::from(p));
                     for sum in &mut sums {
-                        *sum += own;
-                        own *= step;
+                        (sum.re, sum.im) = (sum.re + own.re, sum.im + own.im);
+                        own = Complex64::new(own.re * step.re - own.im * step.im, own.re * step.im + own.im * step.re);
                     }
                 }
                 (i, sums)
@@ -147,26 +147,35 @@ impl Part {
     ) {
         let step = self.waves.step();
         let steps: Vec<Complex64> = along.iter().map(|s| Complex64::cis(TAU * s)).collect();
+        // Real and imaginary parts apart, in lanes.
+        let mut sums = vec![[[0.0; COMPONENTS]; 2]; along.len()];
+        let mut phases = vec![Complex64::default(); along.len()];
         for row in self.waves.rows_within(response.shells()) {
-            let mut sums = vec![[Complex64::default(); COMPONENTS]; along.len()];
-            let mut phases: Vec<Complex64> =
-                along.iter().map(|s| Complex64::cis(TAU * (f64::from(row.first) * s).fract())).collect();
+            sums.fill([[0.0; COMPONENTS]; 2]);
+            for (phase, s) in phases.iter_mut().zip(along) {
+                *phase = Complex64::cis(TAU * (f64::from(row.first) * s).fract());
+            }
             for k in 0..row.len {
                 let number = row.start + k;
                 let shell = self.waves.shells()[number] as usize;
                 let terms: [Complex64; COMPONENTS] = response.times(row.at(k, step), shell, coefficients[number]);
-                for (sums, (phase, step)) in sums.iter_mut().zip(phases.iter_mut().zip(&steps)) {
-                    for (sum, term) in sums.iter_mut().zip(terms) {
-                        *sum += term * *phase;
+                let (re, im) = (terms.map(|term| term.re), terms.map(|term| term.im));
+                for ([sum_re, sum_im], (phase, step)) in sums.iter_mut().zip(phases.iter_mut().zip(&steps)) {
+                    let Complex64 { re: c, im: s } = *phase;
+                    for k in 0..COMPONENTS {
+                        sum_re[k] += re[k] * c - im[k] * s;
+                        sum_im[k] += re[k] * s + im[k] * c;
                     }
-                    *phase *= step;
+                    *phase = Complex64::new(c * step.re - s * step.im, c * step.im + s * step.re);
                 }
             }
             for (j, &t) in across.iter().enumerate() {
-                let turn = Complex64::cis(TAU * (f64::from(row.across) * t).fract());
-                for (i, sums) in sums.iter().enumerate() {
+                let Complex64 { re: c, im: s } = Complex64::cis(TAU * (f64::from(row.across) * t).fract());
+                for (i, [re, im]) in sums.iter().enumerate() {
                     let value = &mut values[i * across.len() + j];
-                    value.iter_mut().zip(sums).for_each(|(value, sum)| *value += (turn * sum).re);
+                    for k in 0..COMPONENTS {
+                        value[k] += c * re[k] - s * im[k];
+                    }
                 }
             }
         }
