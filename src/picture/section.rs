@@ -198,7 +198,10 @@ impl<'a> SectionPicture<'a> {
         let symbols = self.measures.map(|measure| named(measure)[1]);
         let words = |(largest, symbol): (Option<(f64, [f64; 2])>, &str)| {
             largest.map(|(value, [s, z])| {
-                let length = |symbol: &str, x: f64| units.length_equals(symbol, &[rounded(x)]);
+                // Rounding beside the length of the section is zero.
+                let [first, last] = self.sections[0].line.span;
+                let own = |x: f64| if x.abs() < 1e-9 * (last - first).abs() { 0.0 } else { rounded(x) };
+                let length = |symbol: &str, x: f64| units.length_equals(symbol, &[own(x)]);
                 let place = [length("s", s), length("z", z)].join(", ");
                 format!("{} at {place}", units.pressure_equals(symbol, &[rounded(value)]))
             })
