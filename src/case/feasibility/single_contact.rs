@@ -3,7 +3,7 @@
 use crate::body::Bodies;
 use crate::case::Case;
 use crate::counterbody::{Level, Shape};
-use crate::lattice::Grid;
+use crate::lattice::{Grid, Lattice};
 use crate::notation::number;
 use crate::reading::FEW_SAMPLES;
 use crate::run::Sampling;
@@ -19,7 +19,8 @@ const ROOM: f64 = 1.3;
 /// Warnings about steep flanks at the highest load and few samples at the lowest. `touches` are the mean pressures of first touch
 /// of the levels, where known.
 pub fn foreseen(case: &Case, touches: &[Option<f64>]) -> Vec<String> {
-    steep_flank(case).into_iter().chain(few_samples(case, touches)).chain(narrow_window(case)).collect()
+    let flanks = steep_flank(case).or_else(|| steep_ball(case));
+    flanks.into_iter().chain(few_samples(case, touches)).chain(narrow_window(case)).collect()
 }
 
 /// A flank that is steep at the highest load; cones are not checked.
@@ -35,7 +36,26 @@ fn steep_flank(case: &Case) -> Option<String> {
     Some(flank("by the formulas of a single contact", number, shape, radius, &question))
 }
 
-/// Size of a level, by its index, and load with the units in which the case has them: "levels\[0\].radius in µm, and load.force in mN".
+/// A contact that is wide beside the ball on which its roughness stands.
+fn steep_ball(case: &Case) -> Option<String> {
+    let ball = rough_ball(case)?;
+    let radius = highest_radius(case, ball, stiffer_modulus(case.problem().bodies()))?;
+    (ball.slope(radius) > STEEP).then(|| {
+        format!(
+            "by Hertz the contact radius {} is as large as a ball of the radius {} hardly allows: strains are not small any more; is {}?",
+            number(radius),
+            number(case.counterbody().topography().and_then(|own| own.ball()).unwrap_or_default()),
+            measured(case, 0)
+        )
+    })
+}
+
+/// The ball on which a topography stands.
+fn rough_ball(case: &Case) -> Option<Shape> {
+    Some(Shape::Sphere { radius: case.counterbody().topography()?.ball()? })
+}
+
+/// Size of a level, by its index, or of the ball below a roughness, and load with the units in which the case has them: "levels\[0\].radius in µm, and load.force in mN".
 pub(super) fn measured(case: &Case, index: usize) -> String {
     let (units, quantity) = (case.units(), case.load.quantity());
     let named = |unit: &Unit, other: &str| unit.name().unwrap_or_else(|| other.to_owned());
@@ -45,22 +65,23 @@ pub(super) fn measured(case: &Case, index: usize) -> String {
         "penetration" => length.clone(),
         _ => named(units.pressure(), "the unit of the moduli"),
     };
-    let size = match case.counterbody().levels()[index].shape() {
-        Shape::Paraboloid { .. } | Shape::Sphere { .. } => format!("levels[{index}].radius"),
-        Shape::Cone { .. } | Shape::Power { .. } => "every length".to_owned(),
+    let size = match case.counterbody().levels().get(index).map(Level::shape) {
+        Some(Shape::Paraboloid { .. } | Shape::Sphere { .. }) => format!("levels[{index}].radius"),
+        Some(Shape::Cone { .. } | Shape::Power { .. }) => "every length".to_owned(),
+        None => "surface.radius".to_owned(),
     };
     format!("{size} in {length}, and load.{quantity} in {load}")
 }
 
 /// An isolated contact that will hardly have room in its window at the highest load.
 fn narrow_window(case: &Case) -> Option<String> {
-    let indenters = case.counterbody().indenters()?;
-    let [[width, _], [_, height]] = indenters.lattice().cell().vectors();
-    let sites: usize = indenters.lattice().sites().iter().map(Vec::len).sum();
-    if !indenters.lattice().cell().is_isolated() || sites != 1 {
+    let cell = case.counterbody().cell();
+    let [[width, _], [_, height]] = cell.vectors();
+    if !cell.is_isolated() || sites(case)? != 1 {
         return None;
     }
-    let radius = highest_radius(case, indenters.levels()[0].shape(), softer_modulus(case.problem().bodies()))?;
+    let shape = case.counterbody().levels().first().map(Level::shape).or_else(|| rough_ball(case))?;
+    let radius = highest_radius(case, shape, softer_modulus(case.problem().bodies()))?;
     (2.0 * radius > 0.9 * width.min(height)).then(|| {
         format!(
             "by the formulas of a single contact the contact will be about {} wide, and lattice.size is {}: contact must stay \
@@ -110,13 +131,12 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
 
 /// What else helps where the window of an isolated contact is many times as wide as the contact, as words that go on.
 fn wide_window(case: &Case) -> Option<String> {
-    let lattice = case.counterbody().indenters()?.lattice();
-    let sites: usize = lattice.sites().iter().map(Vec::len).sum();
-    let [[width, _], [_, height]] = lattice.cell().vectors();
-    let level = case.counterbody().levels()[0].shape();
+    let cell = case.counterbody().cell();
+    let [[width, _], [_, height]] = cell.vectors();
+    let level = case.counterbody().levels().first()?.shape();
     let contact = 2.0 * highest_radius(case, level, softer_modulus(case.problem().bodies()))?;
     let times = width.min(height) / contact;
-    (lattice.cell().is_isolated() && sites == 1 && times > WIDE).then(|| {
+    (cell.is_isolated() && sites(case)? == 1 && times > WIDE).then(|| {
         format!(
             ", or lower lattice.size to {}: the window is {} times as wide as the contact at the highest load, with {}",
             number(ROOM * contact),
@@ -126,20 +146,24 @@ fn wide_window(case: &Case) -> Option<String> {
     })
 }
 
+/// Number of indenters in the cell; one for a rough ball, `None` for another topography.
+fn sites(case: &Case) -> Option<usize> {
+    let of_lattice = |lattice: &Lattice| lattice.sites().iter().map(Vec::len).sum();
+    let indenters = case.counterbody().indenters().map(|own| of_lattice(own.lattice()));
+    indenters.or_else(|| rough_ball(case).map(|_| 1))
+}
+
 /// Contact radius of an indenter of this shape alone at the highest load, of which each in the cell has its part, on a half-space of this
 /// E*; `None` for a penetration of several indenters.
 pub(super) fn highest_radius(case: &Case, shape: Shape, modulus: f64) -> Option<f64> {
-    let lattice = case.counterbody().indenters()?.lattice();
-    let sites: usize = lattice.sites().iter().map(Vec::len).sum();
+    let (cell, sites) = (case.counterbody().cell(), sites(case)?);
     let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     match case.mean_pressures() {
         Some(loads) => {
-            let force = highest(&loads) * lattice.cell().area() / sites as f64;
+            let force = highest(&loads) * cell.area() / sites as f64;
             Some(radius(force, modulus, power_law(shape)))
         }
-        None if lattice.cell().is_isolated() && sites == 1 => {
-            Some(radius_at(highest(case.load.values()), power_law(shape)))
-        }
+        None if cell.is_isolated() && sites == 1 => Some(radius_at(highest(case.load.values()), power_law(shape))),
         None => None,
     }
 }
@@ -201,6 +225,22 @@ mod tests {
         let text = "lattice={kind=\"square\",period=10}\nlevels=[{shape=\"sphere\",radius=1}]\n\
                     substrate={young=1,poisson=0.3}\nload={mean_pressure=0.05}";
         assert!(foreseen(&case(text), &[]).join("").contains("larger than its radius 1.0000"));
+    }
+
+    /// A rough ball as a ball: too small a window, and a radius in another unit.
+    #[test]
+    fn the_contact_of_a_rough_ball_is_foreseen() {
+        let of = |radius: f64, size: f64| {
+            case(&format!(
+                "lattice={{kind=\"isolated\",size={size}}}\nsurface={{radius={radius},random={{hurst=0.8,shortest={},rms_slope=1e-3}}}}\n\
+                 substrate={{young=210,poisson=0.3}}\nload={{force=5000}}\ngrid={{points=32}}\nunits={{length=\"µm\",pressure=\"GPa\"}}",
+                size / 4.0
+            ))
+        };
+        assert_eq!(foreseen(&of(3000.0, 200.0), &[]), Vec::<String>::new());
+        assert!(foreseen(&of(3000.0, 60.0), &[]).join("").contains("contact must stay inside the window"));
+        let told = foreseen(&of(3.0, 200.0), &[]).join("");
+        assert!(told.ends_with("is surface.radius in µm, and load.force in mN?"), "{told}");
     }
 
     #[test]
