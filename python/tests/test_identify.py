@@ -177,7 +177,7 @@ def test_it_is_that_of_the_command_line(
     assert np.array_equal(own.fitted, table["fitted"]) and np.array_equal(own.fitted_error, table["fitted_error"])
 
 
-def test_it_prints_pickles_and_hears(found: percoat.Identification, curve: tuple[Any, Any]) -> None:
+def test_it_prints_pickles_and_reports_progress(found: percoat.Identification, curve: tuple[Any, Any]) -> None:
     assert repr(found).startswith("<percoat.Identification 'A ball on a half-space': substrate.young = ")
     assert " ± " in repr(found) and "95 % interval" in str(found) and "contact radii" in str(found)
     assert "rms_residual" in dir(found) and found.title == CASE["title"]

@@ -74,7 +74,7 @@ impl<'a> IdentificationTask<'a> {
         Ok(Self { source, set, case, parameters })
     }
 
-    /// Finds the values, and the case with them. `progress` hears of each trial; `Break` ends the search.
+    /// Finds the values, and the case with them. `progress` is called with each trial; `Break` ends the search.
     ///
     /// # Errors
     /// [`IdentificationError`].

@@ -40,7 +40,7 @@ pub struct Trial {
     pub rms: Option<f64>,
 }
 
-/// Hears of each trial of a search; `Break` ends it.
+/// Called with each trial of a search; `Break` ends it.
 pub type Listener<'a> = dyn FnMut(Trial) -> ControlFlow<()> + 'a;
 
 /// A search for parameters.
@@ -92,7 +92,7 @@ impl<'a, E: Send> Search<'a, E> {
         Ok(Perturbed { problem, quotients })
     }
 
-    /// Residuals and Jacobian at t, with the curve there, and tells of them.
+    /// Residuals and Jacobian at t, with the curve there; calls the listener with them.
     pub(super) fn trial(
         &mut self,
         t: &[f64],

@@ -2,7 +2,7 @@
 //! another unit.
 //!
 //! A perfect crystal bears a tenth to a fifth of Young's modulus, soft matter more; a contact of a few nanometres is one of single atoms.
-//! A radius a beyond half of R is told by `single_contact`, and by the run.
+//! A radius a beyond half of R has its warning in `single_contact`, and in the run.
 
 use super::si_sizes::exponent;
 use super::single_contact::{highest_radius, measured, softer_modulus, stiffer_modulus};

@@ -54,7 +54,7 @@ fn names<'a>(layers: &'a [LayerSection], prefix: &'static str) -> impl Iterator<
     })
 }
 
-/// A mean pressure, or a given pressure, that is high beside a modulus. What an isolated contact bears is not told by its window.
+/// A mean pressure, or a given pressure, that is high beside a modulus. The window of an isolated contact says nothing about what it bears.
 fn pressures(case: &Case) -> Option<String> {
     let (material, name) = materials(case).min_by(|a, b| a.0.young().total_cmp(&b.0.young()))?;
     let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
