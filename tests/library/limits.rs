@@ -393,6 +393,32 @@ fn a_contact_that_outgrows_its_window_has_the_limits_of_a_wide_one() {
         assert!(own.load().is_finite() && from <= high && low <= to, "{own:?}, {other:?}");
     }
     assert!(narrow.converged() && narrow.warnings.iter().all(|words| !words.contains("lattice.size")));
+    // The section at a limit is that of the contact, not cut at the border of the narrow window.
+    let shown = narrow.shown.iter().find(|shown| shown.record.reading.levels[0].contact_radius > Some(2.0));
+    let shown = shown.expect("a contact wider than the narrow window");
+    let lattice = Lattice::new(Cell::window([4.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+    let problem = Problem::new(one_level(lattice, level), periodic.half_space().clone());
+    let problem = problem.sliding(*periodic.friction().unwrap()).unwrap();
+    let sections = shown.sections(&Run::new(problem, vec![], Sampling::Points([32; 2]))).unwrap();
+    let [from, to] = sections[0].line.span;
+    let radius = shown.record.reading.levels[0].contact_radius.unwrap();
+    assert!(to - from > 2.0 * radius, "{from} {to}, {radius}");
     // Ordered by load, whatever the window.
     assert!(narrow.steps.is_sorted_by(|one, other| one.reading.force < other.reading.force));
+}
+
+/// Beside the border of its window a contact has no room under any load: the search begins in a larger window.
+#[test]
+fn a_contact_at_the_border_under_the_first_load_is_searched_in_a_larger_window() {
+    let of = |place: f64, side: f64| {
+        let lattice = Lattice::new(Cell::window([side; 2]).unwrap(), vec![vec![[0.5 + place / side, 0.5]]]).unwrap();
+        let body = HalfSpace::new(vec![], Material::from_young(0.91, 0.3).unwrap());
+        let body = body.with_substrate_strength(Strength { yielding: Some(0.1), tensile: None }).unwrap();
+        let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+        limits(Problem::new(one_level(lattice, level), body), Load::Force(1e-3), 64)
+    };
+    let (beside, middle) = (of(0.49, 1.0), of(0.0, 2.0));
+    assert!(beside.window.is_some_and(|[width, _]| width >= 2.0), "{:?}", beside.window);
+    let ([one, other], errors) = ([&beside, &middle].map(|own| own.limits[0].load()), 0.05);
+    assert!((one / other - 1.0).abs() < errors, "{one} {other}");
 }
