@@ -143,12 +143,6 @@ impl HalfSpace {
         self.layers.iter().map(Layer::strength).chain(self.substrate.material().map(|_| self.substrate_strength))
     }
 
-    /// Whether a material or an interface has a strength.
-    pub fn has_strengths(&self) -> bool {
-        self.strengths().any(|own| own.yielding.is_some() || own.tensile.is_some())
-            || self.layers.iter().any(|layer| !layer.interface_strength().is_empty())
-    }
-
     /// Residual stresses of all materials, in the order of [`Self::materials`]: that of the substrate is zero.
     pub fn residual_stresses(&self) -> impl Iterator<Item = f64> {
         self.layers.iter().map(Layer::residual_stress).chain(self.substrate.material().map(|_| 0.0))

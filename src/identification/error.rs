@@ -49,7 +49,7 @@ pub enum NoValue<E> {
     /// It has no indentation curve, or a load of it is not solved.
     #[error(transparent)]
     Curve(#[from] CurveError),
-    /// A value lies outside of what is searched.
+    /// A trial value of a parameter lies outside of its bounds, or a thousand times from its start; a sentence.
     #[error("{0}")]
     Outside(String),
     /// The listener has stopped the search.

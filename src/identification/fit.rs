@@ -95,7 +95,7 @@ impl Identification {
         }
     }
 
-    /// What is stated at the minimum of a search.
+    /// Values, standard errors and fitted curve at the minimum that a search has found.
     fn at<E: Send>(
         search: &Search<'_, E>,
         measured: &Measurement,

@@ -87,7 +87,7 @@ impl FreeParameters<'_> {
         }
     }
 
-    /// The first value at t that lies outside of what is searched, in words.
+    /// The first of the values at t that lies outside of its bounds, or a thousand times from its start, in a sentence.
     pub(super) fn outside(&self, place: &[f64]) -> Option<String> {
         (0..place.len()).find_map(|k| {
             let Parameter { name, quantity, start } = &self.all[k];

@@ -51,6 +51,28 @@ impl<const N: usize> Chebyshev<N> {
     }
 }
 
+/// T₀, T₁, … at x.
+pub fn polynomials(x: f64) -> impl Iterator<Item = f64> {
+    let mut pair = [1.0, x];
+    std::iter::from_fn(move || {
+        let own = pair[0];
+        pair = [pair[1], 2.0 * x * pair[1] - own];
+        Some(own)
+    })
+}
+
+/// A number of nodes in [−1, 1], descending.
+pub fn nodes(count: usize) -> Vec<f64> {
+    (0..count).map(|k| (PI * (k as f64 + 0.5) / count as f64).cos()).collect()
+}
+
+/// The matrix from values at the nodes to the coefficients of T₀, T₁, …: a row each.
+pub fn analysis(count: usize) -> Vec<Vec<f64>> {
+    let at: Vec<Vec<f64>> = nodes(count).into_iter().map(|x| polynomials(x).take(count).collect()).collect();
+    let factor = |order: usize| if order == 0 { 1.0 } else { 2.0 } / count as f64;
+    (0..count).map(|order| at.iter().map(|own| own[order] * factor(order)).collect()).collect()
+}
+
 /// Coordinate in [−1, 1] of a place between `from` and `to`.
 pub fn inside([from, to]: [f64; 2], place: f64) -> f64 {
     (2.0 * place - from - to) / (to - from)

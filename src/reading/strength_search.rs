@@ -5,8 +5,8 @@ use super::{Criterion, Reading, Utilisation};
 use crate::spectral::Step;
 use crate::stress::{StrengthPeaks, StressFields};
 
-/// The utilisations of a step that has contact by a search for the stresses of the criteria alone, those of [`StressReading::of`](super::StressReading::of);
-/// `None` when `goes_on`, called many times a second during the search, returns false.
+/// The utilisations of a step that has contact, by a search for the stresses of the criteria alone; they are those by
+/// [`StressReading::of`](super::StressReading::of). `None` when `goes_on`, called many times a second during the search, returns false.
 pub(crate) fn utilisations_while(
     step: &Step,
     reading: &Reading,
@@ -16,8 +16,12 @@ pub(crate) fn utilisations_while(
     let coarser = step.coarser().first().map(|contact| fields.of_other(contact));
     let (bodies, radii) = (step.problem().bodies(), contact_radii(step, reading));
     let mut all = Vec::new();
-    for field in fields.each().filter(|field| field.half_space().has_strengths()) {
+    for field in fields.each() {
         let side = field.half_space().side();
+        let own: Vec<Criterion> = Criterion::all(bodies).into_iter().filter(|own| own.side() == side).collect();
+        if own.is_empty() {
+            continue;
+        }
         let mut peaks = field.strength_peaks_while(radii, coarser.as_ref().map(|coarser| coarser.on(side)), goes_on)?;
         peaks.each().for_each(|peak| move_beside_site(step, peak));
         if let Some(tip) = Tip::of(step, reading, field.half_space()) {
@@ -30,8 +34,8 @@ pub(crate) fn utilisations_while(
             Criterion::Cracking(material) => peaks.tension[material.number - 1],
             Criterion::Delamination(interface) => peaks.delamination[interface.number - 1],
         };
-        let own = Criterion::all(bodies).into_iter().filter(|criterion| criterion.side() == side);
-        all.extend(own.filter_map(|criterion| Utilisation::by_peak(bodies, criterion, peak(criterion)?)));
+        let judged = own.into_iter().filter_map(|criterion| Utilisation::by_peak(bodies, criterion, peak(criterion)?));
+        all.extend(judged);
     }
     Some(all)
 }

@@ -181,7 +181,7 @@ fn beside_site(step: &Step, [x, y, z]: [f64; 3]) -> [f64; 3] {
 /// Smallest and largest contact radius of a step; where contacts have no radius, that of a disc of the whole contact's
 /// area. The smallest is taken to have four samples at least.
 ///
-/// A given pressure has the radii of its discs, or that of its smallest spot.
+/// Under a given pressure the radii are those of its discs and of its spots, discs of their area.
 pub(super) fn contact_radii(step: &Step, reading: &Reading) -> [f64; 2] {
     let grid = step.grid();
     if let Some(given) = step.problem().counterbody().pressure() {

@@ -14,11 +14,12 @@
 //! window and over depth.
 
 use super::depth_response::DepthResponse;
-use super::far_plane::{FarPlane, analysis, nodes, polynomials};
+use super::far_plane::FarPlane;
 use super::far_tables::{COMPONENTS, FarTables, Interval, Part};
 use super::series::Response;
 use crate::body::Depth;
 use crate::lattice::{Cell, Grid};
+use crate::numeric::chebyshev::{analysis, inside, nodes, polynomials};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -54,7 +55,9 @@ impl FarField {
     /// All components at a depth.
     pub fn plane(&self, depth: Depth) -> FarPlane<COMPONENTS> {
         let coefficients = match self.segment(depth) {
-            Some(number) => combined(polynomials(self.segments[number].0.place(depth.z)), self.in_segment(number)),
+            Some(number) => {
+                combined(polynomials(inside(self.segments[number].0.ends, depth.z)), self.in_segment(number))
+            }
             None => self.tables.plane(&self.coefficients, &self.tables.responses(depth)),
         };
         FarPlane { counts: self.tables.counts, coefficients, corner: self.corner }

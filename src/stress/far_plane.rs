@@ -1,6 +1,6 @@
 //! A smooth field over the window of an isolated contact at one depth, as polynomials.
 
-use std::f64::consts::PI;
+use crate::numeric::chebyshev::polynomials;
 
 /// Places are read this far beyond the window, in halves of its side: differences at its border need no more.
 const BEYOND: f64 = 1.03;
@@ -16,28 +16,6 @@ pub(super) struct FarPlane<const K: usize> {
     pub coefficients: Vec<[f64; K]>,
     /// Of the cell of the series, whose sides are twice those of the window: the place of its corner, over half the window.
     pub corner: [f64; 2],
-}
-
-/// T₀, T₁, … at x.
-pub(super) fn polynomials(x: f64) -> impl Iterator<Item = f64> {
-    let mut pair = [1.0, x];
-    std::iter::from_fn(move || {
-        let own = pair[0];
-        pair = [pair[1], 2.0 * x * pair[1] - own];
-        Some(own)
-    })
-}
-
-/// Chebyshev nodes in [−1, 1].
-pub(super) fn nodes(count: usize) -> Vec<f64> {
-    (0..count).map(|k| (PI * (k as f64 + 0.5) / count as f64).cos()).collect()
-}
-
-/// The matrix from values at the nodes to the coefficients of T₀, T₁, …: a row each.
-pub(super) fn analysis(count: usize) -> Vec<Vec<f64>> {
-    let at: Vec<Vec<f64>> = nodes(count).into_iter().map(|x| polynomials(x).take(count).collect()).collect();
-    let factor = |order: usize| if order == 0 { 1.0 } else { 2.0 } / count as f64;
-    (0..count).map(|order| at.iter().map(|own| own[order] * factor(order)).collect()).collect()
 }
 
 impl<const K: usize> FarPlane<K> {

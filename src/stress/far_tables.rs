@@ -4,13 +4,13 @@
 //! at the nodes of polynomials in depth, see [`super::far_field`].
 
 use super::depth_response::DepthResponse;
-use super::far_plane::nodes;
 use super::tensor::StressState;
 #[cfg(any(feature = "cli", test))]
 use crate::body::{Amplitudes, Antiplane};
 use crate::body::{Depth, HalfSpace, InteriorTable};
 use crate::lattice::waves::Waves;
 use crate::lattice::{Cell, Grid, LatticeError};
+use crate::numeric::chebyshev::{nodes, place};
 #[cfg(any(feature = "cli", test))]
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -189,14 +189,7 @@ fn intervals(half_space: &HalfSpace, sides: [f64; 2]) -> Vec<Interval> {
 impl Interval {
     /// The depth at x in [−1, 1].
     fn depth(&self, x: f64) -> Depth {
-        let [top, bottom] = self.ends;
-        Depth { z: top + 0.5 * (1.0 + x) * (bottom - top), material: self.material }
-    }
-
-    /// x of a depth, in [−1, 1].
-    pub(super) fn place(&self, z: f64) -> f64 {
-        let [top, bottom] = self.ends;
-        (2.0 * z - top - bottom) / (bottom - top)
+        Depth { z: place(self.ends, x), material: self.material }
     }
 }
 

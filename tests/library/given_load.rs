@@ -191,7 +191,7 @@ fn a_braking_load_draws_the_surface_along() {
 }
 
 /// The largest τ₁ under a disc, near its edge, of two grids; and on the surface σ_r = (1 − 2ν)p/2 just outside the edge, where the
-/// pressure jumps and the waves of the grid ring, by no more than what is stated.
+/// pressure jumps and the waves of the grid ring: the largest tension differs from σ_r by less than its stated error.
 #[test]
 fn largest_stresses_under_a_disc_are_within_their_errors() {
     let p = 0.01;
@@ -228,7 +228,7 @@ fn the_largest_stress_is_found_under_the_smallest_disc() {
     let (both, alone) = (mises(&[large, small]), mises(&[small]));
     let [x, y, z] = both.position;
     assert!((x - 1.6).hypot(y) < 0.15 && z < 0.3, "{both:?}");
-    // The large disc presses its surroundings a little.
+    // At the distance ρ = 2.4 the large disc adds σ_r = (1 − 2ν)pa²/(2ρ²) = 4.5e-4, 7 % of the small one's.
     assert!((both.value / alone.value - 1.0).abs() < 0.1, "{both:?}, {alone:?}");
 }
 

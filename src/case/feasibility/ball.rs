@@ -153,7 +153,7 @@ mod tests {
         ] {
             assert_eq!(said(overrides), [told], "{overrides:?}");
         }
-        // Without names of units they are asked for in words, and soft matter bears more.
+        // A case without [units] is asked for units in words, and its pressures are not compared with those that crystals bear.
         let unnamed = said(&["levels.0.radius=3", "lattice.size=10", "units={}"]).join("\n");
         let asked = "is levels[0].radius in the unit of the other lengths, and load.force in the unit of pressure times that of \
                      length squared?";

@@ -12,6 +12,7 @@ pub mod plausibility;
 pub mod resources;
 mod si_sizes;
 pub(super) mod single_contact;
+mod springs;
 pub(super) mod sublayers;
 
 pub use allowed::Allowed;
