@@ -13,7 +13,7 @@ use super::source::Source;
 use super::surface;
 use super::value::ValueAt;
 use crate::counterbody::{CounterbodyError, GivenPressure, LoadedDisc};
-use crate::heights::{HeightsUnit, Length, Stored, unit};
+use crate::heights::{HeightsUnit, Stored};
 use crate::lattice::Cell;
 use crate::notation::number;
 use crate::numeric::array::field;
@@ -128,11 +128,7 @@ pub(super) fn read(
         GivenSection::File(name) => {
             let path = source.path(&name).unwrap_or_else(|| PathBuf::from(&name));
             let stored = surface::stored(source, &path, &value, "pressures at equally spaced samples of the cell")?;
-            let stored = stored.map_err(|fault| {
-                let message = format!("`{}`: {} {}", value.path, path.display(), fault.what);
-                let refusal = Refusal::new(value.node.span, message, fault.label);
-                fault.help.into_iter().fold(refusal, Refusal::help)
-            })?;
+            let stored = stored.map_err(|fault| surface::refused(&value, &path, fault))?;
             doubts = doubts_of(&stored, &value.path, cell, length);
             GivenPressure::field(cell, field(stored.heights.points, stored.heights.values))
                 .map_err(|error| refuse(error, None))
@@ -143,11 +139,8 @@ pub(super) fn read(
 
 /// Warnings about a file of pressures: those of its format, sides other than those of the cell, and a unit of length.
 fn doubts_of(stored: &Stored, path: &str, cell: Cell, length: Option<&str>) -> Vec<String> {
-    let side = |own: &Length| match &own.unit {
-        None => Some(own.value),
-        Some(unit) => Some(own.value * unit::factor(unit, length?).ok()?),
-    };
-    let sides = stored.sides.as_ref().and_then(|[one, two]| Some([side(one)?, side(two)?]));
+    let sides = stored.sides.as_ref().map(|sides| sides.each_ref().map(|side| side.in_unit(length, 1.0)));
+    let sides = sides.and_then(|[one, two]| Some([one?, two?]));
     let of_cell = cell.vectors().map(|[x, y]| x.hypot(y));
     let differs = |own: &[f64; 2]| (0..2).any(|axis| (own[axis] / of_cell[axis] - 1.0).abs() > 0.01);
     let stretched = sides.filter(differs).map(|own| {
@@ -176,6 +169,7 @@ impl GivenSection {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::heights::Length;
 
     #[test]
     fn a_file_of_other_sides_or_in_a_unit_of_length_is_doubted() {

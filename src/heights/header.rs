@@ -18,6 +18,16 @@ pub struct Length {
     pub unit: Option<String>,
 }
 
+impl Length {
+    /// It in the unit `length` of a case, without a unit of its own times `factor`; `None` where one unit is not known.
+    pub fn in_unit(&self, length: Option<&str>, factor: f64) -> Option<f64> {
+        match &self.unit {
+            None => Some(self.value * factor),
+            Some(own) => Some(self.value * unit::factor(own, length?).ok()?),
+        }
+    }
+}
+
 /// Unit of the heights in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum HeightsUnit {

@@ -100,11 +100,8 @@ impl Treatment {
 
     /// Sides of a file in the unit of the case; `None` where their unit cannot be converted.
     fn sides(&self, sides: [Length; 2], length: Option<&str>) -> Option<[f64; 2]> {
-        let of = |Length { value, unit: own }: &Length| match own {
-            None => Some(value * self.unit),
-            Some(own) => Some(value * unit::factor(own, length?).ok()?),
-        };
-        Some([of(&sides[0])?, of(&sides[1])?])
+        let [one, two] = sides.map(|side| side.in_unit(length, self.unit));
+        Some([one?, two?])
     }
 }
 
@@ -133,11 +130,7 @@ pub(super) fn read(
 ) -> Result<FromFile, Refusal> {
     let name = written.text()?;
     let path = source.path(name).unwrap_or_else(|| PathBuf::from(name));
-    let refuse = |fault: Fault| {
-        let message = format!("`{}`: {} {}", written.path, path.display(), fault.what);
-        let refusal = Refusal::new(written.node.span, message, fault.label);
-        fault.help.into_iter().fold(refusal, Refusal::help)
-    };
+    let refuse = |fault: Fault| refused(written, &path, fault);
     let Stored { heights: Heights { points, mut values }, sides, unit, lines_along_a1, doubts } =
         stored(source, &path, written, "one period of heights")?.map_err(refuse)?;
     let treatment = treatment.of_file(unit.as_ref(), length).map_err(refuse)?;
@@ -154,6 +147,13 @@ pub(super) fn read(
     };
     let period = sides.and_then(|sides| treatment.sides(sides, length));
     Ok(FromFile { heights, run_out, period, treatment, lines_along_a1, doubts })
+}
+
+/// The refusal of the file at a path for its fault.
+pub(in crate::case) fn refused(written: &ValueAt<'_>, path: &Path, fault: Fault) -> Refusal {
+    let message = format!("`{}`: {} {}", written.path, path.display(), fault.what);
+    let refusal = Refusal::new(written.node.span, message, fault.label);
+    fault.help.into_iter().fold(refusal, Refusal::help)
 }
 
 /// The numbers in a file of heights, or of what is `needed` in their place; a refusal where there is no such file, or its format is

@@ -26,7 +26,7 @@ use ndarray::Array2;
 pub use random::RandomSection;
 pub use section::{Sides, SurfaceSection, Taper};
 
-pub(super) use file::stored;
+pub(super) use file::{refused, stored};
 pub(super) use section::SURFACE;
 
 /// Directions of the indices of `heights[i, j]`, a drawing.
