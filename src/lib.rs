@@ -100,8 +100,8 @@ pub mod units;
 pub mod validation;
 
 pub use body::{
-    Bodies, Depth, HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, MeanStress, Strength,
-    Substrate,
+    Bodies, Depth, Durability, Endurance, Fatigue, HalfSpace, Interface, InterfaceStrength, Layer, Material,
+    MaterialError, MeanStress, Strength, Substrate,
 };
 pub use counterbody::{
     Counterbody, CounterbodyError, GivenPressure, IndenterError, Indenters, Level, LoadedDisc, Shape, Surface,

@@ -10,7 +10,7 @@
 //! wavevector and **e**. A rigid counterbody has C₂ = K₂ = 0; like bodies do not couple. At an edge of contact only the materials at
 //! the surfaces count: 1/E* = 1/E₁* + 1/E₂*, and Dundurs' β.
 
-use super::{HalfSpace, Layer, LayeredResponse, Material, Side};
+use super::{Durability, HalfSpace, Layer, LayeredResponse, Material, MaterialError, Side};
 use std::fmt;
 use std::sync::Arc;
 
@@ -19,12 +19,14 @@ use std::sync::Arc;
 pub struct Bodies {
     body: HalfSpace,
     counterbody: Option<HalfSpace>,
+    /// Durability of a rigid counterbody.
+    rigid: Durability,
 }
 
 impl From<HalfSpace> for Bodies {
     /// A body under a rigid counterbody.
     fn from(body: HalfSpace) -> Self {
-        Self { body, counterbody: None }
+        Self { body, counterbody: None, rigid: Durability::default() }
     }
 }
 
@@ -45,7 +47,40 @@ impl From<&Self> for Bodies {
 impl Bodies {
     /// A body under an elastic counterbody, each from its own surface inward.
     pub fn elastic(body: HalfSpace, counterbody: HalfSpace) -> Self {
-        Self { body: body.on_side(Side::Body), counterbody: Some(counterbody.on_side(Side::Counterbody)) }
+        let (body, counterbody) = (body.on_side(Side::Body), Some(counterbody.on_side(Side::Counterbody)));
+        Self { body, counterbody, rigid: Durability::default() }
+    }
+
+    /// The bodies with hardness and wear of a rigid counterbody; an elastic one has its own.
+    ///
+    /// # Errors
+    /// [`MaterialError`] for a hardness that is not positive, and for a coefficient of wear below zero.
+    pub fn with_rigid_durability(self, durability: Durability) -> Result<Self, MaterialError> {
+        Ok(Self { rigid: durability.check()?, ..self })
+    }
+
+    /// Durability of the surface of one side.
+    pub fn surface_durability(&self, side: Side) -> Durability {
+        match (side, &self.counterbody) {
+            (Side::Body, _) => self.body.surface_durability(),
+            (Side::Counterbody, None) => self.rigid,
+            (Side::Counterbody, Some(counterbody)) => counterbody.surface_durability(),
+        }
+    }
+
+    /// Hardness of the softer surface, which no pressure exceeds, and whose it is; `None` where neither has one, and the body where
+    /// both are equal.
+    pub fn hardness(&self) -> Option<(f64, Side)> {
+        let of = |side: Side| self.surface_durability(side).hardness.map(|hardness| (hardness, side));
+        match (of(Side::Body), of(Side::Counterbody)) {
+            (Some(body), Some(counterbody)) => Some(if counterbody.0 < body.0 { counterbody } else { body }),
+            (body, counterbody) => body.or(counterbody),
+        }
+    }
+
+    /// Coefficient of wear of a surface, one over a pressure; 0 where none is given.
+    pub fn wear(&self, side: Side) -> f64 {
+        self.surface_durability(side).wear.unwrap_or(0.0)
     }
 
     /// The body.

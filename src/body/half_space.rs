@@ -1,8 +1,8 @@
 //! The coated half-space: layers on a substrate, elastic or rigid.
 
 use super::{
-    Depth, Interface, InterfaceId, Layer, LayeredResponse, Material, MaterialError, MaterialId, Name, Side, Strength,
-    Substrate,
+    Depth, Durability, Interface, InterfaceId, Layer, LayeredResponse, Material, MaterialError, MaterialId, Name, Side,
+    Strength, Substrate,
 };
 use crate::notation::number;
 use std::fmt;
@@ -16,6 +16,7 @@ pub struct HalfSpace {
     layers: Vec<Layer>,
     substrate: Substrate,
     substrate_strength: Strength,
+    substrate_durability: Durability,
     /// Which of two elastic bodies it is.
     side: Option<Side>,
     response: Arc<LayeredResponse>,
@@ -37,7 +38,8 @@ impl HalfSpace {
 
     fn on(layers: Vec<Layer>, substrate: Substrate) -> Self {
         let response = Arc::new(LayeredResponse::new(&layers, substrate));
-        Self { layers, substrate, substrate_strength: Strength::default(), side: None, response }
+        let (substrate_strength, substrate_durability) = (Strength::default(), Durability::default());
+        Self { layers, substrate, substrate_strength, substrate_durability, side: None, response }
     }
 
     /// It as one of two elastic bodies: its materials and interfaces say so.
@@ -57,6 +59,14 @@ impl HalfSpace {
     /// [`MaterialError::Strength`] for one that is not positive.
     pub fn with_substrate_strength(self, strength: Strength) -> Result<Self, MaterialError> {
         Ok(Self { substrate_strength: strength.check()?, ..self })
+    }
+
+    /// Half-space with the durability of an elastic substrate; a rigid base has none.
+    ///
+    /// # Errors
+    /// [`MaterialError`] for a hardness that is not positive, and for a coefficient of wear below zero.
+    pub fn with_substrate_durability(self, durability: Durability) -> Result<Self, MaterialError> {
+        Ok(Self { substrate_durability: durability.check()?, ..self })
     }
 
     /// Response to harmonic tractions on the surface: compliances, and amplitudes at any depth.
@@ -141,6 +151,16 @@ impl HalfSpace {
     /// Strengths of all materials, in the order of [`Self::materials`].
     pub fn strengths(&self) -> impl Iterator<Item = Strength> {
         self.layers.iter().map(Layer::strength).chain(self.substrate.material().map(|_| self.substrate_strength))
+    }
+
+    /// Durabilities of all materials, in the order of [`Self::materials`].
+    pub fn durabilities(&self) -> impl Iterator<Item = Durability> {
+        self.layers.iter().map(Layer::durability).chain(self.substrate.material().map(|_| self.substrate_durability))
+    }
+
+    /// Durability of the material at the surface.
+    pub fn surface_durability(&self) -> Durability {
+        self.durabilities().next().unwrap_or_default()
     }
 
     /// Residual stresses of all materials, in the order of [`Self::materials`]: that of the substrate is zero.

@@ -1,6 +1,6 @@
 //! One layer of a coating, and how it is joined to what lies below it.
 
-use super::{InterfaceStrength, Material, MaterialError, Strength};
+use super::{Durability, Fatigue, InterfaceStrength, Material, MaterialError, Strength};
 use crate::notation::number;
 use std::fmt;
 
@@ -54,6 +54,8 @@ pub struct Layer {
     residual: f64,
     strength: Strength,
     interface_strength: InterfaceStrength,
+    durability: Durability,
+    interface_fatigue: Option<Fatigue>,
 }
 
 impl Layer {
@@ -79,6 +81,8 @@ impl Layer {
             residual: 0.0,
             strength: Strength::default(),
             interface_strength: InterfaceStrength::default(),
+            durability: Durability::default(),
+            interface_fatigue: None,
         })
     }
 
@@ -97,6 +101,24 @@ impl Layer {
     /// [`MaterialError::Strength`] for one that is not positive.
     pub fn with_strengths(self, strength: Strength, interface: InterfaceStrength) -> Result<Self, MaterialError> {
         Ok(Self { strength: strength.check()?, interface_strength: interface.check()?, ..self })
+    }
+
+    /// Layer with the durability of its material, and with the fatigue of its lower interface by the range of the shear that it transmits.
+    ///
+    /// # Errors
+    /// [`MaterialError`] for a hardness that is not positive, and for a coefficient of wear below zero.
+    pub fn with_durability(self, durability: Durability, interface: Option<Fatigue>) -> Result<Self, MaterialError> {
+        Ok(Self { durability: durability.check()?, interface_fatigue: interface, ..self })
+    }
+
+    /// Durability of its material.
+    pub fn durability(&self) -> Durability {
+        self.durability
+    }
+
+    /// Fatigue of its lower interface.
+    pub fn interface_fatigue(&self) -> Option<Fatigue> {
+        self.interface_fatigue
     }
 
     /// Strengths of its material.

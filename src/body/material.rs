@@ -22,6 +22,20 @@ pub enum MaterialError {
     /// Strength not positive and finite.
     #[error("a strength must be positive and finite, not {0}")]
     Strength(f64),
+    /// Hardness not positive and finite.
+    #[error("a hardness must be positive and finite, not {0}")]
+    Hardness(f64),
+    /// Coefficient of wear negative or not finite.
+    #[error("a coefficient of wear must be finite and not negative, not {0}")]
+    Wear(f64),
+    /// Number of a law of fatigue not positive and finite.
+    #[error("amplitude, passes and exponent of fatigue must be positive and finite, not {0}")]
+    Fatigue(f64),
+    /// Endurance limit of bending too far above that of torsion.
+    #[error(
+        "an endurance limit of bending must be at most √3 = 1.73 times that of torsion, not {0:.3}: tension would do good"
+    )]
+    Endurance(f64),
     /// Residual stress not finite.
     #[error("a residual stress must be finite, not {0}")]
     Residual(f64),
