@@ -38,6 +38,12 @@ impl Problem {
         }
     }
 
+    /// The same problem on another body.
+    #[must_use]
+    pub fn on_body(&self, body: HalfSpace) -> Self {
+        Self { bodies: self.bodies.with_body(body), ..self.clone() }
+    }
+
     /// The same indenters in a window `factor` times as wide and as high; `None` unless they are an isolated contact.
     pub(crate) fn widened(&self, factor: f64) -> Option<Self> {
         let counterbody = self.counterbody.indenters()?.widened(factor)?.into();

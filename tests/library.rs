@@ -11,6 +11,8 @@ mod energy;
 mod first_touch;
 #[path = "library/given_load.rs"]
 mod given_load;
+#[path = "library/hardness.rs"]
+mod hardness;
 #[path = "library/identification.rs"]
 mod identification;
 #[path = "library/invariance.rs"]

@@ -83,6 +83,16 @@ impl Bodies {
         self.surface_durability(side).wear.unwrap_or(0.0)
     }
 
+    /// The bodies with another body in the place of the first.
+    #[must_use]
+    pub fn with_body(&self, body: HalfSpace) -> Self {
+        let body = match self.counterbody {
+            Some(_) => body.on_side(Side::Body),
+            None => body,
+        };
+        Self { body, ..self.clone() }
+    }
+
     /// The body.
     pub fn body(&self) -> &HalfSpace {
         &self.body

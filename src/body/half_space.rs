@@ -8,6 +8,9 @@ use crate::notation::number;
 use std::fmt;
 use std::sync::Arc;
 
+/// Part of its thickness below which a layer that wears is gone.
+const GONE: f64 = 1e-6;
+
 /// A coated elastic half-space: layers from the surface down, then the substrate, or layers on a rigid base.
 ///
 /// Its elastic [response](Self::response) is set up once, in the constructor, and shared by all clones.
@@ -163,6 +166,23 @@ impl HalfSpace {
         self.durabilities().next().unwrap_or_default()
     }
 
+    /// What is left after everything above a `depth` has come off: thinner layers, those above it gone, with the number of these. A layer of
+    /// which less than a millionth is left is gone too. `None` where nothing is left on a rigid base.
+    pub fn uncovered(&self, depth: f64) -> Option<(Self, usize)> {
+        let faces = self.interface_depths();
+        let is_gone = |(layer, face): (&Layer, &f64)| face - depth < GONE * layer.thickness();
+        let gone = self.layers.iter().zip(&faces).take_while(|&own| is_gone(own)).count();
+        let mut layers = self.layers[gone..].to_vec();
+        if let (Some(layer), Some(face)) = (layers.first_mut(), faces.get(gone)) {
+            *layer = layer.thinned((face - depth).min(layer.thickness()));
+        }
+        if layers.is_empty() && self.substrate.is_rigid() {
+            return None;
+        }
+        let response = Arc::new(LayeredResponse::new(&layers, self.substrate));
+        Some((Self { layers, response, ..self.clone() }, gone))
+    }
+
     /// Residual stresses of all materials, in the order of [`Self::materials`]: that of the substrate is zero.
     pub fn residual_stresses(&self) -> impl Iterator<Item = f64> {
         self.layers.iter().map(Layer::residual_stress).chain(self.substrate.material().map(|_| 0.0))
@@ -258,6 +278,29 @@ mod tests {
         let sides = |z: f64| half_space.depths(z).into_iter().map(|depth| depth.material).collect::<Vec<usize>>();
         let found = [0.0, 0.1, 0.2, 0.3, 0.1 + 0.2, 5.0].map(sides);
         assert_eq!(found, [vec![1], vec![1, 2], vec![2], vec![2, 3], vec![2, 3], vec![3]]);
+    }
+
+    #[test]
+    fn what_comes_off_leaves_thinner_layers_and_takes_those_above_it() {
+        let material = |young: f64| Material::from_young(young, 0.3).unwrap();
+        let layers = [0.1, 0.2].map(|h| Layer::new(material(h), h, Interface::Bonded).unwrap());
+        let half_space = HalfSpace::new(layers.to_vec(), material(1.0));
+        let left = |depth: f64| {
+            let (own, gone) = half_space.uncovered(depth).unwrap();
+            let thicknesses: Vec<f64> = own.layers().iter().map(Layer::thickness).collect();
+            assert_eq!(
+                own.response().compliance(3.0),
+                HalfSpace::new(own.layers().to_vec(), material(1.0)).response().compliance(3.0)
+            );
+            (thicknesses, gone, own.surface_material().young())
+        };
+        assert_eq!(left(0.0), (vec![0.1, 0.2], 0, material(0.1).young()));
+        assert_eq!(left(0.025), (vec![0.1 - 0.025, 0.2], 0, material(0.1).young()));
+        assert_eq!(left(0.1 - 1e-9), (vec![0.2], 1, material(0.2).young()));
+        assert_eq!(left(0.25).0[0], 0.1 + 0.2 - 0.25);
+        assert_eq!(left(7.0), (vec![], 2, 1.0));
+        let on_base = HalfSpace::on_rigid_base(layers.to_vec()).unwrap();
+        assert!(on_base.uncovered(0.3).is_none() && on_base.uncovered(0.2).is_some());
     }
 
     #[test]

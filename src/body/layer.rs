@@ -121,6 +121,11 @@ impl Layer {
         self.interface_fatigue
     }
 
+    /// It with another thickness, a length above zero.
+    pub(super) fn thinned(&self, thickness: f64) -> Self {
+        Self { thickness, ..*self }
+    }
+
     /// Strengths of its material.
     pub fn strength(&self) -> Strength {
         self.strength

@@ -57,7 +57,7 @@ impl PictureOptions {
         type Draw<'a> = &'a (dyn Fn() -> Option<Canvas> + Sync);
         let touching = last.reading.touches();
         let sections = Some(sections).filter(|sections| touching && !sections.is_empty());
-        let pictures: [(&str, Draw); 6] = [
+        let pictures: [(&str, Draw); 7] = [
             ("pressure", &|| touching.then(|| picture::pressure(last))),
             ("contact", &|| {
                 touching
@@ -66,6 +66,7 @@ impl PictureOptions {
             ("profiles", &|| {
                 picture::profiles(last, isolated::profiles(last.step.problem(), &last.reading).as_deref())
             }),
+            ("indentation", &|| picture::indentation(last)),
             ("section", &|| Some(picture::section(last, sections?))),
             ("lines", &|| Some(picture::lines(last, sections?))),
             ("curve", &|| picture::load_curves(&last.title, last.step.problem(), &last.units, steps)),

@@ -17,6 +17,9 @@ pub fn may_write(case: &Case, steps: usize, fields: bool, pictures: &PictureOpti
     if case.stress.as_ref().is_some_and(|stress| stress.section.is_some()) {
         drawn.extend(["section", "lines"]);
     }
+    if case.problem().bodies().hardness().is_some() {
+        drawn.push("indentation");
+    }
     if steps > 1 {
         drawn.push("curve");
     }

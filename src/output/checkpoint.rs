@@ -49,6 +49,9 @@ struct SolvedLoad {
     coarser: usize,
     /// Number of all grids in the file.
     grids: usize,
+    /// Whether earlier loads have pressed the surface in.
+    #[serde(default)]
+    indented: bool,
 }
 
 /// Saves the checkpoints of a run.
@@ -132,13 +135,16 @@ impl SolvedLoad {
     fn of(checkpoint: &Checkpoint) -> Self {
         let Report { stop, route, iterations, outer, .. } = checkpoint.report;
         let (coarser, grids) = (checkpoint.coarser, checkpoint.grids.len());
-        Self { stop, route, iterations, outer, coarser, grids }
+        Self { stop, route, iterations, outer, coarser, grids, indented: checkpoint.indented.is_some() }
     }
 }
 
 /// Adds the numbers and fields of a checkpoint; `seconds` is the wall time of its load.
 fn add<W: Write + Seek>(archive: &mut Archive<W>, checkpoint: &Checkpoint, seconds: f64) -> io::Result<()> {
     archive.array("numbers", &[3], [checkpoint.convolutions, checkpoint.report.residual, seconds])?;
+    if let Some(depths) = &checkpoint.indented {
+        archive.array("indentation", &[depths.len()], depths.iter().copied())?;
+    }
     for (index, Unknowns { pressure, gap, penetration, certificate }) in checkpoint.grids.iter().enumerate() {
         let Certificate { energy_gap, penetration: deepest, load } = *certificate;
         archive.array(&format!("proof_{index}"), &[4], [*penetration, energy_gap, deepest, load])?;
@@ -209,7 +215,9 @@ impl<R: Read + Seek> CheckpointReader<R> {
     /// Refuses an archive whose number of entries is not `others` beside those of a solved load.
     fn has_only(&self, others: usize, solved: Option<&SolvedLoad>) -> io::Result<()> {
         const OF_A_GRID: usize = 3;
-        let of = |solved: &SolvedLoad| solved.grids.saturating_mul(OF_A_GRID).saturating_add(1);
+        let of = |solved: &SolvedLoad| {
+            solved.grids.saturating_mul(OF_A_GRID).saturating_add(1 + usize::from(solved.indented))
+        };
         let (found, wanted) = (self.zip.len(), solved.map_or(0, of).saturating_add(others));
         if found == wanted { Ok(()) } else { Err(unlike(format!("it has {found} entries instead of {wanted}"))) }
     }
@@ -241,6 +249,15 @@ impl<R: Read + Seek> CheckpointReader<R> {
         }
     }
 
+    /// The numbers of an array of pressures or depths, none below zero.
+    fn sizes(&mut self, name: &str, finite: bool) -> io::Result<Vec<f64>> {
+        let values = self.array(name, finite)?;
+        match values.iter().position(|value| *value < 0.0) {
+            Some(at) => Err(unlike(format!("value {} of its entry `{name}.npy` is negative", at + 1))),
+            None => Ok(values),
+        }
+    }
+
     fn numbers<const N: usize>(&mut self, name: &str, finite: bool) -> io::Result<[f64; N]> {
         self.array(name, finite)?.try_into().map_err(|_| unlike(format!("its entry `{name}.npy` has another length")))
     }
@@ -254,18 +271,15 @@ impl<R: Read + Seek> CheckpointReader<R> {
             return Err(unlike("a count or a time in it is negative".to_owned()));
         }
         let grids = (0..solved.grids).map(|index| self.unknowns(index, finite)).collect::<io::Result<_>>()?;
-        let checkpoint = Checkpoint { report, convolutions, coarser: solved.coarser, grids };
+        let indented = solved.indented.then(|| self.sizes("indentation", true)).transpose()?.map(Arc::new);
+        let checkpoint = Checkpoint { report, convolutions, coarser: solved.coarser, grids, indented };
         Ok(LastLoad { checkpoint, seconds })
     }
 
     fn unknowns(&mut self, index: usize, finite: bool) -> io::Result<Unknowns> {
         let [penetration, energy_gap, deepest, load] = self.numbers(&format!("proof_{index}"), finite)?;
-        let pressure = self.array(&format!("pressure_{index}"), finite)?;
-        if let Some(at) = pressure.iter().position(|pressure| *pressure < 0.0) {
-            return Err(unlike(format!("value {} of its entry `pressure_{index}.npy` is negative", at + 1)));
-        }
         Ok(Unknowns {
-            pressure: Arc::new(pressure),
+            pressure: Arc::new(self.sizes(&format!("pressure_{index}"), finite)?),
             gap: Arc::new(self.array(&format!("gap_{index}"), finite)?),
             penetration,
             certificate: Certificate { energy_gap, penetration: deepest, load },

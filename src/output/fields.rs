@@ -41,6 +41,9 @@ impl ContactArchive {
         {
             self.arrays.add(name, field.shape(), field.iter().copied())?;
         }
+        if let Some(depths) = step.indentation() {
+            self.arrays.add("indentation", depths.shape(), depths.iter().copied())?;
+        }
         Ok(self.arrays.left())
     }
 

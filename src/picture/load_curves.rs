@@ -9,7 +9,7 @@ use super::snapshot::caption;
 use super::utilisations::{BARS, utilisation_axis, utilisation_curves};
 use crate::body::MaterialId;
 use crate::problem::Problem;
-use crate::reading::{Criterion, LevelReading, Reading};
+use crate::reading::{Criterion, LevelReading, PlasticReading, Reading};
 use crate::run::StepRecord;
 use crate::run::touches::touches;
 use crate::stress::Peak;
@@ -28,6 +28,7 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
     // Loads that are spread evenly on a logarithmic axis rather than on a linear one have one.
     let path = LoadPath { steps, levels, units, isolated, logarithmic: log_spaced(&loads), touches: &touches };
     let mut charts = vec![path.peak_pressure(), path.extent(), path.penetration()];
+    charts.extend(path.indentation());
     if path.levels > 1 {
         charts.push(path.shares());
     }
@@ -131,6 +132,22 @@ impl LoadPath<'_> {
         let title = if self.isolated { "penetration" } else { "additional displacement" };
         let curve = self.curve("", 0.into(), |step| step.reading.penetration);
         self.chart(title, self.axis(self.units.length_of(title, "δ")), vec![curve])
+    }
+
+    /// What hardness has pressed in; `None` where it has pressed nothing.
+    fn indentation(&self) -> Option<Chart> {
+        let mut readings = self.steps.iter().filter_map(|step| step.plastic.as_ref());
+        readings.any(PlasticReading::is_pressed_in).then(|| {
+            let curve = |label: &str, colour: usize, value: fn(&PlasticReading) -> f64| {
+                self.curve(label, colour.into(), |step| step.plastic.as_ref().map_or(f64::NAN, value))
+            };
+            let curves = vec![
+                curve("largest depth", 1, |own| own.depth),
+                curve("permanent depth", 2, |own| own.permanent_depth),
+            ];
+            let label = self.units.length_of("pressed in for good", "u");
+            self.chart("pressed in for good", Axis::linear(label), curves)
+        })
     }
 
     fn shares(&self) -> Chart {

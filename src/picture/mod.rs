@@ -4,7 +4,8 @@
 //! sheet measured in points ([`Canvas`]), which is written as pixels or as lines.
 //!
 //! - Any curves: [`Chart`], and [`Figure`] for several charts side by side.
-//! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles()).
+//! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles());
+//!   what hardness has pressed in: [`indentation`](indentation()).
 //! - Its stresses under a line ([sections](crate::stress::VerticalSection)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
 //! - The rows of a sweep: [`sweep`](sweep()): curves over a key, maps over two.
@@ -24,6 +25,7 @@ mod curve;
 mod file;
 mod frame;
 mod identification;
+mod indentation;
 mod label;
 mod legend;
 mod letters;
@@ -57,6 +59,7 @@ pub use contact::contact;
 pub use curve::{Curve, Ink, Style};
 pub use file::Format;
 pub use identification::identification;
+pub use indentation::indentation;
 pub use label::Label;
 pub use lines::lines;
 pub use load_curves::load_curves;

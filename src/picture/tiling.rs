@@ -55,6 +55,11 @@ impl Snapshot {
         alike.filter(|run| run.len() > 1 && belongs(run[0])).map(|run| [run[0], run[run.len() - 1]]).collect()
     }
 
+    /// A field, sample by sample, between its samples.
+    pub fn between_samples(&self, field: &[f64], place: [f64; 2]) -> f64 {
+        around(self.step.grid(), place).into_iter().map(|(index, part)| part * field[index]).sum()
+    }
+
     /// Pressure at a place; `None` outside contact. Between samples on both sides of the edge the fitted boundary
     /// decides, or the distance from the edge where no boundary is fitted.
     pub fn pressure_at(&self, place: [f64; 2]) -> Option<f64> {

@@ -13,12 +13,20 @@ use rayon::prelude::*;
 
 /// Fewest samples of an interval through which a parabola is fitted.
 const FEWEST_SAMPLES: usize = 6;
+/// Samples from an end on that must not be at the hardness where the pressure gives the end.
+const FULL_REACH: usize = 3;
 /// Samples that a parabola uses beyond the square root of their number, at most.
 const EXTRA_SAMPLES: usize = 3;
 
 /// Fraction of the cell in contact, from pressure and gap (one value per sample each), without the intervals whose samples are
-/// `excluded`; its uncertainty is half of the difference of the two roots of each end.
-fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], excluded: impl Fn(usize) -> bool + Sync) -> Fraction {
+/// `excluded`; its uncertainty is half of the difference of the two roots of each end. Where the pressure of a sample beside an end is
+/// `most`, the hardness, it says nothing about the end.
+pub(super) fn contact_fraction(
+    grid: &Grid,
+    (pressure, most): (&[f64], f64),
+    gap: &[f64],
+    excluded: impl Fn(usize) -> bool + Sync,
+) -> Fraction {
     let points = grid.points();
     let parabolas = Parabolas::new(points[0].max(points[1]));
     let mut mean = [0.0; 2];
@@ -28,8 +36,14 @@ fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], excluded: impl F
             line.clear();
             line.extend(direction.line(points, start).map(|index| pressure[index]));
             let at = |k: usize| direction.sample(points, start, k as i64);
-            SampleLine { pressure: line, gap: |k| gap[at(k)], excluded: |k| excluded(at(k)), parabolas: &parabolas }
-                .fraction()
+            SampleLine {
+                pressure: line,
+                most,
+                gap: |k| gap[at(k)],
+                excluded: |k| excluded(at(k)),
+                parabolas: &parabolas,
+            }
+            .fraction()
         };
         // Lines are added in their order, whichever thread has read them.
         let all: Vec<[f64; 2]> = lines.par_iter().map_init(Vec::new, read).collect();
@@ -42,7 +56,7 @@ fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], excluded: impl F
 /// Fraction of the cell that `some` of the `all` contact spots take, by the lines of samples.
 pub fn of_components<'a>(
     grid: &Grid,
-    pressure: &[f64],
+    pressure: (&[f64], f64),
     gap: &[f64],
     some: impl Iterator<Item = &'a Component>,
     all: usize,
@@ -63,6 +77,8 @@ pub fn of_components<'a>(
 struct SampleLine<'a, G, X> {
     /// Pressure, sample by sample.
     pressure: &'a [f64],
+    /// Largest pressure, infinite without hardness.
+    most: f64,
     /// Gap of a sample by its number in the line, a length.
     gap: G,
     /// Whether the interval that a sample belongs to is left out, by its number in the line.
@@ -124,7 +140,9 @@ impl<G: Fn(usize) -> f64, X: Fn(usize) -> bool> SampleLine<'_, G, X> {
         outside: impl Fn(usize) -> f64,
         open: usize,
     ) -> [f64; 2] {
-        let from_inside = self.parabolas.root(inside, count);
+        // Heights are squares of pressures.
+        let is_full = (0..FULL_REACH.min(count)).any(|k| inside(k) >= self.most * self.most);
+        let from_inside = self.parabolas.root(inside, count).filter(|_| !is_full);
         let from_outside = self.parabolas.root(outside, open).map(|x| 1.0 - x);
         match (from_inside, from_outside) {
             (Some(a), Some(b)) => [0.5 * (a + b), 0.5 * (a - b).abs()],
@@ -206,7 +224,7 @@ mod tests {
                 .collect();
             let pressure: Vec<f64> = depth.iter().map(|d| d.max(0.0).sqrt()).collect();
             let gap: Vec<f64> = depth.iter().map(|d| (-d).max(0.0).powf(1.5)).collect();
-            let Fraction { value: fraction, .. } = contact_fraction(&grid, &pressure, &gap, |_| false);
+            let Fraction { value: fraction, .. } = contact_fraction(&grid, (&pressure, f64::INFINITY), &gap, |_| false);
             assert!((fraction - expected).abs() < 2e-4, "{fraction} {expected}");
         }
     }
@@ -215,8 +233,8 @@ mod tests {
     fn full_contact_and_none_are_exact() {
         let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 12]).unwrap();
         let exact = |value| Fraction { value, uncertainty: 0.0 };
-        assert_eq!(contact_fraction(&grid, &[1.0; 96], &[0.0; 96], |_| false), exact(1.0));
-        assert_eq!(contact_fraction(&grid, &[0.0; 96], &[1.0; 96], |_| false), exact(0.0));
+        assert_eq!(contact_fraction(&grid, (&[1.0; 96], f64::INFINITY), &[0.0; 96], |_| false), exact(1.0));
+        assert_eq!(contact_fraction(&grid, (&[0.0; 96], f64::INFINITY), &[1.0; 96], |_| false), exact(0.0));
     }
 
     #[test]
@@ -225,9 +243,9 @@ mod tests {
         let mut pressure = [0.0; 64];
         pressure[27] = 1.0;
         // One line of eight in each direction, with one sample: half a sample beyond it on either side.
-        let found = contact_fraction(&grid, &pressure, &[0.0; 64], |_| false);
+        let found = contact_fraction(&grid, (&pressure, f64::INFINITY), &[0.0; 64], |_| false);
         assert!((found.value - 1.0 / 64.0).abs() < 1e-12 && found.uncertainty > 0.0);
-        assert_eq!(contact_fraction(&grid, &pressure, &[0.0; 64], |index| index == 27).value, 0.0);
+        assert_eq!(contact_fraction(&grid, (&pressure, f64::INFINITY), &[0.0; 64], |index| index == 27).value, 0.0);
     }
 
     #[test]

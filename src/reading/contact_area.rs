@@ -33,12 +33,18 @@ impl ContactArea {
         let (pressure, gap, cell) = (contact.pressures(), contact.gaps(), grid.cell().area());
         let along_lines = if surface.owners().is_empty() {
             let others = components.iter().zip(topography).filter(|(_, boundary)| boundary.is_none());
-            area::of_components(grid, pressure, gap, others.map(|(component, _)| component), components.len())
+            area::of_components(
+                grid,
+                (pressure, contact.hardness()),
+                gap,
+                others.map(|(component, _)| component),
+                components.len(),
+            )
         } else {
             // A component has one owner, or its owners have merged.
             let owner = |own: &Component| surface.owners()[own.runs[0].index(grid.points())];
             let others = components.iter().filter(|own| spots[owner(own) as usize].boundary.is_none());
-            area::of_components(grid, pressure, gap, others, components.len())
+            area::of_components(grid, (pressure, contact.hardness()), gap, others, components.len())
         };
         let boundaries = || spots.iter().map(|spot| &spot.boundary).chain(topography).flatten();
         let located = [boundaries().map(Boundary::area).sum(), boundaries().map(Boundary::area_error).sum()];

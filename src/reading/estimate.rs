@@ -61,6 +61,11 @@ fn estimate(safety: f64, law: f64, value: f64, coarser: impl Iterator<Item = Opt
     safety * changes.filter_map(|(weight, coarse)| Some(weight * (coarse? - value).abs())).fold(law, f64::max)
 }
 
+/// Estimated error of an area or of what is pressed in, from its `uncertainty` on one grid and its values on the coarser ones.
+pub(super) fn of_area(uncertainty: f64, value: f64, coarser: impl Iterator<Item = Option<f64>>) -> f64 {
+    estimate(safety::AREA, uncertainty, value, coarser)
+}
+
 impl Step {
     /// Reading of the step with its estimated discretisation errors.
     pub fn reading(&self) -> Reading {
@@ -86,7 +91,8 @@ impl Step {
             let levels = self.problem().counterbody().levels();
             let exponents: Vec<f64> = levels.iter().map(|level| level.shape().exponent()).collect();
             let is_given = self.problem().counterbody().pressure().is_some();
-            let grids = Grids { fine: &reading, coarser: &coarser, load: self.load, is_given };
+            let hardness = self.finest().hardness();
+            let grids = Grids { fine: &reading, coarser: &coarser, load: self.load, is_given, hardness };
             let of_levels: Vec<LevelErrors> =
                 exponents.iter().enumerate().map(|(index, &exponent)| grids.level_errors(index, exponent)).collect();
             reading.errors = grids.errors(&of_levels, &exponents);
@@ -145,6 +151,8 @@ struct Grids<'a> {
     load: Load,
     /// Whether the pressure is given: its peak has no law.
     is_given: bool,
+    /// Hardness of the softer surface; infinite without one.
+    hardness: f64,
 }
 
 impl Grids<'_> {
@@ -186,10 +194,16 @@ impl Grids<'_> {
             contact_area: None,
             contact_fraction: None,
             elastic_energy: energy,
-            max_pressure: self
-                .error(safety::PEAK, peak, &|reading| reading.finite_peak())
-                .map(|error| error.max(beyond)),
+            max_pressure: self.unless_full(fine.max_pressure, || {
+                let own = self.error(safety::PEAK, peak, &|reading| reading.finite_peak());
+                own.map(|error| error.max(beyond))
+            }),
         }
+    }
+
+    /// An error of a largest pressure; none where that is the hardness, which no pressure exceeds.
+    fn unless_full(&self, pressure: f64, error: impl FnOnce() -> Option<f64>) -> Option<f64> {
+        if pressure >= self.hardness { Some(0.0) } else { error() }
     }
 
     /// Samples along the radius of the largest and of the smallest contact, at least one: the penetration is as certain as the
@@ -226,7 +240,7 @@ impl Grids<'_> {
         LevelErrors {
             load: of(safety::LOAD, load, |level| Some(level.load)),
             load_share: of(safety::SHARE, share, |level| Some(level.load_share)),
-            max_pressure: of(safety::PEAK, peak, LevelReading::finite_peak),
+            max_pressure: self.unless_full(own.max_pressure, || of(safety::PEAK, peak, LevelReading::finite_peak)),
             contact_area: of(safety::AREA, own.uncertainty.area, |level| Some(level.contact_area)),
             contact_radius: radius(own.uncertainty.radius, |level| level.contact_radius),
             radius_inner: radius(own.uncertainty.hole, |level| level.radius_inner),

@@ -72,8 +72,7 @@ impl<'a> LevelSpots<'a> {
 
     /// Largest pressure that the grid resolves under the indenters, between the samples; in the unit of Young's modulus.
     fn max_pressure(&self) -> f64 {
-        let (grid, pressure) = (self.contact.grid(), self.contact.pressures());
-        self.peaks().map(|index| peak::interpolated(grid, pressure, index)).fold(0.0, f64::max)
+        self.peaks().map(|index| peak::interpolated(self.contact, index)).fold(0.0, f64::max)
     }
 
     /// Samples between the peak pressure and the edge of contact, `farthest` at most; the least of all indenters.
@@ -87,8 +86,11 @@ impl<'a> LevelSpots<'a> {
         self.spots.iter().filter_map(|spot| spot.peak)
     }
 
-    /// Whether the indenters have a tip, under which the pressure is infinite.
+    /// Whether the indenters have a tip, under which the pressure is infinite unless a surface yields.
     fn is_tip(&self) -> bool {
+        if self.contact.hardness().is_finite() {
+            return false;
+        }
         let sites = self.contact.surface().sites().iter();
         sites.filter(|site| site.level == self.level).any(|site| site.shape.singular_peak())
     }

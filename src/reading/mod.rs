@@ -22,6 +22,7 @@ mod holes;
 mod level;
 mod level_spots;
 mod peak;
+mod plastic;
 mod rough;
 #[cfg(feature = "cli")]
 mod section;
@@ -41,6 +42,7 @@ pub(crate) use governing::names;
 pub use governing::{Governing, within_the_errors};
 pub use histogram::Histogram;
 pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};
+pub use plastic::PlasticReading;
 pub use rough::{RoughReading, SpotSizes, stiffness};
 #[cfg(feature = "cli")]
 pub(crate) use section::{LargestInSection, SectionMeasure};

@@ -2,16 +2,17 @@
 
 use crate::lattice::Grid;
 use crate::numeric::paraboloid;
+use crate::spectral::Contact;
 
-/// Pressure at the top of the paraboloid through the 3 × 3 samples around the one with a flat index; the sample's own pressure next
-/// to the contact edge, and where there is no top nearby.
-pub fn interpolated(grid: &Grid, pressure: &[f64], index: usize) -> f64 {
-    let [n1, n2] = grid.points();
+/// Pressure at the top of the paraboloid through the 3 × 3 samples around the one with a flat index, at most the hardness; the sample's
+/// own pressure next to the contact edge, and where there is no top nearby.
+pub fn interpolated(contact: &Contact, index: usize) -> f64 {
+    let (pressure, [n1, n2]) = (contact.pressures(), contact.grid().points());
     let (row, column) = ((index / n2) as i32, (index % n2) as i32);
     let wrapped = |k: i32, n: usize| k.rem_euclid(n as i32) as usize;
     let at = |i: i32, j: i32| pressure[wrapped(row + i, n1) * n2 + wrapped(column + j, n2)];
     // The paraboloid is shifted to pass through the sample.
-    pressure[index] + paraboloid::rise(1, at).unwrap_or(0.0)
+    (pressure[index] + paraboloid::rise(1, at).unwrap_or(0.0)).min(contact.hardness())
 }
 
 /// Distance from the edge, in samples, at which a ridge along it is resolved: an edge farther away is not searched.

@@ -14,7 +14,7 @@ use super::units::{case_of, measured_in, units_of};
 use crate::output::{Summary, table as tables};
 
 /// The pictures of a run; those of an isolated contact have no neighbours.
-fn pictures(is_isolated: bool) -> [PictureText; 6] {
+fn pictures(is_isolated: bool) -> [PictureText; 7] {
     let [pressure, contact, profiles] = if is_isolated {
         [
             (
@@ -58,6 +58,11 @@ fn pictures(is_isolated: bool) -> [PictureText; 6] {
         pressure,
         contact,
         profiles,
+        (
+            "indentation",
+            "Map of the depths pressed in, and a profile through the deepest place",
+            "What the hardness has pressed in for good, without the elastic displacement.",
+        ),
         ("curve", "Curves of what the load steps say over the load", "What the load steps say over the load."),
         (
             "section",
@@ -103,6 +108,11 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
             vec![table("Load steps; ± is the estimated error of the grid", &tables::steps(steps, &units))],
         ),
     ];
+    if let Some((words, pressed)) = tables::plastic(steps, &units) {
+        let caption = "What the hardness has pressed in; ± is the estimated error of the grid";
+        let pressed = pressed.map(|pressed| table(caption, &pressed)).unwrap_or_default();
+        sections.push(section("hardness", "Hardness", vec![tag("p", upper(&words)), pressed]));
+    }
     if let Some(largest) = tables::largest_stresses(steps, &units) {
         sections.push(section(
             "stresses",

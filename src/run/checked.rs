@@ -35,6 +35,17 @@ impl StepRecord {
                 finite(name, value)?;
             }
         }
+        if let Some(own) = &self.plastic {
+            for (key, value) in [
+                ("hardness", own.hardness),
+                ("area", own.area),
+                ("depth", own.depth),
+                ("volume", own.volume),
+                ("permanent_depth", own.permanent_depth),
+            ] {
+                at_least_zero(&format!("plastic.{key}"), value)?;
+            }
+        }
         finite("penetration", reading.penetration)?;
         at_least_zero("contact_area", reading.contact_area)?;
         peak("max_pressure", reading.max_pressure)?;

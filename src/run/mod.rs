@@ -36,7 +36,7 @@ pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change
 pub use alone::alone;
 pub use earlier_run::{EarlierRun, LastLoad};
 pub use limit::{At, EVENTS, Limit, LimitStep, Limits, first, rivals};
-pub use outcome::{BeyondFullContact, Outcome, RunError};
+pub use outcome::{BeyondFullContact, BeyondHardness, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
 pub use record::{Sliding, StepRecord};
 pub use recorder::Recorder;
@@ -46,7 +46,7 @@ pub use tapered::Tapered;
 use crate::body::MeanStress;
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
-use crate::load::{Load, LoadQuantity};
+use crate::load::{Control, Load, LoadQuantity};
 use crate::problem::Problem;
 use crate::reading::{self, Criterion, StressReading};
 use crate::spectral::{OtherGrids, Settings, Solver, Step};
@@ -106,8 +106,8 @@ impl Run {
     /// a refinement.
     ///
     /// # Errors
-    /// [`RunError::NoLoads`], [`TooOblong`], [`BeyondFullContact`] for the first penetration out of reach, [`LatticeError`]
-    /// when there is no such grid.
+    /// [`RunError::NoLoads`], [`TooOblong`], [`BeyondHardness`] for the first load that the hardness does not bear,
+    /// [`BeyondFullContact`] for the first penetration out of reach, [`LatticeError`] when there is no such grid.
     ///
     /// [`LatticeError`]: crate::lattice::LatticeError
     pub fn check(&self) -> Result<(), RunError<Infallible>> {
@@ -120,10 +120,21 @@ impl Run {
             return Err(RunError::NoLoads);
         }
         let points = self.checked_sampling()?;
-        // An isolated contact is never complete, and complete contact of compressible layers on a rigid base bears any penetration.
+        let is_given = self.problem.counterbody().pressure().is_some();
+        let hardness = self.problem.bodies().hardness().filter(|_| !is_given).map(|(hardness, _)| hardness);
+        for load in &self.loads {
+            if let (Control::MeanPressure(mean), Some(hardness)) = (load.on(self.problem.cell()), hardness)
+                && mean >= hardness
+            {
+                return Err(BeyondHardness { load: *load, hardness, area: self.problem.cell().area() }.into());
+            }
+        }
+        // An isolated contact is never complete; complete contact of compressible layers on a rigid base, and a surface that yields, bear
+        // any penetration.
         let is_limited = !self.problem.cell().is_isolated()
             && self.problem.bodies().mean_compliance() == 0.0
-            && self.problem.counterbody().pressure().is_none();
+            && !is_given
+            && hardness.is_none();
         if self.loads.iter().all(|load| load.is_load_control()) || !is_limited {
             return Ok(());
         }
@@ -218,6 +229,7 @@ impl Run {
             drop(last.take());
             let (record, step) =
                 self.solve_load(&mut solver, &tables, load, (Loading::Path, saved.take()), recorder)?;
+            solver.keep_indentation();
             records.push(record);
             last = Some(step);
         }

@@ -3,6 +3,7 @@
 use super::StepRecord;
 use super::accuracy::{RefinementEnd, TooOblong};
 use crate::lattice::LatticeError;
+use crate::load::Load;
 use crate::notation::number;
 use crate::spectral::{OtherGrids, Step};
 use std::error::Error;
@@ -50,6 +51,22 @@ pub struct BeyondFullContact {
     pub complete: f64,
 }
 
+/// A prescribed load that the hardness of the softer surface does not bear.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "the load ({load}) has no solution: a surface of the hardness {} bears a mean pressure below it, on this cell or window a force below {}; \
+     prescribe less",
+    number(*.hardness), number(.hardness * .area)
+)]
+pub struct BeyondHardness {
+    /// The load.
+    pub load: Load,
+    /// Hardness of the softer surface, a pressure.
+    pub hardness: f64,
+    /// Area of the cell, or of the window, a length squared.
+    pub area: f64,
+}
+
 impl<E: Error + 'static> RunError<E> {
     /// The reason in one sentence; of an error of the recorder its own message.
     pub fn told(&self) -> String {
@@ -78,6 +95,9 @@ pub enum RunError<E: Error + 'static> {
     /// The cell is too oblong to be refined.
     #[error(transparent)]
     TooOblong(#[from] TooOblong),
+    /// A load is beyond the hardness.
+    #[error(transparent)]
+    BeyondHardness(#[from] BeyondHardness),
     /// A penetration is beyond complete contact.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),

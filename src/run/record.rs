@@ -4,7 +4,8 @@ use super::Tapered;
 use crate::body::Bodies;
 use crate::numeric::serialised;
 use crate::reading::{
-    Criterion, Governing, Reading, RoughReading, StressReading, Utilisation, stiffness, within_the_errors,
+    Criterion, Governing, PlasticReading, Reading, RoughReading, StressReading, Utilisation, stiffness,
+    within_the_errors,
 };
 use crate::spectral::{Certificate, Report, Route, Step, Stop, Tangent};
 use serde::{Deserialize, Serialize};
@@ -45,6 +46,9 @@ pub struct StepRecord {
     /// Parts of load and contact where the window of a topography is below 1; `None` without a window.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tapered: Option<Tapered>,
+    /// What the hardness of the softer surface has pressed in; `None` without hardness.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plastic: Option<PlasticReading>,
     /// How contact and traction were solved together; `None` without friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<Sliding>,
@@ -113,6 +117,7 @@ impl StepRecord {
             contact_stiffness_error: None,
             rough,
             tapered: Tapered::of(step.finest()),
+            plastic: PlasticReading::of(step),
             friction: step.problem().friction().map(|_| sliding),
             stress: None,
             strength: Vec::new(),

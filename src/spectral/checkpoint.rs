@@ -4,6 +4,7 @@ use super::iteration::{Method, Report, Unknowns};
 use super::solver::nested_points;
 use super::{Solver, Step};
 use crate::load::Load;
+use std::sync::Arc;
 
 /// State of a [`Solver`] after a load. It shares its fields with solver and step, which copy them if it is kept while the next
 /// load is solved.
@@ -17,6 +18,8 @@ pub struct Checkpoint {
     pub coarser: usize,
     /// Unknowns of all grids, the finest first; after a load that is not solved, those of the step alone.
     pub grids: Vec<Unknowns>,
+    /// Depths that loads before this one have pressed in, sample by sample of the finest grid, lengths; `None` without any.
+    pub indented: Option<Arc<Vec<f64>>>,
 }
 
 /// Error of a checkpoint of other grids than those of the solver.
@@ -31,12 +34,13 @@ impl Checkpoint {
     }
 
     /// Whether the checkpoint is that of a solver whose grids have `samples`, the finest first.
-    fn is_of(&self, samples: impl ExactSizeIterator<Item = usize>) -> bool {
+    fn is_of(&self, samples: impl ExactSizeIterator<Item = usize> + Clone) -> bool {
         let count = if self.report.stop.solved() { samples.len() } else { self.coarser.saturating_add(1) };
         let fits = |(own, samples): (&Unknowns, usize)| own.pressure.len() == samples && own.gap.len() == samples;
         self.grids.len() == count
             && self.coarser < count
             && count <= samples.len()
+            && self.indented.as_ref().is_none_or(|depths| samples.clone().next() == Some(depths.len()))
             && self.grids.iter().zip(samples).all(fits)
     }
 }
@@ -51,7 +55,14 @@ impl Solver {
             let contacts = std::iter::once(&step.finest).chain(&step.coarser);
             contacts.map(|contact| contact.unknowns(step.certificate)).collect()
         };
-        Checkpoint { report: step.report, convolutions: step.convolutions, coarser: step.coarser.len(), grids }
+        let indented = step.finest.indented().cloned();
+        Checkpoint {
+            report: step.report,
+            convolutions: step.convolutions,
+            coarser: step.coarser.len(),
+            grids,
+            indented,
+        }
     }
 
     /// Continues from a checkpoint after `load`, whose step is returned.
@@ -63,7 +74,10 @@ impl Solver {
         if !checkpoint.is_of(samples.into_iter()) {
             return Err(OtherGrids);
         }
-        let Checkpoint { report, convolutions, coarser, grids } = checkpoint;
+        let Checkpoint { report, convolutions, coarser, grids, indented } = checkpoint;
+        if let Some(depths) = indented {
+            self.press_in(depths.to_vec());
+        }
         let solved = report.stop.solved();
         self.set_unknowns(grids);
         let step = self.step(load, report, convolutions, coarser);

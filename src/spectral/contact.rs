@@ -19,6 +19,8 @@ pub struct Contact {
     pressure: Arc<Vec<f64>>,
     gap: Arc<Vec<f64>>,
     penetration: f64,
+    /// Depths pressed in by earlier loads, in the gap already; `None` without any.
+    indented: Option<Arc<Vec<f64>>>,
     /// Counted at the first call of [`Self::spots`].
     spots: OnceLock<SpotCounts>,
 }
@@ -33,7 +35,12 @@ impl Contact {
         penetration: f64,
     ) -> Self {
         let (problem, surface) = (Arc::clone(problem), Arc::clone(surface));
-        Self { problem, surface, pressure, gap, penetration, spots: OnceLock::new() }
+        Self { problem, surface, pressure, gap, penetration, indented: None, spots: OnceLock::new() }
+    }
+
+    /// It after earlier loads that have pressed in these depths, sample by sample.
+    pub(super) fn after(self, indented: Option<Arc<Vec<f64>>>) -> Self {
+        Self { indented, ..self }
     }
 
     /// Unknowns of the iteration, with their certificate.
@@ -65,6 +72,27 @@ impl Contact {
     /// Gap g = w + f − δ, a length; axes along a₁ and a₂.
     pub fn gap(&self) -> ArrayView2<'_, f64> {
         view(self.grid().points(), &self.gap)
+    }
+
+    /// Hardness H of the softer surface, which the pressure does not exceed, in its unit; infinite without one.
+    pub fn hardness(&self) -> f64 {
+        self.problem.bodies().hardness().map_or(f64::INFINITY, |(hardness, _)| hardness)
+    }
+
+    /// Depths that the softer surface is pressed in for good by this load and those before it, lengths ≥ 0 sample by sample, a₂ fastest:
+    /// −g where p = H, added up over the loads. `None` without hardness.
+    pub fn indentation(&self) -> Option<Vec<f64>> {
+        let hardness = self.hardness();
+        hardness.is_finite().then(|| {
+            let before = |i: usize| self.indented.as_ref().map_or(0.0, |depths| depths[i]);
+            let now = |i: usize| if self.pressure[i] >= hardness { (-self.gap[i]).max(0.0) } else { 0.0 };
+            (0..self.gap.len()).map(|i| before(i) + now(i)).collect()
+        })
+    }
+
+    /// Depths that earlier loads have pressed in; `None` without any.
+    pub(super) fn indented(&self) -> Option<&Arc<Vec<f64>>> {
+        self.indented.as_ref()
     }
 
     /// Penetration δ, from the mean plane of the deformed surface to the highest apex, a length: the additional

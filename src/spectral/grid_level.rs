@@ -24,9 +24,13 @@ const MAX_UNRESOLVED: usize = 4;
 #[derive(Debug)]
 pub(super) struct GridLevel {
     surface: Arc<Surface>,
+    /// The surface before any load has pressed it in, with the depths that earlier loads have; `None` before.
+    indented: Option<(Arc<Surface>, Arc<Vec<f64>>)>,
     largest_gap: f64,
     /// Whether contact may occur, one value per sample; `None`: everywhere.
     mask: Option<Vec<bool>>,
+    /// Hardness of the softer surface, a pressure; infinite without one.
+    hardness: f64,
     operator: BodyOperator,
     /// A given pressure with the mean 1, one value per sample; `None` where contact is solved.
     given: Option<Vec<f64>>,
@@ -46,7 +50,7 @@ pub(super) struct Coarser {
 struct ContactOf<'a> {
     surface: &'a Surface,
     largest_gap: f64,
-    mask: Option<&'a [bool]>,
+    admissible: AdmissibleSet<'a>,
     load: Control,
     settings: Settings,
 }
@@ -64,7 +68,7 @@ impl ContactOf<'_> {
             working,
             initial_gap: self.surface.gaps(),
             largest_gap: self.largest_gap,
-            admissible: AdmissibleSet::new(self.mask),
+            admissible: self.admissible,
             load: self.load,
             settings: self.settings,
             outer: 0,
@@ -86,7 +90,9 @@ impl GridLevel {
         Self {
             unknowns: Unknowns::new(grid.len()),
             largest_gap: surface.largest(),
+            indented: None,
             mask: None,
+            hardness: bodies.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness),
             operator,
             given,
             modulus: bodies.contact_modulus(),
@@ -123,9 +129,29 @@ impl GridLevel {
     pub fn give_gap(&mut self, finer: Array2<f64>) -> Array2<f64> {
         let gap = self.surface.restricted(&finer);
         self.surface = Arc::new(self.surface.with_initial_gap(gap.clone()));
+        self.indented = None;
         self.largest_gap = self.surface.largest();
         self.forget();
         gap
+    }
+
+    /// Presses the surface in by the depths on the finest grid, in the place of those before: the pressure stays as the start of the
+    /// next load.
+    pub fn press_in(&mut self, finest: &Array2<f64>) {
+        let before = self.indented.take();
+        let (original, earlier) = match &before {
+            Some((original, depths)) => (Arc::clone(original), &depths[..]),
+            None => (Arc::clone(&self.surface), &[][..]),
+        };
+        // A restriction by waves may ring.
+        let depths: Vec<f64> = original.restricted(finest).into_iter().map(|depth| depth.max(0.0)).collect();
+        let mut gap = original.initial_gap().to_owned();
+        gap.iter_mut().zip(&depths).for_each(|(gap, depth)| *gap += depth);
+        let rise = |i: usize| depths[i] - earlier.get(i).copied().unwrap_or(0.0);
+        sums::update(&mut Arc::make_mut(&mut self.unknowns.gap)[..], |i, g| g + rise(i));
+        self.surface = Arc::new(original.with_initial_gap(gap));
+        self.largest_gap = self.surface.largest();
+        self.indented = Some((original, Arc::new(depths)));
     }
 
     /// Confines contact to the nearest samples of a mask on the finest grid.
@@ -169,7 +195,8 @@ impl GridLevel {
     /// The contact of the last load on this grid.
     pub fn contact(&self, problem: &Arc<Problem>) -> Contact {
         let Unknowns { pressure, gap, penetration, .. } = &self.unknowns;
-        Contact::new(problem, &self.surface, Arc::clone(pressure), Arc::clone(gap), *penetration)
+        let indented = self.indented.as_ref().map(|(_, depths)| Arc::clone(depths));
+        Contact::new(problem, &self.surface, Arc::clone(pressure), Arc::clone(gap), *penetration).after(indented)
     }
 
     /// The tangent of the last load, see [`Tangent`]; `None` without contact.
@@ -217,12 +244,12 @@ impl GridLevel {
         if let Some(coarser) = coarser {
             self.add_change(&coarser, settings.tolerance);
         }
-        let Self { surface, largest_gap, mask, operator, unknowns, .. } = self;
+        let Self { surface, largest_gap, mask, hardness, operator, unknowns, .. } = self;
         let (samples, before) = (surface.grid().len(), operator.convolutions());
         let with = ContactOf {
             surface,
             largest_gap: *largest_gap,
-            mask: mask.as_deref(),
+            admissible: AdmissibleSet::new(mask.as_deref()).at_most(*hardness),
             load: load.on(surface.grid().cell()),
             settings,
         };
@@ -273,10 +300,10 @@ impl GridLevel {
         // A change below the tolerance is dropped: it would leave traces of pressure around the contact, which no iteration
         // removes where none is needed.
         let least = -tolerance * sums::least(after.len(), |i| -after[i]);
-        let pressure = Arc::make_mut(&mut self.unknowns.pressure);
+        let (pressure, hardness) = (Arc::make_mut(&mut self.unknowns.pressure), self.hardness);
         sums::update(pressure, |i, p| {
             let rise = after[i] - before[i];
-            if rise.abs() > least { (p + rise).max(0.0) } else { p }
+            if rise.abs() > least { (p + rise).max(0.0).min(hardness) } else { p }
         });
     }
 }

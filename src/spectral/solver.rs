@@ -9,10 +9,12 @@ use super::free_space::FreeSpaceOperator;
 use super::grid_level::{Coarser, GridLevel};
 use super::iteration::{Method, Progress, Report, Settings, Stop, Unknowns, Working};
 use super::{FieldError, Step, Tangent};
+use crate::body::Side;
 use crate::counterbody::Surface;
 use crate::friction::Friction;
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::load::Load;
+use crate::numeric::array::field;
 use crate::numeric::fourier::fast_points;
 use crate::problem::Problem;
 use ndarray::Array2;
@@ -163,7 +165,7 @@ impl Solver {
             let (report, work) =
                 level.solve(coarser.take(), load, *settings, &mut working, &mut |_| ControlFlow::Continue(()));
             convolutions += work / finest;
-            if report.stop == Stop::BeyondFullContact {
+            if matches!(report.stop, Stop::BeyondFullContact | Stop::BeyondHardness) {
                 left_out.push((index, before));
                 continue;
             }
@@ -199,6 +201,29 @@ impl Solver {
         let (finest, coarser) = (contact(&self.levels[0]), self.levels[1..=coarser].iter().map(contact).collect());
         let certificate = self.levels[0].unknowns().certificate;
         Step { load, report, certificate, convolutions, finest, coarser }
+    }
+
+    /// Keeps what the last load has pressed in, where its pressure is that of the hardness: the depths −g are in the initial gap of the
+    /// next loads, which unload and reload elastically up to this load. Without it each load meets the surface as it was before.
+    ///
+    /// A body that is softer and slid over moves away below the counterbody: it keeps no shape in the frame of the contact.
+    pub fn keep_indentation(&mut self) {
+        let is_swept = self.problem.friction().is_some()
+            && self.problem.bodies().hardness().is_some_and(|own| own.1 == Side::Body);
+        if is_swept {
+            return;
+        }
+        if let Some(depths) = self.levels[0].contact(&self.problem).indentation()
+            && depths.iter().any(|&depth| depth > 0.0)
+        {
+            self.press_in(depths);
+        }
+    }
+
+    /// Presses the surface in by these depths, sample by sample of the finest grid, in the place of those before.
+    pub(super) fn press_in(&mut self, depths: Vec<f64>) {
+        let depths = field(self.grid().points(), depths);
+        self.levels.iter_mut().for_each(|level| level.press_in(&depths));
     }
 
     /// The tangent of the load that was solved last; `None` without contact, and under friction that couples.

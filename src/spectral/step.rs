@@ -6,6 +6,7 @@ use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::load::Load;
 use crate::notation::number;
+use crate::numeric::array::field;
 use crate::problem::Problem;
 use ndarray::{Array2, ArrayView2};
 use std::fmt;
@@ -75,6 +76,12 @@ impl Step {
     /// Penetration δ, a length; see [`Contact::penetration`].
     pub fn penetration(&self) -> f64 {
         self.finest.penetration()
+    }
+
+    /// Depths that the softer surface is pressed in for good by this load and those before it, lengths ≥ 0; axes along a₁ and a₂. `None`
+    /// without hardness.
+    pub fn indentation(&self) -> Option<Array2<f64>> {
+        self.finest.indentation().map(|depths| field(self.grid().points(), depths))
     }
 
     /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length; see [`Contact::elastic_energy`].

@@ -4,8 +4,9 @@
 //!
 //! C p′ = 1 in contact, p′ = 0 elsewhere;  S = ∂P/∂δ = ∫ p′ d²x,
 //!
-//! the contact stiffness. What joins at the edge of contact has no pressure yet, so that this is the derivative of the whole
-//! curve P(δ), here that of its next piece. Under a constant load a change of the problem, of C by dC and of f by df, changes the
+//! the contact stiffness. Where the pressure is that of the hardness the surface yields under more load and springs back under less:
+//! S is then that of unloading. Without it, what joins at the edge of contact has no pressure yet, so that this is the derivative of the
+//! whole curve P(δ), here that of its next piece. Under a constant load a change of the problem, of C by dC and of f by df, changes the
 //! penetration by
 //!
 //! dδ = ⟨p′, dC p + df⟩ / ⟨p′, 1⟩,  as ⟨p′, C dp⟩ = ⟨1, dp⟩ = 0.

@@ -59,6 +59,7 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: f64) -> Ste
         contact_stiffness_error: None,
         rough: None,
         tapered: None,
+        plastic: None,
         friction: None,
         stress: None,
         strength: Vec::new(),

@@ -61,6 +61,9 @@ const SHOWN: u64 = 21;
 /// Per sample: a step, its tangent, and problems at other values in its window; and what a thread takes that works on them.
 const TANGENT: u64 = 84;
 const THREAD: u64 = 2 * MEBIBYTE / 5;
+/// Per sample, with hardness: the surface before it is pressed in, depths and their readings; and depths in files.
+const INDENTED: u64 = 48;
+const DEPTHS: u64 = 8;
 /// Per sample: its position and level.
 const PLACES: u64 = 20;
 /// A picture on disk, in both formats.
@@ -121,7 +124,8 @@ pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let cell = case.problem().cell();
     let Memory { kept, working } = Memory::of(cell, points, case.solver.method, coupled);
     // The baseline takes more memory, but less than reading a step.
-    let (grids, working) = (kept as u64, working as u64);
+    let indented = if yields(case) { INDENTED * samples } else { 0 };
+    let (grids, working) = (kept as u64 + indented, working as u64);
     let needs = match job {
         Job::Solve { pictures, fields } => of_solving(case, samples, [grids, working, heights], pictures, fields),
         Job::Keep => of_keeping(case, samples, [grids, working, heights]),
@@ -137,6 +141,11 @@ fn of_heights(case: &Case, samples: u64) -> u64 {
     let Some([n1, n2]) = case.counterbody().topography().map(Topography::points) else { return 0 };
     let resampled = if matches!(case.grid, Sampling::Accuracy(_)) { 32 * (n1 * n2) as u64 } else { 0 };
     8 * samples + resampled
+}
+
+/// Whether a surface has a hardness.
+fn yields(case: &Case) -> bool {
+    case.problem().bodies().hardness().is_some()
 }
 
 /// Whether the case is one of an isolated contact.
@@ -168,13 +177,14 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
     let drawn = if pictures { of_pictures(case) } else { 0 };
     let drawing = PROGRAM + KEPT * samples + heights + drawn;
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
+    let depths = if yields(case) { DEPTHS } else { 0 };
     let (fields, written, volume) =
-        if fields { (steps * 24 * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
+        if fields { (steps * (24 + depths) * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
     let pages = if pictures { PICTURE * (3 + 2 * u64::from(has_cut(case)) + u64::from(steps > 1)) } else { 0 };
     let disk = fields + steps * (written + volume) + summary + pages;
     // A refinement keeps the steps of the last grid, a quarter, until those of the next are complete.
     let coarser = if matches!(case.grid, Sampling::Accuracy(_)) { disk / 4 } else { 0 };
-    let disk_while_running = disk + fields.max(steps * written) + coarser + CHECKPOINTS * samples;
+    let disk_while_running = disk + fields.max(steps * written) + coarser + (CHECKPOINTS + 2 * depths) * samples;
     let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
     Needs { memory: solving.max(drawing), disk, disk_while_running }
 }

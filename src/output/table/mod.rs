@@ -6,6 +6,7 @@ mod by_step;
 mod comparison;
 mod hertz;
 mod largest;
+mod plastic;
 mod strength;
 mod text;
 
@@ -14,6 +15,7 @@ pub use assumed::Assumptions;
 pub use comparison::{differences, readings, stresses};
 pub use hertz::hertz;
 pub use largest::largest_stresses;
+pub use plastic::plastic;
 pub use strength::{limits, utilisations};
 pub use text::{Table, Worded};
 
@@ -48,6 +50,10 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     text += &format!("\n{}\n\n{}\n", self::steps(steps, &units).fitted(width), solved(steps));
     text += &spots(steps).map_or(String::new(), |spots| format!("{spots}\n"));
     text += &contact_stiffness(steps, &units).unwrap_or_default();
+    if let Some((words, table)) = plastic(steps, &units) {
+        text += &format!("{words}\n");
+        text += &table.map_or(String::new(), |table| format!("{}\n", table.fitted(width)));
+    }
     text += &hertz(case, steps, &units).map_or(String::new(), |lines| format!("{}\n", lines.join(";\n")));
     let largest = largest_stresses(steps, &units);
     if let Some(largest) = &largest {

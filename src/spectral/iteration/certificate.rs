@@ -8,6 +8,14 @@
 //! relative excess of energy whatever route led to p. Under displacement control the multiplier δ is given and no
 //! other p ≥ 0 of at most the same load has less energy ½⟨p, Cp⟩ + ⟨p, f − δ⟩ than by Σ p (g − min(0, min g)).
 //!
+//! **With hardness** the pressures are 0 ≤ p ≤ H. For any θ, min_s ⟨s, g⟩ ≥ θ Σp − H Σ max(θ − g, 0) over them, and with θ = 0
+//!
+//! E(p) − E* ≤ Σ p max(g, 0) + Σ (H − p) max(−g, 0):
+//!
+//! open gaps under pressure, and penetrations that the hardness does not excuse: sharp where much of the contact is full. Where little
+//! is, θ = min g over p < H is sharper. The smaller bound is taken where a pressure is H, under both controls; where none is, H has no
+//! part.
+//!
 //! In complete contact a uniform pressure is free, and the rounding of g under it would rule the gap. Without p ≥ 0 the
 //! minimum is at Cp + f = δ, so that the excess is at most ½⟨g, C⁻¹g⟩ there: the smaller of the two bounds is taken. (In free
 //! space contact is never complete, C⁻¹ is not known, and the first bound alone is taken.)
@@ -23,7 +31,8 @@ use std::fmt;
 /// Bounds on the error of a pressure, all dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Certificate {
-    /// Σ p (g − min g) over ½⟨p, Cp⟩ (min(0, min g) under displacement control): bound on the elastic energy of the error
+    /// Σ p (g − min g) over ½⟨p, Cp⟩ (min(0, min g) under displacement control), or Σ p max(g, 0) + (H − p) max(−g, 0) over it where a
+    /// pressure is that of the hardness H: bound on the elastic energy of the error
     /// over that of p, and without coupled friction on the relative excess of energy.
     #[serde(deserialize_with = "serialised::number")]
     pub energy_gap: f64,

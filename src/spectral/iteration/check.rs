@@ -1,5 +1,6 @@
 //! Residual and certificate of an iterate, and the criteria of convergence: how the method terminates.
 
+use super::admissible::{LoadSums, WeightedSums};
 use super::certificate::Certificate;
 use super::fields::Unknowns;
 use super::problem::ContactProblem;
@@ -10,14 +11,14 @@ use crate::numeric::search::largest;
 use crate::numeric::sums::{self, BLOCK};
 use crate::spectral::by_rows::{ResultRows, rows_of};
 use crate::spectral::operator::{ElasticOperator, Surroundings};
-use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, prelude::*};
 use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Residual, certificate and energy of an iterate.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ConvergenceCheck {
-    /// ε = Σ p|g| / (δ Σp).
+    /// ε = Σ p|g| / (δ Σp), with max(g, 0) in the place of |g| where p = H.
     pub residual: f64,
     /// Bounds on the error of the pressure.
     pub certificate: Certificate,
@@ -28,14 +29,20 @@ pub(super) struct ConvergenceCheck {
 /// Sums and least values of a gap over the samples.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapSums {
-    /// Σ p.
-    pub load: f64,
-    /// Σ p g.
+    /// Σ p where p < H, and the number of samples where p = H.
+    pub load: LoadSums,
+    /// Σ p g where p < H.
     pub work: f64,
-    /// Σ p|g|.
+    /// Σ p|g| where p < H, and Σ p max(g, 0) where p = H.
     pub complementarity: f64,
+    /// Σ max(−g, 0) where p < H, and Σ max(g, 0) where p = H.
+    pub beyond: f64,
+    /// Σ max(g, 0) where p = H.
+    pub open: f64,
     /// min g.
     pub least: f64,
+    /// min g where p < H.
+    pub below: f64,
     /// min g where p = 0.
     pub outside: f64,
 }
@@ -43,12 +50,15 @@ pub(super) struct GapSums {
 impl GapSums {
     /// Sums of a gap in units of `length`, as lengths.
     pub fn times(self, length: f64) -> Self {
-        let Self { load, work, complementarity, least, outside } = self;
+        let Self { load, work, complementarity, beyond, open, least, below, outside } = self;
         Self {
             load,
             work: length * work,
             complementarity: length * complementarity,
+            beyond: length * beyond,
+            open: length * open,
             least: length * least,
+            below: length * below,
             outside: length * outside,
         }
     }
@@ -58,23 +68,31 @@ impl ConvergenceCheck {
     /// Convergence check of the present pressure of `unknowns`, whose gap, penetration and certificate are set, from one convolution.
     pub fn new<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> Self {
         let (load_control, len) = (problem.load.is_mean_pressure(), problem.initial_gap.len() as f64);
-        let [load, energy, work, open] = displaced_gap(problem, unknowns);
+        let bound = problem.admissible.bound();
+        let [free, energy, work, open, full, full_work, weight, weighted] = displaced_gap(problem, unknowns);
+        let load = LoadSums { free, full };
         let (penetration, deviation) = match problem.load {
-            Control::MeanPressure(mean) => (relative(work, load), relative((load / len - mean).abs(), mean)),
-            Control::Penetration(given) => (given, relative((work - load * given).abs(), load * given)),
+            Control::MeanPressure(mean) => {
+                let deviation = relative((load.total(bound.most) / len - mean).abs(), mean);
+                // Where all of contact is full, δ is between its largest w + f and the least one outside.
+                let mean = WeightedSums { work, weight, weighted }.mean(load);
+                (if load.full > 0.0 && weight <= 0.0 { full_work / full } else { mean.max(0.0) }, deviation)
+            }
+            Control::Penetration(given) => (given, relative((work - free * given).abs(), free * given)),
         };
         unknowns.penetration = penetration;
         let (p, g) = (&unknowns.pressure[..], Arc::make_mut(&mut unknowns.gap));
-        let Totals { sums: [work, complementarity], least: [mut least, mut outside] } = rows::row_totals(
-            BLOCK,
-            (p.par_chunks(BLOCK), g.par_chunks_mut(BLOCK)),
-            |_, (p, g)| vectorised!(simd => opened(simd, p, g, penetration)),
-        );
+        let Totals { sums: [work, complementarity, mut beyond, closed], least: [mut least, mut below, mut outside] } =
+            rows::row_totals(
+                BLOCK,
+                (p.par_chunks(BLOCK), g.par_chunks_mut(BLOCK)),
+                |_, (p, g)| vectorised!(simd => opened(simd, p, g, penetration, bound.most)),
+            );
         if !problem.admissible.is_everywhere() {
-            [least, outside] = problem.admissible.least_gaps(p, g);
+            [least, below, outside, beyond] = problem.admissible.least_gaps(p, g);
         }
-        let gap = GapSums { load, work, complementarity, least, outside };
-        let mut check = Self::of(gap, penetration, energy / len, load_control, len);
+        let gap = GapSums { load, work, complementarity, beyond, open: closed, least, below, outside };
+        let mut check = Self::of(gap, penetration, energy / len, problem);
         check.certificate.load = deviation;
         let has_inverse = problem.operator.surroundings() == Surroundings::Periodic;
         if load_control && open == 0.0 && has_inverse {
@@ -88,15 +106,25 @@ impl ConvergenceCheck {
         check
     }
 
-    /// Convergence check from the sums of a gap; `energy` is the elastic one over the number of samples `len`.
-    pub fn of(gap: GapSums, penetration: f64, energy: f64, load_control: bool, len: f64) -> Self {
-        let GapSums { load, work, complementarity, least, outside } = gap;
-        let least = if load_control { least } else { least.min(0.0) };
+    /// Convergence check from the sums of a gap; `energy` is the elastic one over the number of samples.
+    pub fn of<O>(gap: GapSums, penetration: f64, energy: f64, problem: &ContactProblem<'_, O>) -> Self {
+        let GapSums { load, work, complementarity, beyond, open, least, below, outside } = gap;
+        let (most, len) = (problem.admissible.bound().most, problem.initial_gap.len() as f64);
+        let gap = match load.full {
+            0.0 if problem.load.is_mean_pressure() => work - least * load.free,
+            0.0 => work - least.min(0.0) * load.free,
+            // θ = 0, or θ = min g where p < H with max(g − θ, 0) ≤ max(g, 0) − θ where p = H.
+            _ => {
+                let theta = below.min(0.0);
+                let least = work - theta * load.free + most * (open - theta * load.full);
+                (work + most * beyond).min(least)
+            }
+        };
         Self {
             // Without any pressure the constraint g ≥ 0 alone decides.
-            residual: relative(complementarity, load * penetration),
+            residual: relative(complementarity, load.total(most) * penetration),
             certificate: Certificate {
-                energy_gap: relative(work - least * load, len * energy),
+                energy_gap: relative(gap, len * energy),
                 penetration: relative(-outside, penetration),
                 load: 0.0,
             },
@@ -126,9 +154,10 @@ impl ConvergenceCheck {
     }
 }
 
-/// g ← w + f for the pressure of `unknowns`; Σ p, ½ Σ p w, Σ p (w + f) and the number of samples without pressure.
-fn displaced_gap<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> [f64; 4] {
-    let (p, f) = (&unknowns.pressure[..], problem.initial_gap);
+/// g ← w + f for the pressure of `unknowns`; Σ p where p < H, ½ Σ p w, Σ p (w + f) where p < H, the number of samples without pressure,
+/// that of samples where p = H and Σ (w + f) there, Σ p(1 − p/H) and Σ p(1 − p/H)(w + f).
+fn displaced_gap<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> [f64; 8] {
+    let (p, f, most) = (&unknowns.pressure[..], problem.initial_gap, problem.admissible.bound().most);
     if Arc::get_mut(&mut unknowns.gap).is_none() {
         unknowns.gap = Arc::new(vec![0.0; p.len()]);
     }
@@ -144,7 +173,7 @@ fn displaced_gap<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknow
         let mut rows = p.zip(f).zip(g);
         move |w: &mut [f64]| {
             let ((p, f), g) = next(&mut rows);
-            totals.add(vectorised!(simd => deformed(simd, w, p, f, g, uniform)));
+            totals.add(vectorised!(simd => deformed(simd, w, [p, f], g, [uniform, most])));
         }
     });
     problem.operator.displaced(&mut problem.working.transforms, rows_of(blocks, p)).rows(rows);
@@ -156,40 +185,95 @@ fn relative(part: f64, scale: f64) -> f64 {
     if scale <= 0.0 || part <= 0.0 { 0.0 } else { part / scale }
 }
 
-/// g ← w + f; Σ p, ½ Σ (p − `uniform`) w, Σ p (w + f) and the number of samples without pressure. Where ⟨1, w⟩ = 0, a
-/// uniform part of p would add nothing but rounding to the elastic energy.
+/// g ← w + f; the sums of [`displaced_gap`], the energy ½ Σ (p − `uniform`) w. Where ⟨1, w⟩ = 0, a uniform part of p would add nothing
+/// but rounding to it.
 #[inline(always)]
-fn deformed<S: Simd>(simd: S, w: &[f64], p: &[f64], f: &[f64], g: &mut [f64], uniform: f64) -> Totals<4, 0> {
-    let zero = splat(simd, 0.0);
+fn deformed<S: Simd>(
+    simd: S,
+    w: &[f64],
+    [p, f]: [&[f64]; 2],
+    g: &mut [f64],
+    [uniform, most]: [f64; 2],
+) -> Totals<8, 0> {
+    let (zero, one, most) = (splat(simd, 0.0), splat(simd, 1.0), splat(simd, most));
     let (mut load, mut energy, mut work, mut open) = (zero, zero, zero, zero);
+    let (mut full, mut full_work, mut weight, mut weighted) = (zero, zero, zero, zero);
     for at in (0..p.len()).step_by(LANES) {
         let pressure = f64::group(simd, p, at, 0.0);
         let (displacement, gap) = (f64::group(simd, w, at, 0.0), f64::group(simd, f, at, 0.0));
         let deformed = displacement + gap;
-        load += pressure;
+        let below = pressure.simd_lt(most);
+        let free = below.select(pressure, zero);
+        load += free;
         energy = ((pressure - uniform) * 0.5).mul_add(displacement, energy);
-        work = pressure.mul_add(deformed, work);
-        open += pressure.simd_gt(zero).select(zero, splat(simd, 1.0));
+        work = free.mul_add(deformed, work);
+        open += pressure.simd_gt(zero).select(zero, one);
+        full += below.select(zero, one);
+        full_work += below.select(zero, deformed);
+        let own = weight_of(pressure, most);
+        weight += own;
+        weighted = own.mul_add(deformed, weighted);
         f64::put(deformed, g, at);
     }
     // The padding beyond the end was counted as open.
     let beyond = p.len().next_multiple_of(LANES) - p.len();
-    Totals { sums: [total(load), total(energy), total(work), total(open) - beyond as f64], least: [] }
+    let open = total(open) - beyond as f64;
+    let [full, full_work, weight, weighted] = [full, full_work, weight, weighted].map(total);
+    Totals { sums: [total(load), total(energy), total(work), open, full, full_work, weight, weighted], least: [] }
 }
 
-/// g becomes g − δ; Σ p g, Σ p|g|, min g, and min g where there is no pressure.
+/// g becomes g − δ; work, complementarity and what is beyond of [`GapSums`], min g, and min g where there is no pressure.
 #[inline(always)]
-fn opened<S: Simd>(simd: S, p: &[f64], g: &mut [f64], penetration: f64) -> Totals<2, 2> {
-    let (zero, far) = (splat(simd, 0.0), splat(simd, f64::INFINITY));
-    let (mut work, mut complementarity, mut least, mut outside) = (zero, zero, far, far);
+fn opened<S: Simd>(simd: S, p: &[f64], g: &mut [f64], penetration: f64, most: f64) -> Totals<4, 3> {
+    let (zero, far, most) = (splat(simd, 0.0), splat(simd, f64::INFINITY), splat(simd, most));
+    let (mut work, mut complementarity, mut beyond, mut open) = (zero, zero, zero, zero);
+    let (mut least, mut below, mut outside) = (far, far, far);
     for at in (0..p.len()).step_by(LANES) {
         let pressure = Real::group(simd, p, at, 0.0);
         let gap = Real::group(simd, g, at, f64::MAX) - penetration;
-        work = pressure.mul_add(gap, work);
-        complementarity = pressure.mul_add(gap.abs(), complementarity);
+        let sums = PointSums::of(simd, pressure, gap, most);
+        work = sums.free.mul_add(gap, work);
+        complementarity = pressure.mul_add(sums.wrong, complementarity);
+        beyond += sums.beyond;
+        open += sums.open;
         least = least.min(gap);
+        below = below.min(pressure.simd_lt(most).select(gap, far));
         outside = outside.min(pressure.simd_gt(zero).select(far, gap));
         Real::put(gap, g, at);
     }
-    Totals { sums: [total(work), total(complementarity)], least: [lowest(least), lowest(outside)] }
+    let least = [least, below, outside].map(lowest);
+    Totals { sums: [work, complementarity, beyond, open].map(total), least }
+}
+
+/// p(1 − p/H) of a group of samples: p without hardness, 0 where p = H.
+#[inline(always)]
+pub(super) fn weight_of<S: Simd>(pressure: f64x8<S>, most: f64x8<S>) -> f64x8<S> {
+    pressure - pressure * (pressure / most)
+}
+
+/// What a group of samples adds to the [`GapSums`].
+#[derive(Clone, Copy)]
+pub(super) struct PointSums<S: Simd> {
+    /// p where p < H, else 0.
+    pub free: f64x8<S>,
+    /// |g| where p < H, max(g, 0) where p = H.
+    pub wrong: f64x8<S>,
+    /// max(−g, 0) where p < H, max(g, 0) where p = H.
+    pub beyond: f64x8<S>,
+    /// max(g, 0) where p = H, else 0.
+    pub open: f64x8<S>,
+}
+
+impl<S: Simd> PointSums<S> {
+    #[inline(always)]
+    pub fn of(simd: S, pressure: f64x8<S>, gap: f64x8<S>, most: f64x8<S>) -> Self {
+        let (zero, below) = (splat(simd, 0.0), pressure.simd_lt(most));
+        let closed = gap.max(zero);
+        Self {
+            free: below.select(pressure, zero),
+            wrong: below.select(gap.abs(), closed),
+            beyond: below.select((-gap).max(zero), closed),
+            open: below.select(zero, closed),
+        }
+    }
 }

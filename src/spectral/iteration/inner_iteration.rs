@@ -1,6 +1,7 @@
 //! Lines 3 to 5 of the method, and line 1 by changes: iterations in single precision from one gap in double precision to the
 //! next.
 
+use super::admissible::{LoadSums, UpperBound, WeightedSums};
 use super::check::ConvergenceCheck;
 use super::direction;
 use super::fields::{Fields, Unknowns};
@@ -18,6 +19,9 @@ pub(super) const MAX_BACKTRACKS: usize = 2;
 /// Range of the part of a step that the next shorter one has.
 pub(super) const MIN_BACKTRACK: f64 = 0.25;
 pub(super) const MAX_BACKTRACK: f64 = 0.5;
+/// Most trials of the shift that restores a load, and its largest relative deviation: single precision holds no less.
+const MAX_SHIFTS: usize = 40;
+const SHIFT_TOLERANCE: f64 = 1e-9;
 /// Gap, over the unit of lengths, of samples where contact may not occur: no displacement closes it.
 const FAR: f64 = 1e30;
 
@@ -70,8 +74,9 @@ struct TakenStep {
     restart: bool,
     /// Change of the gap over the field in `image`.
     factor: f64,
-    /// Σ p and Σ p g after it, the gap with the old δ.
-    sums: [f64; 2],
+    /// Sums of p, and those with g after it, the gap with the old δ.
+    load: LoadSums,
+    work: WeightedSums,
 }
 
 /// Iterations in single precision from one gap in double precision to the next.
@@ -103,7 +108,8 @@ impl InnerIteration {
             problem.admissible.open(&mut Arc::make_mut(&mut unknowns.gap)[..], FAR * length);
         }
         let (gap, residual) = problem.working.gap_and_residual(problem.operator);
-        let active = update::gap_from(&unknowns.pressure, &unknowns.gap, length / share, gap, residual);
+        let most = problem.admissible.bound().most;
+        let active = update::gap_from(&unknowns.pressure, &unknowns.gap, [length / share, most], gap, residual);
         let (blocks, pressure) = (problem.operator.blocks(), length / problem.operator.unit());
         Self { blocks, variant, length, pressure, active, penetration: unknowns.penetration, check }
     }
@@ -185,42 +191,59 @@ impl InnerIteration {
         Direction { beta, mut tau, .. }: Direction,
         is_first: bool,
     ) -> Option<TakenStep> {
-        let (blocks, unit, load) = (self.blocks, self.pressure, problem.load);
+        let (blocks, unit, bound) = (self.blocks, self.pressure, problem.admissible.bound());
+        let prescribed = problem.load;
         let operator = &mut *problem.operator;
-        let Fields { gap, direction, image, weight: step, memory, .. } = problem.working.of(operator, double);
+        let Fields { gap, direction, image, weight: step, residual, memory, .. } = problem.working.of(operator, double);
         for backtracks in 0..=MAX_BACKTRACKS {
-            let advance = update::advance(p, [gap, direction, image], -tau, unit, step);
+            let along = [&*gap, &*direction, &*image, &*residual];
+            let advance = update::advance(p, along, [-tau, 0.0, unit], bound, step);
             if backtracks == 0 && !advance.clipped {
                 // C d = −τ C t.
-                return Some(TakenStep { restart: false, factor: -tau, sums: [advance.load, advance.work] });
+                return Some(TakenStep { restart: false, factor: -tau, load: advance.load, work: advance.work });
             }
-            let Some(scale) = scale_to_mean(load, advance.load, p.len()) else {
-                update::retreat(p, step, unit);
-                return None;
+            let total = match prescribed {
+                Control::MeanPressure(mean) => Some(mean * p.len() as f64),
+                Control::Penetration(_) => None,
             };
-            if scale != 1.0 {
-                update::rescale(p, scale, unit, step);
+            match total {
+                Some(total) if advance.load.full > 0.0 => {
+                    // Where pressures are H the load is restored by a shift of the active set.
+                    update::retreat(p, step, unit, bound);
+                    let shift = shift_to(total, p, [direction, residual], [-tau, unit], bound);
+                    update::advance(p, along, [-tau, shift, unit], bound, step);
+                }
+                Some(total) if advance.load.free > 0.0 => {
+                    let scale = total / advance.load.free;
+                    if scale != 1.0 {
+                        update::rescale(p, scale, unit, step);
+                    }
+                }
+                Some(_) => {
+                    update::retreat(p, step, unit, bound);
+                    return None;
+                }
+                None => {}
             }
             let mut sums = blocks.totals();
             let displaced = operator.displaced_single(self.variant.traction, memory, rows_of(blocks, step));
-            displaced.rows(update::after_step(blocks, p, [gap, step], image, &mut sums));
-            let [curvature, load, work] = Totals::of(sums).sums;
-            // ⟨g, p⟩ = 0 under load control: the scale adds nothing to the slope.
-            let slope = scale * advance.slope;
+            displaced.rows(update::after_step(blocks, (p, bound.most), [gap, step], image, &mut sums));
+            let [curvature, slope, free, full, work, weight, weighted] = Totals::of(sums).sums;
+            let (load, work) = (LoadSums { free, full }, WeightedSums { work, weight, weighted });
             let (uphill, part) = (slope >= 0.0, -slope / curvature);
             if curvature.is_finite() && (is_first || slope + 0.5 * curvature <= 0.0) {
-                return Some(TakenStep { restart: false, factor: 1.0, sums: [load, work] });
+                return Some(TakenStep { restart: false, factor: 1.0, load, work });
             }
             let is_last = backtracks == MAX_BACKTRACKS;
             if is_last && !uphill && part.is_finite() {
-                update::retreat(p, step, (1.0 - part) * unit);
-                let sums = update::load_and_work(p, gap, (image, part));
-                return Some(TakenStep { restart: false, factor: part, sums });
+                update::retreat(p, step, (1.0 - part) * unit, bound);
+                let (load, work) = update::load_and_work((p, bound.most), gap, (image, part));
+                return Some(TakenStep { restart: false, factor: part, load, work });
             }
-            update::retreat(p, step, unit);
+            update::retreat(p, step, unit, bound);
             if uphill && beta > 0.0 {
-                let sums = update::load_and_work(p, gap, (image, 0.0));
-                return Some(TakenStep { restart: true, factor: 0.0, sums });
+                let (load, work) = update::load_and_work((p, bound.most), gap, (image, 0.0));
+                return Some(TakenStep { restart: true, factor: 0.0, load, work });
             }
             if !curvature.is_finite() {
                 return None;
@@ -238,28 +261,46 @@ impl InnerIteration {
         double: &mut [f64],
         step: TakenStep,
     ) {
-        let load_control = problem.load.is_mean_pressure();
+        let most = problem.admissible.bound().most;
         problem.working.keep_residual();
         let Fields { gap, residual, image, .. } = problem.working.of(problem.operator, double);
-        let [load, work] = step.sums;
-        let shift = if load_control { work / load } else { 0.0 };
+        let shift = if problem.load.is_mean_pressure() { step.work.mean(step.load) } else { 0.0 };
         self.penetration += shift * self.length;
-        let (active, sums) = update::update_gap(p, load, (image, step.factor), shift, gap, residual);
+        let (active, sums) = update::update_gap(p, step.load, (image, step.factor), [shift, most], gap, residual);
         self.active = active;
-        self.check = ConvergenceCheck::of(
-            sums.times(self.length),
-            self.penetration,
-            self.check.energy,
-            load_control,
-            p.len() as f64,
-        );
+        self.check = ConvergenceCheck::of(sums.times(self.length), self.penetration, self.check.energy, problem);
     }
 }
 
-/// Factor that restores the mean of a pressure whose sum is `load`; `None` where nothing is left of it.
-fn scale_to_mean(prescribed: Control, load: f64, samples: usize) -> Option<f64> {
-    match prescribed {
-        Control::MeanPressure(mean) => (load > 0.0).then(|| mean * samples as f64 / load),
-        Control::Penetration(_) => Some(1.0),
+/// The shift λ of the active set, in units of pressure, that gives the pressure after a step the sum `total`: Σ min(max(p − τt + λ, 0), H)
+/// rises with λ, by one for each sample that it moves (Newton's method, kept between bounds of the root).
+fn shift_to(
+    total: f64,
+    p: &[f64],
+    [direction, residual]: [&[f32]; 2],
+    [factor, unit]: [f64; 2],
+    bound: UpperBound,
+) -> f64 {
+    let [mut low, mut high] = [f64::NEG_INFINITY, f64::INFINITY];
+    let mut shift = 0.0;
+    for _ in 0..MAX_SHIFTS {
+        let [load, moves] = update::shifted_load(p, [direction, residual], [factor, shift, unit], bound);
+        let missing = total - load;
+        if missing.abs() <= SHIFT_TOLERANCE * total {
+            break;
+        }
+        if missing > 0.0 {
+            low = shift
+        } else {
+            high = shift
+        };
+        // Where no sample moves, a step as large as H reaches some.
+        let step = if moves > 0.0 { missing / moves } else { missing.signum() * bound.most };
+        let next = shift + step / unit;
+        shift = if low < next && next < high { next } else { 0.5 * (low + high) };
+        if !shift.is_finite() {
+            return 0.0;
+        }
     }
+    shift
 }

@@ -19,6 +19,8 @@ pub(super) struct Plain {
     /// f ≥ 0, a length.
     pub initial_gap: Field,
     pub load: Control,
+    /// H, infinite without hardness.
+    pub hardness: f64,
     pub variant: Variant,
 }
 
@@ -47,7 +49,8 @@ impl Plain {
                 g.iter_mut().for_each(|g| *g *= share);
             }
             // 3. Active set I and residual r on it, without its mean under load control.
-            let active: Vec<bool> = p.iter().zip(&g).map(|(&p, &g)| p > 0.0 || g < 0.0).collect();
+            let is_active = |(&p, &g): (&f64, &f64)| (p > 0.0 || g < 0.0) && (p < self.hardness || g > 0.0);
+            let active: Vec<bool> = p.iter().zip(&g).map(is_active).collect();
             let r = self.without_mean(&on(&active, &g), &active);
             // 4. Direction t = z + βt′ with z = M r.
             let z = self.preconditioned(&r, &active);
@@ -61,14 +64,15 @@ impl Plain {
             }
             // 5. Step d.
             let tau = dot(&g, &t) / dot(&t, &self.displacement(&t));
-            let (d, restart) = self.step(&p, &g, &t, tau, beta, number == 0);
-            p = p.iter().zip(&d).map(|(p, d)| (p + d).max(0.0)).collect();
+            let (d, restart) = self.step(&p, &g, (&t, tau, beta), &active, number == 0);
+            p = p.iter().zip(&d).map(|(p, d)| self.bounded(p + d)).collect();
             last = (!restart).then_some(Last { direction: t, residual: r, norm });
             // 1. The gap by its change.
             let change = self.displacement(&d);
             g.iter_mut().zip(change).for_each(|(g, change)| *g += change);
             if self.load.is_mean_pressure() {
-                let shift = dot(&p, &g) / p.iter().sum::<f64>();
+                let weights = self.weights(&p);
+                let shift = dot(&weights, &g) / weights.iter().sum::<f64>();
                 g.iter_mut().for_each(|g| *g -= shift);
                 penetration += shift;
             }
@@ -83,7 +87,7 @@ impl Plain {
         self.body.displace(&mut w, &mut Workspace::default());
         let g: Field = w.iter().zip(&self.initial_gap).map(|(w, f)| w + f).collect();
         let penetration = match self.load {
-            Control::MeanPressure(_) => dot(p, &g) / p.iter().sum::<f64>(),
+            Control::MeanPressure(_) => dot(&self.weights(p), &g) / self.weights(p).iter().sum::<f64>(),
             Control::Penetration(given) => given,
         };
         (g.into_iter().map(|g| g - penetration).collect(), penetration)
@@ -116,14 +120,27 @@ impl Plain {
     }
 
     /// The step d from p along −t, and whether the next direction has to start anew.
-    fn step(&mut self, p: &[f64], g: &[f64], t: &[f64], mut tau: f64, beta: f64, is_first: bool) -> (Field, bool) {
+    fn step(
+        &mut self,
+        p: &[f64],
+        g: &[f64],
+        (t, mut tau, beta): (&[f64], f64, f64),
+        active: &[bool],
+        is_first: bool,
+    ) -> (Field, bool) {
         for backtracks in 0.. {
             let mut end: Field = p.iter().zip(t).map(|(p, t)| p - tau * t).collect();
-            let is_clipped = end.iter().any(|&p| p < 0.0);
-            end.iter_mut().for_each(|p| *p = p.max(0.0));
+            let is_clipped =
+                end.iter().zip(p).any(|(&end, &p)| end < 0.0 || (end > self.hardness && p < self.hardness));
+            end.iter_mut().for_each(|p| *p = self.bounded(*p));
             if let (Control::MeanPressure(mean), true) = (self.load, is_clipped || backtracks > 0) {
-                let scale = mean * p.len() as f64 / end.iter().sum::<f64>();
-                end.iter_mut().for_each(|p| *p *= scale);
+                let total = mean * p.len() as f64;
+                if end.iter().any(|&p| p >= self.hardness) {
+                    end = self.shifted_to(total, p, t, tau, active);
+                } else {
+                    let scale = total / end.iter().sum::<f64>();
+                    end.iter_mut().for_each(|p| *p *= scale);
+                }
             }
             let d: Field = end.iter().zip(p).map(|(end, p)| end - p).collect();
             // The change of the energy is ⟨g, d⟩ + ½⟨d, Cd⟩.
@@ -139,6 +156,36 @@ impl Plain {
             }
         }
         panic!("no step lowers the energy");
+    }
+
+    /// min(max(p, 0), H); what is within rounding of H is H.
+    fn bounded(&self, p: f64) -> f64 {
+        if p > (1.0 - 1e-15) * self.hardness { self.hardness } else { p.max(0.0) }
+    }
+
+    /// The weights of δ: p, and p(1 − p/H) where any sample is full.
+    fn weights(&self, p: &[f64]) -> Field {
+        let is_full = p.iter().any(|&p| p >= self.hardness);
+        p.iter().map(|&p| if is_full { p * (1.0 - p / self.hardness) } else { p }).collect()
+    }
+
+    /// min(max(p − τt + λ, 0), H) on I with the λ that makes its sum `total`, by bisection.
+    fn shifted_to(&self, total: f64, p: &[f64], t: &[f64], tau: f64, active: &[bool]) -> Field {
+        let shifted = |shift: f64| -> Field {
+            let end =
+                |((p, t), active): ((&f64, &f64), &bool)| self.bounded(p - tau * t + if *active { shift } else { 0.0 });
+            p.iter().zip(t).zip(active).map(end).collect()
+        };
+        let [mut low, mut high] = [-2.0 * self.hardness, 2.0 * self.hardness];
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if shifted(middle).iter().sum::<f64>() < total {
+                low = middle
+            } else {
+                high = middle
+            };
+        }
+        shifted(0.5 * (low + high))
     }
 
     /// A field on I without its mean there, under load control; as it is under displacement control.
@@ -177,8 +224,23 @@ impl Plain {
         let least = g.iter().copied().fold(f64::INFINITY, f64::min);
         let least = if self.load.is_mean_pressure() { least } else { least.min(0.0) };
         let outside = p.iter().zip(g).filter(|(p, _)| **p == 0.0).fold(0.0, |least: f64, (_, g)| least.min(*g));
-        let residual = p.iter().zip(g).map(|(p, g)| p * g.abs()).sum::<f64>() / (load * penetration);
-        residual.max((dot(p, g) - least * load) / energy / 20.0).max(-outside / penetration / 10.0)
+        let wrong = |(&p, &g): (&f64, &f64)| if p < self.hardness { g.abs() } else { g.max(0.0) };
+        let residual = p.iter().zip(g).map(|at| at.0 * wrong(at)).sum::<f64>() / (load * penetration);
+        let gap = match p.iter().any(|&p| p >= self.hardness) {
+            false => dot(p, g) - least * load,
+            true => {
+                let at = |theta: f64| -> f64 {
+                    let of = |(&p, &g): (&f64, &f64)| match p < self.hardness {
+                        true => p * (g - theta) + self.hardness * (theta - g).max(0.0),
+                        false => self.hardness * (g.max(0.0) - theta),
+                    };
+                    p.iter().zip(g).map(of).sum()
+                };
+                let below = p.iter().zip(g).filter(|(p, _)| **p < self.hardness).map(|(_, g)| *g);
+                at(0.0).min(at(below.fold(0.0, f64::min)))
+            }
+        };
+        residual.max(gap / energy / 20.0).max(-outside / penetration / 10.0)
     }
 }
 
@@ -225,6 +287,19 @@ mod tests {
     /// The fused loops against the plain lines, pressure by pressure, in `iterations` under a `load` over the pressure
     /// (or penetration) that displaces by the largest f.
     fn compare(cell: Cell, points: [usize; 2], is_rough: bool, load: Control, friction: f64, variant: Variant) {
+        compare_with(cell, points, is_rough, load, friction, variant, f64::INFINITY);
+    }
+
+    /// The same with a hardness over the pressure that displaces by the largest f.
+    fn compare_with(
+        cell: Cell,
+        points: [usize; 2],
+        is_rough: bool,
+        load: Control,
+        friction: f64,
+        variant: Variant,
+        hardness: f64,
+    ) {
         let iterations = 14;
         let grid = Grid::new(cell, points).unwrap();
         let layer = Layer::new(Material::from_shear(3.0, 0.2).unwrap(), 0.1, Interface::Bonded).unwrap();
@@ -246,9 +321,11 @@ mod tests {
         let mean = if let Control::MeanPressure(mean) = load { mean } else { 0.1 * unit };
         let heights: Field = initial_gap.iter().map(|f| length - f).collect();
         let scale = mean * grid.len() as f64 / heights.iter().sum::<f64>();
-        let start: Field = heights.into_iter().map(|height| scale * height).collect();
+        let hardness = hardness * unit;
+        let start: Field = heights.into_iter().map(|height| (scale * height).min(hardness)).collect();
         let symmetric = LayeredOperator::new(&grid, &half_space);
-        let mut plain = Plain { points, body: operator(), symmetric, initial_gap: initial_gap.clone(), load, variant };
+        let mut plain =
+            Plain { points, body: operator(), symmetric, initial_gap: initial_gap.clone(), load, hardness, variant };
         let expected = plain.iterates(start.clone(), iterations);
 
         // Each iteration rounds a gap of at most the largest f to 2⁻²⁴ of it; C⁻¹ makes of that at most κ such pressures,
@@ -267,7 +344,7 @@ mod tests {
                 operator: &mut fused,
                 initial_gap: &initial_gap,
                 largest_gap: length,
-                admissible: AdmissibleSet::default(),
+                admissible: AdmissibleSet::default().at_most(hardness),
                 load,
                 settings: Settings { tolerance: 0.0, max_iterations: k, ..Settings::default() },
                 outer: 0,
@@ -308,6 +385,17 @@ mod tests {
     #[test]
     fn contact_under_a_given_penetration_is_iterated_as_in_plain_lines() {
         compare(Cell::hexagonal(1.0).unwrap(), [36, 36], false, Control::Penetration(0.2), 0.0, UPDATED);
+    }
+
+    #[test]
+    fn contact_of_hard_surfaces_is_iterated_as_in_plain_lines() {
+        let square = Cell::square(1.0).unwrap();
+        for (load, hardness) in [(0.1, 0.3), (0.1, 0.12), (0.3, 0.6)] {
+            compare_with(square, [40, 36], false, Control::MeanPressure(load), 0.0, UPDATED, hardness);
+        }
+        compare_with(square, [48, 48], true, Control::MeanPressure(0.05), 0.0, UPDATED, 0.5);
+        compare_with(square, [36, 40], false, Control::MeanPressure(0.1), 0.3, LAGGED, 0.25);
+        compare_with(Cell::hexagonal(1.0).unwrap(), [36, 36], false, Control::Penetration(0.2), 0.0, UPDATED, 0.3);
     }
 
     #[test]

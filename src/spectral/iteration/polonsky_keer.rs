@@ -2,7 +2,8 @@
 //!
 //! On {p > 0}: t = g + δ′ (G/G₀) t with G = Σ g² (δ′ = 0 right after samples have joined), τ = ⟨g,t⟩/⟨t,Ct⟩, p ← max(p
 //! − τt, 0); samples outside contact that penetrate join with p ← −τ g. Under load control g is freed of its mean over
-//! contact, Ct likewise, and p is scaled back to its mean.
+//! contact, Ct likewise, and p is scaled back to its mean. Samples where p = H and g ≤ 0 take no part, and where g > 0 they join with
+//! p ← H − τ g.
 
 use super::check::ConvergenceCheck;
 use super::fields::Unknowns;
@@ -24,6 +25,10 @@ pub(super) fn solve<O: ElasticOperator>(
 ) -> Report {
     let len = problem.initial_gap.len();
     let (load, load_control) = (problem.load, problem.load.is_mean_pressure());
+    let most = problem.admissible.bound().most;
+    let is_free = |p: f64| p > 0.0 && p < most;
+    // What is at a bound on the wrong side of the surface.
+    let is_wrong = |p: f64, g: f64| if p < most { p == 0.0 && g < 0.0 } else { g > 0.0 };
     let mut stall = StallDetector::new(FIRST_WINDOW);
     let (mut norm_before, mut conjugate) = (1.0, false);
     let (mut t, mut image) = (vec![0.0; len], vec![0.0; len]);
@@ -39,18 +44,21 @@ pub(super) fn solve<O: ElasticOperator>(
         let (p, g) = (Arc::make_mut(&mut unknowns.pressure), Arc::make_mut(&mut unknowns.gap));
         problem.admissible.open(g, f64::MAX);
         let over_contact = |field: &[f64]| {
-            let [size, sum] = sums::of(len, |i| if p[i] > 0.0 { [1.0, field[i]] } else { [0.0; 2] });
+            let [size, sum] = sums::of(len, |i| if is_free(p[i]) { [1.0, field[i]] } else { [0.0; 2] });
             if load_control && size > 0.0 { sum / size } else { 0.0 }
         };
         let mean = over_contact(g);
         sums::update(g, |_, g| g - mean);
-        let [norm, violation] =
-            sums::of(len, |i| if p[i] > 0.0 { [g[i] * g[i], 0.0] } else { [0.0, g[i].min(0.0).powi(2)] });
+        let [norm, violation] = sums::of(len, |i| match is_free(p[i]) {
+            true => [g[i] * g[i], 0.0],
+            false => [0.0, if is_wrong(p[i], g[i]) { g[i] * g[i] } else { 0.0 }],
+        });
         let beta = if conjugate { norm / norm_before } else { 0.0 };
         norm_before = norm;
         // Contact of one sample (or of equal ones) has no direction within contact: the penetrating samples give it.
         let lonely = norm <= 1e-24 * violation;
-        sums::update(&mut t, |i, t| if p[i] > 0.0 || (lonely && g[i] < 0.0) { g[i] + beta * t } else { 0.0 });
+        let takes_part = |i: usize| is_free(p[i]) || (lonely && is_wrong(p[i], g[i]));
+        sums::update(&mut t, |i, t| if takes_part(i) { g[i] + beta * t } else { 0.0 });
 
         image.copy_from_slice(&t);
         problem.displace(&mut image);
@@ -67,9 +75,9 @@ pub(super) fn solve<O: ElasticOperator>(
             ConvergenceCheck::new(problem, unknowns);
             return ended(Stop::Stalled, iterations);
         }
-        sums::update(p, |i, p| if p > 0.0 { (p - step * t[i]).max(0.0) } else { p });
-        let [joined] = sums::of(len, |i| [f64::from(u8::from(p[i] == 0.0 && g[i] < 0.0))]);
-        sums::update(p, |i, p| if p == 0.0 && g[i] < 0.0 { -step * g[i] } else { p });
+        sums::update(p, |i, p| if is_free(p) { (p - step * t[i]).clamp(0.0, most) } else { p });
+        let [joined] = sums::of(len, |i| [f64::from(u8::from(is_wrong(p[i], g[i])))]);
+        sums::update(p, |i, p| if is_wrong(p, g[i]) { p - step * g[i] } else { p });
         conjugate = joined == 0.0;
         unknowns.admit(load, problem.admissible);
         if (problem.progress)(Progress { iteration: iterations, residual: check.residual }).is_break() {

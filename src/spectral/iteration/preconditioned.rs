@@ -2,11 +2,12 @@
 //!
 //! 1. w = A p, g = w + f − δ with δ = Σ p(w + f)/Σ p, or as prescribed (`certificate`; carried by its changes: `update`).
 //! 2. Terminate on the criteria of convergence (`certificate`, `stopping`).
-//! 3. Active set I = {p > 0} ∪ {g < 0}, r = g on I (`update`).
+//! 3. Active set I = ({p > 0} ∪ {g < 0}) ∖ {p = H, g ≤ 0} with the hardness H, r = g on I (`update`).
 //! 4. Direction t = z + βt with z = M r, M = P_I Eᵀ C⁻¹ E P_I (E continues the residual beyond I, `extension`),
 //!    β = max(0, ⟨r − r′, z⟩/⟨r′, z′⟩) (Polak–Ribière, primes of the iteration before). Under load control r and z are freed
 //!    of their mean on I, so that the load stays: M is then symmetric on the admissible directions (`direction`).
-//! 5. Step p ← max(p − τt, 0) with τ = ⟨g, t⟩/⟨t, Ct⟩, scaled back to the mean (`update`).
+//! 5. Step p ← min(max(p − τt, 0), H) with τ = ⟨g, t⟩/⟨t, Ct⟩, scaled back to the mean or, where any of it is H, shifted to it:
+//!    p ← min(max(p − τt + λ, 0), H), λ on I (`update`).
 //!
 //! C⁻¹ makes the spectrum of the iteration nearly independent of the grid, E nearly independent of how ragged the contact is.
 //! `plain` is the same method in plain lines.

@@ -30,6 +30,8 @@ pub enum Stop {
     /// reaches it.
     #[serde(alias = "beyond full contact")]
     BeyondFullContact,
+    /// The prescribed mean pressure is not below the hardness of the surface: no pressure bears it.
+    BeyondHardness,
     /// Contact reaches the border of the window of an isolated contact, beyond which it would go on.
     AtBorder,
     /// The progress callback has ended the step.
@@ -56,6 +58,7 @@ impl fmt::Display for Stop {
             Self::NoContact => "no contact",
             Self::Unresolved => "unresolved",
             Self::BeyondFullContact => "beyond full contact",
+            Self::BeyondHardness => "beyond the hardness",
             Self::AtBorder => "at the border of the window",
             Self::Interrupted => "interrupted",
             Self::NotANumber => "not a number",

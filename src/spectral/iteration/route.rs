@@ -47,6 +47,11 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
             ConvergenceCheck::new(self, unknowns);
             return done(Stop::NoContact, 0.0);
         }
+        if self.admissible.is_exceeded_by(self.load, gap.len()) {
+            unknowns.clear();
+            ConvergenceCheck::new(self, unknowns);
+            return done(Stop::BeyondHardness, f64::INFINITY);
+        }
         match self.load {
             Control::MeanPressure(mean) if may_be_complete && gap.iter().all(|f| *f == gap[0]) => {
                 // A flat counterbody: complete contact at once.
@@ -56,8 +61,9 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
             }
             Control::MeanPressure(_) => iterate(self, 0, unknowns),
             Control::Penetration(penetration) => {
-                // Complete contact on a rigid base bears any penetration.
-                let is_limited = may_be_complete && self.operator.mean_compliance() == 0.0;
+                // Complete contact on a rigid base, and a surface that is pressed in, bear any penetration.
+                let yields = self.admissible.bound().is_finite();
+                let is_limited = may_be_complete && self.operator.mean_compliance() == 0.0 && !yields;
                 if is_limited && penetration >= sums::mean(gap) {
                     // Nothing of the step before is an answer.
                     unknowns.clear();
@@ -131,7 +137,8 @@ fn search_load<O: ElasticOperator>(
             low.1 *= 0.5;
         }
         pressure = match high {
-            None => 2.0 * pressure,
+            // Not up to the hardness, which no mean pressure reaches.
+            None => (2.0 * pressure).min(0.5 * (pressure + problem.admissible.bound().most)),
             Some(high) => low.0 + (high.0 - low.0) * low.1 / (low.1 - high.1),
         };
     }

@@ -1,19 +1,21 @@
 //! Lines 1, 3 and 5 of the method, fused: the step of the pressure, the gap after it, and the residual on the new active set.
 //!
-//! - [`advance`]: p ← max(p − τt, 0), shortened again ([`retreat`]) or scaled to the mean ([`rescale`]);
+//! - [`advance`]: p ← min(max(p − τt + λ, 0), H), shortened again ([`retreat`]) or scaled to the mean ([`rescale`]); [`shifted_load`]: the
+//!   load for a shift λ;
 //! - [`after_step`]: C d, with what it does to energy and load;
-//! - [`gap_from`], [`update_gap`]: g in single precision, I = {p > 0} ∪ {g < 0}, r = g on I.
+//! - [`gap_from`], [`update_gap`]: g in single precision, I = ({p > 0} ∪ {g < 0}) ∖ {p = H, g ≤ 0}, r = g on I.
 //!
 //! Sums are taken in double precision, whatever the fields are stored in.
 
-use super::check::GapSums;
+use super::admissible::{LoadSums, UpperBound, WeightedSums};
+use super::check::{GapSums, PointSums, weight_of};
 use crate::numeric::lanes::{LANES, RUN, Real, all_zero, lowest, splat, total, vectorised};
 use crate::numeric::rows::{RowBlocks, Totals, each_row, next, row_totals};
 use crate::numeric::sums::BLOCK;
-use fearless_simd::{f64x8, mask64x8, prelude::*};
+use fearless_simd::{f64x8, prelude::*};
 use rayon::prelude::*;
 
-/// The active set I = {p > 0} ∪ {g < 0}.
+/// The active set I = ({p > 0} ∪ {g < 0}) ∖ {p = H, g ≤ 0}.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ActiveSet {
     /// Number of samples.
@@ -30,12 +32,18 @@ impl ActiveSet {
 }
 
 /// gap ← g/length; r is the gap on the active set.
-pub(super) fn gap_from(p: &[f64], g: &[f64], length: f64, gap: &mut [f32], residual: &mut [f32]) -> ActiveSet {
+pub(super) fn gap_from(
+    p: &[f64],
+    g: &[f64],
+    [length, most]: [f64; 2],
+    gap: &mut [f32],
+    residual: &mut [f32],
+) -> ActiveSet {
     let fields = (p.par_chunks(BLOCK), g.par_chunks(BLOCK), gap.par_chunks_mut(BLOCK), residual.par_chunks_mut(BLOCK));
     let Totals { sums: [size, sum], .. } = row_totals(
         BLOCK,
         fields,
-        |_, (p, g, gap, residual)| vectorised!(simd => gap_from_block(simd, p, g, 1.0 / length, gap, residual)),
+        |_, (p, g, gap, residual)| vectorised!(simd => gap_from_block(simd, [p, g], [1.0 / length, most], gap, residual)),
     );
     ActiveSet { size, sum }
 }
@@ -43,19 +51,18 @@ pub(super) fn gap_from(p: &[f64], g: &[f64], length: f64, gap: &mut [f32], resid
 #[inline(always)]
 fn gap_from_block<S: Simd>(
     simd: S,
-    p: &[f64],
-    g: &[f64],
-    factor: f64,
+    [p, g]: [&[f64]; 2],
+    [factor, most]: [f64; 2],
     gap: &mut [f32],
     residual: &mut [f32],
 ) -> Totals<2, 0> {
-    let zero = splat(simd, 0.0);
+    let (zero, most) = (splat(simd, 0.0), splat(simd, most));
     let (mut size, mut sum) = (zero, zero);
     for at in (0..p.len()).step_by(LANES) {
-        let pressed = f64::group(simd, p, at, 0.0).simd_gt(zero);
+        let pressure = f64::group(simd, p, at, 0.0);
         let g = f64::group(simd, g, at, f64::MAX) * factor;
         Real::put(g, gap, at);
-        let (active, r) = on_active(simd, pressed, g);
+        let (active, r) = on_active(simd, pressure, g, most);
         Real::put(r, residual, at);
         size += active;
         sum += r;
@@ -65,30 +72,30 @@ fn gap_from_block<S: Simd>(
 
 /// χ and r = χ g, which is never exactly zero on the active set.
 #[inline(always)]
-fn on_active<S: Simd>(simd: S, pressed: mask64x8<S>, g: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
+fn on_active<S: Simd>(simd: S, pressure: f64x8<S>, g: f64x8<S>, most: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
     let (zero, tiny) = (splat(simd, 0.0), splat(simd, f64::from(f32::MIN_POSITIVE)));
-    let active = pressed | g.simd_lt(zero);
+    let active = (pressure.simd_gt(zero) | g.simd_lt(zero)) & (pressure.simd_lt(most) | g.simd_gt(zero));
     let r = active.select(g.abs().simd_lt(tiny).select(tiny, g), zero);
     (active.select(splat(simd, 1.0), zero), r)
 }
 
-/// g ← g + factor · changes − shift; r is the gap on the active set. `load` is Σ p.
+/// g ← g + factor · changes − shift; r is the gap on the active set. `load` are the sums of p.
 pub(super) fn update_gap(
     p: &[f64],
-    load: f64,
+    load: LoadSums,
     (changes, factor): (&[f32], f64),
-    shift: f64,
+    [shift, most]: [f64; 2],
     gap: &mut [f32],
     residual: &mut [f32],
 ) -> (ActiveSet, GapSums) {
     let fields =
         (p.par_chunks(BLOCK), changes.par_chunks(BLOCK), gap.par_chunks_mut(BLOCK), residual.par_chunks_mut(BLOCK));
-    let Totals { sums: [size, sum, work, complementarity], least: [least, outside] } = row_totals(
+    let Totals { sums: [size, sum, work, complementarity, beyond, open], least: [least, below, outside] } = row_totals(
         BLOCK,
         fields,
-        |_, (p, changes, gap, residual)| vectorised!(simd => update_gap_block(simd, p, (changes, factor), shift, gap, residual)),
+        |_, (p, changes, gap, residual)| vectorised!(simd => update_gap_block(simd, p, (changes, factor), [shift, most], gap, residual)),
     );
-    (ActiveSet { size, sum }, GapSums { load, work, complementarity, least, outside })
+    (ActiveSet { size, sum }, GapSums { load, work, complementarity, beyond, open, least, below, outside })
 }
 
 #[inline(always)]
@@ -96,51 +103,52 @@ fn update_gap_block<S: Simd>(
     simd: S,
     p: &[f64],
     (changes, factor): (&[f32], f64),
-    shift: f64,
+    [shift, most]: [f64; 2],
     gap: &mut [f32],
     residual: &mut [f32],
-) -> Totals<4, 2> {
-    let (zero, far) = (splat(simd, 0.0), splat(simd, f64::INFINITY));
+) -> Totals<6, 3> {
+    let (zero, far, most) = (splat(simd, 0.0), splat(simd, f64::INFINITY), splat(simd, most));
     let (mut size, mut sum, mut work, mut complementarity) = (zero, zero, zero, zero);
-    let (mut least, mut outside) = (far, far);
+    let (mut beyond, mut open, mut least, mut below, mut outside) = (zero, zero, far, far, far);
     for at in (0..p.len()).step_by(LANES) {
         let (pressure, before) = (f64::group(simd, p, at, 0.0), f32::group(simd, gap, at, f32::MAX) - shift);
         let g = f32::group(simd, changes, at, 0.0).mul_add(splat(simd, factor), before);
         Real::put(g, gap, at);
-        let pressed = pressure.simd_gt(zero);
-        let (active, r) = on_active(simd, pressed, g);
+        let (active, r) = on_active(simd, pressure, g, most);
         Real::put(r, residual, at);
         size += active;
         sum += r;
-        work = pressure.mul_add(g, work);
-        complementarity = pressure.mul_add(g.abs(), complementarity);
+        let sums = PointSums::of(simd, pressure, g, most);
+        work = sums.free.mul_add(g, work);
+        complementarity = pressure.mul_add(sums.wrong, complementarity);
+        beyond += sums.beyond;
+        open += sums.open;
         least = least.min(g);
-        outside = outside.min(pressed.select(far, g));
+        below = below.min(pressure.simd_lt(most).select(g, far));
+        outside = outside.min(pressure.simd_gt(zero).select(far, g));
     }
-    let sums = [total(size), total(sum), total(work), total(complementarity)];
-    Totals { sums, least: [lowest(least), lowest(outside)] }
+    let sums = [size, sum, work, complementarity, beyond, open].map(total);
+    Totals { sums, least: [least, below, outside].map(lowest) }
 }
 
 /// Sums over a step p + d.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Advance {
-    /// Σ p after it.
-    pub load: f64,
-    /// ⟨g, d⟩.
-    pub slope: f64,
-    /// Σ p (g − τ C t) after it, which is Σ p (g + C d) where nothing was clipped.
-    pub work: f64,
-    /// Whether a pressure ended at zero before the step did.
+    /// Sums of p after it.
+    pub load: LoadSums,
+    /// Sums with g − τ C t after it, which is g + C d where nothing was clipped.
+    pub work: WeightedSums,
+    /// Whether a pressure ended at zero or at H before the step did.
     pub clipped: bool,
 }
 
-/// p ← max(p + unit d, 0) with d = factor · t, shortened where p ends at zero; d goes to `step`. `image` is C t, at the
-/// first attempt.
+/// p ← min(max(p + unit d, 0), H) with d = factor · t + λ on the active set, shortened where p ends at a bound; d goes to `step`. `image`
+/// is C t, at the first attempt; λ is a `shift`, in units of pressure.
 pub(super) fn advance(
     p: &mut [f64],
-    [gap, direction, image]: [&[f32]; 3],
-    factor: f64,
-    unit: f64,
+    [gap, direction, image, residual]: [&[f32]; 4],
+    [factor, shift, unit]: [f64; 3],
+    bound: UpperBound,
     step: &mut [f32],
 ) -> Advance {
     let fields = (
@@ -148,27 +156,31 @@ pub(super) fn advance(
         gap.par_chunks(BLOCK),
         direction.par_chunks(BLOCK),
         image.par_chunks(BLOCK),
+        residual.par_chunks(BLOCK),
         step.par_chunks_mut(BLOCK),
     );
-    let Totals { sums: [load, slope, work], least: [clipped] } = row_totals(
+    let Totals { sums: [free, full, work, weight, weighted], least: [clipped] } = row_totals(
         BLOCK,
         fields,
-        |_, (p, gap, direction, image, step)| vectorised!(simd => advance_block(simd, p, [gap, direction, image], factor, unit, step)),
+        |_, (p, gap, direction, image, residual, step)| vectorised!(simd => advance_block(simd, p, [gap, direction, image, residual], [factor, shift, unit], bound, step)),
     );
-    Advance { load, slope, work, clipped: clipped < 0.0 }
+    let work = WeightedSums { work, weight, weighted };
+    Advance { load: LoadSums { free, full }, work, clipped: clipped < 0.0 }
 }
 
 #[inline(always)]
 fn advance_block<S: Simd>(
     simd: S,
     p: &mut [f64],
-    [gap, direction, image]: [&[f32]; 3],
-    factor: f64,
-    unit: f64,
+    [gap, direction, image, residual]: [&[f32]; 4],
+    [factor, shift, unit]: [f64; 3],
+    bound: UpperBound,
     step: &mut [f32],
-) -> Totals<3, 1> {
-    let zero = splat(simd, 0.0);
-    let (mut load, mut slope, mut work, mut lowest_end) = (zero, zero, zero, zero);
+) -> Totals<5, 1> {
+    let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
+    let [most, nearly] = [bound.most, bound.nearly].map(|bound| splat(simd, bound));
+    let (mut free, mut full, mut lowest_end) = (zero, zero, zero);
+    let (mut work, mut weight, mut weighted) = (zero, zero, zero);
     for run in (0..p.len()).step_by(RUN) {
         let last = p.len().min(run + RUN);
         if all_zero(simd, &direction[run..last]) && all_zero(simd, &p[run..last]) {
@@ -178,21 +190,83 @@ fn advance_block<S: Simd>(
         for at in (run..last).step_by(LANES) {
             let pressure = f64::group(simd, p, at, 0.0);
             // As it is stored: a retreat takes back what was added (to 6e-8 where p ends at zero).
-            let d = rounded(simd, f32::group(simd, direction, at, 0.0) * factor);
+            let along = f32::group(simd, direction, at, 0.0) * factor;
+            let along =
+                if shift == 0.0 { along } else { along + shifted(simd, f32::group(simd, residual, at, 0.0), shift) };
+            let d = rounded(simd, along);
             let end = d.mul_add(splat(simd, unit), pressure);
-            let short = end.simd_lt(zero);
+            let (short, long) = (end.simd_lt(zero), end.simd_gt(nearly));
             let d = short.select(pressure * (-1.0 / unit), d);
-            let end = end.max(zero);
-            lowest_end = lowest_end.min(short.select(splat(simd, -1.0), zero));
+            let d = long.select((most - pressure) * (1.0 / unit), d);
+            let end = long.select(most, end.max(zero));
+            // A full sample that stays full has no step.
+            let clipped = short | (long & pressure.simd_lt(most));
+            lowest_end = lowest_end.min(clipped.select(splat(simd, -1.0), zero));
             let g = f32::group(simd, gap, at, 0.0);
-            load += end;
-            slope = g.mul_add(d, slope);
-            work = end.mul_add(f32::group(simd, image, at, 0.0).mul_add(splat(simd, factor), g), work);
+            let below = long.select(zero, end);
+            free += below;
+            full += long.select(one, zero);
+            let after = f32::group(simd, image, at, 0.0).mul_add(splat(simd, factor), g);
+            work = below.mul_add(after, work);
+            let own = weight_of(end, most);
+            weight += own;
+            weighted = own.mul_add(after, weighted);
             Real::put(end, p, at);
             Real::put(d, step, at);
         }
     }
-    Totals { sums: [total(load), total(slope), total(work)], least: [lowest(lowest_end)] }
+    let sums = [free, full, work, weight, weighted].map(total);
+    Totals { sums, least: [lowest(lowest_end)] }
+}
+
+/// λ on the active set, where r is not zero.
+#[inline(always)]
+fn shifted<S: Simd>(simd: S, residual: f64x8<S>, shift: f64) -> f64x8<S> {
+    let zero = splat(simd, 0.0);
+    residual.simd_eq(zero).select(zero, splat(simd, shift))
+}
+
+/// The load after a step with a shift λ: Σ p, and the number of samples that λ moves.
+pub(super) fn shifted_load(
+    p: &[f64],
+    [direction, residual]: [&[f32]; 2],
+    [factor, shift, unit]: [f64; 3],
+    bound: UpperBound,
+) -> [f64; 2] {
+    let fields = (p.par_chunks(BLOCK), direction.par_chunks(BLOCK), residual.par_chunks(BLOCK));
+    let Totals { sums, least: [] } = row_totals(
+        BLOCK,
+        fields,
+        |_, (p, direction, residual)| vectorised!(simd => shifted_load_of(simd, p, [direction, residual], [factor, shift, unit], bound)),
+    );
+    sums
+}
+
+#[inline(always)]
+fn shifted_load_of<S: Simd>(
+    simd: S,
+    p: &[f64],
+    [direction, residual]: [&[f32]; 2],
+    [factor, shift, unit]: [f64; 3],
+    bound: UpperBound,
+) -> Totals<2, 0> {
+    let (zero, one, most) = (splat(simd, 0.0), splat(simd, 1.0), splat(simd, bound.most));
+    let (mut load, mut moves) = (zero, zero);
+    for run in (0..p.len()).step_by(RUN) {
+        let last = p.len().min(run + RUN);
+        if all_zero(simd, &residual[run..last]) && all_zero(simd, &p[run..last]) {
+            continue;
+        }
+        for at in (run..last).step_by(LANES) {
+            let (pressure, r) = (f64::group(simd, p, at, 0.0), f32::group(simd, residual, at, 0.0));
+            let along = f32::group(simd, direction, at, 0.0) * factor + shifted(simd, r, shift);
+            let end = along.mul_add(splat(simd, unit), pressure);
+            let inside = end.simd_gt(zero) & end.simd_lt(most);
+            load += end.max(zero).min(most);
+            moves += r.simd_eq(zero).select(zero, inside.select(one, zero));
+        }
+    }
+    Totals { sums: [total(load), total(moves)], least: [] }
 }
 
 /// To single precision and back.
@@ -203,7 +277,7 @@ fn rounded<S: Simd>(simd: S, group: f64x8<S>) -> f64x8<S> {
     f32::group(simd, &single, 0, 0.0)
 }
 
-/// p ← s p after a step d, which becomes the whole step from the pressure before it.
+/// p ← s p after a step d, which becomes the whole step from the pressure before it; nothing of it is H.
 pub(super) fn rescale(p: &mut [f64], scale: f64, unit: f64, step: &mut [f32]) {
     each_row(BLOCK, (p.par_chunks_mut(BLOCK), step.par_chunks_mut(BLOCK)), |_, (p, step)| {
         vectorised!(simd => rescale_block(simd, p, scale, unit, step));
@@ -228,28 +302,30 @@ fn rescale_block<S: Simd>(simd: S, p: &mut [f64], scale: f64, unit: f64, step: &
     }
 }
 
-/// p ← max(p − unit d, 0).
-pub(super) fn retreat(p: &mut [f64], step: &[f32], unit: f64) {
+/// p ← max(p − unit d, 0), at most H.
+pub(super) fn retreat(p: &mut [f64], step: &[f32], unit: f64, bound: UpperBound) {
     each_row(BLOCK, (p.par_chunks_mut(BLOCK), step.par_chunks(BLOCK)), |_, (p, step)| {
-        vectorised!(simd => retreat_block(simd, p, step, unit));
+        vectorised!(simd => retreat_block(simd, p, step, unit, bound));
     });
 }
 
 #[inline(always)]
-fn retreat_block<S: Simd>(simd: S, p: &mut [f64], step: &[f32], unit: f64) {
+fn retreat_block<S: Simd>(simd: S, p: &mut [f64], step: &[f32], unit: f64, bound: UpperBound) {
+    let [most, nearly] = [bound.most, bound.nearly].map(|bound| splat(simd, bound));
     for at in (0..p.len()).step_by(LANES) {
         let end = f64::group(simd, p, at, 0.0) - f32::group(simd, step, at, 0.0) * unit;
-        Real::put(end.max(splat(simd, 0.0)), p, at);
+        let end = end.simd_gt(nearly).select(most, end.max(splat(simd, 0.0)));
+        Real::put(end, p, at);
     }
 }
 
-/// Sinks that put the rows of C d for a step d into `image`; ⟨d, C d⟩, Σ p and Σ p (g + C d) go to `sums`.
+/// Sinks that put the rows of C d for a step d into `image`; ⟨d, C d⟩, ⟨g, d⟩ and the sums with g + C d go to `sums`.
 pub(super) fn after_step<'a>(
     blocks: RowBlocks,
-    p: &'a [f64],
+    (p, most): (&'a [f64], f64),
     [gap, step]: [&'a [f32]; 2],
     image: &'a mut [f32],
-    sums: &'a mut [Totals<3, 0>],
+    sums: &'a mut [Totals<7, 0>],
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
     let fields = blocks.of(p).zip(blocks.of(gap)).zip(blocks.of(step)).zip(blocks.of_mut(image)).zip(sums);
     fields.map(move |((((p, gap), step), image), sums)| {
@@ -257,43 +333,59 @@ pub(super) fn after_step<'a>(
         move |row: &mut [f32]| {
             let (((p, gap), step), image) = next(&mut rows);
             image.copy_from_slice(row);
-            sums.add(vectorised!(simd => step_sums(simd, p, [gap, step, row])));
+            sums.add(vectorised!(simd => step_sums(simd, (p, most), [gap, step, row])));
         }
     })
 }
 
 #[inline(always)]
-fn step_sums<S: Simd>(simd: S, p: &[f64], [gap, step, image]: [&[f32]; 3]) -> Totals<3, 0> {
+fn step_sums<S: Simd>(simd: S, (p, most): (&[f64], f64), [gap, step, image]: [&[f32]; 3]) -> Totals<7, 0> {
     let zero = splat(simd, 0.0);
-    let (mut curvature, mut load, mut work) = (zero, zero, zero);
+    let (mut curvature, mut slope) = (zero, zero);
     for at in (0..p.len()).step_by(LANES) {
-        let (pressure, change) = (f64::group(simd, p, at, 0.0), f32::group(simd, image, at, 0.0));
-        curvature = f32::group(simd, step, at, 0.0).mul_add(change, curvature);
-        load += pressure;
-        work = pressure.mul_add(f32::group(simd, gap, at, 0.0) + change, work);
+        let (change, d) = (f32::group(simd, image, at, 0.0), f32::group(simd, step, at, 0.0));
+        curvature = d.mul_add(change, curvature);
+        slope = d.mul_add(f32::group(simd, gap, at, 0.0), slope);
     }
-    Totals { sums: [total(curvature), total(load), total(work)], least: [] }
+    let [free, full, work, weight, weighted] = load_and_work_of(simd, (p, most), gap, (image, 1.0)).sums;
+    Totals { sums: [total(curvature), total(slope), free, full, work, weight, weighted], least: [] }
 }
 
-/// Σ p and Σ p (g + factor · changes).
-pub(super) fn load_and_work(p: &[f64], gap: &[f32], (changes, factor): (&[f32], f64)) -> [f64; 2] {
+/// Sums of p, and those with g + factor · changes.
+pub(super) fn load_and_work(
+    (p, most): (&[f64], f64),
+    gap: &[f32],
+    (changes, factor): (&[f32], f64),
+) -> (LoadSums, WeightedSums) {
     let fields = (p.par_chunks(BLOCK), gap.par_chunks(BLOCK), changes.par_chunks(BLOCK));
-    let Totals { sums, least: [] } = row_totals(
+    let Totals { sums: [free, full, work, weight, weighted], least: [] } = row_totals(
         BLOCK,
         fields,
-        |_, (p, gap, changes)| vectorised!(simd => load_and_work_of(simd, p, gap, (changes, factor))),
+        |_, (p, gap, changes)| vectorised!(simd => load_and_work_of(simd, (p, most), gap, (changes, factor))),
     );
-    sums
+    (LoadSums { free, full }, WeightedSums { work, weight, weighted })
 }
 
 #[inline(always)]
-fn load_and_work_of<S: Simd>(simd: S, p: &[f64], gap: &[f32], (changes, factor): (&[f32], f64)) -> Totals<2, 0> {
-    let (mut load, mut work) = (splat(simd, 0.0), splat(simd, 0.0));
+fn load_and_work_of<S: Simd>(
+    simd: S,
+    (p, most): (&[f64], f64),
+    gap: &[f32],
+    (changes, factor): (&[f32], f64),
+) -> Totals<5, 0> {
+    let (zero, one, most) = (splat(simd, 0.0), splat(simd, 1.0), splat(simd, most));
+    let (mut load, mut full, mut work, mut weight, mut weighted) = (zero, zero, zero, zero, zero);
     for at in (0..p.len()).step_by(LANES) {
         let pressure = f64::group(simd, p, at, 0.0);
         let g = f32::group(simd, changes, at, 0.0).mul_add(splat(simd, factor), f32::group(simd, gap, at, 0.0));
-        load += pressure;
-        work = pressure.mul_add(g, work);
+        let below = pressure.simd_lt(most);
+        let free = below.select(pressure, zero);
+        load += free;
+        full += below.select(zero, one);
+        work = free.mul_add(g, work);
+        let own = weight_of(pressure, most);
+        weight += own;
+        weighted = own.mul_add(g, weighted);
     }
-    Totals { sums: [total(load), total(work)], least: [] }
+    Totals { sums: [load, full, work, weight, weighted].map(total), least: [] }
 }

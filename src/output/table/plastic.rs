@@ -1,0 +1,48 @@
+//! What hardness has pressed in, step by step.
+
+use super::{DETAILED, Table, in_unit};
+use crate::output::number::number;
+use crate::reading::PlasticReading;
+use crate::run::StepRecord;
+use crate::units::Units;
+
+/// A sentence about what is pressed in, and the table of it, a row a step, of many steps the last; `None` without hardness. Where nothing
+/// is pressed in there is no table.
+pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Table>)> {
+    let readings = || steps.iter().filter_map(|step| Some((step, step.plastic.as_ref()?)));
+    let (_, last) = readings().last()?;
+    let hardness = units.pressure().with_unit(last.hardness, number);
+    let pressed: Vec<(&StepRecord, &PlasticReading)> = readings().filter(|(_, own)| own.is_pressed_in()).collect();
+    if pressed.is_empty() {
+        let most = readings().map(|(step, _)| step.reading.grid_peak()).fold(0.0, f64::max);
+        let part = 100.0 * most / last.hardness;
+        let words = format!("hardness {hardness}: no pressure reaches it, the largest is {part:.0} % of it");
+        return Some((words, None));
+    }
+    let shown = if pressed.len() > DETAILED { &pressed[pressed.len() - 1..] } else { &pressed[..] };
+    let load = units.load().suited(shown.iter().map(|(step, _)| step.reading.load(units.quantity())));
+    let area = units.area().suited(shown.iter().map(|(_, own)| own.area));
+    let length = units.length().suited(shown.iter().flat_map(|(_, own)| [own.depth, own.permanent_depth]));
+    let header = [
+        load.headed(units.quantity().name()),
+        area.headed("area at the hardness"),
+        "of the contact".to_owned(),
+        length.headed("largest depth pressed in"),
+        length.headed("permanent depth"),
+    ];
+    let row = |(step, own): &(&StepRecord, &PlasticReading)| {
+        let part = own.area / step.reading.contact_area;
+        vec![
+            in_unit(&load, step.reading.load(units.quantity()), step.reading.load_error(units.quantity())),
+            in_unit(&area, own.area, own.area_error),
+            if part.is_finite() { format!("{:.0} %", 100.0 * part) } else { "–".to_owned() },
+            in_unit(&length, own.depth, own.depth_error),
+            in_unit(&length, own.permanent_depth, own.permanent_depth_error),
+        ]
+    };
+    let words = format!(
+        "hardness {hardness}: where the pressure reaches it the surface is pressed in for good (without pile-up; the hardness does not \
+         depend on the depth)"
+    );
+    Some((words, Some(Table::new(&header, shown.iter().map(row).collect(), 0))))
+}

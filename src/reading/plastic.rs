@@ -1,0 +1,115 @@
+//! What hardness has pressed in for good: the area at the hardness, the depths and their volume.
+//!
+//! Where p = H the gap is −(what is pressed in). Inside its border −g rises like d^{3/2}, outside H − p rises like √d: the border is
+//! that of a contact turned around, with H − p in the place of the pressure, and is read between the samples in the same way.
+//!
+//! The model has no pile-up: what is pressed in does not rise beside it, and its volume is lost to it. Hardness does not depend on the
+//! depth; below about a tenth of its thickness a coating has its own, deeper the substrate yields too.
+
+use super::{area, estimate};
+use crate::notation::number;
+use crate::numeric::{serialised, sums};
+use crate::spectral::{Contact, Step};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// What the hardness of the softer surface has pressed in. Errors are those of the grid; `None` without a coarser one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PlasticReading {
+    /// Hardness H of the softer surface, a pressure.
+    pub hardness: f64,
+    /// Area where the pressure is H in this step, a length squared.
+    #[serde(deserialize_with = "serialised::number")]
+    pub area: f64,
+    /// Error of the area.
+    pub area_error: Option<f64>,
+    /// Largest depth pressed in by this step and those before it, a length.
+    #[serde(deserialize_with = "serialised::number")]
+    pub depth: f64,
+    /// Error of the depth.
+    pub depth_error: Option<f64>,
+    /// Volume pressed in by this step and those before it, in the cell, a cubed length.
+    #[serde(deserialize_with = "serialised::number")]
+    pub volume: f64,
+    /// Error of the volume.
+    pub volume_error: Option<f64>,
+    /// Penetration at which contact begins when it is loaded again, a length: the permanent depth of an indentation curve.
+    #[serde(deserialize_with = "serialised::number")]
+    pub permanent_depth: f64,
+    /// Error of the permanent depth.
+    pub permanent_depth_error: Option<f64>,
+}
+
+/// Area, depth, volume and permanent depth on one grid, and the uncertainty of the area.
+struct OnGrid {
+    values: [f64; 4],
+    uncertainty: f64,
+}
+
+impl OnGrid {
+    /// `None` without hardness.
+    fn of(contact: &Contact) -> Option<Self> {
+        let (grid, hardness, depths) = (contact.grid(), contact.hardness(), contact.indentation()?);
+        let (p, g, f) = (contact.pressures(), contact.gaps(), contact.surface().gaps());
+        let is_full = |i: usize| p[i] >= hardness;
+        let (mut area, mut uncertainty) = (0.0, 0.0);
+        if (0..p.len()).any(is_full) {
+            let below: Vec<f64> = p.iter().map(|p| hardness - p).collect();
+            let pressed: Vec<f64> = (0..p.len()).map(|i| if is_full(i) { (-g[i]).max(0.0) } else { 0.0 }).collect();
+            let elastic = area::contact_fraction(grid, (&below, f64::INFINITY), &pressed, |_| false);
+            area = (1.0 - elastic.value) * grid.cell().area();
+            uncertainty = elastic.uncertainty * grid.cell().area();
+        }
+        // The initial gap has the depths of earlier loads.
+        let now = |i: usize| if is_full(i) { (-g[i]).max(0.0) } else { 0.0 };
+        let depth = -sums::least(p.len(), |i| -depths[i]);
+        let permanent = sums::least(p.len(), |i| f[i] + now(i));
+        let volume = sums::of(p.len(), |i| [depths[i]])[0] * grid.sample_area();
+        Some(Self { values: [area, depth, volume, permanent], uncertainty })
+    }
+}
+
+impl PlasticReading {
+    /// Reading of a step; `None` without hardness.
+    pub fn of(step: &Step) -> Option<Self> {
+        let own = OnGrid::of(step.finest())?;
+        let coarser: Vec<OnGrid> = step.coarser().iter().filter_map(OnGrid::of).collect();
+        let error = |index: usize, law: f64| {
+            let of_coarser = coarser.iter().map(|coarse| Some(coarse.values[index]));
+            (!coarser.is_empty()).then(|| estimate::of_area(law, own.values[index], of_coarser))
+        };
+        let [area, depth, volume, permanent_depth] = own.values;
+        Some(Self {
+            hardness: step.finest().hardness(),
+            area,
+            area_error: error(0, own.uncertainty),
+            depth,
+            depth_error: error(1, 0.0),
+            volume,
+            volume_error: error(2, 0.0),
+            permanent_depth,
+            permanent_depth_error: error(3, 0.0),
+        })
+    }
+
+    /// Whether anything is pressed in.
+    pub fn is_pressed_in(&self) -> bool {
+        self.depth > 0.0
+    }
+}
+
+impl fmt::Display for PlasticReading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.is_pressed_in() {
+            return write!(f, "nothing is pressed in, hardness {}", number(self.hardness));
+        }
+        write!(
+            f,
+            "hardness {} on the area {}, pressed in by up to {}, permanent depth {}",
+            number(self.hardness),
+            number(self.area),
+            number(self.depth),
+            number(self.permanent_depth)
+        )
+    }
+}

@@ -1,0 +1,365 @@
+//! Hardness: 0 ≤ p ≤ H in all modes, by other algorithms and closed forms; what is pressed in stays on a load path.
+
+use ndarray::Array2;
+use percoat::run::RunError;
+use percoat::{
+    Bodies, Cell, Contact, Durability, Friction, Grid, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load,
+    Material, Method, Problem, Run, Sampling, Settings, Shape, Solver, Step, Stop, Topography,
+};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+fn young(young: f64, poisson: f64) -> Material {
+    Material::from_young(young, poisson).unwrap()
+}
+
+fn hard(hardness: f64) -> Durability {
+    Durability { hardness: Some(hardness), ..Durability::default() }
+}
+
+/// A bare half-space, E = 1 and ν = 0.3, with a hardness if there is one.
+fn bare(hardness: Option<f64>) -> HalfSpace {
+    HalfSpace::new(vec![], young(1.0, 0.3))
+        .with_substrate_durability(Durability { hardness, ..Durability::default() })
+        .unwrap()
+}
+
+/// A stiff coating on it.
+fn coated(hardness: Option<f64>) -> HalfSpace {
+    let layer = Layer::new(young(3.0, 0.2), 0.1, Interface::Bonded).unwrap();
+    let layer = layer.with_durability(Durability { hardness, ..Durability::default() }, None).unwrap();
+    HalfSpace::new(vec![layer], young(1.0, 0.3))
+}
+
+/// Three levels of paraboloids on a hexagonal lattice.
+fn levels() -> Indenters {
+    let level = |height| Level::new(Shape::Paraboloid { radius: 0.8 }, height).unwrap();
+    Indenters::new(Lattice::hexagonal(1.0, 3).unwrap(), [0.02, 0.01, 0.0].map(level).to_vec()).unwrap()
+}
+
+/// One paraboloid in the middle of a window or of a square cell of side 1.
+fn ball(cell: Cell, shape: Shape) -> Indenters {
+    Indenters::new(Lattice::new(cell, vec![vec![[0.5; 2]]]).unwrap(), vec![Level::new(shape, 0.0).unwrap()]).unwrap()
+}
+
+/// Heights of waves in many directions with fixed phases.
+fn rough(cell: Cell, points: [usize; 2]) -> Topography {
+    let waves = (-4i32..=4).flat_map(|k1| (0..=4).map(move |k2| [k1, k2])).filter(|k| *k != [0, 0]);
+    let grid = Grid::new(cell, points).unwrap();
+    let height = |index: usize| -> f64 {
+        let [s, t] = grid.fractions(index);
+        let wave = |[k1, k2]: [i32; 2]| {
+            let phase = f64::from((k1 * 37 + k2 * 101).rem_euclid(97)) / 97.0;
+            0.01 * f64::from(k1 * k1 + k2 * k2).powf(-0.9)
+                * (TAU * (f64::from(k1) * s + f64::from(k2) * t + phase)).cos()
+        };
+        waves.clone().map(wave).sum()
+    };
+    let heights = Array2::from_shape_fn(points, |(i, j)| height(i * points[1] + j));
+    Topography::new(cell, heights).unwrap()
+}
+
+fn solver(problem: Problem, points: [usize; 2]) -> Solver {
+    Solver::new(problem, points, Settings::default()).unwrap()
+}
+
+fn solved(problem: Problem, points: [usize; 2], load: Load) -> Step {
+    let step = solver(problem, points).solve(load);
+    assert!(step.report.stop.solved(), "{}\n{}", step.report, step.certificate);
+    step
+}
+
+fn pressures(step: &Step) -> Vec<f64> {
+    step.pressure().iter().copied().collect()
+}
+
+/// The conditions of the box on the samples: p in [0, H], g = 0 within `tolerance` of δ where p is free, g ≥ 0 where p = 0 and ≤ 0 where
+/// p = H; the number of free and of full samples.
+fn complies(contact: &Contact, tolerance: f64) -> [usize; 2] {
+    let (hardness, slack) = (contact.hardness(), tolerance * contact.penetration().abs());
+    let mut counts = [0; 2];
+    for (&p, &g) in contact.pressure().iter().zip(&contact.gap()) {
+        assert!((0.0..=hardness).contains(&p));
+        if p == 0.0 {
+            assert!(g > -slack, "open: {g:e} {slack:e}");
+        } else if p < hardness {
+            counts[0] += 1;
+            assert!(g.abs() < slack, "free: {g:e} {slack:e}");
+        } else {
+            counts[1] += 1;
+            assert!(g < slack, "full: {g:e} {slack:e}");
+        }
+    }
+    counts
+}
+
+/// A hardness that no pressure reaches changes no bit, in any mode and under both controls.
+#[test]
+fn a_hardness_that_is_not_reached_changes_no_bit() {
+    let sliding = |problem: Problem| problem.sliding(Friction::new(0.3, [0.6, 0.8]).unwrap()).unwrap();
+    let window = Cell::window([1.0; 2]).unwrap();
+    let problems = |hardness: Option<f64>| {
+        [
+            Problem::new(levels(), coated(hardness)),
+            sliding(Problem::new(levels(), coated(hardness))),
+            Problem::new(ball(window, Shape::Paraboloid { radius: 1.0 }), bare(hardness)),
+            Problem::new(rough(Cell::square(1.0).unwrap(), [60, 48]), Bodies::elastic(bare(hardness), coated(None))),
+        ]
+    };
+    for (own, other) in problems(None).into_iter().zip(problems(Some(1e3))) {
+        for load in [Load::Force(0.01), Load::Penetration(0.008)] {
+            let steps = [own.clone(), other.clone()].map(|problem| solved(problem, [60, 48], load));
+            let [first, second] = steps.each_ref().map(pressures);
+            assert_eq!(first, second, "{load}");
+            assert_eq!(steps[0].certificate, steps[1].certificate);
+            assert_eq!(steps[0].report, steps[1].report);
+            let [one, two] = steps.each_ref().map(|step| step.reading());
+            assert_eq!((one.max_pressure, one.errors.max_pressure), (two.max_pressure, two.errors.max_pressure));
+        }
+    }
+}
+
+/// Another algorithm: Gauss–Seidel on the assembled matrix with each pressure clipped to [0, H], under the penetration of the step.
+/// A step of the certificate 20 tolerance of the energy has an error of its square root in the norm of the energy.
+#[test]
+fn the_box_is_solved_as_by_clipped_gauss_seidel() {
+    let oblique = Cell::new([1.0, 0.1], [0.4, 0.8]).unwrap();
+    let cases = [(Cell::square(1.0).unwrap(), [24, 24]), (oblique, [20, 27]), (Cell::square(1.0).unwrap(), [25, 21])];
+    for (cell, points) in cases {
+        for (load, hardness) in [(0.01, 0.06), (0.03, 0.04), (0.02, 0.021)] {
+            let problem = Problem::new(rough(cell, points), coated(Some(hardness)));
+            let step = solved(problem.clone(), points, Load::MeanPressure(load));
+            let [free, full] = complies(step.finest(), 1e-6);
+            assert!(full > 0, "{free} free samples, none full");
+            let reference = gauss_seidel(&step, hardness);
+            let worst = pressures(&step).iter().zip(&reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(worst < 1e-4 * hardness, "{points:?}, {load} of {hardness}: {worst:e}");
+        }
+    }
+}
+
+/// Pressures in [0, H] under the penetration of a step, by Gauss–Seidel from a uniform pressure on.
+fn gauss_seidel(step: &Step, hardness: f64) -> Vec<f64> {
+    let (grid, f) = (step.grid(), step.surface().initial_gap());
+    let f: Vec<f64> = f.iter().copied().collect();
+    let mut operator = percoat::spectral::LayeredOperator::new(grid, step.problem().bodies());
+    let mut column = vec![0.0; f.len()];
+    column[0] = 1.0;
+    operator.displacement(&mut column, &mut percoat::spectral::Workspace::default());
+    let [n1, n2] = grid.points();
+    // The mean of w is zero: a shift of all columns by a positive constant changes w by one number for all samples under a load.
+    let load: f64 = step.pressure().iter().sum();
+    let shift = 2.0 * column[0] / f.len() as f64;
+    let delta = step.penetration() + shift * load;
+    let at = |i: usize, k: usize| {
+        let (a, b) = ((i / n2 + n1 - k / n2) % n1, (i % n2 + n2 - k % n2) % n2);
+        column[a * n2 + b] + shift
+    };
+    let mut p = vec![load / f.len() as f64; f.len()];
+    let mut w: Vec<f64> = (0..f.len()).map(|i| (0..f.len()).map(|k| at(i, k) * p[k]).sum()).collect();
+    for _ in 0..20_000 {
+        let mut change = 0.0f64;
+        for i in 0..f.len() {
+            let next = (p[i] - (w[i] + f[i] - delta) / at(i, i)).clamp(0.0, hardness);
+            let rise = next - p[i];
+            if rise != 0.0 {
+                p[i] = next;
+                (0..f.len()).for_each(|k| w[k] += at(k, i) * rise);
+                change = change.max(rise.abs());
+            }
+        }
+        if change < 1e-9 * hardness {
+            return p;
+        }
+    }
+    panic!("Gauss–Seidel does not converge");
+}
+
+/// Nearly all of the surface at the hardness: p̄ → H has A/A₀ → p̄/H, which other programs do not reach.
+#[test]
+fn mean_pressures_near_the_hardness_converge() {
+    let square = Cell::square(1.0).unwrap();
+    let hexagonal = Problem::new(levels(), coated(Some(0.1)));
+    let waves = Problem::new(rough(square, [96, 96]), bare(Some(0.1)));
+    let sliding = waves.clone().sliding(Friction::new(0.5, [1.0, 0.0]).unwrap()).unwrap();
+    let both = Problem::new(rough(square, [96, 96]), Bodies::elastic(bare(None), coated(Some(0.1))));
+    for (name, problem) in [("levels", hexagonal), ("waves", waves), ("sliding", sliding), ("two bodies", both)] {
+        let mut solver = solver(problem, [96, 96]);
+        for part in [0.1, 0.5, 0.9, 0.99, 0.999, 0.9999] {
+            let step = solver.solve(Load::MeanPressure(0.1 * part));
+            assert!(step.report.stop.solved(), "{name}, {part}: {}", step.report);
+            complies(step.finest(), 1e-5);
+            let reading = step.reading();
+            let [own, error] = [reading.contact_fraction, reading.errors.contact_fraction.unwrap()];
+            assert!(own + error > part, "{name}, {part}: {own} ± {error}");
+            if part >= 0.9 {
+                assert!(reading.contact_fraction < 1.0 + 1e-9 && reading.max_pressure == 0.1);
+            }
+            println!("{name} {part}: {} iterations, fraction {}", step.report.iterations, reading.contact_fraction);
+        }
+        let beyond = solver.solve(Load::MeanPressure(0.1));
+        assert_eq!(beyond.report.stop, Stop::BeyondHardness, "{name}");
+    }
+}
+
+#[test]
+fn a_load_beyond_the_hardness_is_refused_before_it_is_solved() {
+    let run =
+        Run::new(Problem::new(levels(), bare(Some(0.1))), vec![Load::MeanPressure(0.1)], Sampling::Points([24, 24]));
+    let Err(RunError::BeyondHardness(error)) = run.solve(&mut ()) else { panic!("refused") };
+    assert!(error.to_string().contains("hardness 0.1"), "{error}");
+}
+
+/// Both methods find the same pressure, under both controls: each is within √(20 tolerance) = 4.5e-4 of the solution in the norm of the
+/// energy.
+#[test]
+fn the_baseline_finds_the_same() {
+    let problem = Problem::new(rough(Cell::square(1.0).unwrap(), [40, 40]), coated(Some(0.03)));
+    for load in [Load::MeanPressure(0.012), Load::Penetration(0.02)] {
+        let by = |method| {
+            let settings = Settings { method, ..Settings::default() };
+            let step = Solver::new(problem.clone(), [40, 40], settings).unwrap().solve(load);
+            assert!(step.report.stop.solved(), "{method:?} under {load}: {}", step.report);
+            assert!(complies(step.finest(), 1e-5)[1] > 0);
+            pressures(&step)
+        };
+        let [first, second] = [Method::Preconditioned, Method::PolonskyKeer].map(by);
+        let worst = first.iter().zip(&second).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-3 * 0.03, "{load}: {worst:e}");
+    }
+}
+
+/// Layers that are thin beside everything else, on a rigid base, are springs: p = M(δ − f)/h, at most H. For a paraboloid with the
+/// contact radius a² = 2Rδ the radius of the hardness is b² = a² − 2R h H/M, and P = (πM/(4Rh))(a⁴ − b⁴). The radii of a layer that is
+/// not quite thin differ by h/8 (an exact solution of layers), so that P, with b⁴ = 0.36 a⁴, does by 0.8 h/a or a little more, and areas by
+/// ¼ h/a.
+#[test]
+fn a_thin_layer_on_a_rigid_base_yields_as_springs_do() {
+    let (h, r, depth) = (0.0005, 1.0, 0.02);
+    let material = young(1.0, 0.0);
+    let stiffness = 1.0 / material.oedometric_compliance() / h;
+    let hardness = 0.4 * stiffness * depth;
+    let layer = Layer::new(material, h, Interface::Bonded).unwrap().with_durability(hard(hardness), None).unwrap();
+    let body = HalfSpace::on_rigid_base(vec![layer]).unwrap();
+    let n = 300;
+    let problem = Problem::new(ball(Cell::square(0.6).unwrap(), Shape::Paraboloid { radius: r }), body);
+    let step = solved(problem, [n, n], Load::Penetration(depth));
+    let (a2, b2) = (2.0 * r * depth, 2.0 * r * (depth - hardness / stiffness));
+    let force = PI * stiffness / (4.0 * r) * (a2 * a2 - b2 * b2);
+    let reading = step.reading();
+    let part = h / a2.sqrt();
+    assert!((reading.force / force - 1.0).abs() < 1.6 * part, "{} {force}", reading.force);
+    let plastic = percoat::reading::PlasticReading::of(&step).unwrap();
+    assert!(
+        (plastic.area / (PI * b2) - 1.0).abs() < part + plastic.area_error.unwrap() / (PI * b2),
+        "{} {}",
+        plastic.area,
+        PI * b2
+    );
+    let pressed = depth - hardness / stiffness;
+    assert!((plastic.depth / pressed - 1.0).abs() < 1e-3 && (plastic.permanent_depth / pressed - 1.0).abs() < 1e-3);
+    assert!((plastic.volume / (PI * b2 * b2 / (4.0 * r)) - 1.0).abs() < 5e-3, "{}", plastic.volume);
+}
+
+/// Loaded, unloaded and loaded again: unloading and reloading are elastic, the second loading is the first step again, and an overload
+/// goes on as if there had been no unloading. Reloading begins at the permanent depth.
+#[test]
+fn a_load_path_carries_what_is_pressed_in() {
+    let window = Cell::window([1.0; 2]).unwrap();
+    for problem in [
+        Problem::new(ball(window, Shape::Paraboloid { radius: 1.0 }), bare(Some(0.06))),
+        Problem::new(levels(), coated(Some(0.15))),
+        Problem::new(rough(Cell::square(1.0).unwrap(), [60, 60]), bare(Some(0.05))),
+    ] {
+        let forces = [0.004, 0.001, 0.004, 0.006];
+        let mut own = solver(problem.clone(), [75, 75]);
+        let steps: Vec<Step> = forces
+            .iter()
+            .map(|&force| {
+                let step = own.solve(Load::Force(force));
+                assert!(step.report.stop.solved(), "{}", step.report);
+                own.keep_indentation();
+                step
+            })
+            .collect();
+        let depths: Vec<Array2<f64>> = steps.iter().map(|step| step.indentation().unwrap()).collect();
+        let largest = depths[0].iter().copied().fold(0.0, f64::max);
+        assert!(largest > 0.0);
+        let apart = |a: &Array2<f64>, b: &Array2<f64>| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert_eq!(depths[1], depths[0], "unloading presses nothing in");
+        assert!(apart(&depths[2], &depths[0]) < 1e-4 * largest, "{:e}", apart(&depths[2], &depths[0]) / largest);
+        let [first, again] = [0, 2].map(|k| pressures(&steps[k]));
+        let worst = first.iter().zip(&again).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-3 * steps[0].finest().hardness(), "{worst:e}");
+        assert!((steps[2].penetration() / steps[0].penetration() - 1.0).abs() < 1e-6);
+        // The rest of the path as if there had been no unloading.
+        let mut straight = solver(problem.clone(), [75, 75]);
+        straight.solve(Load::Force(forces[0]));
+        straight.keep_indentation();
+        let beyond = straight.solve(Load::Force(forces[3]));
+        assert!((steps[3].penetration() / beyond.penetration() - 1.0).abs() < 1e-5);
+        // Elastic unloading: with what is pressed in as the shape and no hardness the same pressure.
+        let soft = match problem.half_space().layers().is_empty() {
+            true => Problem::new(problem.counterbody().clone(), bare(None)),
+            false => Problem::new(problem.counterbody().clone(), coated(None)),
+        };
+        let gap = steps[1].surface().initial_gap().to_owned();
+        let elastic = solver(soft, [75, 75]).with_gap(gap).unwrap().solve(Load::Force(forces[1]));
+        assert!((elastic.penetration() / steps[1].penetration() - 1.0).abs() < 1e-6);
+        let plastic = percoat::reading::PlasticReading::of(&steps[0]).unwrap();
+        assert!(plastic.permanent_depth > 0.0 && plastic.permanent_depth < steps[1].penetration(), "{plastic}");
+    }
+}
+
+/// A cone would have an infinite pressure at its tip: with hardness the largest pressure is the hardness, without error.
+#[test]
+fn the_pressure_under_a_tip_is_the_hardness() {
+    let problem = Problem::new(ball(Cell::square(1.0).unwrap(), Shape::Cone { slope: 0.1 }), bare(Some(0.2)));
+    let reading = solved(problem, [96, 96], Load::MeanPressure(0.002)).reading();
+    assert!(!reading.singular() && reading.max_pressure == 0.2 && reading.errors.max_pressure == Some(0.0));
+    assert!(reading.levels[0].max_pressure == 0.2 && reading.levels[0].errors.max_pressure == Some(0.0));
+}
+
+/// The softer of two surfaces sets the hardness, whichever it is.
+#[test]
+fn the_softer_surface_sets_the_hardness() {
+    let of = |body: Option<f64>, counterbody: Option<f64>| {
+        let bodies = Bodies::elastic(bare(body), coated(counterbody));
+        solved(Problem::new(levels(), bodies), [48, 48], Load::MeanPressure(0.02)).reading().max_pressure
+    };
+    assert_eq!([of(Some(0.1), Some(0.12)), of(Some(0.12), Some(0.1)), of(None, Some(0.1))], [0.1; 3]);
+    let rigid = Bodies::from(coated(None)).with_rigid_durability(hard(0.1)).unwrap();
+    assert_eq!(solved(Problem::new(levels(), rigid), [48, 48], Load::MeanPressure(0.02)).reading().max_pressure, 0.1);
+}
+
+/// The errors of what is pressed in hold against a grid of four times the points.
+#[test]
+fn errors_of_what_is_pressed_in_hold() {
+    let window = Cell::window([1.0; 2]).unwrap();
+    let problem = Problem::new(ball(window, Shape::Paraboloid { radius: 1.0 }), bare(Some(0.06)));
+    let read =
+        |n: usize| percoat::reading::PlasticReading::of(&solved(problem.clone(), [n, n], Load::Force(0.004))).unwrap();
+    let (coarse, fine) = (read(96), read(384));
+    for (a, error, b) in [
+        (coarse.area, coarse.area_error, fine.area),
+        (coarse.depth, coarse.depth_error, fine.depth),
+        (coarse.volume, coarse.volume_error, fine.volume),
+        (coarse.permanent_depth, coarse.permanent_depth_error, fine.permanent_depth),
+    ] {
+        let error = error.unwrap();
+        assert!((a - b).abs() < error && error < 0.2 * b, "{a} ± {error}, {b}");
+    }
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let problem = Arc::new(Problem::new(rough(Cell::square(1.0).unwrap(), [96, 96]), coated(Some(0.03))));
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let solve = || {
+            Solver::new(Arc::clone(&problem), [96, 96], Settings::default()).unwrap().solve(Load::MeanPressure(0.01))
+        };
+        pressures(&pool.install(solve))
+    };
+    assert_eq!(on(1), on(3));
+}
