@@ -1,15 +1,17 @@
-//! `[counterbody]`: the elastic body that the indenters or the topography belong to.
+//! `[counterbody]`: the body that the indenters or the topography belong to, elastic, or rigid with a hardness or wear.
 
+use super::durability::{ENDURANCE_LIMITS, EnduranceSection, FATIGUE_LAW, FatigueSection, HARDNESS, WEAR};
 use super::error::Refusal;
 use super::grading::LAYERS;
 use super::keys::{Form, Key, Unit};
 use super::layers::{
-    self, Body, LAYER, LayerSection, MATERIAL, NAME, POISSON, RIGID, Rigid, SIZE, SubstrateSection, TENSILE, YIELD,
+    self, Body, ELASTIC, LAYER, LayerSection, MATERIAL, NAME, POISSON, RIGID, Rigid, SIZE, SubstrateSection, TENSILE,
+    YIELD,
 };
 use super::reader::TableAt;
 use super::section::{KeyValue, section};
 use super::value::ValueAt;
-use crate::body::HalfSpace;
+use crate::body::{Bodies, Durability, HalfSpace, MaterialError};
 use serde::Serialize;
 
 section! {
@@ -18,7 +20,7 @@ section! {
         ("shear_ratio", "`shear_ratio` relates a layer to its substrate, whose modulus is `young`"),
         ("radius", "the shape of the counterbody stands in [[levels]] or [surface]"),
     ] {
-        /// material of `percoat materials` or of the file `materials`, for moduli, strengths and name that are not given
+        /// material of `percoat materials` or of the file `materials`, for moduli, strengths, hardness and name that are not given
         pub material: Option<String> = MATERIAL,
         /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
@@ -30,8 +32,16 @@ section! {
         pub yield_strength: Option<f64> = YIELD,
         /// tensile strength, compared with the largest principal stress
         pub tensile_strength: Option<f64> = TENSILE,
-        /// whether it is rigid below its coating, without moduli, name and strengths; the interface of the last layer joins it to the base
-        pub rigid: Rigid = RIGID,
+        /// hardness: the pressure never exceeds that of the softer surface
+        pub hardness: Option<f64> = HARDNESS,
+        /// Archard's coefficient of wear k: the pressure p wears off the depth k p ds along the path ds of sliding
+        pub wear: Option<f64> = WEAR,
+        /// fatigue by the range of the principal shear stress τ₁ in a pass
+        pub fatigue: Option<FatigueSection> = FATIGUE_LAW,
+        /// endurance limits, below which any number of passes is borne, for the criteria of Crossland and Dang Van
+        pub endurance: Option<EnduranceSection> = ENDURANCE_LIMITS,
+        /// whether it is rigid: below its coating, whose last layer its interface joins to it, or uncoated with a hardness or wear
+        pub rigid: Rigid = RIGID.and_of(ELASTIC),
         /// its coating, one section `[[counterbody.layers]]` a layer from its surface inward, with the keys of `[[layers]]`
         pub layers: Coating =
             Key::new(&[Form::Sections(&LAYER, LAYERS)], "[{ thickness = 0.5, young = 300.0, poisson = 0.25 }]")
@@ -60,12 +70,27 @@ impl KeyValue for Coating {
     }
 }
 
-/// Refuses a rigid base with keys of a material, and an elastic one without moduli.
+/// Refuses a rigid counterbody with keys of a material, hardness and wear of one below a coating, and an elastic one without
+/// moduli.
 fn elastic_or_rigid(own: &CounterbodySection, section: &TableAt<'_>) -> Result<(), Refusal> {
-    layers::modulus_or_rigid(own.rigid.0, section)
+    layers::modulus_or_rigid(own.rigid.0, ELASTIC, section)?;
+    let of_surface = ["hardness", "wear"].into_iter().find_map(|key| section.optional(key));
+    match of_surface.filter(|_| own.rigid.0 && own.is_elastic()) {
+        Some(value) => {
+            let message =
+                format!("`{}` has no meaning: a layer is at the surface of the rigid counterbody", value.path);
+            Err(Refusal::new(value.node.span, message, "not at the surface").help("give it to the layers"))
+        }
+        None => Ok(()),
+    }
 }
 
 impl CounterbodySection {
+    /// Whether anything of it is elastic: itself, or a coating.
+    pub fn is_elastic(&self) -> bool {
+        !self.rigid.0 || !self.layers.0.is_empty()
+    }
+
     /// Its material below the layers.
     pub fn substrate(&self) -> SubstrateSection {
         SubstrateSection {
@@ -75,6 +100,10 @@ impl CounterbodySection {
             poisson: self.poisson,
             yield_strength: self.yield_strength,
             tensile_strength: self.tensile_strength,
+            hardness: self.hardness,
+            wear: self.wear,
+            fatigue: self.fatigue,
+            endurance: self.endurance,
             rigid: self.rigid,
         }
     }
@@ -85,10 +114,45 @@ impl CounterbodySection {
     }
 }
 
+/// The body of the section `[counterbody]`.
+pub(super) enum Above<'a> {
+    /// Layers on a substrate.
+    Elastic(Body<'a>),
+    /// Rigid and uncoated, with the durability of its surface.
+    Rigid(Durability),
+}
+
+impl<'a> Above<'a> {
+    /// Its layers and substrate; `None` where it is rigid and uncoated.
+    pub(super) fn body(&self) -> Option<&Body<'a>> {
+        match self {
+            Self::Elastic(body) => Some(body),
+            Self::Rigid(_) => None,
+        }
+    }
+
+    /// Both bodies, it above `body`.
+    pub(super) fn bodies(&self, body: HalfSpace) -> Result<Bodies, MaterialError> {
+        match self {
+            Self::Elastic(above) => Ok(Bodies::elastic(body, above.half_space.clone())),
+            Self::Rigid(durability) => Bodies::from(body).with_rigid_durability(*durability),
+        }
+    }
+}
+
+/// Advice on a rigid counterbody that has nothing to say.
+const UNCOATED: &str =
+    "without [counterbody] it is rigid; a rigid [counterbody] has layers, or a `hardness` or `wear` of its own";
+
 /// Reads `[counterbody]`, with the half-space and the sections of its layers.
-pub(super) fn read<'a>(section: &TableAt<'a>) -> Result<(CounterbodySection, Body<'a>), Refusal> {
+pub(super) fn read<'a>(section: &TableAt<'a>) -> Result<(CounterbodySection, Above<'a>), Refusal> {
     let own = CounterbodySection::read_table(section)?;
+    let durability = Durability { hardness: own.hardness, wear: own.wear, ..Durability::default() };
+    if !own.is_elastic() && durability != Durability::default() {
+        return Ok((own, Above::Rigid(durability)));
+    }
     let sections = section.sections("layers")?;
-    let body = layers::build_body(own.layers.0.clone(), sections, own.substrate(), section)?;
-    Ok((own, body))
+    let body = layers::build_body(own.layers.0.clone(), sections, own.substrate(), section)
+        .map_err(|refusal| if own.is_elastic() { refusal } else { refusal.help(UNCOATED) })?;
+    Ok((own, Above::Elastic(body)))
 }

@@ -1,5 +1,8 @@
 //! `[[layers]]` and `[substrate]`: the coated half-space, or layers on a rigid base.
 
+use super::durability::{
+    ENDURANCE_LIMITS, EnduranceSection, FATIGUE, FATIGUE_LAW, FatigueSection, HARDNESS, WEAR, durability,
+};
 use super::error::Refusal;
 use super::grading::{GRADING, Grading, LAYERS};
 use super::interface::{INTERFACE_STRENGTH, InterfaceSection, InterfaceStrengthSection, SPRING};
@@ -21,17 +24,20 @@ pub(super) const POISSON: Form = Form::Number(Range::between(0.0, 0.5));
 pub(super) const MATERIAL: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"")
     .otherwise("none")
     .rule("needs units.pressure; where both moduli are given it is a name alone")
-    .fills(&["name", "young", "poisson", "yield_strength", "tensile_strength"]);
+    .fills(&["name", "young", "poisson", "yield_strength", "tensile_strength", "hardness"]);
 pub(super) const NAME: Key =
     Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its `material`, or its number");
 pub(super) const YIELD: Key =
     Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
 pub(super) const TENSILE: Key =
     Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
-/// Keys of a substrate that a rigid base does not have, beside `young`.
-const ELASTIC: [&str; 5] = ["poisson", "material", "name", "yield_strength", "tensile_strength"];
+/// Keys that a rigid base does not have, beside `young`; the last two are those of a surface.
+const BELOW: &[&str] =
+    &["poisson", "material", "name", "yield_strength", "tensile_strength", "fatigue", "endurance", "hardness", "wear"];
+/// Keys that a rigid counterbody does not have, beside `young`.
+pub(super) const ELASTIC: &[&str] = BELOW.split_at(BELOW.len() - 2).0;
 pub(super) const RIGID: Key =
-    Key::new(&[Form::Boolean], "true").otherwise("elastic").omitted_as_nothing().instead_of("young").and_of(&ELASTIC);
+    Key::new(&[Form::Boolean], "true").otherwise("elastic").omitted_as_nothing().instead_of("young");
 
 /// Whether a substrate is a rigid base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -55,7 +61,7 @@ impl KeyValue for Rigid {
 section! {
     /// One section of `[[layers]]`, from the surface down.
     pub struct LayerSection = LAYER, rules consistent {
-        /// material of `percoat materials` or of the file `materials`, for moduli, strengths and name that are not given
+        /// material of `percoat materials` or of the file `materials`, for moduli, strengths, hardness and name that are not given
         pub material: Option<String> = MATERIAL,
         /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
@@ -85,11 +91,22 @@ section! {
         pub yield_strength: Option<f64> = YIELD,
         /// tensile strength, compared with the largest principal stress
         pub tensile_strength: Option<f64> = TENSILE,
+        /// hardness: the pressure never exceeds that of the softer surface
+        pub hardness: Option<f64> = HARDNESS,
+        /// Archard's coefficient of wear k: the pressure p wears off the depth k p ds along the path ds of sliding
+        pub wear: Option<f64> = WEAR,
+        /// fatigue by the range of the principal shear stress τ₁ in a pass
+        pub fatigue: Option<FatigueSection> = FATIGUE_LAW,
+        /// endurance limits, below which any number of passes is borne, for the criteria of Crossland and Dang Van
+        pub endurance: Option<EnduranceSection> = ENDURANCE_LIMITS,
         /// strengths of the interface below the layer
         pub interface_strength: Option<InterfaceStrengthSection> =
             Key::new(&[Form::Table(&INTERFACE_STRENGTH)], "{ normal = 0.5, shear = 0.8 }")
                 .otherwise("never reached")
                 .rule("at least one of the two"),
+        /// fatigue of the interface below the layer by the range of its shear stress in a pass; not of a frictionless one
+        pub interface_fatigue: Option<FatigueSection> =
+            Key::new(&[Form::Table(&FATIGUE)], "{ amplitude = 0.2, passes = 1e6, exponent = 8 }").otherwise("no fatigue"),
     }
 }
 
@@ -98,7 +115,7 @@ section! {
     pub struct SubstrateSection = SUBSTRATE, rules elastic_or_rigid, misplaced [
         ("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")
     ] {
-        /// material of `percoat materials` or of the file `materials`, for moduli, strengths and name that are not given
+        /// material of `percoat materials` or of the file `materials`, for moduli, strengths, hardness and name that are not given
         pub material: Option<String> = MATERIAL,
         /// name of the material, used in place of its number in tables and pictures
         pub name: Option<String> = NAME,
@@ -110,31 +127,48 @@ section! {
         pub yield_strength: Option<f64> = YIELD,
         /// tensile strength, compared with the largest principal stress
         pub tensile_strength: Option<f64> = TENSILE,
-        /// whether it is a rigid base, without moduli, name and strengths; the interface of the last layer joins it to the base
-        pub rigid: Rigid = RIGID,
+        /// hardness: the pressure never exceeds that of the softer surface
+        pub hardness: Option<f64> = HARDNESS,
+        /// Archard's coefficient of wear k: the pressure p wears off the depth k p ds along the path ds of sliding
+        pub wear: Option<f64> = WEAR,
+        /// fatigue by the range of the principal shear stress τ₁ in a pass
+        pub fatigue: Option<FatigueSection> = FATIGUE_LAW,
+        /// endurance limits, below which any number of passes is borne, for the criteria of Crossland and Dang Van
+        pub endurance: Option<EnduranceSection> = ENDURANCE_LIMITS,
+        /// whether it is a rigid base, without the keys of a material; the interface of the last layer joins it to the base
+        pub rigid: Rigid = RIGID.and_of(BELOW),
     }
 }
 
 /// Refuses a rigid base with keys of a material, and an elastic substrate without moduli.
 fn elastic_or_rigid(own: &SubstrateSection, section: &TableAt<'_>) -> Result<(), Refusal> {
-    modulus_or_rigid(own.rigid.0, section)
+    modulus_or_rigid(own.rigid.0, BELOW, section)
 }
 
-/// Refuses a rigid base with keys of a material, and an elastic one without moduli.
-pub(super) fn modulus_or_rigid(is_rigid: bool, section: &TableAt<'_>) -> Result<(), Refusal> {
+/// Refuses what is rigid with `young` or one of the `keys` of a material, and what is elastic without moduli.
+pub(super) fn modulus_or_rigid(is_rigid: bool, keys: &[&str], section: &TableAt<'_>) -> Result<(), Refusal> {
     if !is_rigid {
         return ["young", "poisson"].into_iter().try_for_each(|key| section.value(key).map(drop));
     }
-    let Some(value) = ["young"].into_iter().chain(ELASTIC).find_map(|key| section.optional(key)) else { return Ok(()) };
+    let Some(value) = ["young"].iter().chain(keys).find_map(|key| section.optional(key)) else { return Ok(()) };
     let message = format!("`{}` has no meaning: `{}` = true has no material", value.path, section.path("rigid"));
     Err(Refusal::new(value.node.span, message, "not of a rigid base").help("remove it, or `rigid`"))
 }
 
-/// Refuses interface strengths without a number, and a layer without either a modulus and Poisson's ratio or `graded`.
+/// Refuses interface strengths without a number, fatigue of an interface that transmits no shear, and a layer without either a
+/// modulus and Poisson's ratio or `graded`.
 fn consistent(layer: &LayerSection, section: &TableAt<'_>) -> Result<(), Refusal> {
     if layer.interface_strength == Some(InterfaceStrengthSection { normal: None, shear: None }) {
         let refusal = section.value("interface_strength")?.refuse_form();
         return Err(refusal.help("at least one of the two; the one left out is never reached"));
+    }
+    if let Some(value) = section.optional("interface_fatigue")
+        && layer.interface.interface() == Interface::Frictionless
+    {
+        let message = format!("`{}` has no meaning: a frictionless interface transmits no shear", value.path);
+        return Err(
+            Refusal::new(value.node.span, message, "never loaded").help("remove it, or give another `interface`")
+        );
     }
     if layer.graded.is_some() {
         let uniform = ["shear_ratio", "young", "poisson"];
@@ -149,6 +183,13 @@ impl SubstrateSection {
     /// Its material without a name; `None` for a rigid base.
     fn material(&self) -> Option<Result<Material, MaterialError>> {
         (!self.rigid.0).then(|| Material::from_young(demanded(self.young), demanded(self.poisson)))
+    }
+
+    /// The half-space of these layers on its material.
+    fn under(&self, layers: Vec<Layer>, material: Material) -> Result<HalfSpace, MaterialError> {
+        let strength = Strength { yielding: self.yield_strength, tensile: self.tensile_strength };
+        let durability = durability(self.hardness, self.wear, self.fatigue, self.endurance)?;
+        HalfSpace::new(layers, material).with_substrate_strength(strength)?.with_substrate_durability(durability)
     }
 }
 
@@ -187,11 +228,13 @@ impl LayerSection {
         let own = Strength { yielding: self.yield_strength, tensile: self.tensile_strength };
         let lower =
             self.interface_strength.as_ref().map_or(InterfaceStrength::default(), InterfaceStrengthSection::strength);
+        let durability = durability(self.hardness, self.wear, self.fatigue, self.endurance)?;
+        let fatigue = self.interface_fatigue.map(|own| own.fatigue()).transpose()?;
         let layer = |(index, material): (usize, Material)| {
-            let (interface, strength) = if index + 1 == count {
-                (self.interface.interface(), lower)
+            let (interface, strength, fatigue) = if index + 1 == count {
+                (self.interface.interface(), lower, fatigue)
             } else {
-                (Interface::Bonded, InterfaceStrength::default())
+                (Interface::Bonded, InterfaceStrength::default(), None)
             };
             let name = name.map(|name| match count {
                 1 => Name::new(name),
@@ -199,7 +242,8 @@ impl LayerSection {
             });
             Layer::new(material.with_name(name), self.thickness / count as f64, interface)?
                 .with_residual_stress(self.residual_stress)?
-                .with_strengths(own, strength)
+                .with_strengths(own, strength)?
+                .with_durability(durability, fatigue)
         };
         materials.into_iter().enumerate().map(layer).collect()
     }
@@ -276,10 +320,7 @@ fn build(
         return HalfSpace::on_rigid_base(built?.concat()).map_err(|error| refuse(substrate_section, "rigid", error));
     };
     let base = base.with_name(names[layers.len()].as_deref().map(Name::new));
-    let strength = Strength { yielding: substrate.yield_strength, tensile: substrate.tensile_strength };
-    HalfSpace::new(built?.concat(), base)
-        .with_substrate_strength(strength)
-        .map_err(|error| refuse(substrate_section, "yield_strength", error))
+    substrate.under(built?.concat(), base).map_err(|error| refuse(substrate_section, "yield_strength", error))
 }
 
 /// Refuses a layer on a rigid base whose moduli are stated over those of the substrate.

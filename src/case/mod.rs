@@ -3,8 +3,8 @@
 //! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and converted to the core's types: its problem,
 //! and the run that solves it. Faults are refused with their line ([`CaseError`]).
 //!
-//! One file a section: lattice, levels, surface, layers (with the substrate, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
-//! friction, units, stress, localized; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
+//! One file a section: lattice, levels, surface, layers (with the substrate, `durability`, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
+//! friction, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
 //! makes of them the texts of `percoat explain` and the schema; `identification` lets numbers be free; `materials` is the library. A document is parsed to a tree (`node`), changed by `overrides`,
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
 //!
@@ -16,6 +16,7 @@
 //! ```
 
 mod counterbody;
+mod durability;
 mod elastic_counterbody;
 pub mod embedded;
 mod error;
@@ -31,6 +32,7 @@ mod keys;
 mod lattice;
 mod layers;
 mod levels;
+mod life;
 mod load;
 mod localized;
 mod lookup;
@@ -54,6 +56,7 @@ mod units;
 mod value;
 mod writer;
 
+pub use durability::{EnduranceSection, FatigueSection};
 pub use elastic_counterbody::CounterbodySection;
 pub use error::CaseError;
 pub use feasibility::single_contact::foreseen;
@@ -70,6 +73,7 @@ pub use keys::{Explanation, UnknownKey, explain, overview, schema};
 pub use lattice::{LatticeKind, LatticeSection};
 pub use layers::{LayerSection, Rigid, SubstrateSection};
 pub use levels::{LevelSection, ShapeKind};
+pub use life::LifeSection;
 pub use load::{LoadSection, Steps};
 pub use localized::LocalizedSection;
 pub use lookup::{NoCase, find};

@@ -3,7 +3,7 @@
 use super::counterbody::{self, CounterbodySections};
 use super::elastic_counterbody::{self, COUNTERBODY};
 use super::error::{CaseError, Refusal};
-use super::feasibility::magnitude;
+use super::feasibility::{hardness, magnitude};
 use super::friction::FRICTION;
 use super::grading::LAYERS;
 use super::grid::{self, GRID};
@@ -11,6 +11,7 @@ use super::keys::{Form, Key};
 use super::lattice::LATTICE;
 use super::layers::{self, Body, LAYER, SUBSTRATE};
 use super::levels::LEVELS;
+use super::life::LIFE;
 use super::load::LOAD;
 use super::localized::LOCALIZED;
 use super::materials;
@@ -24,8 +25,8 @@ use super::surface::SURFACE;
 use super::units::UNITS;
 use super::writer::written;
 use super::{
-    CounterbodySection, FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection,
-    Source, StressSection, SubstrateSection, SurfaceSection, UnitsSection,
+    CounterbodySection, FrictionSection, LatticeSection, LayerSection, LevelSection, LifeSection, LoadSection,
+    LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection, UnitsSection,
 };
 use crate::body::{Bodies, HalfSpace, MeanStress};
 use crate::comparison::ComparisonTask;
@@ -68,7 +69,7 @@ section! { whole
                 .omitted_as_nothing(),
         /// the material below the layers, or a rigid base
         pub substrate: SubstrateSection = Key::new(&[Form::Table(&SUBSTRATE)], "{ young = 1.0, poisson = 0.3 }"),
-        /// the elastic body that the indenters or the topography belong to
+        /// the body that the indenters or the topography belong to
         pub counterbody: Option<CounterbodySection> = Key::new(&[Form::Table(&COUNTERBODY)], "{ young = 210.0, poisson = 0.3 }").otherwise("rigid"),
         /// mean pressure, force or penetration, one value a load step, or a given pressure
         pub load: LoadSection = Key::new(&[Form::Table(&LOAD)], "{ mean_pressure = 0.01 }"),
@@ -89,6 +90,9 @@ section! { whole
         /// circles of the localized method, for `compare`
         pub localized: LocalizedSection =
             Key::new(&[Form::Table(&LOCALIZED)], "{ indenters = [7, 37] }").otherwise("its defaults"),
+        /// how far `percoat life` follows wear and fatigue
+        pub life: Option<LifeSection> =
+            Key::new(&[Form::Table(&LIFE)], "{ passes = 1e7 }").otherwise("only to the first failure"),
     }
     beside {
         /// Warnings about its surface, a sentence each.
@@ -207,13 +211,15 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let body = layers::read(&root)?;
     let elastic_section = root.section("counterbody")?;
     let elastic = elastic_section.as_ref().map(elastic_counterbody::read).transpose()?;
-    let above = elastic.as_ref().map(|(_, above)| above);
+    let above = elastic.as_ref().and_then(|(_, above)| above.body());
     for own in [&body].into_iter().chain(above) {
         magnitude::layers(&own.half_space, &own.places(), counterbody.cell())?;
     }
-    let bodies = match above {
-        Some(above) => Bodies::elastic(body.half_space.clone(), above.half_space.clone()),
-        None => Bodies::from(body.half_space.clone()),
+    let bodies = match (&elastic, &elastic_section) {
+        (Some((_, above)), Some(section)) => above
+            .bodies(body.half_space.clone())
+            .map_err(|error| Refusal::new(section.span, format!("`counterbody`: {error}"), "this counterbody"))?,
+        _ => Bodies::from(body.half_space.clone()),
     };
 
     let load_section = root.required_section("load")?;
@@ -238,6 +244,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let solver_section = root.section_or_empty("solver")?;
     let settings = Settings::read_table(&solver_section)?;
     let mut problem = Problem::new(counterbody, bodies);
+    hardness::bears(&load, &load_section, &problem)?;
     let mut friction = None;
     if let Some(section) = root.section("friction")? {
         let own = FrictionSection::read_table(&section)?;
@@ -261,6 +268,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
             })
             .transpose()?,
         localized: LocalizedSection::read_table(&root.section_or_empty("localized")?)?,
+        life: root.section("life")?.as_ref().map(LifeSection::read_table).transpose()?,
         levels,
         surface,
         layers: body.layers,

@@ -351,4 +351,29 @@ mod tests {
             assert!(check.to_string().contains(&stated), "{stated}:\n{check}");
         }
     }
+
+    #[test]
+    fn what_surfaces_and_interfaces_bear_is_said_with_its_units() {
+        let law = "{ amplitude = 0.4, passes = 1e6, exponent = 8 }";
+        let text = format!(
+            "lattice = {{ kind = \"isolated\", size = 6.0 }}\nlevels = [{{ shape = \"paraboloid\", radius = 1.0 }}]\n\
+             layers = [{{ thickness = 1.0, young = 300.0, poisson = 0.25, hardness = 24.0, interface_fatigue = {law} }}]\n\
+             substrate = {{ young = 210.0, poisson = 0.3, wear = 1e-9, fatigue = {law}, endurance = {{ torsion = 0.3, bending = 0.5 }} }}\n\
+             counterbody = {{ rigid = true, hardness = 9.0 }}\nload = {{ force = 0.1 }}\ngrid = {{ points = 64 }}\n\
+             units = {{ length = \"µm\", pressure = \"GPa\" }}\n"
+        );
+        let source = Source { name: "case".to_owned(), text, ..Source::default() };
+        let room = Capacity { memory: u64::MAX, disk: u64::MAX };
+        let told =
+            Check::of(&Case::read(&source, &[]).unwrap(), "case", room).unwrap().to_string().replace('\u{a0}', " ");
+        for line in [
+            "\n  hardness 24.000 GPa; lower face: fatigue after 1.0000e6 passes of a range 400.00 MPa of its shear, exponent 8.0000\n",
+            "\n  wear 1.0000e-9 1/GPa; fatigue after 1.0000e6 passes of a range 400.00 MPa of τ₁, exponent 8.0000; endurance 300.00 MPa \
+             in torsion, 500.00 MPa in bending\n",
+            "\ncounterbody: rigid\n  hardness 9.0000 GPa\n",
+            "\npressure: at most 9.0000 GPa, the hardness of the surface of the counterbody\n",
+        ] {
+            assert!(told.contains(line), "{line} does not stand in\n{told}");
+        }
+    }
 }

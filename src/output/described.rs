@@ -1,7 +1,7 @@
 //! Counterbody, half-space and grid of a case in words, every length and pressure with its unit.
 
 use super::number::{number, with_error};
-use crate::body::{Bodies, HalfSpace, Interface, Layer, Material};
+use crate::body::{Bodies, Durability, Fatigue, HalfSpace, Interface, Layer, Material, Side};
 use crate::counterbody::{Counterbody, GivenPressure, LoadedDisc, Shape};
 use crate::lattice::{Cell, Grid};
 use crate::units::{Unit, Units};
@@ -108,16 +108,44 @@ fn interface(units: &Units, interface: Interface) -> String {
     format!("spring, tangential stiffness {tangential}, normal stiffness {normal}")
 }
 
-/// Layers and substrate of the body, one a line, then those of an elastic counterbody.
+/// Layers and substrate of the body, one a line, then those of an elastic counterbody, or what a rigid one bears, and the largest
+/// pressure.
 pub(super) fn bodies(units: &Units, bodies: &Bodies) -> String {
     let own = half_space(units, bodies.body());
-    match bodies.counterbody() {
-        Some(above) => format!("{own}\ncounterbody, from its surface inward:\n{}", half_space(units, above)),
-        None => own,
-    }
+    let above = match bodies.counterbody() {
+        Some(above) => format!("\ncounterbody, from its surface inward:\n{}", half_space(units, above)),
+        None => match durability(units, bodies.surface_durability(Side::Counterbody), None) {
+            borne if borne.is_empty() => borne,
+            borne => format!("\ncounterbody: rigid{borne}"),
+        },
+    };
+    let most = bodies.hardness().map_or(String::new(), |(hardness, side)| {
+        format!("\npressure: at most {}, the hardness of the surface of the {side}", pressure(units, hardness))
+    });
+    format!("{own}{above}{most}")
 }
 
-/// Layers and substrate, one a line.
+/// What a material and the interface below it bear, in a line of its own behind theirs; empty where nothing is given.
+fn durability(units: &Units, own: Durability, interface: Option<Fatigue>) -> String {
+    let law = |law: Fatigue, stress: &str| {
+        let [passes, exponent] = [law.passes(), law.exponent()].map(number);
+        format!("{passes} passes of a range {} of {stress}, exponent {exponent}", pressure(units, law.amplitude()))
+    };
+    let parts = [
+        own.hardness.map(|hardness| format!("hardness {}", pressure(units, hardness))),
+        own.wear.map(|wear| format!("wear {}", compound(wear, &[units.pressure()], |names| format!("1/{}", names[0])))),
+        own.fatigue.map(|own| format!("fatigue after {}", law(own, "τ₁"))),
+        own.endurance.map(|own| {
+            let [torsion, bending] = [own.torsion(), own.bending()].map(|limit| pressure(units, limit));
+            format!("endurance {torsion} in torsion, {bending} in bending")
+        }),
+        interface.map(|own| format!("lower face: fatigue after {}", law(own, "its shear"))),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    if parts.is_empty() { String::new() } else { format!("\n  {}", parts.join("; ")) }
+}
+
+/// Layers and substrate, each in a line, and in the next one what it bears.
 fn half_space(units: &Units, half_space: &HalfSpace) -> String {
     let substrate = half_space.substrate().material();
     let layers = (1..).zip(half_space.layers()).map(|(index, layer): (usize, &Layer)| {
@@ -128,15 +156,18 @@ fn half_space(units: &Units, half_space: &HalfSpace) -> String {
         let ratio =
             substrate.map_or(String::new(), |base| format!("χ {}, ", number(layer.material().shear() / base.shear())));
         format!(
-            "layer {index}{}: thickness {}, {ratio}{}, {}{residual}\n",
+            "layer {index}{}: thickness {}, {ratio}{}, {}{residual}{}\n",
             layer.material().name_behind(),
             length(units, layer.thickness()),
             material(units, layer.material()),
-            interface(units, layer.interface())
+            interface(units, layer.interface()),
+            durability(units, layer.durability(), layer.interface_fatigue())
         )
     });
-    let substrate = substrate
-        .map_or("rigid base".to_owned(), |own| format!("substrate{}: {}", own.name_behind(), material(units, own)));
+    let substrate = substrate.map_or("rigid base".to_owned(), |own| {
+        let borne = half_space.durabilities().last().map_or(String::new(), |last| durability(units, last, None));
+        format!("substrate{}: {}{borne}", own.name_behind(), material(units, own))
+    });
     layers.collect::<String>() + &substrate
 }
 

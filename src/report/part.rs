@@ -1,6 +1,7 @@
 //! A part of the page: one result in its sections, and the sections that every result has.
 
 use super::markup::{Markup, tag, with};
+use super::problem::is_elastic;
 use super::resolution::upper;
 use crate::body::MeanStress;
 use crate::output::table::Assumptions;
@@ -72,7 +73,7 @@ pub(super) fn by(version: &str) -> Markup {
 fn assumptions(case: &Value) -> Assumptions {
     let mean = if case["stress"]["mean"] == "half-space" { MeanStress::HalfSpace } else { MeanStress::default() };
     let isolated = case["lattice"]["kind"] == "isolated";
-    let rigid = case["counterbody"].is_null() && case["load"]["pressure"].is_null();
+    let rigid = !is_elastic(case) && case["load"]["pressure"].is_null();
     Assumptions { mean, isolated, rigid }
 }
 

@@ -7,7 +7,7 @@ use crate::output::table::Table;
 use serde_json::{Map, Value};
 
 /// Names of keys in the tables; a key that is not listed is shown as in the case, underscores as blanks.
-const NAMES: [(&str, &str); 20] = [
+const NAMES: [(&str, &str); 22] = [
     ("a1", "cell vector a₁"),
     ("a2", "cell vector a₂"),
     ("accuracy", "prescribed accuracy"),
@@ -15,6 +15,7 @@ const NAMES: [(&str, &str); 20] = [
     ("coupling", "coupled to the pressure"),
     ("heights", "heights, a file"),
     ("interface", "lower face"),
+    ("interface_fatigue", "fatigue of the lower face"),
     ("interface_strength", "strength of the lower face"),
     ("kind", "lattice"),
     ("material", "from the library"),
@@ -26,6 +27,7 @@ const NAMES: [(&str, &str); 20] = [
     ("size", "sides of the window"),
     ("tensile_strength", "tensile strength"),
     ("tolerance", "tolerance of the solver"),
+    ("wear", "coefficient of wear, 1/pressure"),
     ("yield_strength", "yield strength"),
     ("young", "Young’s modulus"),
 ];
@@ -45,7 +47,14 @@ pub(super) fn problem(case: &Value) -> Markup {
         parts.push(items(&format!("{caption}, level by level"), "level", levels, |number| number.to_string()));
     }
     parts.push(materials("The body, from the surface down", list(case, "layers"), &case["substrate"]));
-    if let Some(keys) = case["counterbody"].as_object() {
+    if let Some(keys) = case["counterbody"].as_object().filter(|_| !is_elastic(case)) {
+        let surface: Map<String, Value> =
+            keys.iter().filter(|(key, _)| *key != "rigid").map(|(key, value)| (key.clone(), value.clone())).collect();
+        parts.push(of_keys(
+            "The surface of the rigid counterbody",
+            &entries("counterbody", &Value::Object(surface), false),
+        ));
+    } else if let Some(keys) = case["counterbody"].as_object() {
         let substrate: Map<String, Value> =
             keys.iter().filter(|(key, _)| *key != "layers").map(|(key, value)| (key.clone(), value.clone())).collect();
         let layers = list(&case["counterbody"], "layers");
@@ -54,10 +63,15 @@ pub(super) fn problem(case: &Value) -> Markup {
     let sections = case.as_object().into_iter().flatten().filter(|(key, _)| !APART.contains(&key.as_str()));
     let rows: Vec<(String, String)> =
         sections.flat_map(|(section, value)| entries(section, value, is_isolated(case))).collect();
-    let rows: Vec<(&str, Markup)> = rows.iter().map(|(name, text)| (name.as_str(), text.as_str().into())).collect();
     let cell = if is_isolated(case) { "Window" } else { "Cell" };
-    parts.push(pairs(&format!("{cell}, load, grid and all other keys"), &rows));
+    parts.push(of_keys(&format!("{cell}, load, grid and all other keys"), &rows));
     parts.into()
+}
+
+/// Keys and their values, a row each.
+fn of_keys(caption: &str, rows: &[(String, String)]) -> Markup {
+    let rows: Vec<(&str, Markup)> = rows.iter().map(|(name, text)| (name.as_str(), text.as_str().into())).collect();
+    pairs(caption, &rows)
 }
 
 /// The items of a list of a section; empty without it.
@@ -69,8 +83,10 @@ fn is_isolated(case: &Value) -> bool {
     case["lattice"]["kind"] == "isolated"
 }
 
-fn is_elastic(case: &Value) -> bool {
-    !case["counterbody"].is_null()
+/// Whether the counterbody is elastic, or its coating.
+pub(super) fn is_elastic(case: &Value) -> bool {
+    let own = &case["counterbody"];
+    !own.is_null() && !(on_rigid_base(own) && list(own, "layers").is_empty())
 }
 
 /// The layers of a body and its substrate as one table, with the numbers of their materials.
@@ -173,8 +189,9 @@ fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> Str
 
 /// The keys of a section with their values, without those of no effect on an isolated contact.
 fn entries(section: &str, value: &Value, is_isolated: bool) -> Vec<(String, String)> {
-    let prefix =
-        |key: &str| if matches!(section, "stress" | "friction") { format!("{section}: {key}") } else { key.to_owned() };
+    let prefix = |key: &str| {
+        if matches!(section, "stress" | "friction" | "life") { format!("{section}: {key}") } else { key.to_owned() }
+    };
     let has_effect = |key: &str| !(is_isolated && section == "stress" && key == "mean");
     let samples = if is_isolated { "samples of the window" } else { "samples of the cell" };
     match value {
@@ -182,6 +199,7 @@ fn entries(section: &str, value: &Value, is_isolated: bool) -> Vec<(String, Stri
             let entry = |(key, value): (&String, &Value)| match key.as_str() {
                 "points" if section == "grid" => (samples.to_owned(), text(value).replace(", ", " × ")),
                 "points" => (prefix("single points"), text(value)),
+                "tolerance" if section == "life" => (prefix("error of a step of wear"), text(value)),
                 "size" => (named(key), text(value).replace(", ", " × ")),
                 key => (prefix(&named(key)), text(value)),
             };
@@ -276,6 +294,33 @@ mod tests {
         ] {
             assert_eq!(sentence(&case), words);
         }
+    }
+
+    #[test]
+    fn what_bodies_bear_stands_in_words() {
+        let law = json!({ "amplitude": 0.2, "passes": 1e6, "exponent": 8.0 });
+        let case = json!({
+            "lattice": { "kind": "square", "period": 4.0 }, "levels": [{ "radius": 1.0 }],
+            "layers": [{ "thickness": 2.0, "young": 300.0, "hardness": 24.0, "interface_fatigue": law }],
+            "substrate": { "young": 210.0, "wear": 1e-9 }, "counterbody": { "rigid": true, "hardness": 80.0 },
+            "solver": { "tolerance": 1e-8 }, "life": { "passes": 1e7, "tolerance": 0.01 },
+        });
+        let page = problem(&case).as_str().replace('\u{a0}', " ");
+        for words in [
+            "Rigid indenters",
+            "The indenters, rigid",
+            "fatigue of the lower face",
+            "amplitude 0.2, passes 1e6, exponent 8",
+            "coefficient of wear, 1/pressure",
+            "The surface of the rigid counterbody",
+            ">80<",
+            "life: passes",
+            "life: error of a step of wear",
+            "tolerance of the solver",
+        ] {
+            assert!(page.contains(words), "{words}: {page}");
+        }
+        assert!(!page.contains("from its surface inward"), "{page}");
     }
 
     #[test]

@@ -63,6 +63,7 @@ fn a_case_takes_its_materials_and_keeps_their_numbers() {
     for words in [
         "material = \"TiN\"",
         "young = 430000.0",
+        "hardness = 24000.0",
         "name = \"shop steel\"",
         "young = 205000.0",
         "yield_strength = 900.0",

@@ -1,6 +1,6 @@
 //! Warnings about a case that can be solved but is implausible: units mixed up, strains that are not small.
 
-use super::{ball, si_sizes, springs, sublayers};
+use super::{ball, durability, si_sizes, springs, sublayers};
 use crate::body::{HalfSpace, Material, MeanStress};
 use crate::case::{Case, LayerSection};
 use crate::counterbody::{Level, Shape, Topography};
@@ -22,8 +22,10 @@ pub fn of_case(case: &Case) -> Vec<String> {
     let (counterbody, cell) = (case.counterbody(), case.counterbody().cell());
     let mut doubts: Vec<String> = pressures(case).into_iter().collect();
     doubts.extend(moduli(case));
-    doubts.extend(si_sizes::doubts(case, &materials(case).collect::<Vec<_>>()));
+    let named: Vec<(Material, String)> = materials(case).collect();
+    doubts.extend(si_sizes::doubts(case, &named));
     doubts.extend(strengths(case));
+    doubts.extend(durability::doubts(case, &named));
     doubts.extend(friction(case));
     doubts.extend(springs::drifting(case, cell));
     doubts.extend(lengths(case, cell));

@@ -24,7 +24,7 @@ pub fn sublayer_error(case: &Case) -> Option<f64> {
     let above = case.counterbody.iter().flat_map(|above| &above.layers.0);
     case.layers.iter().chain(above).any(|layer| layer.graded.is_some()).then_some(())?;
     let body = layers::refined(&case.layers, &case.substrate)?;
-    let finer = match &case.counterbody {
+    let finer = match case.counterbody.as_ref().filter(|above| above.is_elastic()) {
         Some(above) => Bodies::elastic(body, above.refined()?),
         None => Bodies::from(body),
     };

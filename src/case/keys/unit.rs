@@ -9,6 +9,8 @@ pub(in crate::case) enum Unit {
     Pressure,
     /// Unit of forces: a pressure times an area.
     Force,
+    /// Unit of coefficients of wear.
+    PerPressure,
     /// Unit of stiffnesses of springs.
     PressurePerLength,
     /// Unit of the coefficient of a power law.
@@ -22,6 +24,7 @@ impl Unit {
             Self::Length => "length, the same in the whole case; units.length names it",
             Self::Pressure => "pressure, as Young's modulus; units.pressure names it",
             Self::Force => "pressure times length squared: mN in a case of GPa and µm, N in one of MPa and mm",
+            Self::PerPressure => "one over a pressure: 1/GPa in a case of GPa",
             Self::PressurePerLength => "pressure per length",
             Self::LengthToOneMinusN => "length to the power 1 − n",
         }
@@ -34,6 +37,7 @@ impl Unit {
             Self::Length => "length",
             Self::Pressure => "pressure",
             Self::Force => "force",
+            Self::PerPressure => "1/pressure",
             Self::PressurePerLength => "pressure per length",
         }
     }

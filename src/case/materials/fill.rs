@@ -188,21 +188,23 @@ mod tests {
 
     #[test]
     fn a_material_gives_what_its_section_leaves_out_in_the_unit_of_the_case() {
-        for (unit, young, yielding) in [
-            ("GPa", 193.0, 0.215),
-            ("MPa", 193e3, 215.0),
-            ("N/mm²", 193e3, 215.0),
-            ("Pa", 193e9, 215e6),
-            ("TPa", 0.193, 2.15e-4),
-            ("bar", 193e4, 2150.0),
+        for (unit, young, yielding, hardness) in [
+            ("GPa", 193.0, 0.215, 1.36),
+            ("MPa", 193e3, 215.0, 1360.0),
+            ("N/mm²", 193e3, 215.0, 1360.0),
+            ("Pa", 193e9, 215e6, 136e7),
+            ("TPa", 0.193, 2.15e-4, 1.36e-3),
+            ("bar", 193e4, 2150.0, 13_600.0),
         ] {
             let lines = format!("substrate = {{ material = \"AISI 304\" }}\nunits = {{ pressure = \"{unit}\" }}");
-            let own = valid(&lines, "", &[]).substrate;
+            // In every unit below the hardness.
+            let own = valid(&lines, "", &["load.mean_pressure=1e-6"]).substrate;
             assert_eq!(
-                (own.young, own.poisson, own.yield_strength),
-                (Some(young), Some(0.29), Some(yielding)),
+                (own.young, own.poisson, own.yield_strength, own.hardness),
+                (Some(young), Some(0.29), Some(yielding), Some(hardness)),
                 "{unit}"
             );
+            assert_eq!((own.wear, own.fatigue, own.endurance), (None, None, None), "{unit}");
             assert_eq!((own.name.as_deref(), own.material.as_deref()), (Some("AISI 304"), Some("AISI 304")));
             // The ultimate strength of a ductile steel is none at which it cracks.
             assert_eq!(own.tensile_strength, None);
@@ -219,9 +221,11 @@ mod tests {
         assert_eq!((ratio.name.as_deref(), ratio.tensile_strength), (Some("a"), Some(0.41)));
         let young = of("young = 300, tensile_strength = 1");
         assert_eq!((young.young, young.poisson, young.tensile_strength), (Some(300.0), Some(0.16), Some(1.0)));
+        assert_eq!((young.hardness, of("hardness = 25").hardness), (Some(27.0), Some(25.0)));
         // With both moduli it is a name, known or not.
         let graded = of("graded = { young = [2, 1], poisson = [0.2, 0.3] }");
         assert_eq!((graded.young, graded.poisson, graded.tensile_strength), (None, None, None));
+        assert_eq!(graded.hardness, None);
         assert_eq!(graded.name.as_deref(), Some("SiC"));
     }
 
@@ -246,9 +250,10 @@ mod tests {
 
     #[test]
     fn another_material_takes_the_place_of_the_numbers_before_it() {
-        let lines = "substrate = { young = 1, poisson = 0.3, yield_strength = 2, name = \"a\" }\nunits = { pressure = \"GPa\" }";
+        let lines = "substrate = { young = 1, poisson = 0.3, yield_strength = 2, hardness = 3, name = \"a\" }\nunits = { pressure = \"GPa\" }";
         let own = valid(lines, "", &["substrate.material=TiN"]).substrate;
         assert_eq!((own.young, own.poisson, own.yield_strength), (Some(430.0), Some(0.25), None));
+        assert_eq!(own.hardness, Some(24.0));
         assert_eq!(own.name.as_deref(), Some("TiN"));
         let later = valid(lines, "", &["substrate.material=TiN", "substrate.young=300"]).substrate;
         assert_eq!((later.young, later.poisson), (Some(300.0), Some(0.25)));

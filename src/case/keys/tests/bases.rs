@@ -53,7 +53,8 @@ impl Bases {
         let rich: Table = linear.parse().unwrap();
         let above = |layers: Value| {
             let mut own: Table =
-                "young = 2e11\npoisson = 0.3\nyield_strength = 1e9\ntensile_strength = 2e9\nname = \"ball\"\n"
+                "young = 2e11\npoisson = 0.3\nyield_strength = 1e9\ntensile_strength = 2e9\nname = \"ball\"\n\
+                 fatigue = { amplitude = 4e8, passes = 1e6, exponent = 8 }\nendurance = { torsion = 4e8, bending = 6e8 }\n"
                     .parse()
                     .unwrap();
             own.insert("layers".to_owned(), layers);
@@ -63,6 +64,7 @@ impl Bases {
         };
         let elastic = above(rich["layers"].clone());
         let graded_above = above(graded.parse::<Table>().unwrap()["layers"].clone());
+        let limits = "endurance = { torsion = 0.4, bending = 0.5 }";
         let spectrum = "hurst = 0.5, shortest = 0.3, longest = 1.0, rolloff = 0.6, rms_slope = 0.2";
         let texts = [
             format!("{plain}{BODY}{uniform}friction = {{ coefficient = 0.1 }}\n"),
@@ -76,6 +78,12 @@ impl Bases {
             elastic,
             graded_above,
             format!("{window}{}", BODY.replace("mean_pressure", "force")),
+            format!("{plain}{BODY}counterbody = {{ rigid = true, hardness = 9.0 }}\n"),
+            format!(
+                "{plain}{}{}counterbody = {{ young = 1.0, poisson = 0.3, {limits}, layers = [{{ thickness = 1.0, young = 2.0, poisson = 0.2, {limits} }}] }}\n",
+                BODY.replace("poisson = 0.3", &format!("poisson = 0.3, {limits}")),
+                layer(&format!("young = 2.0, poisson = 0.2, {limits}"))
+            ),
             format!(
                 "{plain}{}{}counterbody = {{ rigid = true, layers = [{{ thickness = 1.0, young = 2.0, poisson = 0.2 }}] }}\n",
                 BODY.replace("young = 1.0, poisson = 0.3", "rigid = true"),
