@@ -367,9 +367,9 @@ mod tests {
         let told =
             Check::of(&Case::read(&source, &[]).unwrap(), "case", room).unwrap().to_string().replace('\u{a0}', " ");
         for line in [
-            "\n  hardness 24.000 GPa; lower face: fatigue after 1.0000e6 passes of a range 400.00 MPa of its shear, exponent 8.0000\n",
-            "\n  wear 1.0000e-9 1/GPa; fatigue after 1.0000e6 passes of a range 400.00 MPa of τ₁, exponent 8.0000; endurance 300.00 MPa \
-             in torsion, 500.00 MPa in bending\n",
+            "\n  hardness 24.000 GPa; lower face: fatigue after 1.0000e6 passes with a range of its shear of 0.40000 GPa, exponent 8.0000\n",
+            "\n  wear 1.0000e-9 1/GPa; fatigue after 1.0000e6 passes with a range of τ₁ of 0.40000 GPa, exponent 8.0000; endurance 0.30000 GPa \
+             in torsion, 0.50000 GPa in bending\n",
             "\ncounterbody: rigid\n  hardness 9.0000 GPa\n",
             "\npressure: at most 9.0000 GPa, the hardness of the surface of the counterbody\n",
         ] {

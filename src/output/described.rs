@@ -129,7 +129,7 @@ pub(super) fn bodies(units: &Units, bodies: &Bodies) -> String {
 fn durability(units: &Units, own: Durability, interface: Option<Fatigue>) -> String {
     let law = |law: Fatigue, stress: &str| {
         let [passes, exponent] = [law.passes(), law.exponent()].map(number);
-        format!("{passes} passes of a range {} of {stress}, exponent {exponent}", pressure(units, law.amplitude()))
+        format!("{passes} passes with a range of {stress} of {}, exponent {exponent}", pressure(units, law.amplitude()))
     };
     let parts = [
         own.hardness.map(|hardness| format!("hardness {}", pressure(units, hardness))),
