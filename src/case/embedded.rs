@@ -5,7 +5,7 @@ use super::Source;
 /// Name of the case that runs when none is given.
 pub const DEFAULT: &str = "fig2";
 
-const CASES: [(&str, &str); 16] = [
+const CASES: [(&str, &str); 17] = [
     ("ball-on-disc", include_str!("../../cases/ball-on-disc.toml")),
     ("dlc-on-steel", include_str!("../../cases/dlc-on-steel.toml")),
     ("fig2", include_str!("../../cases/fig2.toml")),
@@ -20,6 +20,7 @@ const CASES: [(&str, &str); 16] = [
     ("polymer-on-steel", include_str!("../../cases/polymer-on-steel.toml")),
     ("ring", include_str!("../../cases/ring.toml")),
     ("rough", include_str!("../../cases/rough.toml")),
+    ("rough-metal", include_str!("../../cases/rough-metal.toml")),
     ("scratch", include_str!("../../cases/scratch.toml")),
     ("tin-on-steel", include_str!("../../cases/tin-on-steel.toml")),
 ];
