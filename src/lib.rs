@@ -111,9 +111,9 @@ pub use friction::{Friction, FrictionError};
 pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid};
 pub use load::{Load, LoadQuantity};
 pub use problem::Problem;
-pub use reading::{LevelReading, Reading, StressReading};
+pub use reading::{DamageMap, FatigueReading, LevelReading, Life, Reading, StressReading};
 pub use run::{Run, Sampling};
 pub use spectral::{
     Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver, Step, Stop, Tangent,
 };
-pub use stress::{DepthPlane, StressField, StressFields, StressState, SurfaceLine, VerticalSection};
+pub use stress::{DepthPlane, SlidingPath, StressField, StressFields, StressState, SurfaceLine, VerticalSection};

@@ -7,6 +7,8 @@ mod common;
 mod cases_refused;
 #[path = "library/energy.rs"]
 mod energy;
+#[path = "library/fatigue.rs"]
+mod fatigue;
 #[path = "library/first_touch.rs"]
 mod first_touch;
 #[path = "library/given_load.rs"]

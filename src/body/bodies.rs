@@ -93,6 +93,15 @@ impl Bodies {
         Self { body, ..self.clone() }
     }
 
+    /// Whether a material or an interface has a law of fatigue.
+    pub fn tire(&self) -> bool {
+        let tires = |own: &HalfSpace| {
+            own.durabilities().any(|own| own.fatigue.is_some())
+                || own.layers().iter().any(|own| own.interface_fatigue().is_some())
+        };
+        self.each().any(tires)
+    }
+
     /// The body.
     pub fn body(&self) -> &HalfSpace {
         &self.body

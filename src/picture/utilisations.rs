@@ -80,7 +80,9 @@ pub(super) fn utilisation_curves(
 /// of failure and colours by depth, those of the counterbody behind those of the body.
 fn drawn(criterion: Criterion, index: usize, all: &[Criterion]) -> (Style, Ink) {
     let place = |criterion: &Criterion| match *criterion {
-        Criterion::Yield(material) | Criterion::Cracking(material) => (material.is_counterbody(), material.number),
+        Criterion::Yield(own) | Criterion::Cracking(own) | Criterion::Crossland(own) | Criterion::DangVan(own) => {
+            (own.is_counterbody(), own.number)
+        }
         Criterion::Delamination(interface) => (interface.is_counterbody(), interface.number),
     };
     let body = all.iter().map(place).filter(|(above, _)| !above).map(|(_, number)| number).max().unwrap_or(0);
@@ -93,8 +95,8 @@ fn drawn(criterion: Criterion, index: usize, all: &[Criterion]) -> (Style, Ink) 
     }
     let style = match criterion {
         Criterion::Yield(_) => Style::Line,
-        Criterion::Cracking(_) => Style::Dashed,
-        Criterion::Delamination(_) => Style::Dotted,
+        Criterion::Cracking(_) | Criterion::Crossland(_) => Style::Dashed,
+        Criterion::Delamination(_) | Criterion::DangVan(_) => Style::Dotted,
     };
     let deepest = all.iter().map(depth).max().unwrap_or(1);
     (style, Ink::by_depth(depth(&criterion) - 1, deepest))

@@ -10,10 +10,12 @@ pub(crate) mod boundary;
 mod contact;
 mod contact_area;
 mod counted;
+mod damage_map;
 mod edge;
 mod edge_transforms;
 mod errors;
 mod estimate;
+mod fatigue;
 mod fraction;
 mod fractions;
 mod governing;
@@ -36,7 +38,10 @@ mod verdict;
 
 pub use boundary::Boundary;
 pub use contact::Reading;
+pub use damage_map::DamageMap;
 pub use errors::{Errors, LevelErrors};
+pub(crate) use fatigue::PathReading;
+pub use fatigue::{FatiguePart, FatigueReading, Life};
 #[cfg(feature = "cli")]
 pub(crate) use governing::names;
 pub use governing::{Governing, within_the_errors};

@@ -38,7 +38,8 @@ impl VerticalSection {
     /// largest.
     pub(crate) fn governing_measure(&self, criterion: Criterion, half_space: &HalfSpace) -> SectionMeasure {
         let interface = match criterion {
-            Criterion::Yield(_) => return SectionMeasure::Mises,
+            Criterion::Yield(_) | Criterion::Crossland(_) => return SectionMeasure::Mises,
+            Criterion::DangVan(_) => return SectionMeasure::Tau1,
             Criterion::Cracking(_) => return SectionMeasure::Tension,
             Criterion::Delamination(interface) => interface.number,
         };

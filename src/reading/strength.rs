@@ -1,14 +1,15 @@
 //! Failure criteria and their utilisations in a load step.
 //!
 //! The **utilisation** of a criterion is 1 where it fails: von Mises over the yield strength, σ₁ over the tensile strength,
-//! √((⟨σ_zz⟩/σ_c)² + (τ/τ_c)²) of an interface. It is no safety factor: contact is not linear, and the load at which it
+//! √((⟨σ_zz⟩/σ_c)² + (τ/τ_c)²) of an interface; of endurance limits, under any number of passes of the counterbody, [√J₂,a +
+//! (3τ₋₁/σ₋₁ − √3) σ_H]/τ₋₁ (Crossland) and [τ_a + 3(τ₋₁/σ₋₁ − ½) σ_H]/τ₋₁ (Dang Van) along the path of sliding. It is no safety factor: contact is not linear, and the load at which it
 //! reaches 1 is found by solving ([`crate::Run::limits`]).
 
 use super::StressReading;
 use super::verdict::Verdict;
-use crate::body::{Bodies, HalfSpace, InterfaceId, MaterialId, Name, Side};
+use crate::body::{Bodies, Endurance, HalfSpace, InterfaceId, MaterialId, Name, Side};
 use crate::numeric::serialised;
-use crate::stress::Peak;
+use crate::stress::{PathPeak, Peak};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -24,25 +25,34 @@ pub enum Criterion {
     Cracking(MaterialId),
     /// An interface comes off.
     Delamination(InterfaceId),
+    /// A material tires under many passes, by the criterion of Crossland.
+    Crossland(MaterialId),
+    /// A material tires under many passes, by the criterion of Dang Van.
+    DangVan(MaterialId),
 }
 
 impl Criterion {
     /// All that the bodies have strengths for, those of the body first: yield and cracking from the surface down, then the
-    /// interfaces.
+    /// interfaces, then the endurance of materials.
     pub fn all(bodies: &Bodies) -> Vec<Self> {
         bodies.each().flat_map(Self::of).collect()
     }
 
-    /// All that a half-space has strengths for.
+    /// All that a half-space has strengths and endurance limits for.
     fn of(half_space: &HalfSpace) -> Vec<Self> {
         let strengths = || (1..).zip(half_space.strengths());
         let yields = strengths().filter(|(_, strength)| strength.yielding.is_some());
         let cracks = strengths().filter(|(_, strength)| strength.tensile.is_some());
         let interfaces = (1..).zip(half_space.layers()).filter(|(_, layer)| !layer.interface_strength().is_empty());
+        let endures = (1..).zip(half_space.durabilities()).filter(|(_, own)| own.endurance.is_some());
         yields
             .map(|(number, _)| Self::Yield(half_space.material_id(number)))
             .chain(cracks.map(|(number, _)| Self::Cracking(half_space.material_id(number))))
             .chain(interfaces.map(|(number, _)| Self::Delamination(half_space.interface_id(number))))
+            .chain(endures.flat_map(|(number, _)| {
+                let material = half_space.material_id(number);
+                [Self::Crossland(material), Self::DangVan(material)]
+            }))
             .collect()
     }
 
@@ -67,13 +77,17 @@ impl Criterion {
             Self::Yield(_) => "yield",
             Self::Cracking(_) => "cracking",
             Self::Delamination(_) => "delamination",
+            Self::Crossland(_) => "crossland",
+            Self::DangVan(_) => "dang_van",
         }
     }
 
     /// It by number, as files have it: "yield of material 2".
     pub fn code(self) -> String {
         match self {
-            Self::Yield(own) | Self::Cracking(own) => format!("{} of {}", self.name(), own.code()),
+            Self::Yield(own) | Self::Cracking(own) | Self::Crossland(own) | Self::DangVan(own) => {
+                format!("{} of {}", self.name(), own.code())
+            }
             Self::Delamination(own) => format!("{} of {}", self.name(), own.code()),
         }
     }
@@ -86,8 +100,8 @@ impl Criterion {
     /// The name of its material or interface.
     pub fn subject(self) -> Option<Name> {
         match self {
-            Self::Yield(MaterialId { name, .. }) | Self::Cracking(MaterialId { name, .. }) => name,
-            Self::Delamination(InterfaceId { name, .. }) => name,
+            Self::Yield(own) | Self::Cracking(own) | Self::Crossland(own) | Self::DangVan(own) => own.name,
+            Self::Delamination(own) => own.name,
         }
     }
 
@@ -109,35 +123,44 @@ impl Criterion {
             Self::Yield(own) => Self::Yield(own.without_name()),
             Self::Cracking(own) => Self::Cracking(own.without_name()),
             Self::Delamination(own) => Self::Delamination(own.without_name()),
+            Self::Crossland(own) => Self::Crossland(own.without_name()),
+            Self::DangVan(own) => Self::DangVan(own.without_name()),
         }
     }
 
     /// The body whose material or interface fails; `None` where only one is elastic.
     pub fn side(self) -> Option<Side> {
         match self {
-            Self::Yield(material) | Self::Cracking(material) => material.side,
+            Self::Yield(own) | Self::Cracking(own) | Self::Crossland(own) | Self::DangVan(own) => own.side,
             Self::Delamination(interface) => interface.side,
         }
     }
 
-    /// Its strength, a pressure; 1 for an interface, whose utilisation is searched itself.
+    /// Its strength, a pressure; 1 for an interface and of endurance limits, whose utilisations are searched themselves.
     fn strength(self, bodies: &Bodies) -> Option<f64> {
         let half_space = bodies.on(self.side());
         match self {
             Self::Yield(material) => half_space.strengths().nth(material.number - 1)?.yielding,
             Self::Cracking(material) => half_space.strengths().nth(material.number - 1)?.tensile,
-            Self::Delamination(_) => Some(1.0),
+            Self::Delamination(_) | Self::Crossland(_) | Self::DangVan(_) => Some(1.0),
         }
     }
 
-    /// Utilisation by residual stress alone: in a layer under σ_r in both directions, von Mises is |σ_r|.
+    /// Utilisation by residual stress alone: in a layer under σ_r in both directions, von Mises is |σ_r|; in a cycle without an amplitude
+    /// the hydrostatic stress is ⅔σ_r.
     pub fn at_rest(self, bodies: &Bodies) -> f64 {
         let half_space = bodies.on(self.side());
         let residual = |material: MaterialId| half_space.residual_stresses().nth(material.number - 1).unwrap_or(0.0);
+        let endured = |material: MaterialId, utilisation: fn(&Endurance, f64) -> f64| {
+            let own = half_space.durabilities().nth(material.number - 1).and_then(|own| own.endurance);
+            own.map_or(0.0, |own| utilisation(&own, 2.0 / 3.0 * residual(material)).max(0.0))
+        };
         let stress = match self {
             Self::Yield(material) => residual(material).abs(),
             Self::Cracking(material) => residual(material).max(0.0),
             Self::Delamination(_) => 0.0,
+            Self::Crossland(material) => endured(material, |own, hydrostatic| own.crossland(0.0, hydrostatic)),
+            Self::DangVan(material) => endured(material, |own, hydrostatic| own.dang_van(0.0, hydrostatic)),
         };
         self.strength(bodies).map_or(0.0, |strength| stress / strength)
     }
@@ -149,6 +172,8 @@ impl fmt::Display for Criterion {
             Self::Yield(material) => write!(f, "yield of {material}"),
             Self::Cracking(material) => write!(f, "cracking of {material}"),
             Self::Delamination(interface) => write!(f, "delamination of {interface}"),
+            Self::Crossland(material) => write!(f, "fatigue of {material} by Crossland"),
+            Self::DangVan(material) => write!(f, "fatigue of {material} by Dang Van"),
         }
     }
 }
@@ -168,7 +193,9 @@ impl FromStr for Criterion {
         let yields = material("yield of ").map(Self::Yield);
         let cracks = || material("cracking of ").map(Self::Cracking);
         let parts = || interface("delamination of ").map(Self::Delamination);
-        yields.or_else(cracks).or_else(parts).ok_or_else(|| format!("criterion {text:?} is not known"))
+        let tires =
+            || material("crossland of ").map(Self::Crossland).or_else(|| material("dang_van of ").map(Self::DangVan));
+        yields.or_else(cracks).or_else(parts).or_else(tires).ok_or_else(|| format!("criterion {text:?} is not known"))
     }
 }
 
@@ -212,13 +239,15 @@ impl Utilisation {
         self.value + self.error.unwrap_or(0.0)
     }
 
-    /// The utilisation of every criterion of the bodies by the largest stresses of a step.
+    /// The utilisation of every criterion of the bodies by the largest stresses of a step; those of endurance limits depend on the path
+    /// of sliding and are not among them.
     pub fn all(bodies: &Bodies, stress: &StressReading) -> Vec<Self> {
         let of = |criterion: Criterion| {
             let peak: Peak = match criterion {
                 Criterion::Yield(material) => stress.in_material(material)?.mises,
                 Criterion::Cracking(material) => stress.in_material(material)?.tension,
                 Criterion::Delamination(interface) => stress.on_interface(interface)?.delamination?,
+                Criterion::Crossland(_) | Criterion::DangVan(_) => return None,
             };
             Self::by_peak(bodies, criterion, peak)
         };
@@ -229,12 +258,21 @@ impl Utilisation {
     pub(super) fn by_peak(bodies: &Bodies, criterion: Criterion, peak: Peak) -> Option<Self> {
         let strength = criterion.strength(bodies)?;
         let error = peak.error.map(|error| error / strength);
-        let taken = peak.value / strength;
-        // Nothing fails by being pressed, and the error is that of what is above 0; what is not a number stays so.
+        let rival = peak.rival.map(|rival| rival.position);
+        Some(Self { rival, ..Self::taken(criterion, peak.value / strength, error, peak.position) })
+    }
+
+    /// The utilisation of an endurance limit along the path of sliding.
+    pub(super) fn by_path(criterion: Criterion, peak: PathPeak) -> Self {
+        Self::taken(criterion, peak.value, peak.error, peak.position)
+    }
+
+    /// The utilisation by what is taken up of a strength, below zero where it is pressed: nothing fails by being pressed, and the error
+    /// is that of what is above 0. What is not a number stays so.
+    fn taken(criterion: Criterion, taken: f64, error: Option<f64>, position: [f64; 3]) -> Self {
         let (value, error) =
             if taken < 0.0 { (0.0, error.map(|error| (taken + error).max(0.0))) } else { (taken, error) };
-        let rival = peak.rival.map(|rival| rival.position);
-        Some(Self { rival, ..Self::new(criterion, value, error, peak.position) })
+        Self::new(criterion, value, error, position)
     }
 }
 
@@ -250,7 +288,11 @@ mod tests {
             Criterion::Yield(MaterialId { name, ..MaterialId::numbered(2) }),
             Criterion::Delamination(InterfaceId { name, ..InterfaceId::numbered(1) }),
         ];
-        for own in named.into_iter().chain([Criterion::cracking_of(3)]) {
+        let tires = [
+            Criterion::DangVan(MaterialId::numbered(2)),
+            Criterion::Crossland(MaterialId { name, ..MaterialId::numbered(1) }),
+        ];
+        for own in named.into_iter().chain([Criterion::cracking_of(3)]).chain(tires) {
             let read: Criterion = own.code_with_name().parse().unwrap();
             assert_eq!((read, read.subject()), (own, own.subject()));
         }

@@ -1,9 +1,10 @@
 //! The utilisations of a step by a search for the stresses of its criteria alone.
 
+use super::fatigue::PathReading;
 use super::stress::{Tip, contact_radii, move_beside_site};
 use super::{Criterion, Reading, Utilisation};
 use crate::spectral::Step;
-use crate::stress::{StrengthPeaks, StressFields};
+use crate::stress::{PathSought, StrengthPeaks, StressFields};
 
 /// The utilisations of a step that has contact, by a search for the stresses of the criteria alone; they are those by
 /// [`StressReading::of`](super::StressReading::of). `None` when `goes_on`, called many times a second during the search, returns false.
@@ -33,10 +34,13 @@ pub(crate) fn utilisations_while(
             Criterion::Yield(material) => peaks.mises[material.number - 1],
             Criterion::Cracking(material) => peaks.tension[material.number - 1],
             Criterion::Delamination(interface) => peaks.delamination[interface.number - 1],
+            Criterion::Crossland(_) | Criterion::DangVan(_) => None,
         };
         let judged = own.into_iter().filter_map(|criterion| Utilisation::by_peak(bodies, criterion, peak(criterion)?));
         all.extend(judged);
     }
+    let sought = PathSought { fatigue: false, endurance: true };
+    all.extend(PathReading::of_while(step, reading, fields, sought, goes_on)?.utilisations);
     Some(all)
 }
 

@@ -8,7 +8,7 @@ use crate::friction::Friction;
 use crate::numeric::serialised;
 use crate::spectral::Step;
 use crate::stress::maxima::{Carried, Extremes, Maxima};
-use crate::stress::{Peak, StressField, StressFields};
+use crate::stress::{PathPeak, Peak, StressField, StressFields};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -114,6 +114,11 @@ impl Tip {
         let Self { position, material, .. } = *self;
         *peak = Peak { value: f64::INFINITY, position, material, error: None, rival: None, ..*peak };
     }
+
+    /// The same of a measure along a path: its shear stress and the amplitude of its deviator are infinite.
+    pub fn press_path(&self, peak: &mut PathPeak) {
+        *peak = PathPeak { value: f64::INFINITY, error: None, position: self.position };
+    }
 }
 
 /// Every place of a largest stress.
@@ -166,7 +171,7 @@ fn friction(step: &Step) -> f64 {
 
 /// The image of a position nearest to an indenter of the first cell: behind an indenter x is less than at its axis, not a period
 /// more.
-fn beside_site(step: &Step, [x, y, z]: [f64; 3]) -> [f64; 3] {
+pub(super) fn beside_site(step: &Step, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let cell = step.grid().cell();
     let ([s, t], reduced) = (cell.fractions([x, y]), cell.reduced());
     let near = step.surface().sites().iter().map(|site| {

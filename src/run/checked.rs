@@ -1,7 +1,7 @@
 //! Validation of the record of a load step that is read back.
 
 use super::StepRecord;
-use crate::reading::{Governing, Utilisation, Verdict};
+use crate::reading::{FatigueReading, Governing, Utilisation, Verdict};
 use crate::spectral::{Certificate, Stop};
 
 /// A number that is null was not finite, which is allowed only in a step with [`Stop::NotANumber`]; elsewhere a null, or a pressure
@@ -83,6 +83,20 @@ impl StepRecord {
                 return Err(format!("`state` of {criterion} is `{is}`, and its utilisation {value} makes it `{due}`"));
             }
         }
+        if let Some(fatigue) = &self.fatigue {
+            for life in &fatigue.lives {
+                at_least_zero_or_infinite(&format!("range of {}", life.part), life.range)?;
+                at_least_zero_or_infinite(&format!("passes of {}", life.part), life.passes)?;
+            }
+            let due = FatigueReading::new(fatigue.path, fatigue.lives.clone());
+            if due.as_ref().is_none_or(|due| due.first != fatigue.first) {
+                let due = due.map_or("nothing".to_owned(), |due| due.first.part.to_string());
+                return Err(format!(
+                    "`fatigue.first` is {}, and the shortest life is that of {due}",
+                    fatigue.first.part
+                ));
+            }
+        }
         let governing = |own: Option<&Governing>| own.map_or("nothing".to_owned(), |own| own.criterion.to_string());
         let [is, due] = [self.governing.as_ref(), Governing::of(&self.strength).as_ref()].map(governing);
         if is == due { Ok(()) } else { Err(format!("`governing` is {is}, and the largest utilisation is of {due}")) }
@@ -104,6 +118,12 @@ fn finite(name: &str, value: f64) -> Result<(), String> {
 
 fn at_least_zero(name: &str, value: f64) -> Result<(), String> {
     finite(name, value)?;
+    if value < 0.0 { Err(format!("`{name}` is {value}, which is below zero")) } else { Ok(()) }
+}
+
+/// A number that may be infinite and is not below zero.
+fn at_least_zero_or_infinite(name: &str, value: f64) -> Result<(), String> {
+    number(name, value)?;
     if value < 0.0 { Err(format!("`{name}` is {value}, which is below zero")) } else { Ok(()) }
 }
 

@@ -48,9 +48,9 @@ use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::load::{Control, Load, LoadQuantity};
 use crate::problem::Problem;
-use crate::reading::{self, Criterion, StressReading};
+use crate::reading::{self, Criterion, PathReading, StressReading};
 use crate::spectral::{OtherGrids, Settings, Solver, Step};
-use crate::stress::{StressFields, Tables};
+use crate::stress::{PathSought, StressFields, Tables};
 use std::cell::Cell;
 use std::convert::Infallible;
 use std::error::Error;
@@ -204,10 +204,11 @@ impl Run {
         Ok(Outcome { steps, last, points, change, end, warnings })
     }
 
-    /// Convention for the mean lateral stress; `None` where neither stresses are computed nor strengths are given.
+    /// Convention for the mean lateral stress; `None` where neither stresses are computed nor strengths or laws of fatigue are given.
     fn mean_stress(&self) -> Option<MeanStress> {
-        let has_strengths = || !Criterion::all(self.problem.bodies()).is_empty();
-        self.stress.as_ref().map(|request| request.mean).or_else(|| has_strengths().then(MeanStress::default))
+        let bodies = self.problem.bodies();
+        let are_judged = || !Criterion::all(bodies).is_empty() || bodies.tire();
+        self.stress.as_ref().map(|request| request.mean).or_else(|| are_judged().then(MeanStress::default))
     }
 
     /// Solves all loads on one grid, after those of the earlier run `finished`.
@@ -277,8 +278,13 @@ impl Run {
             let judged = match loading {
                 Loading::Search => reading::utilisations_while(&step, &record.reading, fields, &goes_on)
                     .map(|utilisations| record.clone().with_utilisations(utilisations)),
-                Loading::Path | Loading::Limit => StressReading::of_while(&step, &record.reading, fields, &goes_on)
-                    .map(|stress| record.clone().with_stress(stress, bodies)),
+                Loading::Path | Loading::Limit => {
+                    let (stress, path) = (
+                        StressReading::of_while(&step, &record.reading, fields, &goes_on),
+                        PathReading::of_while(&step, &record.reading, fields, PathSought::ALL, &goes_on),
+                    );
+                    stress.zip(path).map(|(stress, path)| record.clone().with_stress(stress, bodies).with_path(path))
+                }
             };
             if let Some(error) = ended.into_inner() {
                 return Err(RunError::Recorder(error));

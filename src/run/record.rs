@@ -4,8 +4,8 @@ use super::Tapered;
 use crate::body::Bodies;
 use crate::numeric::serialised;
 use crate::reading::{
-    Criterion, Governing, PlasticReading, Reading, RoughReading, StressReading, Utilisation, stiffness,
-    within_the_errors,
+    Criterion, FatigueReading, Governing, PathReading, PlasticReading, Reading, RoughReading, StressReading,
+    Utilisation, stiffness, within_the_errors,
 };
 use crate::spectral::{Certificate, Report, Route, Step, Stop, Tangent};
 use serde::{Deserialize, Serialize};
@@ -61,6 +61,10 @@ pub struct StepRecord {
     /// The criterion nearest to failure, with its rivals; `None` without contact or strengths.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub governing: Option<Governing>,
+    /// Passes until the first damage of each material and interface with a law of fatigue; `None` without contact or laws, and under loads
+    /// of a search for limits that are not shown.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fatigue: Option<FatigueReading>,
     /// Wall time of the solution, the readings and the largest stresses, seconds, by the [clock](super::Recorder::clock)
     /// of the recorder; `None` where it has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -122,6 +126,7 @@ impl StepRecord {
             stress: None,
             strength: Vec::new(),
             governing: None,
+            fatigue: None,
             seconds: None,
         };
         record.judged()
@@ -164,6 +169,14 @@ impl StepRecord {
     #[must_use]
     pub(super) fn with_utilisations(self, strength: Vec<Utilisation>) -> Self {
         Self { governing: Governing::of(&strength), strength, ..self }.judged()
+    }
+
+    /// The record with what the stresses along the path of sliding say: lives, and utilisations of endurance limits behind those of the
+    /// strengths.
+    #[must_use]
+    pub(super) fn with_path(self, PathReading { fatigue, utilisations }: PathReading) -> Self {
+        let strength = [&self.strength[..], &utilisations].concat();
+        Self { fatigue, ..self }.with_utilisations(strength)
     }
 
     /// The utilisation of a criterion; `None` without contact, or a strength.
@@ -216,7 +229,8 @@ impl StepRecord {
         let utilisations = self.strength.iter().map(|utilisation| utilisation.value);
         let interfaces = self.stress.iter().flat_map(|stress| &stress.interfaces);
         let interfaces = interfaces.flat_map(|carried| [carried.normal.value, carried.shear.value]);
-        let stresses = stresses.chain(utilisations).chain(interfaces);
+        let ranges = self.fatigue.iter().flat_map(|own| own.lives.iter().map(|life| life.range));
+        let stresses = stresses.chain(utilisations).chain(interfaces).chain(ranges);
         scalars.iter().all(|x| x.is_finite()) && !stresses.into_iter().any(f64::is_nan)
     }
 }

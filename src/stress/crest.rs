@@ -130,6 +130,20 @@ impl StressField {
         self.crests_of(&[StressMeasure::Tension]).first().map(|(_, crest)| *crest)
     }
 
+    /// Places x, y, lengths, at the edges of contact, beside the samples where it ends, and the states there just outside; none without
+    /// edges.
+    pub(super) fn states_on_edges(&self) -> Vec<([f64; 2], StressState)> {
+        if !self.regions().have_edges() {
+            return Vec::new();
+        }
+        let response = Arc::new(self.depth_response(Depth::SURFACE, REACH));
+        let smoothed = SmoothedSurface::new(self, &response, 1.0);
+        let (transform, mut buffer) = (Transform::new(self.series_grid().points()), Vec::new());
+        let (edges, band) = self.edges(&smoothed, &transform, &mut buffer);
+        let (edges, _) = self.along_edges(&smoothed, &transform, &mut buffer, edges, band);
+        edges.into_iter().map(|edge| (edge.place, edge.state)).collect()
+    }
+
     fn read_surface(&self, measures: &[StressMeasure]) -> SurfaceReading {
         let response = Arc::new(self.depth_response(Depth::SURFACE, REACH));
         let smoothed = SmoothedSurface::new(self, &response, 1.0);

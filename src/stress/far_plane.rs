@@ -25,6 +25,13 @@ impl<const K: usize> FarPlane<K> {
         FarPlane { counts: self.counts, coefficients, corner: self.corner }
     }
 
+    /// The field with x and y exchanged.
+    pub fn exchanged(&self) -> Self {
+        let [n1, n2] = self.counts;
+        let coefficients = (0..n1 * n2).map(|k| self.coefficients[k % n1 * n2 + k / n1]).collect();
+        Self { counts: [n2, n1], coefficients, corner: [self.corner[1], self.corner[0]] }
+    }
+
     /// Place in the window, −1 to 1, of a fraction of the cell of the series; [`BEYOND`] its border at most.
     fn inside(&self, axis: usize, fraction: f64) -> f64 {
         (self.corner[axis] + 4.0 * fraction).clamp(-BEYOND, BEYOND)

@@ -289,7 +289,7 @@ impl StressField {
     }
 
     /// √(Σσᵢⱼ²) of a state without its mean and residual stresses, a pressure.
-    fn size_of_waves(&self, depth: Depth, state: &StressState) -> f64 {
+    pub(super) fn size_of_waves(&self, depth: Depth, state: &StressState) -> f64 {
         let mean = self.mean(depth);
         let own = StressState {
             xx: state.xx - mean.xx,

@@ -86,6 +86,17 @@ impl Series {
         buffer: Vec<f64>,
         response: &R,
     ) -> FieldColumns<'t, K> {
+        self.of_waves_from(start, transform, buffer, response).with_far(response.far(), start)
+    }
+
+    /// What the waves and the mean pressure contribute to [`Self::on_plane_from`].
+    pub fn of_waves_from<'t, const K: usize, R: Response<K>>(
+        &self,
+        start: [f64; 2],
+        transform: &'t Transform,
+        buffer: Vec<f64>,
+        response: &R,
+    ) -> FieldColumns<'t, K> {
         let [n1, n2] = transform.points().map(|n| n as i32);
         let rows = self.waves.rows_within(response.shells());
         // Re C e^{iq·x} is half the wave and half its conjugate; each belongs to one column or to its mirror image.
@@ -103,7 +114,7 @@ impl Series {
         };
         let occupied = |columns: Range<usize>| columns.start == 0 || !of(columns).is_empty();
         let is_moved = start != [0.0; 2];
-        let columns = transform.columns(buffer, occupied, |k2, column: &mut FieldColumn<'_, K>| {
+        transform.columns(buffer, occupied, |k2, column: &mut FieldColumn<'_, K>| {
             if k2 == 0 {
                 column.add(0, mean.map(Complex64::from));
             }
@@ -126,8 +137,41 @@ impl Series {
                     }
                 }
             }
-        });
-        columns.with_far(response.far(), start)
+        })
+    }
+
+    /// As [`Self::of_waves_from`] with the axes of the transform exchanged: its rows follow one another along a₂, its columns along a₁.
+    pub fn of_waves_exchanged<'t, const K: usize, R: Response<K>>(
+        &self,
+        start: [f64; 2],
+        transform: &'t Transform,
+        buffer: Vec<f64>,
+        response: &R,
+    ) -> FieldColumns<'t, K> {
+        let [n2, n1] = transform.points().map(|n| n as i32);
+        let (rows, mean, step) = (self.waves.rows_within(response.shells()), response.mean(), self.waves.step());
+        transform.columns(
+            buffer,
+            |_| true,
+            |k1, column: &mut FieldColumn<'_, K>| {
+                if k1 == 0 {
+                    column.add(0, mean.map(Complex64::from));
+                }
+                // Re C e^{iq·x} is half the wave and half its conjugate; each belongs to one column or to its mirror image.
+                for (row, sign) in rows.iter().flat_map(|row| [(row, 1), (row, -1)]) {
+                    let bin = (sign * row.across).rem_euclid(n2) as usize;
+                    let first = (sign * k1 as i32 - row.first).rem_euclid(n1) as usize;
+                    for k in (first..row.len).step_by(n1 as usize) {
+                        let number = row.start + k;
+                        let turns = f64::from(row.first + k as i32) * start[0] + f64::from(row.across) * start[1];
+                        let c = 0.5 * self.coefficients[number] * Complex64::cis(std::f64::consts::TAU * turns.fract());
+                        let waves = response.times(row.at(k, step), self.waves.shells()[number] as usize, c);
+                        let side = f64::from(sign);
+                        column.add(bin, waves.map(|wave| Complex64::new(wave.re, side * wave.im)));
+                    }
+                }
+            },
+        )
     }
 
     /// Components at points, given as fractions of a₁ and a₂, by the exact sum.

@@ -28,7 +28,7 @@ pub(super) struct Trace<'a> {
 impl<'a> Trace<'a> {
     /// Trace along the line from `origin` in the direction of the `unit` vector, both as fractions of a₁ and a₂.
     pub fn new(series: &'a Series, origin: [f64; 2], unit: [f64; 2]) -> Self {
-        Self { series, origin, unit, lattice: lattice_direction(unit) }
+        Self { series, origin, unit, lattice: lattice_direction(unit, WHOLE_TOLERANCE) }
     }
 
     /// Components of a response at s = first + i step, 0 ≤ i < `points`; s, first and step are lengths.
@@ -101,10 +101,11 @@ impl<'a> Trace<'a> {
 }
 
 /// m₁, m₂ without a common factor along a unit vector of these fractions of a₁ and a₂, and one over the distance s of
-/// m₁**a**₁ + m₂**a**₂ along it (of either sign); `None` for a direction that is incommensurate with the lattice.
-fn lattice_direction([s, t]: [f64; 2]) -> Option<([i32; 2], f64)> {
+/// m₁**a**₁ + m₂**a**₂ along it (of either sign); `None` for a direction that is incommensurate with the lattice, whose multiples are
+/// not whole to the `tolerance`.
+pub(super) fn lattice_direction([s, t]: [f64; 2], tolerance: f64) -> Option<([i32; 2], f64)> {
     let larger = if s.abs() > t.abs() { s } else { t };
-    let near = |x: f64| (x - x.round()).abs() <= WHOLE_TOLERANCE;
+    let near = |x: f64| (x - x.round()).abs() <= tolerance;
     let scale = (1..=MAX_MULTIPLE).map(f64::from).find(|m| near(m * s / larger) && near(m * t / larger))?;
     Some(([s, t].map(|x| (scale * x / larger).round() as i32), larger / scale))
 }

@@ -176,6 +176,25 @@ impl<const K: usize> FieldColumn<'_, K> {
 }
 
 impl<const K: usize> FieldColumns<'_, K> {
+    /// The fields with each row i shifted by a number of its periods, `by(i)`: what stood at the fraction t + by(i) stands at t. The columns must
+    /// hold all waves along the rows, without aliases.
+    pub fn sheared(mut self, by: impl Fn(usize) -> f64 + Sync) -> Self {
+        let (tile, half) = (self.transform.tile(), self.transform.half());
+        self.values.par_chunks_exact_mut(K * tile).enumerate().for_each(|(number, fields)| {
+            for (lane, k2) in (number * LANES..half.min((number + 1) * LANES)).enumerate() {
+                for row in 0..tile / LINE {
+                    let phase = Complex64::cis(std::f64::consts::TAU * (k2 as f64 * by(row)).fract());
+                    for lines in fields.chunks_exact_mut(tile) {
+                        let line = &mut lines[row * LINE..][..LINE];
+                        let own = phase * Complex64::new(line[lane], line[LANES + lane]);
+                        (line[lane], line[LANES + lane]) = (own.re, own.im);
+                    }
+                }
+            }
+        });
+        self
+    }
+
     /// The columns of fields to which the `far` one is added; the first point is at the fractions `start`.
     pub fn with_far(self, far: Option<FarPlane<K>>, start: [f64; 2]) -> Self {
         let columns = self.transform.points[1];

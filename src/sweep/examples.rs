@@ -64,6 +64,7 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: f64) -> Ste
         stress: None,
         strength: Vec::new(),
         governing: None,
+        fatigue: None,
         seconds: None,
     }
 }

@@ -170,8 +170,12 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
         each.fold((0, 0, 0), |(a, b, c), (x, y, z)| (a + x, b + y, c + z))
     });
     let elastic = bodies.each().count() as u64;
-    // Strengths need the largest stresses, also where the case has no [stress].
-    let stress = if Criterion::all(bodies).is_empty() { stress } else { stress.max(elastic * STRESS * series) };
+    // Strengths and fatigue need the largest stresses, also where the case has no [stress].
+    let stress = if Criterion::all(bodies).is_empty() && !bodies.tire() {
+        stress
+    } else {
+        stress.max(elastic * STRESS * series)
+    };
     let again = if stress > 0 && steps > 1 { elastic * AGAIN * series } else { 0 };
     let stress = if stress > 0 { stress + again + of_shells(case, series) } else { 0 };
     let drawn = if pictures { of_pictures(case) } else { 0 };

@@ -4,6 +4,7 @@ mod alone;
 mod assumed;
 mod by_step;
 mod comparison;
+mod fatigue;
 mod hertz;
 mod largest;
 mod plastic;
@@ -13,6 +14,7 @@ mod text;
 pub use alone::alone;
 pub use assumed::Assumptions;
 pub use comparison::{differences, readings, stresses};
+pub use fatigue::lives;
 pub use hertz::hertz;
 pub use largest::largest_stresses;
 pub use plastic::plastic;
@@ -62,6 +64,9 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     let strength = utilisations(steps, Some(case.problem().bodies()), &units);
     if let Some(strength) = &strength {
         text += &format!("\n{}\n\n", strength.fitted(width));
+    }
+    if let Some(lives) = lives(steps, &units) {
+        text += &format!("\n{}\n\n", lives.fitted(width));
     }
     if let Some(errors) = largest_errors(steps) {
         text += &format!("{errors}\n");
