@@ -114,6 +114,7 @@ pub use problem::Problem;
 pub use reading::{DamageMap, FatigueReading, LevelReading, Life, Reading, StressReading};
 pub use run::{Run, Sampling};
 pub use spectral::{
-    Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver, Step, Stop, Tangent,
+    Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver, Step, Stop, Tangent, Wear,
+    WearError, Worn,
 };
 pub use stress::{DepthPlane, SlidingPath, StressField, StressFields, StressState, SurfaceLine, VerticalSection};

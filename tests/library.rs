@@ -59,5 +59,7 @@ mod topographies;
 mod two_bodies;
 #[path = "library/volume.rs"]
 mod volume;
+#[path = "library/wear.rs"]
+mod wear;
 #[path = "library/work.rs"]
 mod work;

@@ -1,6 +1,7 @@
 //! The periodic plane: cells, lattices of indenters, grids of samples with their waves, and connected components of samples.
 
 mod cell;
+mod closed_path;
 pub(crate) mod components;
 mod error;
 mod grid;

@@ -31,6 +31,7 @@ mod tapered;
 #[cfg(feature = "cli")]
 pub(crate) mod touches;
 pub(crate) mod warnings;
+mod wear;
 
 pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change};
 pub use alone::alone;
@@ -42,6 +43,7 @@ pub use record::{Sliding, StepRecord};
 pub use recorder::Recorder;
 pub use sampling::Sampling;
 pub use tapered::Tapered;
+pub use wear::{PathEnd, WearPath, WornPath, WornStep, WornSurface};
 
 use crate::body::MeanStress;
 use crate::counterbody::Surface;

@@ -3,6 +3,7 @@
 use super::free_space::FreeSpaceOperator;
 use super::layered_operator::LayeredOperator;
 use super::operator::{ElasticOperator, Workspace};
+use super::wear::GridWear;
 use crate::body::Bodies;
 use crate::lattice::Grid;
 use crate::problem::Problem;
@@ -39,6 +40,22 @@ impl BodyOperator {
         match self {
             Self::Periodic(operator) => operator.displace(field, workspace),
             Self::FreeSpace(operator) => operator.displace(field, workspace),
+        }
+    }
+
+    /// Adds the compliance of a step of wear.
+    pub fn add_wear(&mut self, wear: &GridWear) {
+        match self {
+            Self::Periodic(operator) => operator.add_wear(wear),
+            Self::FreeSpace(operator) => operator.add_wear(wear),
+        }
+    }
+
+    /// Takes off the compliance of a step of wear.
+    pub fn remove_wear(&mut self) {
+        match self {
+            Self::Periodic(operator) => operator.remove_wear(),
+            Self::FreeSpace(operator) => operator.remove_wear(),
         }
     }
 

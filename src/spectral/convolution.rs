@@ -154,6 +154,13 @@ impl<T: Real> Convolution<T> {
         table
     }
 
+    /// Index in a multiplier's table of each component (k₁, k₂), 0 ≤ k₁ < N₁, that the table holds: k₂ ≤ N₂/2.
+    pub fn indices(&self) -> impl Fn([usize; 2]) -> Option<usize> + use<T> {
+        let ([n1, half], mut places) = ([self.points[0], self.half()], vec![0; self.points[0]]);
+        self.order.iter().enumerate().for_each(|(place, &k1)| places[k1] = place);
+        move |[k1, k2]| (k2 < half).then(|| (k2 / LANES * n1 + places[k1]) * LANES + k2 % LANES)
+    }
+
     /// F⁻¹[cK · F u] or F⁻¹[c F u / K] of a field u, still to be fetched. There is one of the `sources` for each
     /// [block](Self::blocks) of the rows; it puts row after row of u into what it is given. The [`memory`](Self::memory) is what the
     /// convolution works in.

@@ -10,6 +10,7 @@ use super::{Contact, Tangent};
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::load::{Control, Load};
+use crate::numeric::array::samples;
 use crate::numeric::sums;
 use crate::problem::Problem;
 use ndarray::Array2;
@@ -152,6 +153,29 @@ impl GridLevel {
         self.surface = Arc::new(original.with_initial_gap(gap));
         self.largest_gap = self.surface.largest();
         self.indented = Some((original, Arc::new(depths)));
+    }
+
+    /// The operator, to which a step of wear adds its compliance.
+    pub fn operator(&mut self) -> &mut BodyOperator {
+        &mut self.operator
+    }
+
+    /// Sets the surface of another moment, of which what is pressed in is a part.
+    pub fn set_surface(&mut self, surface: Arc<Surface>) {
+        self.indented = None;
+        self.largest_gap = surface.largest();
+        self.surface = surface;
+    }
+
+    /// Replaces the initial gap by that of the worn surfaces under the same pressure, measured from where these touch first; returns by
+    /// how much farther that is, a length.
+    pub fn wear_to(&mut self, mut gap: Array2<f64>) -> f64 {
+        let least = |gap: &[f64]| sums::least(gap.len(), |i| gap[i]);
+        let recession = least(samples(&gap)) - least(self.surface.gaps());
+        gap -= recession;
+        self.unknowns.penetration -= recession;
+        self.set_surface(Arc::new(self.surface.with_initial_gap(gap)));
+        recession
     }
 
     /// Confines contact to the nearest samples of a mask on the finest grid.

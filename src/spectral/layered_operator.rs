@@ -15,6 +15,7 @@ use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
 use super::convolution::{Convolution, Convolved};
 use super::multiplier::{Action, Multiplier, SkewRatio};
 use super::operator::{ElasticOperator, TractionUpdate, Workspace};
+use super::wear::GridWear;
 use crate::body::{Bodies, Compliances};
 use crate::friction::Friction;
 use crate::lattice::Grid;
@@ -32,7 +33,17 @@ pub struct LayeredOperator {
     /// Compliance at the least wavenumber, and under a uniform pressure.
     unit: f64,
     mean: f64,
+    worn: AddedWear,
     convolutions: f64,
+}
+
+/// What a step of wear has added.
+#[derive(Debug, Default)]
+struct AddedWear {
+    /// Compliance under a uniform pressure.
+    mean: f64,
+    /// Ratios T of before, by their index in the table.
+    ratios: Vec<(usize, f64)>,
 }
 
 impl LayeredOperator {
@@ -92,7 +103,7 @@ impl LayeredOperator {
             }
         });
         let compliance = if mean != 0.0 { compliance } else { compliance.dropping_mean() };
-        Self { double, single, compliance, skew: None, unit, mean, convolutions: 0.0 }
+        Self { double, single, compliance, skew: None, unit, mean, worn: AddedWear::default(), convolutions: 0.0 }
     }
 
     /// Convolutions so far; one in single precision counts half.
@@ -100,7 +111,7 @@ impl LayeredOperator {
         self.convolutions
     }
 
-    /// The largest part |T| that coupling adds to the operator; 0 without it.
+    /// The largest part |T| that coupling adds to the operator, without the compliance of a step of wear; 0 without coupling.
     pub fn coupling(&self) -> f64 {
         self.skew.as_ref().map_or(0.0, |&(_, largest)| largest)
     }
@@ -126,6 +137,26 @@ impl LayeredOperator {
         in_place(&self.double, action, &self.compliance, field, workspace);
     }
 
+    /// Adds the compliance k_c Δs of every wave and k_b Δs of those constant along the path of a step of wear. What the traction of
+    /// coupled friction displaces stays as it is.
+    pub(super) fn add_wear(&mut self, wear: &GridWear) {
+        self.remove_wear();
+        let index = self.double.indices();
+        let along = wear.along().into_iter().filter_map(|(component, value)| Some((index(component)?, value)));
+        self.compliance.add(wear.uniform(), &along.collect::<Vec<_>>());
+        let ratios = self.skew.as_mut().map(|(skew, _)| skew.keep_part(&self.compliance)).unwrap_or_default();
+        self.worn = AddedWear { mean: wear.mean(), ratios };
+    }
+
+    /// Takes off the compliance of a step of wear: the operator is that of before, bit for bit.
+    pub(super) fn remove_wear(&mut self) {
+        let AddedWear { ratios, .. } = std::mem::take(&mut self.worn);
+        self.compliance.restore();
+        if let Some((skew, _)) = &mut self.skew {
+            skew.restore(&ratios);
+        }
+    }
+
     /// Multiplication with the compliance and a common factor, and with 1 − iT under coupled friction.
     fn multiplied(&self, factor: f64) -> Action<'_> {
         self.skew.as_ref().map_or(Action::Multiply(factor), |(ratio, _)| Action::MultiplySkewed(factor, ratio))
@@ -140,11 +171,11 @@ impl ElasticOperator for LayeredOperator {
     }
 
     fn unit(&self) -> f64 {
-        self.unit
+        self.unit + self.worn.mean
     }
 
     fn mean_compliance(&self) -> f64 {
-        self.mean
+        self.mean + self.worn.mean
     }
 
     fn coupling(&self) -> f64 {
@@ -177,7 +208,7 @@ impl ElasticOperator for LayeredOperator {
         pressure: impl ByRows<f32>,
     ) -> Convolved<'a, f32> {
         self.convolutions += 0.5;
-        let factor = 1.0 / self.unit;
+        let factor = 1.0 / self.unit();
         let action = match traction {
             TractionUpdate::Updated => self.multiplied(factor),
             TractionUpdate::Lagged => Action::Multiply(factor),
@@ -187,7 +218,7 @@ impl ElasticOperator for LayeredOperator {
 
     fn preconditioned<'a>(&'a mut self, memory: &'a mut [f64], residual: impl ByRows<f32>) -> Convolved<'a, f32> {
         self.convolutions += 0.5;
-        self.single.convolve(Action::Divide(self.unit), &self.compliance, memory, residual)
+        self.single.convolve(Action::Divide(self.unit()), &self.compliance, memory, residual)
     }
 
     fn symmetric_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {

@@ -7,7 +7,8 @@
 //!   beyond the contact, for the preconditioner;
 //! - `grid_level`: a problem on one of its nested grids; `prolongation`: a solution carried over to the next finer one;
 //! - [`Solver`]: a problem on all of them, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid;
-//!   [`Checkpoint`]: the state from which an interrupted run continues.
+//!   [`Checkpoint`]: the state from which an interrupted run continues;
+//! - [`Wear`]: implicit steps of wear, `sliding_mean` of the body that is swept; [`Worn`]: the depths worn off.
 
 mod body_operator;
 mod by_rows;
@@ -23,9 +24,12 @@ mod layered_operator;
 mod multiplier;
 pub mod operator;
 mod prolongation;
+mod sliding_mean;
 mod solver;
 mod step;
 mod tangent;
+mod wear;
+mod worn;
 
 pub use checkpoint::{Checkpoint, OtherGrids};
 pub use contact::Contact;
@@ -37,3 +41,5 @@ pub use operator::Workspace;
 pub use solver::{Memory, Solver};
 pub use step::Step;
 pub use tangent::Tangent;
+pub use wear::{Wear, WearError};
+pub use worn::{WearState, Worn};

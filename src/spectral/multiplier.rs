@@ -2,6 +2,9 @@
 //!
 //! The multiplier of a kernel in free space, of which a window alone is used, may be zero or negative: there H, or H − iG with
 //! an odd G, the skew part itself.
+//!
+//! A further compliance may be added for a while ([`Multiplier::add`]): K + u + v with one number u for all components and v for few of
+//! them, with the skew part KT as it is. It takes memory for those few alone, and the multiplier is restored bit for bit.
 
 use crate::numeric::fourier::line;
 use crate::numeric::lanes::{LANES, Real, vectorised};
@@ -16,20 +19,59 @@ pub struct Multiplier {
     rows: usize,
     /// 1/(N₁N₂).
     normalisation: f64,
-    /// Whether products have zero mean: the value of the component (0, 0) is then for division alone.
-    drops_mean: bool,
+    /// K/(N₁N₂) of the component (0, 0) in products, where its value in the table is for division alone.
+    mean: Option<f64>,
+    added: Added,
+}
+
+/// What is added to a multiplier for a while.
+#[derive(Debug, Clone, Default)]
+struct Added {
+    /// u/(N₁N₂), added to every value of the table.
+    uniform: f64,
+    /// Values of the table, by their index, and of the mean before v was added.
+    table: Vec<(usize, f64)>,
+    mean: Option<f64>,
 }
 
 impl Multiplier {
     /// With the values K/(N₁N₂) of `table`, N₁ `rows`.
     pub(super) fn new(table: Vec<f64>, rows: usize, normalisation: f64) -> Self {
-        Self { table, rows, normalisation, drops_mean: false }
+        Self { table, rows, normalisation, mean: None, added: Added::default() }
     }
 
     /// The multiplier whose products have zero mean; its value of the component (0, 0) is for division alone.
     #[must_use]
     pub fn dropping_mean(self) -> Self {
-        Self { drops_mean: true, ..self }
+        Self { mean: Some(0.0), ..self }
+    }
+
+    /// Adds `uniform` = u to the values of all components, and v to those of a few, each once with its index in the table. Where the mean is
+    /// dropped so far, products have that of u and v, and division takes u and v beside the value for it alone.
+    pub fn add(&mut self, uniform: f64, few: &[(usize, f64)]) {
+        self.restore();
+        self.added =
+            Added { uniform: uniform * self.normalisation, table: Vec::with_capacity(few.len()), mean: self.mean };
+        for &(index, value) in few {
+            self.added.table.push((index, self.table[index]));
+            self.table[index] += value * self.normalisation;
+        }
+        let own = few.iter().find(|(index, _)| *index == 0).map_or(0.0, |&(_, value)| value * self.normalisation);
+        self.mean = self.mean.map(|mean| mean + self.added.uniform + own);
+    }
+
+    /// Takes off what was [added](Self::add): the multiplier is that of before, bit for bit.
+    pub fn restore(&mut self) {
+        let added = std::mem::take(&mut self.added);
+        if added.uniform != 0.0 || !added.table.is_empty() {
+            self.mean = added.mean;
+        }
+        added.table.iter().for_each(|&(index, value)| self.table[index] = value);
+    }
+
+    /// K without v over K with it, for each component that has v, with its index in the table.
+    pub(super) fn parts(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.added.table.iter().map(|&(index, before)| (index, before / self.table[index]))
     }
 
     pub(super) fn len(&self) -> usize {
@@ -47,6 +89,22 @@ pub struct SkewRatio {
 impl SkewRatio {
     pub(super) fn new(table: Vec<f64>) -> Self {
         Self { table }
+    }
+
+    /// Keeps KT as it is while K is that of a multiplier to which v was [added](Multiplier::add); returns the ratios of before, each with
+    /// its index in the table.
+    pub(super) fn keep_part(&mut self, multiplier: &Multiplier) -> Vec<(usize, f64)> {
+        let scaled = multiplier.parts().map(|(index, part)| {
+            let before = self.table[index];
+            self.table[index] *= part;
+            (index, before)
+        });
+        scaled.collect()
+    }
+
+    /// Sets the ratios of before.
+    pub(super) fn restore(&mut self, before: &[(usize, f64)]) {
+        before.iter().for_each(|&(index, ratio)| self.table[index] = ratio);
     }
 
     /// The largest |T|.
@@ -87,6 +145,13 @@ impl Action<'_> {
     /// Multiplies lines of a tile of columns, from its line `first` on.
     pub(super) fn multiply<T: Real>(self, multiplier: &Multiplier, tile: usize, first: usize, lines: &mut [T]) {
         let rows = lines.len() / line::<T>();
+        let uniform = multiplier.added.uniform;
+        let own_mean = match self {
+            Self::Multiply(factor) | Self::MultiplySkewed(factor, _) if tile == 0 && first == 0 => {
+                multiplier.mean.map(|mean| [lines[0], lines[T::WIDTH]].map(|x| product(x, mean * factor)))
+            }
+            _ => None,
+        };
         for (number, lane) in (0..T::WIDTH).step_by(LANES).enumerate() {
             // Factors of eight columns.
             let whole = (tile * T::WIDTH / LANES + number) * multiplier.rows;
@@ -94,31 +159,54 @@ impl Action<'_> {
             let (table, normalisation) = (&multiplier.table[own.clone()], multiplier.normalisation);
             match self {
                 Self::Multiply(factor) | Self::MultiplySkewed(factor, _) => {
-                    vectorised!(simd => times(simd, factor, table, lines, lane));
+                    vectorised!(simd => times(simd, factor, (table, uniform), lines, lane));
                 }
                 Self::Divide(factor) | Self::DivideSkewed(factor, _) => {
                     // The table holds the normalisation already.
                     let (numerator, common) = (normalisation, 1.0 / (factor * normalisation));
-                    vectorised!(simd => over(simd, numerator, common, table, lines, lane));
+                    vectorised!(simd => over(simd, [numerator, common], (table, uniform), lines, lane));
                 }
                 Self::MultiplyComplex(factor, skew) => {
                     let skew = &skew.table[own.clone()];
-                    vectorised!(simd => times_complex(simd, factor, [table, skew], lines, lane));
+                    vectorised!(simd => times_complex(simd, factor, ([table, skew], uniform), lines, lane));
                 }
             }
             match self {
                 Self::Multiply(_) | Self::Divide(_) | Self::MultiplyComplex(..) => {}
                 Self::MultiplySkewed(_, ratio) => {
-                    vectorised!(simd => multiply_skew(simd, &ratio.table[own], lines, lane))
+                    let ratios = (&ratio.table[own], table, uniform);
+                    vectorised!(simd => multiply_skew(simd, ratios, lines, lane));
                 }
-                Self::DivideSkewed(_, ratio) => vectorised!(simd => divide_skew(simd, &ratio.table[own], lines, lane)),
+                Self::DivideSkewed(_, ratio) => {
+                    let ratios = (&ratio.table[own], table, uniform);
+                    vectorised!(simd => divide_skew(simd, ratios, lines, lane));
+                }
             }
         }
-        if let (true, Self::Multiply(_) | Self::MultiplySkewed(..), 0, 0) = (multiplier.drops_mean, self, tile, first) {
-            (lines[0], lines[T::WIDTH]) = (T::zero(), T::zero());
+        if let Some([re, im]) = own_mean {
+            (lines[0], lines[T::WIDTH]) = (re, im);
         }
     }
 }
+
+/// A number times a factor; zero for the factor zero, whatever the number.
+fn product<T: Real>(x: T, factor: f64) -> T {
+    if factor == 0.0 { T::zero() } else { x * T::rounded(factor) }
+}
+
+/// Ratios T of eight components to K, of which `table` holds K − u.
+#[inline(always)]
+fn ratios<S: Simd, T: Real>(simd: S, ratios: &[f64], table: &[f64], uniform: f64) -> T::Lanes<S> {
+    let ratios = f64x8::from_slice(simd, ratios);
+    if uniform == 0.0 {
+        return T::lanes(ratios);
+    }
+    let table = f64x8::from_slice(simd, table);
+    T::lanes(ratios * (table / (table + uniform)))
+}
+
+/// Ratios of all components, with K − u and u.
+type Ratios<'a> = (&'a [f64], &'a [f64], f64);
 
 /// Eight real and eight imaginary parts of a line, from the column `lane` on.
 #[inline(always)]
@@ -129,18 +217,25 @@ fn parts<T: Real>(line: &mut [T], lane: usize) -> [&mut [T]; 2] {
 
 /// Each component times its factor and a common one.
 #[inline(always)]
-fn times<S: Simd, T: Real>(simd: S, common: f64, table: &[f64], lines: &mut [T], lane: usize) {
+fn times<S: Simd, T: Real>(simd: S, common: f64, (table, uniform): (&[f64], f64), lines: &mut [T], lane: usize) {
     for (line, factors) in lines.chunks_exact_mut(line::<T>()).zip(table.chunks_exact(LANES)) {
-        multiply(simd, T::lanes(f64x8::from_slice(simd, factors) * common), parts(line, lane));
+        multiply(simd, T::lanes((f64x8::from_slice(simd, factors) + uniform) * common), parts(line, lane));
     }
 }
 
 /// Each component times H − iG and a common factor.
 #[inline(always)]
-fn times_complex<S: Simd, T: Real>(simd: S, common: f64, [even, odd]: [&[f64]; 2], lines: &mut [T], lane: usize) {
+fn times_complex<S: Simd, T: Real>(
+    simd: S,
+    common: f64,
+    ([even, odd], uniform): ([&[f64]; 2], f64),
+    lines: &mut [T],
+    lane: usize,
+) {
     let factors = even.chunks_exact(LANES).zip(odd.chunks_exact(LANES));
     for (line, (even, odd)) in lines.chunks_exact_mut(line::<T>()).zip(factors) {
-        let [even, odd] = [even, odd].map(|factors| T::lanes(f64x8::from_slice(simd, factors) * common));
+        let even = T::lanes((f64x8::from_slice(simd, even) + uniform) * common);
+        let odd = T::lanes(f64x8::from_slice(simd, odd) * common);
         let [re, im] = parts(line, lane);
         let (x, y) = (T::Lanes::<S>::from_slice(simd, re), T::Lanes::<S>::from_slice(simd, im));
         (x * even + y * odd).store_slice(re);
@@ -150,18 +245,25 @@ fn times_complex<S: Simd, T: Real>(simd: S, common: f64, [even, odd]: [&[f64]; 2
 
 /// Each component times `numerator` over its factor and a common one.
 #[inline(always)]
-fn over<S: Simd, T: Real>(simd: S, numerator: f64, common: f64, table: &[f64], lines: &mut [T], lane: usize) {
+fn over<S: Simd, T: Real>(
+    simd: S,
+    [numerator, common]: [f64; 2],
+    (table, uniform): (&[f64], f64),
+    lines: &mut [T],
+    lane: usize,
+) {
     let numerator = T::Lanes::<S>::simd_from(simd, T::rounded(numerator));
     for (line, factors) in lines.chunks_exact_mut(line::<T>()).zip(table.chunks_exact(LANES)) {
-        multiply(simd, numerator / T::lanes(f64x8::from_slice(simd, factors) * common), parts(line, lane));
+        multiply(simd, numerator / T::lanes((f64x8::from_slice(simd, factors) + uniform) * common), parts(line, lane));
     }
 }
 
 /// Each component times 1 − iT.
 #[inline(always)]
-fn multiply_skew<S: Simd, T: Real>(simd: S, table: &[f64], lines: &mut [T], lane: usize) {
-    for (line, ratios) in lines.chunks_exact_mut(line::<T>()).zip(table.chunks_exact(LANES)) {
-        let ratios = T::lanes(f64x8::from_slice(simd, ratios));
+fn multiply_skew<S: Simd, T: Real>(simd: S, (skew, table, uniform): Ratios<'_>, lines: &mut [T], lane: usize) {
+    let factors = skew.chunks_exact(LANES).zip(table.chunks_exact(LANES));
+    for (line, (skew, table)) in lines.chunks_exact_mut(line::<T>()).zip(factors) {
+        let ratios = ratios::<S, T>(simd, skew, table, uniform);
         let [re, im] = parts(line, lane);
         let (x, y) = (T::Lanes::<S>::from_slice(simd, re), T::Lanes::<S>::from_slice(simd, im));
         (x + y * ratios).store_slice(re);
@@ -171,10 +273,11 @@ fn multiply_skew<S: Simd, T: Real>(simd: S, table: &[f64], lines: &mut [T], lane
 
 /// Each component over 1 − iT.
 #[inline(always)]
-fn divide_skew<S: Simd, T: Real>(simd: S, table: &[f64], lines: &mut [T], lane: usize) {
+fn divide_skew<S: Simd, T: Real>(simd: S, (skew, table, uniform): Ratios<'_>, lines: &mut [T], lane: usize) {
     let one = T::Lanes::<S>::simd_from(simd, T::rounded(1.0));
-    for (line, ratios) in lines.chunks_exact_mut(line::<T>()).zip(table.chunks_exact(LANES)) {
-        let ratios = T::lanes(f64x8::from_slice(simd, ratios));
+    let factors = skew.chunks_exact(LANES).zip(table.chunks_exact(LANES));
+    for (line, (skew, table)) in lines.chunks_exact_mut(line::<T>()).zip(factors) {
+        let ratios = ratios::<S, T>(simd, skew, table, uniform);
         let [re, im] = parts(line, lane);
         let (x, y) = (T::Lanes::<S>::from_slice(simd, re), T::Lanes::<S>::from_slice(simd, im));
         let scale = one / (one + ratios * ratios);

@@ -8,6 +8,7 @@
 use super::free_space::FreeSpaceOperator;
 use super::grid_level::{Coarser, GridLevel};
 use super::iteration::{Method, Progress, Report, Settings, Stop, Unknowns, Working};
+use super::worn::Worn;
 use super::{FieldError, Step, Tangent};
 use crate::body::Side;
 use crate::counterbody::Surface;
@@ -34,7 +35,9 @@ pub struct Solver {
     problem: Arc<Problem>,
     settings: Settings,
     /// From the finest grid to the coarsest.
-    levels: Vec<GridLevel>,
+    pub(super) levels: Vec<GridLevel>,
+    /// What sliding has worn off.
+    pub(super) worn: Option<Worn>,
 }
 
 impl Solver {
@@ -53,7 +56,7 @@ impl Solver {
             };
             levels.push(GridLevel::new(&problem, surface));
         }
-        Ok(Self { problem, settings, levels })
+        Ok(Self { problem, settings, levels, worn: None })
     }
 
     /// Solver with a given initial gap in the place of that of the counterbody: of a worn or deformed surface, or between two
@@ -74,6 +77,7 @@ impl Solver {
         for level in &mut self.levels {
             gap = level.give_gap(gap);
         }
+        self.worn = None;
         Ok(self)
     }
 

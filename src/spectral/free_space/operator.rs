@@ -18,6 +18,7 @@ use crate::spectral::by_rows::{ByRows, ResultRows, rows_of, rows_to};
 use crate::spectral::convolution::{Convolution, Convolved};
 use crate::spectral::multiplier::{Action, Multiplier, SkewPart};
 use crate::spectral::operator::{ElasticOperator, Surroundings, TractionUpdate, Workspace};
+use crate::spectral::wear::GridWear;
 use ndarray::Array2;
 use std::fmt;
 
@@ -62,6 +63,8 @@ pub struct FreeSpaceOperator {
     coupling: f64,
     /// Compliance at the least wavenumber of the window.
     unit: f64,
+    /// Compliance that a step of wear has added under a uniform pressure.
+    worn: f64,
     convolutions: f64,
 }
 
@@ -131,6 +134,7 @@ impl FreeSpaceOperator {
             periodic: (Convolution::new(window.points), Convolution::new(window.points)),
             compliance: periodic_compliance(grid, c),
             unit: c(grid.least_wavenumber()) / grid.least_wavenumber(),
+            worn: 0.0,
             convolutions: 0.0,
             double,
         }
@@ -158,6 +162,26 @@ impl FreeSpaceOperator {
         rayon::scope(|_| self.displace(field, workspace));
     }
 
+    /// Adds the compliance of a step of wear: k_c Δs of every wave, and of the body in its groove the same displacement of all samples on
+    /// a line along the path by the pressure of each of them, on the padded grid and on the window repeated periodically.
+    pub(in crate::spectral) fn add_wear(&mut self, wear: &GridWear) {
+        let table = |index: &dyn Fn([usize; 2]) -> Option<usize>, along: Vec<([usize; 2], f64)>| {
+            let along = along.into_iter().filter_map(|(component, value)| Some((index(component)?, value)));
+            along.collect::<Vec<_>>()
+        };
+        let padded = wear.along_padded(padded(self.blocks().points()));
+        self.kernel.add(wear.uniform(), &table(&self.double.indices(), padded));
+        self.compliance.add(wear.uniform(), &table(&self.periodic.0.indices(), wear.along()));
+        self.worn = wear.mean();
+    }
+
+    /// Takes off the compliance of a step of wear: the operator is that of before, bit for bit.
+    pub(in crate::spectral) fn remove_wear(&mut self) {
+        self.kernel.restore();
+        self.compliance.restore();
+        self.worn = 0.0;
+    }
+
     /// Use of the kernel times a common factor, and of the odd one under coupled friction.
     fn applied(&self, factor: f64) -> Action<'_> {
         self.skew.as_ref().map_or(Action::Multiply(factor), |skew| Action::MultiplyComplex(factor, skew))
@@ -176,7 +200,7 @@ impl ElasticOperator for FreeSpaceOperator {
     }
 
     fn unit(&self) -> f64 {
-        self.unit
+        self.unit + self.worn
     }
 
     fn coupling(&self) -> f64 {
@@ -208,7 +232,7 @@ impl ElasticOperator for FreeSpaceOperator {
         pressure: impl ByRows<f32>,
     ) -> Convolved<'a, f32> {
         self.convolutions += 0.5;
-        let factor = 1.0 / self.unit;
+        let factor = 1.0 / self.unit();
         let action = match traction {
             TractionUpdate::Updated => self.applied(factor),
             TractionUpdate::Lagged => Action::Multiply(factor),
@@ -218,7 +242,7 @@ impl ElasticOperator for FreeSpaceOperator {
 
     fn preconditioned<'a>(&'a mut self, memory: &'a mut [f64], residual: impl ByRows<f32>) -> Convolved<'a, f32> {
         self.convolutions += 0.5;
-        self.periodic.1.convolve(Action::Divide(self.unit), &self.compliance, memory, residual)
+        self.periodic.1.convolve(Action::Divide(self.unit()), &self.compliance, memory, residual)
     }
 
     fn symmetric_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {

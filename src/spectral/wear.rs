@@ -1,0 +1,422 @@
+//! Wear by implicit steps: Archard's law ∂h/∂s = k p on both bodies while the counterbody slides along **e**.
+//!
+//! The counterbody wears where it presses, Δh_c = k_c Δs p. The body is swept, so that every point of it meets all pressures on its line
+//! along **e**: Δh_b = k_b Δs ⟨p⟩ with the mean along **e** ([`sliding_mean`](super::sliding_mean)). With the pressure at the **end** of
+//! the step Δs (Euler's implicit method) both depths add to the gap,
+//!
+//! g = C p + f + k_c Δs p + k_b Δs ⟨p⟩ − δ:
+//!
+//! contact with the compliance Ĉ(**q**) + k_c Δs + k_b Δs \[**q**·**e** = 0\], the wave **q** = 0 included. It is symmetric and
+//! positive, so that a step of any length is stable, has one solution, and has its certificate. Afterwards f ← f + Δh_c + Δh_b: with the
+//! compliance of the bodies alone the same pressure solves the contact of the worn surfaces. The error of a step is O(Δs²), that of a path
+//! O(Δs).
+//!
+//! In complete contact a wave of the pressure falls by 1/(1 + kΔs/Ĉ) in each step, and → e^{−ks/Ĉ}.
+//!
+//! The compliance is added to the tables of the operator for the step alone, one number for all waves and one for each of those constant
+//! along **e**: no second table.
+
+use super::sliding_mean::SlidingMean;
+use super::worn::Worn;
+use super::{Progress, Solver, Step};
+use crate::body::Side;
+use crate::lattice::Grid;
+use crate::load::Load;
+use crate::numeric::array::field;
+use crate::problem::Problem;
+use ndarray::Array2;
+use std::ops::ControlFlow;
+
+/// Reason why surfaces cannot wear so.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WearError {
+    /// A coefficient that is negative or not finite.
+    #[error("a coefficient of wear must be finite and not negative, not {0}")]
+    Coefficient(f64),
+    /// A direction whose length is zero or not finite.
+    #[error("a direction of sliding needs a finite length greater than 0, not that of [{}, {}]", .0[0], .0[1])]
+    Direction([f64; 2]),
+    /// A distance of sliding that is negative or not finite.
+    #[error("a distance of sliding must be finite and not negative, not {0}")]
+    Distance(f64),
+    /// The stroke of an isolated contact, unless it is positive and finite.
+    #[error("the stroke of an isolated contact must be finite and greater than 0, not {0}")]
+    Stroke(f64),
+    /// The largest error of a step of a path, unless it is positive and finite.
+    #[error("the largest error of a step must be finite and greater than 0, not {0}")]
+    Tolerance(f64),
+    /// An isolated contact whose body wears while it slides along neither side of the window.
+    #[error(
+        "the body of an isolated contact wears in a groove along a side of the window, not along [{}, {}]: turn the problem, \
+         or wear the counterbody alone", .0[0], .0[1]
+    )]
+    Oblique([f64; 2]),
+    /// A given pressure, under which no surface stands above the body.
+    #[error("a given pressure has no counterbody that slides: surfaces in contact wear")]
+    Given,
+}
+
+/// Coefficients of wear of both bodies and the direction of sliding.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wear {
+    body: f64,
+    counterbody: f64,
+    direction: [f64; 2],
+    stroke: Option<f64>,
+}
+
+impl Wear {
+    /// Wear with the coefficients k_b ≥ 0 of the `body` and k_c ≥ 0 of the `counterbody`, one over a pressure, while the counterbody
+    /// slides in a `direction` of any length.
+    ///
+    /// # Errors
+    /// [`WearError::Coefficient`] and [`WearError::Direction`] for values out of range.
+    pub fn new(body: f64, counterbody: f64, direction: [f64; 2]) -> Result<Self, WearError> {
+        if let Some(wrong) = [body, counterbody].into_iter().find(|k| !(k.is_finite() && *k >= 0.0)) {
+            return Err(WearError::Coefficient(wrong));
+        }
+        let length = direction[0].hypot(direction[1]);
+        if !(length.is_finite() && length > 0.0) {
+            return Err(WearError::Direction(direction));
+        }
+        Ok(Self { body, counterbody, direction, stroke: None })
+    }
+
+    /// Wear of the surfaces of a problem by their own coefficients, along the direction of its friction, or along x without any.
+    pub fn of(problem: &Problem) -> Self {
+        let [body, counterbody] = [Side::Body, Side::Counterbody].map(|side| problem.bodies().wear(side));
+        let direction = problem.friction().map_or([1.0, 0.0], |friction| friction.direction());
+        Self { body, counterbody, direction, stroke: None }
+    }
+
+    /// Wear by an isolated contact that goes to and fro over a `stroke` L, a length: while it slides Δs, each point of its track is
+    /// passed Δs/L times, and is worn by k_b (Δs/L) ∫p dx along the track. Without it L is the width of the window along the
+    /// direction of sliding, over which the track goes.
+    ///
+    /// # Errors
+    /// [`WearError::Stroke`] unless it is positive and finite.
+    pub fn with_stroke(self, stroke: f64) -> Result<Self, WearError> {
+        if !(stroke.is_finite() && stroke > 0.0) {
+            return Err(WearError::Stroke(stroke));
+        }
+        Ok(Self { stroke: Some(stroke), ..self })
+    }
+
+    /// Coefficient of one surface, one over a pressure.
+    pub fn coefficient(&self, side: Side) -> f64 {
+        match side {
+            Side::Body => self.body,
+            Side::Counterbody => self.counterbody,
+        }
+    }
+
+    /// Direction of sliding, of any length.
+    pub fn direction(&self) -> [f64; 2] {
+        self.direction
+    }
+}
+
+/// One step of wear on one grid.
+#[derive(Debug)]
+pub(super) struct GridWear {
+    points: [usize; 2],
+    /// k_b Δs, times the width of the window over the stroke around an isolated contact, and the mean; `None` where the body does not
+    /// wear.
+    body: Option<(f64, SlidingMean)>,
+    /// k_c Δs.
+    counterbody: f64,
+}
+
+impl GridWear {
+    /// Wear over a `distance` of sliding on a grid.
+    pub fn new(wear: &Wear, distance: f64, grid: &Grid) -> Result<Self, WearError> {
+        let body = wear.body * distance;
+        let body = if body > 0.0 {
+            let mean = SlidingMean::new(grid, wear.direction)?;
+            Some((body * passes(wear, grid), mean))
+        } else {
+            None
+        };
+        Ok(Self { points: grid.points(), body, counterbody: wear.counterbody * distance })
+    }
+
+    /// k_c Δs, a length per pressure: the compliance of every wave.
+    pub fn uniform(&self) -> f64 {
+        self.counterbody
+    }
+
+    /// Compliance of the wave q = 0, a length per pressure.
+    pub fn mean(&self) -> f64 {
+        self.counterbody + self.body.as_ref().map_or(0.0, |(body, _)| *body)
+    }
+
+    /// Components (k₁, k₂) of the grid that are constant along the path, each once with its compliance, a length per pressure.
+    pub fn along(&self) -> Vec<([usize; 2], f64)> {
+        let times = |(body, mean): &(f64, SlidingMean)| scaled(*body, mean.components());
+        self.body.as_ref().map(times).unwrap_or_default()
+    }
+
+    /// The same for a window that is padded to a grid of `points`.
+    pub fn along_padded(&self, points: [usize; 2]) -> Vec<([usize; 2], f64)> {
+        let times = |(body, mean): &(f64, SlidingMean)| scaled(*body, &mean.padded(points));
+        self.body.as_ref().map(times).unwrap_or_default()
+    }
+
+    /// Depths that a pressure wears off the body and the counterbody, lengths, axes along a₁ and a₂; `None` of one that does not wear.
+    pub fn depths(&self, pressure: &[f64]) -> [Option<Array2<f64>>; 2] {
+        let body = self.body.as_ref().map(|(body, mean)| field(self.points, mean.of(pressure)) * *body);
+        let own = (self.counterbody > 0.0)
+            .then(|| field(self.points, pressure.iter().map(|p| self.counterbody * p).collect()));
+        [body, own]
+    }
+}
+
+fn scaled(factor: f64, parts: &[([usize; 2], f64)]) -> Vec<([usize; 2], f64)> {
+    parts.iter().map(|&(component, part)| (component, factor * part)).collect()
+}
+
+/// Width of the window along the path over the stroke of an isolated contact; 1 on a periodic cell.
+fn passes(wear: &Wear, grid: &Grid) -> f64 {
+    let [a1, a2] = grid.cell().vectors();
+    match wear.stroke {
+        Some(stroke) if grid.cell().is_isolated() => {
+            let along = if wear.direction[0].abs() > wear.direction[1].abs() { a1 } else { a2 };
+            along[0].hypot(along[1]) / stroke
+        }
+        _ => 1.0,
+    }
+}
+
+impl Solver {
+    /// Slides a `distance` Δs under a load in one implicit step, by which both surfaces wear, and returns the contact of the worn
+    /// surfaces at the end of the step.
+    ///
+    /// Every grid wears by its own pressure. The [initial gap](crate::Surface::initial_gap) of the step, and of what is solved after it, is
+    /// that of the worn surfaces, measured from where these touch first: a penetration δ counts at the start of the step from the first
+    /// touch of the surfaces as they are, and the [penetration](Step::penetration) of the step from that of the worn ones, which lies
+    /// deeper by what [`Worn::recession`] has grown. The [certificate](Step::certificate) is that of the contact with the compliance of
+    /// the step. A step that is not [solved](super::Stop::solved) wears nothing.
+    ///
+    /// # Errors
+    /// [`WearError`] for a distance that is negative or not finite, a direction that the window does not allow, and a given pressure.
+    pub fn wear(&mut self, load: Load, wear: &Wear, distance: f64) -> Result<Step, WearError> {
+        self.wear_with_progress(load, wear, distance, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// [`Self::wear`] with `progress`, called after each iteration on the finest grid; `Break` ends the step as
+    /// [interrupted](super::Stop::Interrupted).
+    ///
+    /// # Errors
+    /// As for [`Self::wear`].
+    pub fn wear_with_progress(
+        &mut self,
+        load: Load,
+        wear: &Wear,
+        distance: f64,
+        progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
+    ) -> Result<Step, WearError> {
+        if !(distance.is_finite() && distance >= 0.0) {
+            return Err(WearError::Distance(distance));
+        }
+        if self.problem().counterbody().pressure().is_some() {
+            return Err(WearError::Given);
+        }
+        let on_grids: Result<Vec<GridWear>, WearError> =
+            self.levels.iter().map(|level| GridWear::new(wear, distance, level.surface().grid())).collect();
+        let on_grids = on_grids?;
+        self.levels.iter_mut().zip(&on_grids).for_each(|(level, own)| level.operator().add_wear(own));
+        let step = self.solve_with_progress(load, progress);
+        self.levels.iter_mut().for_each(|level| level.operator().remove_wear());
+        if !step.report.stop.solved() {
+            return Ok(step);
+        }
+        let (report, convolutions, coarser) = (step.report, step.convolutions, step.coarser.len());
+        drop(step);
+        let mut worn = self.worn.take().unwrap_or_else(|| Worn::none(self.grid()));
+        for (number, (level, own)) in self.levels.iter_mut().zip(&on_grids).enumerate() {
+            let depths = own.depths(&level.unknowns().pressure);
+            let mut gap = level.surface().initial_gap().to_owned();
+            depths.iter().flatten().for_each(|depth| gap += depth);
+            let recession = level.wear_to(gap);
+            if number == 0 {
+                worn.add(depths, distance, recession);
+            }
+        }
+        self.worn = Some(worn);
+        Ok(self.step(load, report, convolutions, coarser))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Interface, Layer, Material};
+    use crate::friction::Friction;
+    use crate::lattice::Cell;
+    use crate::spectral::by_rows::{ResultRows, rows_of, rows_to};
+    use crate::spectral::operator::{ElasticOperator, TractionUpdate, Workspace};
+    use crate::spectral::{FreeSpaceOperator, LayeredOperator};
+
+    fn layers() -> Vec<Layer> {
+        vec![Layer::new(Material::from_shear(3.0, 0.2).unwrap(), 0.2, Interface::Bonded).unwrap()]
+    }
+
+    fn coated() -> HalfSpace {
+        HalfSpace::new(layers(), Material::from_shear(1.0, 0.3).unwrap())
+    }
+
+    fn on_rigid_base() -> HalfSpace {
+        HalfSpace::on_rigid_base(layers()).unwrap()
+    }
+
+    fn noise(len: usize) -> Vec<f64> {
+        (0..len).map(|k| ((k * k * 7919 + k * 131) % 1009) as f64 / 1009.0).collect()
+    }
+
+    fn difference(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+    }
+
+    /// Displacement in double and in single precision.
+    fn displaced(operator: &mut impl ElasticOperator, p: &[f64]) -> [Vec<f64>; 2] {
+        let (mut workspace, mut double) = (Workspace::default(), p.to_vec());
+        operator.displace(&mut double, &mut workspace);
+        let single: Vec<f32> = p.iter().map(|&p| p as f32).collect();
+        let (blocks, mut w, unit) = (operator.blocks(), vec![0.0f32; p.len()], operator.unit());
+        let (memory, _) = operator.split(&mut workspace);
+        let rows = operator.displaced_single(TractionUpdate::Updated, memory, rows_of(blocks, &single));
+        rows.rows(rows_to(blocks, &mut w));
+        [double, w.into_iter().map(|w| unit * f64::from(w)).collect()]
+    }
+
+    /// Displacement of the plain operator, with k_c Δs p + k_b Δs ⟨p⟩, and plain again.
+    fn check<O: ElasticOperator>(
+        operator: &mut O,
+        grid: &Grid,
+        wear: &GridWear,
+        [add, remove]: [&dyn Fn(&mut O, &GridWear); 2],
+    ) {
+        let p = noise(grid.len());
+        let plain = displaced(operator, &p);
+        let (unit, mean) = (operator.unit(), operator.mean_compliance());
+        add(operator, wear);
+        let worn = displaced(operator, &p);
+        let mut expected = plain[0].clone();
+        for depth in wear.depths(&p).iter().flatten() {
+            expected.iter_mut().zip(depth).for_each(|(w, depth)| *w += depth);
+        }
+        let scale = expected.iter().fold(0.0f64, |most, w| most.max(w.abs()));
+        let errors = worn.map(|worn| difference(&worn, &expected) / scale);
+        assert!(errors[0] < 2e-15 && errors[1] < 1e-6, "{grid}: {errors:?} with {wear:?}");
+        assert!((operator.unit() - unit - wear.mean()).abs() < 1e-14 * operator.unit());
+        remove(operator, wear);
+        assert_eq!(displaced(operator, &p), plain, "{grid}: not restored");
+        assert_eq!((operator.unit(), operator.mean_compliance()), (unit, mean));
+    }
+
+    /// Sliding along the path and across, coupled: what the traction displaces is not changed by wear.
+    #[test]
+    fn a_step_adds_the_depths_that_are_worn_in_it() {
+        let cells = [
+            (Cell::hexagonal(1.0), [24, 24]),
+            (Cell::hexagonal(1.0), [15, 15]),
+            (Cell::square(2.0), [17, 20]),
+            (Cell::new([1.0, 0.2], [0.4, 0.9]), [14, 9]),
+        ];
+        for (cell, points) in cells {
+            let grid = Grid::new(cell.unwrap(), points).unwrap();
+            for parts in [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, -2.0], [1.0, 0.77]] {
+                let direction = grid.cell().vector(parts);
+                for [body, counterbody] in [[0.0, 1e-3], [0.2, 0.0], [30.0, 0.7], [1e6, 1e5]] {
+                    let wear = Wear::new(body, counterbody, direction).unwrap();
+                    let wear = GridWear::new(&wear, 0.5, &grid).unwrap();
+                    let friction = Friction::new(0.8, [0.6, -0.8]).unwrap();
+                    let bodies = coated();
+                    for mut operator in [
+                        LayeredOperator::new(&grid, &bodies),
+                        LayeredOperator::new(&grid, on_rigid_base()),
+                        LayeredOperator::sliding(&grid, &bodies, &friction),
+                        LayeredOperator::sliding(&grid, &bodies, &Friction::new(0.8, direction).unwrap()),
+                    ] {
+                        check(
+                            &mut operator,
+                            &grid,
+                            &wear,
+                            [&|own, wear| own.add_wear(wear), &|own, _| own.remove_wear()],
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    /// C⁻¹ with the compliance of wear undoes C with it, on pressures with a mean only on a rigid base.
+    #[test]
+    fn the_inverse_has_the_compliance_of_wear_too() {
+        let grid = Grid::new(Cell::hexagonal(1.0).unwrap(), [18, 15]).unwrap();
+        let wear = Wear::new(0.4, 0.3, [1.0, 0.0]).unwrap();
+        let wear = GridWear::new(&wear, 1.0, &grid).unwrap();
+        for (bodies, mean) in [(coated(), 0.0), (on_rigid_base(), 1.0)] {
+            let mut operator = LayeredOperator::new(&grid, bodies);
+            operator.add_wear(&wear);
+            let mut p = noise(grid.len());
+            let own = p.iter().sum::<f64>() / p.len() as f64;
+            p.iter_mut().for_each(|p| *p += mean - own);
+            let mut back = p.clone();
+            operator.displace(&mut back, &mut Workspace::default());
+            operator.symmetric_pressure(&mut back, &mut Workspace::default());
+            assert!(difference(&back, &p) < 1e-13, "{:e}", difference(&back, &p));
+        }
+    }
+
+    /// The matrix of the kernel with k_c on its diagonal, and of the body the same entry for all pairs of samples on a line.
+    #[test]
+    fn in_free_space_a_step_adds_the_depths_of_a_groove() {
+        for (points, sides) in [([12, 9], [2.0, 1.0]), ([9, 16], [1.0, 1.0])] {
+            let grid = Grid::new(Cell::window(sides).unwrap(), points).unwrap();
+            for direction in [[1.0, 0.0], [0.0, -2.0]] {
+                for (k, stroke) in
+                    [([0.0, 1e-3], None), ([0.3, 0.0], None), ([20.0, 0.5], Some(7.0)), ([1e5, 1e6], None)]
+                {
+                    let wear = Wear::new(k[0], k[1], direction).unwrap();
+                    let wear = stroke.map_or(wear, |stroke| wear.with_stroke(stroke).unwrap());
+                    let own = GridWear::new(&wear, 0.5, &grid).unwrap();
+                    for mut operator in [
+                        FreeSpaceOperator::new(&grid, coated()),
+                        FreeSpaceOperator::sliding(&grid, coated(), &Friction::new(0.5, direction).unwrap()),
+                    ] {
+                        check(
+                            &mut operator,
+                            &grid,
+                            &own,
+                            [&|own, wear| own.add_wear(wear), &|own, _| own.remove_wear()],
+                        );
+                    }
+                    // k_b (Δs/L) ∫p dx of a single sample, on its line.
+                    let mut p = vec![0.0; grid.len()];
+                    p[3 * points[1] + 4] = 2.0;
+                    let [body, counterbody] = own.depths(&p);
+                    let axis = usize::from(direction[0] == 0.0);
+                    let length = stroke.unwrap_or(sides[axis]);
+                    let expected = k[0] * 0.5 / length * 2.0 * sides[axis] / points[axis] as f64;
+                    for ((i, j), &depth) in body.iter().flat_map(|body| body.indexed_iter()) {
+                        let on_line = [j == 4, i == 3][axis];
+                        assert!((depth - if on_line { expected } else { 0.0 }).abs() < 1e-14 * expected);
+                    }
+                    assert!(counterbody.is_none_or(|depth| depth[[3, 4]] == k[1] && depth.sum() == k[1]));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn values_out_of_range_are_refused() {
+        assert_eq!(Wear::new(-1.0, 0.0, [1.0, 0.0]), Err(WearError::Coefficient(-1.0)));
+        assert!(Wear::new(0.0, f64::NAN, [1.0, 0.0]).is_err());
+        assert_eq!(Wear::new(0.0, 0.0, [0.0, 0.0]), Err(WearError::Direction([0.0, 0.0])));
+        let wear = Wear::new(1.0, 2.0, [1.0, 0.0]).unwrap();
+        assert_eq!(wear.with_stroke(0.0), Err(WearError::Stroke(0.0)));
+        assert_eq!((wear.coefficient(Side::Body), wear.coefficient(Side::Counterbody)), (1.0, 2.0));
+    }
+}

@@ -1,0 +1,111 @@
+//! Depths that sliding has worn off both surfaces of a solver.
+
+use super::Solver;
+use super::iteration::Unknowns;
+use crate::body::Side;
+use crate::counterbody::Surface;
+use crate::lattice::Grid;
+use crate::numeric::sums;
+use ndarray::{Array2, ArrayView2};
+use std::sync::Arc;
+
+/// Depths worn off body and counterbody on the finest grid of a [`Solver`], since it was made. A clone shares them.
+#[derive(Debug, Clone)]
+pub struct Worn {
+    grid: Arc<Grid>,
+    body: Arc<Array2<f64>>,
+    counterbody: Arc<Array2<f64>>,
+    distance: f64,
+    recession: f64,
+}
+
+impl Worn {
+    /// Bytes per sample of the finest grid.
+    pub const BYTES_PER_SAMPLE: usize = 2 * size_of::<f64>();
+
+    /// Nothing worn on a grid.
+    pub(super) fn none(grid: &Arc<Grid>) -> Self {
+        let zero = Arc::new(Array2::zeros(grid.points()));
+        Self { grid: Arc::clone(grid), body: Arc::clone(&zero), counterbody: zero, distance: 0.0, recession: 0.0 }
+    }
+
+    /// Adds the depths of a step, those of the body first.
+    pub(super) fn add(&mut self, [body, counterbody]: [Option<Array2<f64>>; 2], distance: f64, recession: f64) {
+        for (worn, depth) in [(&mut self.body, body), (&mut self.counterbody, counterbody)] {
+            if let Some(depth) = depth {
+                *Arc::make_mut(worn) += &depth;
+            }
+        }
+        self.distance += distance;
+        self.recession += recession;
+    }
+
+    /// Depth worn off one surface, lengths, axes along a₁ and a₂. That of the body is constant along the direction of sliding.
+    pub fn depth(&self, side: Side) -> ArrayView2<'_, f64> {
+        self.of(side).view()
+    }
+
+    /// Volume worn off one surface, a cubed length, on one cell or by an isolated contact: k s P after a path s under the force P. Of the
+    /// body under an isolated contact it is that of the groove on the width of the window.
+    pub fn volume(&self, side: Side) -> f64 {
+        let depth = self.of(side).as_slice().expect("fields are stored row by row");
+        sums::of(depth.len(), |i| [depth[i]])[0] * self.grid.sample_area()
+    }
+
+    /// Largest depth worn off one surface, a length.
+    pub fn largest(&self, side: Side) -> f64 {
+        self.of(side).iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Distance of sliding s, a length.
+    pub fn distance(&self) -> f64 {
+        self.distance
+    }
+
+    /// By how much the bodies come nearer until their worn surfaces touch first, a length.
+    pub fn recession(&self) -> f64 {
+        self.recession
+    }
+
+    fn of(&self, side: Side) -> &Array2<f64> {
+        match side {
+            Side::Body => &self.body,
+            Side::Counterbody => &self.counterbody,
+        }
+    }
+}
+
+/// Surfaces, pressures and worn depths of a [`Solver`], to which it may return. It shares its fields with the solver, which copies them
+/// while it wears on: on all grids pressure, gap and initial gap, and the worn depths.
+#[derive(Debug, Clone)]
+pub struct WearState {
+    levels: Vec<(Arc<Surface>, Unknowns)>,
+    worn: Option<Worn>,
+}
+
+impl Solver {
+    /// What sliding has worn off both surfaces; `None` before the first step of [wear](Self::wear).
+    pub fn worn(&self) -> Option<&Worn> {
+        self.worn.as_ref()
+    }
+
+    /// The present surfaces, pressures and worn depths.
+    pub fn wear_state(&self) -> WearState {
+        let level = |level: &super::grid_level::GridLevel| (Arc::clone(level.surface()), level.unknowns().clone());
+        WearState { levels: self.levels.iter().map(level).collect(), worn: self.worn.clone() }
+    }
+
+    /// Returns to surfaces, pressures and worn depths of an earlier moment of this solver.
+    ///
+    /// # Panics
+    /// When they are those of a solver on other grids.
+    pub fn return_to(&mut self, state: WearState) {
+        assert_eq!(state.levels.len(), self.levels.len(), "surfaces of another solver");
+        for (level, (surface, unknowns)) in self.levels.iter_mut().zip(state.levels) {
+            assert_eq!(surface.grid().points(), level.points(), "surfaces of another solver");
+            level.set_surface(surface);
+            level.set_unknowns(unknowns);
+        }
+        self.worn = state.worn;
+    }
+}
