@@ -22,7 +22,7 @@
 //!
 //! ```text
 //! numeric → notation → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → identification
-//! → localized → run → comparison → plain → units → measurements → machine → heights → case → output → sweep → picture → report → validation → command
+//! → localized → run → life → comparison → plain → units → measurements → machine → heights → case → output → sweep → picture → report → validation → command
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
@@ -30,7 +30,7 @@
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
 //! - [`identification`]: parameters of a stack from a measured indentation curve;
-//! - [`comparison`]: both methods side by side; [`run`]: load paths, refinement, warnings.
+//! - [`run`]: load paths, refinement, warnings; [`life`]: damage and wear pass after pass; [`comparison`]: both methods side by side.
 //!
 //! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `measurements` from tables, `machine` (memory, disk, threads), file formats
 //! of `heights`, `case`, `output`, `sweep`, `picture`, `report` and the `command` line; behind `validate`: `validation`, the studies and the closed forms they compare with.
@@ -68,6 +68,7 @@ pub mod friction;
 mod heights;
 pub mod identification;
 pub mod lattice;
+pub mod life;
 pub mod load;
 pub mod localized;
 #[cfg(feature = "cli")]

@@ -40,6 +40,8 @@ mod identify;
 mod inspection;
 #[path = "command_line/interruption.rs"]
 mod interruption;
+#[path = "command_line/life.rs"]
+mod life;
 #[path = "command_line/limit.rs"]
 mod limit;
 #[path = "command_line/materials.rs"]

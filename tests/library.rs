@@ -23,6 +23,8 @@ mod invariance;
 mod isolated;
 #[path = "library/largest_stresses.rs"]
 mod largest_stresses;
+#[path = "library/life.rs"]
+mod life;
 #[path = "library/limit_paths.rs"]
 mod limit_paths;
 #[path = "library/limits.rs"]

@@ -21,6 +21,7 @@ from percoat._compare import Comparison, compare
 from percoat._core import CaseError, Progress, __version__
 from percoat._half_space import HalfSpace, kernel
 from percoat._identify import Identification, identify
+from percoat._life import Life, life
 from percoat._limit import Limits, limit
 from percoat._record import Record
 from percoat._solve import COMPONENTS, Plane, Result, Section, Step, solve
@@ -53,6 +54,7 @@ __all__ = [
     "explain",
     "identify",
     "kernel",
+    "life",
     "limit",
     "materials",
     "mises",

@@ -10,6 +10,7 @@ mod errors;
 mod half_space;
 mod identify;
 mod interior;
+mod life;
 mod limit;
 mod materials;
 mod progress;
@@ -34,6 +35,8 @@ mod _core {
     use super::half_space::HalfSpace;
     #[pymodule_export]
     use super::identify::identify;
+    #[pymodule_export]
+    use super::life::{life, life_text};
     #[pymodule_export]
     use super::limit::{limit, limit_text};
     #[pymodule_export]

@@ -117,7 +117,7 @@ impl CounterbodySection {
 /// The body of the section `[counterbody]`.
 pub(super) enum Above<'a> {
     /// Layers on a substrate.
-    Elastic(Body<'a>),
+    Elastic(Box<Body<'a>>),
     /// Rigid and uncoated, with the durability of its surface.
     Rigid(Durability),
 }
@@ -154,5 +154,5 @@ pub(super) fn read<'a>(section: &TableAt<'a>) -> Result<(CounterbodySection, Abo
     let sections = section.sections("layers")?;
     let body = layers::build_body(own.layers.0.clone(), sections, own.substrate(), section)
         .map_err(|refusal| if own.is_elastic() { refusal } else { refusal.help(UNCOATED) })?;
-    Ok((own, Above::Elastic(body)))
+    Ok((own, Above::Elastic(Box::new(body))))
 }

@@ -5,7 +5,7 @@ use super::Source;
 /// Name of the case that runs when none is given.
 pub const DEFAULT: &str = "fig2";
 
-const CASES: [(&str, &str); 17] = [
+const CASES: [(&str, &str); 19] = [
     ("ball-on-disc", include_str!("../../cases/ball-on-disc.toml")),
     ("dlc-on-steel", include_str!("../../cases/dlc-on-steel.toml")),
     ("fig2", include_str!("../../cases/fig2.toml")),
@@ -21,7 +21,9 @@ const CASES: [(&str, &str); 17] = [
     ("ring", include_str!("../../cases/ring.toml")),
     ("rough", include_str!("../../cases/rough.toml")),
     ("rough-metal", include_str!("../../cases/rough-metal.toml")),
+    ("running-in", include_str!("../../cases/running-in.toml")),
     ("scratch", include_str!("../../cases/scratch.toml")),
+    ("tin-fatigue", include_str!("../../cases/tin-fatigue.toml")),
     ("tin-on-steel", include_str!("../../cases/tin-on-steel.toml")),
 ];
 

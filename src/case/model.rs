@@ -31,12 +31,18 @@ use super::{
 use crate::body::{Bodies, HalfSpace, MeanStress};
 use crate::comparison::ComparisonTask;
 use crate::counterbody::{Counterbody, Topography};
+use crate::life::LifeTask;
 use crate::load::{Load, LoadQuantity};
 use crate::problem::Problem;
-use crate::run::{Run, Sampling, StressRequest};
+use crate::run::{Refinement, Run, Sampling, StressRequest};
 use crate::spectral::Settings;
 use crate::units::Units;
 use std::sync::Arc;
+
+/// Most points along a side of the grid of a life where an accuracy is prescribed.
+const LIFE_POINTS: usize = 512;
+/// Relative error of a step of wear without a section `[life]`.
+const LIFE_TOLERANCE: f64 = 1e-2;
 
 section! { whole
     /// A valid case with every default resolved. Its values do not change after reading; overrides act while it is read.
@@ -161,6 +167,47 @@ impl Case {
             mutual_effect: *mutual_effect,
             mean: self.mean_stress(),
         }
+    }
+
+    /// The task of `percoat life`, on the grid of the case or, where an accuracy is prescribed, on the finest one of 512 points at most.
+    ///
+    /// # Errors
+    /// A sentence for a case with several loads, a given pressure, or a cell that is too oblong.
+    pub fn life_task(&self) -> Result<LifeTask, String> {
+        let loads = self.load.loads();
+        let [load] = loads[..] else {
+            return Err(format!(
+                "a life has one load in all passes, and the case has {}: give one by --set load.{}=…, or read the passes of each from percoat \
+                 solve",
+                loads.len(),
+                self.load.quantity()
+            ));
+        };
+        if self.problem.counterbody().pressure().is_some() {
+            return Err(
+                "a given pressure has no surfaces that wear: percoat solve states the passes to the first damage"
+                    .to_owned(),
+            );
+        }
+        let cell = self.problem.cell();
+        let points = match self.grid {
+            Sampling::Points(points) => points,
+            Sampling::Accuracy(_) => {
+                let grids = Refinement::grids(&cell).map_err(|error| error.to_string())?;
+                let most = |points: &[usize; 2]| points.iter().all(|&n| n <= LIFE_POINTS);
+                grids.iter().rev().copied().find(most).unwrap_or(grids[0])
+            }
+        };
+        Ok(LifeTask {
+            problem: Arc::clone(&self.problem),
+            load,
+            points,
+            settings: self.solver,
+            mean: self.mean_stress(),
+            passes: self.life.and_then(|own| own.passes),
+            distance: self.life.and_then(|own| own.distance),
+            tolerance: self.life.map_or(LIFE_TOLERANCE, |own| own.tolerance),
+        })
     }
 
     /// The mean lateral stress in largest stresses and limits; the default without a section `stress`.

@@ -2,6 +2,7 @@
 
 use super::ending::Failure;
 use super::help;
+use super::life::LifeOptions;
 #[cfg(feature = "validate")]
 use super::options::Studies;
 use super::options::{Changes, Common, Saying, Work};
@@ -63,6 +64,18 @@ pub enum Command {
         case: Option<PathBuf>,
         #[command(flatten)]
         changes: Changes,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Find how many passes a body lasts: what fails first, where, and what is left after [life] passes (without CASE: TiN on steel)
+    #[command(after_help = help::LIFE)]
+    Life {
+        /// Case file with fatigue or wear, the name of an embedded case, or - for standard input
+        case: Option<PathBuf>,
+        #[command(flatten)]
+        changes: Changes,
+        #[command(flatten)]
+        options: LifeOptions,
         #[command(flatten)]
         common: Common,
     },
@@ -227,6 +240,7 @@ impl Arguments {
             Command::Solve { common, .. }
             | Command::Compare { common, .. }
             | Command::Limit { common, .. }
+            | Command::Life { common, .. }
             | Command::Identify { common, .. }
             | Command::Sweep { common, .. } => Some((common.work.threads, common.quiet)),
             Command::Check { work, .. } => Some((work.threads, false)),

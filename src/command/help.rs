@@ -30,6 +30,12 @@ help!(
     "limit mine.toml --set friction.coefficient=0.1"
 );
 help!(
+    LIFE,
+    "0 done; 2 refused, nothing written; 3 not converged, everything\ncomputed is written and marked; 4 input or output failed; 130 interrupted",
+    "life" => "a TiN coating on steel whose interface tires",
+    "life mine.toml --set life.passes=1e7 --resume"
+);
+help!(
     IDENTIFY,
     "0 done; 2 refused: the curve does not determine the keys, or is\nno curve; 4 input or output failed; 130 interrupted",
     "identify data.csv mine.toml --free layers.0.young",

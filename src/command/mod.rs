@@ -11,6 +11,7 @@ mod identify;
 mod input;
 mod interruption;
 mod kernel;
+mod life;
 mod limit;
 mod manual;
 mod materials;
@@ -64,6 +65,7 @@ fn carry_out(command: &Command) -> Result<Ending, Failure> {
         Command::Solve { case, changes, options, common } => solve::run(case.as_deref(), &changes.set, options, common),
         Command::Compare { case, changes, common } => compare::run(case.as_deref(), &changes.set, common),
         Command::Limit { case, changes, common } => limit::run(case.as_deref(), &changes.set, common),
+        Command::Life { case, changes, options, common } => life::run(case.as_deref(), &changes.set, options, common),
         Command::Identify { data, case, free, changes, common } => {
             identify::run(data, case, free, &changes.set, common)
         }

@@ -21,7 +21,7 @@ impl Cell {
             (vector[larger], vector[1 - larger]) =
                 (sign as i32 * multiple, (slope * f64::from(multiple)).round() as i32);
             let [u, v] = self.vector(vector.map(f64::from));
-            ((x * v - y * u).abs() <= TOLERANCE * x.hypot(y) * u.hypot(v)).then_some(vector)
+            ((x * v - y * u).abs() < TOLERANCE * x.hypot(y) * u.hypot(v)).then_some(vector)
         })
     }
 }

@@ -1,7 +1,7 @@
 //! The staging folder of an interrupted run, and the steps on a coarser grid.
 
 use super::error::AtPath;
-use super::layout::{COARSER, MARK, SWEEP_LOG, is_staging, staging};
+use super::layout::{COARSER, LIFE_STATE, MARK, SWEEP_LOG, is_staging, staging};
 use super::log::{cut, has_whole_line};
 use super::staging::{Entry, entries, remove_or_set_aside, remove_own};
 use super::writer::Writer;
@@ -37,10 +37,10 @@ pub(super) fn has_finished(staging: &Path) -> bool {
 }
 
 /// Whether a step is finished on the grid of a folder: its log has a whole line, or there is a summary, which earlier versions
-/// wrote after every step in place of a log.
+/// wrote after every step in place of a log, or the state of a life.
 pub(super) fn has_steps(folder: &Path) -> bool {
     [steps_log::NAME, SWEEP_LOG].iter().any(|name| has_whole_line(&folder.join(name)))
-        || disk::is_file(&folder.join("summary.json"))
+        || [LIFE_STATE, "summary.json"].iter().any(|name| disk::is_file(&folder.join(name)))
 }
 
 /// Repairs a staging folder: removes temporary files, cuts logs after their last whole line, and completes an interrupted move

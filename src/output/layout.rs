@@ -21,6 +21,8 @@ pub(super) const DECIDED: &str = ".publish.json";
 pub const SWEEP_LOG: &str = "sweep.jsonl";
 /// The folder in which the combinations of a sweep keep their fields.
 pub const COMBINATIONS: &str = "combinations";
+/// The state of a life that is not finished.
+pub(super) const LIFE_STATE: &str = "life-state.json";
 /// The steps of the coarser grid while a finer one is solved.
 pub(super) const COARSER: &str = "coarser";
 
@@ -33,6 +35,7 @@ pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
         Writer::Compare => ".percoat/compare",
         Writer::Limit => ".percoat/limit",
         Writer::Identify => ".percoat/identify",
+        Writer::Life => "unfinished-life",
         Writer::Validate => ".percoat/validate",
         Writer::Report => ".percoat/report",
     })

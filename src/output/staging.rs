@@ -8,7 +8,7 @@
 use super::disk::{self, found};
 use super::error::AtPath;
 use super::files::is_inside;
-use super::layout::{COARSER, COMBINATIONS, DECIDED, MARK, OWN, RETIRED, SWEEP_LOG, is_staging};
+use super::layout::{COARSER, COMBINATIONS, DECIDED, LIFE_STATE, MARK, OWN, RETIRED, SWEEP_LOG, is_staging};
 use super::{OutputError, checkpoint, steps_log, write_text};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -32,7 +32,7 @@ fn item(parts: &[&str]) -> Option<Item> {
         [COARSER, ref rest @ ..] if !rest.is_empty() => item(rest),
         [COMBINATIONS, name] => is_number(name).then_some(Item::Folder),
         [COARSER | COMBINATIONS | "contact.partial" | "stress.partial"] => Some(Item::Folder),
-        [MARK | DECIDED | checkpoint::NAME | steps_log::NAME | SWEEP_LOG | "sweep.csv" | "sweep.json"] => {
+        [MARK | DECIDED | checkpoint::NAME | steps_log::NAME | SWEEP_LOG | LIFE_STATE | "sweep.csv" | "sweep.json"] => {
             Some(Item::File)
         }
         ["case.toml" | "summary.json" | "curve.csv" | "histograms.csv" | "contact.npz" | "stress.npz"] => {

@@ -16,6 +16,8 @@ pub enum Writer {
     Limit,
     /// `percoat identify`.
     Identify,
+    /// `percoat life`.
+    Life,
     /// `percoat validate`.
     Validate,
     /// `percoat sweep`, and `percoat merge`.
@@ -26,12 +28,13 @@ pub enum Writer {
 
 impl Writer {
     /// All commands.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Solve,
         Self::Check,
         Self::Compare,
         Self::Limit,
         Self::Identify,
+        Self::Life,
         Self::Validate,
         Self::Sweep,
         Self::Report,
@@ -39,6 +42,6 @@ impl Writer {
 
     /// Whether a new result outdates the report in the folder.
     pub(super) fn outdates_report(self) -> bool {
-        [Self::Solve, Self::Limit, Self::Sweep].contains(&self)
+        [Self::Solve, Self::Limit, Self::Life, Self::Sweep].contains(&self)
     }
 }

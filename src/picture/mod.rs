@@ -8,6 +8,7 @@
 //!   what hardness has pressed in: [`indentation`](indentation()).
 //! - Its stresses under a line ([sections](crate::stress::VerticalSection)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
+//! - Damage below the surface: [`damage`](damage()); what is left of a body pass after pass: [`course`](course()).
 //! - The rows of a sweep: [`sweep`](sweep()): curves over a key, maps over two.
 //! - Localized against spectral: [`comparison`](comparison()).
 //! - A topography before anything is solved: [`spectrum`](spectrum()).
@@ -29,6 +30,7 @@ mod indentation;
 mod label;
 mod legend;
 mod letters;
+mod life;
 mod lines;
 mod load_curves;
 mod map;
@@ -61,6 +63,7 @@ pub use file::Format;
 pub use identification::identification;
 pub use indentation::indentation;
 pub use label::Label;
+pub use life::{course, damage};
 pub use lines::lines;
 pub use load_curves::load_curves;
 pub use pressure::pressure;

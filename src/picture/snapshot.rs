@@ -89,6 +89,7 @@ pub fn caption(title: &str, problem: &Problem, units: &Units, more: &[String]) -
         .into_iter()
         .chain(above)
         .chain(geometry(problem.counterbody(), units))
+        .chain(problem.bodies().hardness().map(|(hardness, _)| units.pressure_equals("H", &[hardness])))
         .chain(problem.friction().map(sliding))
         .chain(more.iter().cloned());
     format!("{title}{}.", parts.collect::<Vec<_>>().join("; "))

@@ -13,11 +13,11 @@
 use super::strength::Criterion;
 use super::stress::{Tip, beside_site, contact_radii};
 use super::{Reading, Utilisation};
-use crate::body::{Fatigue, HalfSpace, InterfaceId, MaterialId};
+use crate::body::{Fatigue, HalfSpace, InterfaceId, MaterialId, Side};
 use crate::numeric::serialised;
 use crate::problem::Problem;
 use crate::spectral::Step;
-use crate::stress::{PathPeak, PathPeaks, PathSought, SlidingPath, StressField, StressFields, transmitted};
+use crate::stress::{PathPeak, PathPeaks, PathSought, RangePlane, SlidingPath, StressField, StressFields, transmitted};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -29,6 +29,16 @@ pub enum FatiguePart {
     Material(MaterialId),
     /// An interface.
     Interface(InterfaceId),
+}
+
+impl FatiguePart {
+    /// Whether it is one of an elastic counterbody.
+    pub fn is_counterbody(self) -> bool {
+        match self {
+            Self::Material(own) => own.side == Some(Side::Counterbody),
+            Self::Interface(own) => own.is_counterbody(),
+        }
+    }
 }
 
 impl fmt::Display for FatiguePart {
@@ -125,6 +135,8 @@ pub(crate) struct PathReading {
     pub fatigue: Option<FatigueReading>,
     /// Utilisations of endurance limits.
     pub utilisations: Vec<Utilisation>,
+    /// Range of τ₁ on planes of the materials of the body that have a law of fatigue.
+    pub planes: Vec<RangePlane>,
 }
 
 impl PathReading {
@@ -148,7 +160,7 @@ impl PathReading {
         }
         let coarser = step.coarser().first().map(|contact| fields.of_other(contact));
         let (direction, radii) = (direction(step.problem()), contact_radii(step, reading));
-        let (mut lives, mut utilisations, mut path) = (Vec::new(), Vec::new(), None);
+        let (mut lives, mut utilisations, mut path, mut planes) = (Vec::new(), Vec::new(), None, Vec::new());
         for field in wanted {
             let coarser = coarser.as_ref().map(|coarser| coarser.on(field.half_space().side()));
             let mut peaks = field.path_peaks_while(direction, radii, sought, coarser, goes_on)?;
@@ -157,10 +169,13 @@ impl PathReading {
                 peaks.in_surface().for_each(|peak| tip.press_path(peak));
             }
             path = path.or(Some(peaks.path));
+            if field.half_space().side() != Some(Side::Counterbody) {
+                planes = std::mem::take(&mut peaks.planes);
+            }
             lives.extend(lives_of(field.half_space(), &peaks));
             utilisations.extend(utilisations_of(field.half_space(), &peaks));
         }
-        Some(Self { fatigue: path.and_then(|path| FatigueReading::new(path, lives)), utilisations })
+        Some(Self { fatigue: path.and_then(|path| FatigueReading::new(path, lives)), utilisations, planes })
     }
 }
 

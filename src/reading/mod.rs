@@ -53,6 +53,7 @@ pub use rough::{RoughReading, SpotSizes, stiffness};
 pub(crate) use section::{LargestInSection, SectionMeasure};
 pub use strength::{Criterion, Utilisation};
 pub(crate) use strength_search::utilisations_while;
+pub(crate) use stress::contact_radii;
 pub use stress::{StressReading, tears, tips};
 pub use touch::{FirstTouch, first_touches};
 pub use verdict::Verdict;

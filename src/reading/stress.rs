@@ -187,7 +187,7 @@ pub(super) fn beside_site(step: &Step, [x, y, z]: [f64; 3]) -> [f64; 3] {
 /// area. The smallest is taken to have four samples at least.
 ///
 /// Under a given pressure the radii are those of its discs and of its spots, discs of their area.
-pub(super) fn contact_radii(step: &Step, reading: &Reading) -> [f64; 2] {
+pub(crate) fn contact_radii(step: &Step, reading: &Reading) -> [f64; 2] {
     let grid = step.grid();
     if let Some(given) = step.problem().counterbody().pressure() {
         let radii = given.loaded_discs().iter().filter(|disc| disc.pressure > 0.0).map(|disc| disc.radius);

@@ -86,7 +86,7 @@ fn is_isolated(case: &Value) -> bool {
 /// Whether the counterbody is elastic, or its coating.
 pub(super) fn is_elastic(case: &Value) -> bool {
     let own = &case["counterbody"];
-    !own.is_null() && !(on_rigid_base(own) && list(own, "layers").is_empty())
+    !(own.is_null() || on_rigid_base(own) && list(own, "layers").is_empty())
 }
 
 /// The layers of a body and its substrate as one table, with the numbers of their materials.

@@ -1,7 +1,7 @@
 //! The finished results of a folder.
 
 use super::ReportError;
-use crate::output::{LimitFile, SWEEP_LOG, Summary, Unreadable, damaged_results, disk, is_beside};
+use crate::output::{LifeFile, LimitFile, SWEEP_LOG, Summary, Unreadable, damaged_results, disk, is_beside};
 use crate::sweep::{Description, Part, Row};
 use serde_json::Value;
 use std::io::ErrorKind;
@@ -15,6 +15,8 @@ pub(super) struct Results {
     pub run: Option<Summary>,
     /// `limit.json`.
     pub limit: Option<LimitFile>,
+    /// `life.json`.
+    pub life: Option<LifeFile>,
     /// `sweep.json` with its log.
     pub sweep: Option<Swept>,
     /// Files that are missing or were changed since percoat wrote them, each with what is wrong with it.
@@ -22,7 +24,7 @@ pub(super) struct Results {
 }
 
 /// Files whose numbers a page shows.
-const SHOWN: [&str; 4] = ["summary.json", "limit.json", "sweep.json", SWEEP_LOG];
+const SHOWN: [&str; 5] = ["summary.json", "limit.json", "life.json", "sweep.json", SWEEP_LOG];
 
 /// `sweep.json` with the rows of its log.
 #[derive(Debug)]
@@ -43,10 +45,14 @@ impl Results {
         let sweep = part.map(|part| Swept { description: part.description.clone(), rows: part.rows() });
         let run = record(&folder.join("summary.json"), Summary::read)?;
         let limit = record(&folder.join("limit.json"), LimitFile::read)?;
+        let life = record(&folder.join("life.json"), LifeFile::read)?;
         let unlike = damaged_results(folder);
-        let results = Self { folder: folder.to_owned(), run, limit, sweep, unlike };
-        if results.run.is_none() && results.limit.is_none() && results.sweep.is_none() {
-            let unfinished = ["unfinished", "unfinished-sweep"].iter().any(|name| disk::is_folder(&folder.join(name)));
+        let results = Self { folder: folder.to_owned(), run, limit, life, sweep, unlike };
+        let Self { run, limit, life, sweep, .. } = &results;
+        if run.is_none() && limit.is_none() && life.is_none() && sweep.is_none() {
+            let unfinished = ["unfinished", "unfinished-life", "unfinished-sweep"]
+                .iter()
+                .any(|name| disk::is_folder(&folder.join(name)));
             return Err(ReportError::Nothing { folder: folder.to_owned(), unfinished });
         }
         Ok(results)

@@ -174,7 +174,7 @@ impl StepRecord {
     /// The record with what the stresses along the path of sliding say: lives, and utilisations of endurance limits behind those of the
     /// strengths.
     #[must_use]
-    pub(super) fn with_path(self, PathReading { fatigue, utilisations }: PathReading) -> Self {
+    pub(super) fn with_path(self, PathReading { fatigue, utilisations, .. }: PathReading) -> Self {
         let strength = [&self.strength[..], &utilisations].concat();
         Self { fatigue, ..self }.with_utilisations(strength)
     }

@@ -29,6 +29,8 @@ mod solver;
 mod step;
 mod tangent;
 mod wear;
+mod wear_error;
+mod wear_state;
 mod worn;
 
 pub use checkpoint::{Checkpoint, OtherGrids};
@@ -41,5 +43,7 @@ pub use operator::Workspace;
 pub use solver::{Memory, Solver};
 pub use step::Step;
 pub use tangent::Tangent;
-pub use wear::{Wear, WearError};
-pub use worn::{WearState, Worn};
+pub use wear::Wear;
+pub use wear_error::WearError;
+pub use wear_state::WearState;
+pub use worn::Worn;

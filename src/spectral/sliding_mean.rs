@@ -13,7 +13,7 @@
 //!
 //! The mean is symmetric, its eigenvalues lie in [0, 1], and it keeps Σp.
 
-use super::wear::WearError;
+use super::wear_error::WearError;
 use crate::lattice::Grid;
 use crate::numeric::sums;
 use rustfft::FftPlanner;

@@ -69,9 +69,11 @@ pub(super) struct LineStresses {
 /// A row of K components that a field of waves and a smooth far field make.
 struct Row<'a, const K: usize> {
     waves: [&'a [f64]; K],
-    /// The far field with its polynomials along the row, and the fractions of the first column and between two.
-    far: Option<(&'a FarPlane<K>, Vec<[f64; K]>, [f64; 2])>,
+    far: Option<FarRow<'a, K>>,
 }
+
+/// The far field with its polynomials along a row, and the fractions of the first column and between two.
+type FarRow<'a, const K: usize> = (&'a FarPlane<K>, Vec<[f64; K]>, [f64; 2]);
 
 impl<const K: usize> Row<'_, K> {
     fn at(&self, column: usize) -> [f64; K] {

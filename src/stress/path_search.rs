@@ -65,9 +65,10 @@ pub(crate) struct MaterialPeaks {
     pub dang_van: Option<PathPeak>,
 }
 
-/// The range of τ₁ on the lines of a plane.
+/// The range of τ₁ along the lines of a plane of constant depth.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct RangePlane {
+pub struct RangePlane {
+    /// The depth, and its material.
     pub depth: Depth,
     /// y of each line and the range along it, a pressure; y ascending.
     pub lines: Vec<[f64; 2]>,
@@ -115,6 +116,9 @@ struct SearchedLines {
     values: Vec<Vec<LineValue>>,
     is_smooth: bool,
 }
+
+/// y and number of a line, and the states on edges of contact that belong to it, with their places.
+type NumberedLine = (f64, usize, Vec<([f64; 2], StressState)>);
 
 /// The largest value of a measure on a plane, between the lines too.
 #[derive(Debug, Clone, Copy)]
@@ -245,7 +249,7 @@ impl StressField {
             let y = lines.y(plane.first_place(cell, line)?);
             Some((period.map_or(y, |period| y.rem_euclid(period)), line, Vec::new()))
         };
-        let mut all: Vec<(f64, usize, Vec<([f64; 2], StressState)>)> = (0..plane.count()).filter_map(number).collect();
+        let mut all: Vec<NumberedLine> = (0..plane.count()).filter_map(number).collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (place, state) in edges {
             let away = |y: f64| {
@@ -256,7 +260,7 @@ impl StressField {
             let nearest = all.iter_mut().min_by(|a, b| away(a.0).total_cmp(&away(b.0)));
             nearest.into_iter().for_each(|(_, _, own)| own.push((place, state)));
         }
-        let along = |(_, line, edges): &(f64, usize, Vec<([f64; 2], StressState)>)| -> Vec<LineValue> {
+        let along = |(_, line, edges): &NumberedLine| -> Vec<LineValue> {
             let mut stresses = plane.line(cell, *line);
             let ordered = stresses.places.len();
             edges.iter().for_each(|&(place, state)| stresses.push(place, state, kept));

@@ -259,7 +259,7 @@ fn a_step_of_any_length_is_stable() {
             }
             let mean = step.pressure().mean().unwrap();
             let error = step.pressure().iter().fold(0.0f64, |most, p| most.max((p / mean - 1.0).abs()));
-            assert!(error < if factor > 1.0 { 1e-5 } else { 0.2 }, "{name}, {factor}: {error:e}");
+            assert!(factor == 1.0 || error < 1e-5, "{name}, {factor}: {error:e}");
         }
     }
 }
@@ -286,7 +286,8 @@ fn a_groove_is_constant_along_the_path() {
     // To and fro over half the width each point is passed twice as often.
     let mut short = Solver::new(problem.clone(), points, Settings::default()).unwrap();
     let half = short.wear(load, &wear.with_stroke(1.2).unwrap(), 0.05).unwrap();
-    assert!(relative_difference(half.pressure(), step.pressure()) < 1e-12);
+    // It starts from no pressure: equal to the tolerance.
+    assert!(relative_difference(half.pressure(), step.pressure()) < 1e-5);
     let oblique = Wear::new(0.4, 0.0, [1.0, 1.0]).unwrap();
     assert_eq!(short.wear(load, &oblique, 0.1).unwrap_err(), WearError::Oblique([1.0, 1.0]));
     let counterbody = Wear::new(0.0, 0.4, [1.0, 1.0]).unwrap();
@@ -316,7 +317,7 @@ fn levels_wear_until_lower_ones_carry_alike() {
         assert_solved(&step);
         lowest.push(shares(&step).0[2]);
     }
-    assert!(lowest[0] < 0.7 * lowest[12] && lowest.windows(2).all(|pair| pair[1] > pair[0] - 1e-6), "{lowest:?}");
+    assert!(1.2 * lowest[0] < lowest[12] && lowest.windows(2).all(|pair| pair[1] > pair[0] - 1e-6), "{lowest:?}");
     let step = solver.solve(load);
     let (load, area) = shares(&step);
     assert!((0..3).all(|level| (load[level] / area[level] - 1.0).abs() < 0.01), "{load:?} {area:?}");

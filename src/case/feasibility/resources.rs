@@ -64,6 +64,8 @@ const THREAD: u64 = 2 * MEBIBYTE / 5;
 /// Per sample, with hardness: the surface before it is pressed in, depths and their readings; and depths in files.
 const INDENTED: u64 = 48;
 const DEPTHS: u64 = 8;
+/// Per sample: depths worn off both surfaces, of a state and of the one before, and in a file.
+const WORN: u64 = 64;
 /// Per sample: its position and level.
 const PLACES: u64 = 20;
 /// A picture on disk, in both formats.
@@ -83,6 +85,11 @@ pub enum Job {
     Keep,
     /// `percoat limit`, with its pictures or without.
     Limit {
+        /// Whether pictures are drawn.
+        pictures: bool,
+    },
+    /// `percoat life`, with its pictures or without.
+    Life {
         /// Whether pictures are drawn.
         pictures: bool,
     },
@@ -130,6 +137,7 @@ pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
         Job::Solve { pictures, fields } => of_solving(case, samples, [grids, working, heights], pictures, fields),
         Job::Keep => of_keeping(case, samples, [grids, working, heights]),
         Job::Limit { pictures } => of_limits(case, samples, [grids, working, heights], pictures),
+        Job::Life { pictures } => of_life(case, samples, [grids, working, heights], pictures),
         Job::Compare { pictures } => of_comparing(case, samples, grids + working + heights, pictures),
         Job::Identify { pictures } => of_identifying(grids + working + TANGENT * samples, pictures),
     };
@@ -198,6 +206,17 @@ fn of_keeping(case: &Case, samples: u64, grids: [u64; 3]) -> Needs {
     let solving = of_solving(case, samples, grids, false, false).memory;
     let kept = case.load.values().len() as u64 * STEP + PLACES;
     Needs { memory: solving + kept * samples, disk: 0, disk_while_running: 0 }
+}
+
+/// A life: the contact before the first pass stays in memory while later ones are solved with their stresses.
+fn of_life(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool) -> Needs {
+    let series = of_series(case, samples);
+    let elastic = case.problem().bodies().each().count() as u64;
+    let stress = elastic * (STRESS + SEARCH) * series + of_shells(case, series);
+    let solving = PROGRAM + grids + heights + (STEP + WORN) * samples + working.max(READING * samples).max(stress);
+    let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
+    let disk = COMPARISON + WORN * samples + if pictures { 2 * PICTURE } else { 0 };
+    Needs { memory: solving.max(drawing), disk, disk_while_running: 2 * disk }
 }
 
 /// A search for limit loads: the solver, and the stresses of one load at a time.

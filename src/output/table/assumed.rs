@@ -1,5 +1,6 @@
 //! Assumptions of largest stresses and limit loads, in sentences below their tables.
 
+use super::text::lines;
 use crate::body::MeanStress;
 use crate::case::Case;
 
@@ -49,20 +50,8 @@ impl Assumptions {
     /// The sentences in lines of at most `width` letters.
     pub(super) fn lines(self, with_strength: bool, width: usize) -> String {
         let sentences = self.sentences(with_strength);
-        sentences.into_iter().flat_map(|own| wrapped(own, width)).map(|line| line + "\n").collect()
+        sentences.into_iter().map(|own| lines(own, width)).collect()
     }
-}
-
-/// A sentence in lines of at most so many letters, broken at blanks.
-fn wrapped(sentence: &str, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in sentence.split(' ') {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => *line += &format!(" {word}"),
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ mod comparison;
 mod fatigue;
 mod hertz;
 mod largest;
+mod life;
 mod plastic;
 mod strength;
 mod text;
@@ -17,12 +18,14 @@ pub use comparison::{differences, readings, stresses};
 pub use fatigue::lives;
 pub use hertz::hertz;
 pub use largest::largest_stresses;
+pub use life::{events, left};
 pub use plastic::plastic;
 pub use strength::{limits, utilisations};
+use text::lines;
 pub use text::{Table, Worded};
 
-use super::Timing;
 use super::number::{ROUNDING, number, with_error};
+use super::{LifeFile, Timing};
 use crate::case::{Case, SurfaceSection};
 use crate::comparison::Comparison;
 use crate::numeric::search::largest;
@@ -53,8 +56,8 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     text += &spots(steps).map_or(String::new(), |spots| format!("{spots}\n"));
     text += &contact_stiffness(steps, &units).unwrap_or_default();
     if let Some((words, table)) = plastic(steps, &units) {
-        text += &format!("{words}\n");
-        text += &table.map_or(String::new(), |table| format!("{}\n", table.fitted(width)));
+        text += &lines(&words, width);
+        text += &table.map_or(String::new(), |table| format!("{}\n\n", table.fitted(width)));
     }
     text += &hertz(case, steps, &units).map_or(String::new(), |lines| format!("{}\n", lines.join(";\n")));
     let largest = largest_stresses(steps, &units);
@@ -113,6 +116,26 @@ pub fn limited(case: &Case, found: &Limits, width: usize) -> String {
     if let Some(change) = found.change {
         text += &format!("change from the next coarser grid: {change:.1e}\n");
     }
+    text
+}
+
+/// The text of `percoat life`: lives of all that tires, events, and what is left.
+pub fn life(case: &Case, file: &LifeFile, width: usize) -> String {
+    let (mut text, units) = (heading(case), case.units());
+    match lives(&file.steps, &units) {
+        Some(lives) => text += &format!("\n{}\n", lives.fitted(width)),
+        None => text += "\nnothing tires\n",
+    }
+    if let Some(events) = events(&file.events, &units).filter(|_| file.end.is_some()) {
+        text += &format!("\n{}\n", events.fitted(width));
+    }
+    if let Some(left) = left(&file.wear, file.end, &units) {
+        text += &format!("\n{}", lines(&left, width));
+    }
+    if let Some(last) = file.steps.last() {
+        text += &format!("\n{}\n", solved(std::slice::from_ref(last)));
+    }
+    text += &Assumptions::of(case).lines(false, width);
     text
 }
 

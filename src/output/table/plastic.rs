@@ -10,7 +10,7 @@ use crate::units::Units;
 /// is pressed in there is no table.
 pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Table>)> {
     let readings = || steps.iter().filter_map(|step| Some((step, step.plastic.as_ref()?)));
-    let (_, last) = readings().last()?;
+    let (_, last) = readings().next_back()?;
     let hardness = units.pressure().with_unit(last.hardness, number);
     let pressed: Vec<(&StepRecord, &PlasticReading)> = readings().filter(|(_, own)| own.is_pressed_in()).collect();
     if pressed.is_empty() {

@@ -28,6 +28,18 @@ pub struct Worded {
     pub table: Table,
 }
 
+/// A sentence in lines of at most `width` letters, broken at blanks, each with its end.
+pub(super) fn lines(sentence: &str, width: usize) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for word in sentence.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => *line += &format!(" {word}"),
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines.into_iter().map(|line| line + "\n").collect()
+}
+
 impl Table {
     /// A table of `rows` under `head`, the first `words` columns aligned left.
     pub fn new(head: &[impl ToString], rows: Vec<Vec<String>>, words: usize) -> Self {

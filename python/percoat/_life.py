@@ -1,0 +1,70 @@
+"""Lives: passes until something fails, and what is left after that."""
+
+from __future__ import annotations
+
+import shutil
+from typing import Any, Optional
+
+from percoat import _core
+from percoat._case import CaseLike, Settings
+from percoat._record import Record
+from percoat._solve import Listener, listener
+from percoat._warnings import NotConverged, warn
+
+
+class Life(Record):
+    """A life, as ``life.json`` has it. It prints the text of the command line.
+
+    ``first`` is what fails first, ``None`` where nothing tires: with ``material`` or ``interface``, ``range`` of the shear stress,
+    ``passes`` and their relative ``error``, ``x``, ``y``, ``z``; ``criteria`` has all that tires. With ``life.passes`` in the case
+    ``events`` have what comes off, each with ``passes``, ``what``, ``depth``, ``thickness`` and ``removed``, and ``wear`` the course.
+    """
+
+    title: str
+    first: Optional[Record]
+    criteria: list[Record]
+    events: list[Record]
+    wear: list[Record]
+    distance: float
+    warnings: list[str]
+    converged: bool
+
+    def __init__(self, entries: Any, case: Optional[_core.Case] = None) -> None:
+        super().__init__(entries)
+        self.__dict__["_case"] = case
+
+    def __str__(self) -> str:
+        width = shutil.get_terminal_size().columns
+        return _core.life_text(self.__dict__["_case"], self.to_dict(), width).rstrip()
+
+    def __repr__(self) -> str:
+        if self.first is None:
+            return f"<percoat.Life {self.title!r}: nothing tires>"
+        return f"<percoat.Life {self.title!r}: {self.first.passes:.4g} passes, {len(self.events)} events>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Life, (dict(self), self.__dict__["_case"])
+
+
+def life(
+    case: CaseLike, *, set: Settings = None, threads: Optional[int] = None, progress: Listener = None
+) -> Life:
+    """Passes until damage first reaches 1, where, and of what; with ``life.passes`` what happens up to there.
+
+    Parameters are those of :func:`percoat.solve`; the case needs ``fatigue``, ``interface_fatigue``, or ``wear`` with ``life.passes``,
+    and one load.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> life = percoat.life("tin-fatigue", set={"grid.points": 64, "life.passes": 1e6})  # coarse
+    >>> life.first.passes > 0, len(life.criteria)
+    (True, 3)
+    """
+    own = _core.Case(case, set)
+    found, converged = _core.life(own, threads, listener(progress))
+    own_life = Life({**found, "converged": converged}, own)
+    warn(own_life.warnings)
+    if not converged:
+        warn(["the contact before the first pass did not converge"], NotConverged)
+    return own_life

@@ -1,0 +1,172 @@
+//! The damage that a pass does below the surface, with the interfaces; and the course of a life over the passes.
+
+use super::axis::Axis;
+use super::bar::Bar;
+use super::canvas::{Canvas, Dash, Stroke};
+use super::chart::{Chart, plots};
+use super::colour::{Colour, ColourMap};
+use super::curve::{Curve, Style};
+use super::map::{Fill, Map, Over};
+use super::scale::Scale;
+use super::sheet::sheet;
+use super::snapshot::{Snapshot, caption};
+use crate::body::Fatigue;
+use crate::friction::Friction;
+use crate::life::{Course, Event, EventKind};
+use crate::problem::Problem;
+use crate::reading::FatigueReading;
+use crate::stress::{RangePlane, SlidingPath};
+use crate::units::Units;
+
+/// Height over width of the map, least and largest.
+const ASPECT: [f64; 2] = [0.4, 1.1];
+/// Least damage shown, over the largest.
+const LEAST: f64 = 1e-6;
+
+/// The damage in a pass over y and z: of each material by its law, from the ranges of τ₁ on planes; `None` without any.
+pub fn damage(snapshot: &Snapshot, fatigue: &FatigueReading, planes: &[RangePlane]) -> Option<Canvas> {
+    let half_space = snapshot.step.problem().half_space();
+    let laws: Vec<Option<Fatigue>> = half_space.durabilities().map(|own| own.fatigue).collect();
+    let of = |plane: &RangePlane, range: f64| laws[plane.depth.material - 1].map_or(0.0, |law| law.damage(range));
+    let all = || planes.iter().flat_map(|plane| plane.lines.iter().map(move |[y, range]| (*y, of(plane, *range))));
+    let most = all().map(|(_, damage)| damage).filter(|damage| damage.is_finite()).fold(0.0, f64::max);
+    if most <= 0.0 {
+        return None;
+    }
+    let [ex, ey] = snapshot.step.problem().friction().map_or([1.0, 0.0], Friction::direction);
+    let worst = fatigue.first;
+    let across = worst.position[1] * ex - worst.position[0] * ey;
+    let planes = &about(planes, fatigue, across);
+    let ys = || planes.iter().flat_map(|plane| &plane.lines).map(|[y, _]| *y);
+    let (first, last) = (ys().fold(f64::INFINITY, f64::min), ys().fold(f64::NEG_INFINITY, f64::max));
+    // Down to where damage is next to nothing.
+    let visible = planes.iter().filter(|plane| plane.lines.iter().any(|[_, range]| of(plane, *range) > LEAST * most));
+    let depth = 1.1 * visible.map(|plane| plane.depth.z).fold(0.0, f64::max);
+    let value = |[y, z]: [f64; 2]| {
+        let z = z.max(0.0);
+        let material = half_space.depths(z).last()?.material;
+        let own = || planes.iter().filter(|plane| plane.depth.material == material);
+        let above = own().filter(|plane| plane.depth.z <= z).max_by(|a, b| a.depth.z.total_cmp(&b.depth.z))?;
+        let below = own().filter(|plane| plane.depth.z >= z).min_by(|a, b| a.depth.z.total_cmp(&b.depth.z))?;
+        let apart = below.depth.z - above.depth.z;
+        let part = if apart > 0.0 { (z - above.depth.z) / apart } else { 0.0 };
+        let range = (1.0 - part) * at(&above.lines, y) + part * at(&below.lines, y);
+        Some(of(above, range)).filter(|damage| *damage > LEAST * most)
+    };
+    let bar = Bar {
+        label: "damage in a pass, Q".into(),
+        colours: ColourMap::Sequential,
+        span: [LEAST * most, most],
+        scale: Scale::Log,
+        apart: false,
+        without: Colour::WHITE,
+    };
+    let width = (last - first).max(f64::MIN_POSITIVE);
+    let y = Axis::linear(snapshot.units.length_of("across the path", "y")).from_to(first, last);
+    let z = Axis::linear(snapshot.units.length_of("depth", "z")).from_to(depth, 0.0);
+    let interface = |&face: &f64| {
+        (face < depth).then(|| {
+            Over::Line(Stroke {
+                points: vec![[first, face], [last, face]],
+                width: 0.8,
+                dash: Dash::Solid,
+                colour: Colour::BLACK,
+            })
+        })
+    };
+    let mut over: Vec<Over> = half_space.interface_depths().iter().filter_map(interface).collect();
+    if worst.position[2] <= depth && !worst.part.is_counterbody() {
+        over.push(Over::Mark { at: [across.clamp(first, last), worst.position[2]], colour: Colour::WHITE });
+    }
+    let map = Map {
+        title: String::new(),
+        x: y,
+        y: z,
+        aspect: (depth / width).clamp(ASPECT[0], ASPECT[1]),
+        fill: Fill::Values(bar, &value),
+        over,
+    };
+    let words = format!(
+        "First: {}. Lines: interfaces; cross: where damage is largest; white: less than a millionth of it.",
+        worst.in_words(super::number::short)
+    );
+    Some(sheet(&snapshot.caption(&words), &[&map]))
+}
+
+/// Planes whose lines lie about a place across the path, where lines repeat.
+fn about(planes: &[RangePlane], fatigue: &FatigueReading, across: f64) -> Vec<RangePlane> {
+    let is_closed = matches!(fatigue.path, SlidingPath::LatticeVector(_));
+    let turned = |plane: &RangePlane| {
+        let mut own = plane.clone();
+        if let ([[first, _], [second, _], ..], true) = (&plane.lines[..], is_closed) {
+            let period = plane.lines.len() as f64 * (second - first);
+            own.lines.iter_mut().for_each(|line| line[0] -= period * ((line[0] - across) / period).round());
+            own.lines.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        }
+        own
+    };
+    planes.iter().map(turned).collect()
+}
+
+/// The range at y, linear between the lines.
+fn at(lines: &[[f64; 2]], y: f64) -> f64 {
+    let after = lines.partition_point(|line| line[0] < y);
+    match (after.checked_sub(1).map(|before| lines[before]), lines.get(after)) {
+        (Some([y0, a]), Some(&[y1, b])) => a + (b - a) * (y - y0) / (y1 - y0),
+        (Some([_, own]), None) | (None, Some(&[_, own])) => own,
+        (None, None) => 0.0,
+    }
+}
+
+/// What is left of the layers and worn off, over the passes, with the events; `None` for less than two states.
+pub fn course(title: &str, problem: &Problem, units: &Units, course: &[Course], events: &[Event]) -> Option<Canvas> {
+    if course.len() < 2 {
+        return None;
+    }
+    let last = course.iter().map(|own| own.passes).fold(0.0, f64::max);
+    let x = || Axis::linear("passes N").from_to(0.0, 1.02 * last);
+    let curve = |label: &str, colour: usize, points: Vec<[f64; 2]>, style: Style| Curve {
+        label: label.to_owned(),
+        points,
+        errors: Vec::new(),
+        style,
+        colour: colour.into(),
+    };
+    let points = |value: fn(&Course) -> f64| course.iter().map(|own| [own.passes, value(own)]).collect::<Vec<_>>();
+    let has_layers = course.iter().any(|own| own.thickness > 0.0);
+    // What comes off does so at once: the height before and after.
+    let off = |event: &Event| [[event.passes, event.removed - event.depth], [event.passes, event.removed]];
+    let mut removed: Vec<[f64; 2]> =
+        events.iter().filter(|own| own.what != EventKind::WornThrough).flat_map(off).collect();
+    removed.extend(points(|own| own.removed));
+    removed.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mut charts = Vec::new();
+    if has_layers {
+        let whole = course[0].thickness;
+        let left = removed.iter().map(|[n, removed]| [*n, (whole - removed).max(0.0)]).collect();
+        let y = Axis::linear(units.length_of("layers left", "h")).from_to(0.0, 1.05 * whole);
+        charts.push(Chart { title: "layers".to_owned(), x: x(), y, curves: vec![curve("", 1, left, Style::Line)] });
+    }
+    let mut curves = vec![curve("removed from the body", 1, removed, Style::Line)];
+    if course.iter().any(|own| own.body > 0.0) {
+        curves.push(curve("worn off the body by sliding, mean", 2, points(|own| own.body), Style::Line));
+    }
+    if course.iter().any(|own| own.counterbody > 0.0) {
+        curves.push(curve("worn off the counterbody, mean", 3, points(|own| own.counterbody), Style::Line));
+    }
+    let y = Axis::linear(units.length_of("height", "u"));
+    charts.push(Chart { title: "removed and worn".to_owned(), x: x(), y, curves });
+    let finite = |own: &Course| if own.max_pressure.is_finite() { own.max_pressure } else { f64::NAN };
+    let y = Axis::linear(units.pressure_of("largest pressure", "p"));
+    charts.push(Chart {
+        title: "pressure".to_owned(),
+        x: x(),
+        y,
+        curves: vec![curve("", 1, points(finite), Style::Line)],
+    });
+    for (letter, chart) in ('a'..).zip(&mut charts) {
+        chart.title = format!("({letter}) {}", chart.title);
+    }
+    let more = [format!("{} events in {} passes", events.len(), super::number::short(last))];
+    Some(plots(&caption(title, problem, units, &more), &charts))
+}

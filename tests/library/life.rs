@@ -1,0 +1,165 @@
+//! Lives: damage pass after pass, what comes off, wear in between, from one state to the next.
+
+use percoat::life::{Beginning, EventKind, LifeEnd, LifeError, LifeState, LifeTask};
+use percoat::reading::FatiguePart;
+use percoat::run::WearPath;
+use percoat::spectral::Wear;
+use percoat::{
+    Bodies, Durability, Fatigue, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material,
+    MeanStress, Problem, Settings, Shape, Solver,
+};
+use std::sync::Arc;
+
+fn young(young: f64, poisson: f64) -> Material {
+    Material::from_young(young, poisson).unwrap()
+}
+
+/// A law whose damage is 1 after `passes` of the range 0.1.
+fn law(passes: f64) -> Fatigue {
+    Fatigue::new(0.1, passes, 6.0).unwrap()
+}
+
+fn tiring(passes: Option<f64>) -> Durability {
+    Durability { fatigue: passes.map(law), ..Durability::default() }
+}
+
+/// A layer of the thickness h on a substrate, with the passes of both materials and of the interface.
+fn coated(h: f64, layer: Option<f64>, interface: Option<f64>, substrate: Option<f64>) -> HalfSpace {
+    let own = Layer::new(young(3.0, 0.25), h, Interface::Bonded).unwrap();
+    let own = own.with_durability(tiring(layer), interface.map(law)).unwrap();
+    HalfSpace::new(vec![own], young(1.0, 0.3)).with_substrate_durability(tiring(substrate)).unwrap()
+}
+
+/// Balls of the radius 1 on a square lattice of the side 1 that slide with friction along x.
+fn task(bodies: impl Into<Bodies>, passes: Option<f64>) -> LifeTask {
+    let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+    let indenters = Indenters::new(Lattice::square(1.0, 1).unwrap(), vec![level]).unwrap();
+    let problem = Problem::new(indenters, bodies).sliding(Friction::new(0.1, [1.0, 0.0]).unwrap()).unwrap();
+    LifeTask {
+        problem: Arc::new(problem),
+        load: Load::MeanPressure(0.01),
+        points: [64; 2],
+        settings: Settings::default(),
+        mean: MeanStress::Confined,
+        passes,
+        distance: None,
+        tolerance: 1e-2,
+    }
+}
+
+fn followed(task: &LifeTask) -> (Beginning, LifeState) {
+    let begun = task.beginning(&|| true).unwrap();
+    let mut state = task.unworn(&begun);
+    while state.end.is_none() {
+        state = task.advance(state, &begun, &|| true).unwrap();
+    }
+    (begun, state)
+}
+
+/// Up to the first failure damage is linear in the passes: the first event is that of the reading, and twice the N₀ lasts twice as long.
+#[test]
+fn the_first_failure_is_that_of_the_reading_and_lasts_as_its_law() {
+    let of = |passes: f64| {
+        let task = task(coated(0.08, Some(passes), None, Some(10.0 * passes)), None);
+        let (begun, state) = followed(&task);
+        let first = begun.fatigue.unwrap().first;
+        let [event] = state.events[..] else { panic!("{:?}", state.events) };
+        assert_eq!((event.passes, state.end, state.solved), (first.passes, Some(LifeEnd::Passes), 1));
+        assert!((event.depth - first.position[2]).abs() < 1e-15 || event.what == EventKind::SurfaceWear);
+        assert_eq!(event.part, first.part);
+        event.passes
+    };
+    let [once, twice] = [1e4, 2e4].map(of);
+    assert!((twice / once - 2.0).abs() < 1e-12, "{once} {twice}");
+}
+
+/// An interface that tires takes the layer off; after that the substrate is bare, and tires on.
+#[test]
+fn an_interface_that_fails_takes_its_layer_off() {
+    let first = followed(&task(coated(0.08, None, Some(1e3), None), None)).1.events[0];
+    assert!(
+        first.what == EventKind::Delamination && matches!(first.part, FatiguePart::Interface(own) if own.number == 1)
+    );
+    let (_, state) = followed(&task(coated(0.08, None, Some(1e3), None), Some(3.0 * first.passes)));
+    assert_eq!((state.events.len(), state.events[0].thickness), (1, 0.0));
+    assert!((state.events[0].depth - 0.08).abs() < 1e-15);
+    assert_eq!(state.passes, 3.0 * first.passes);
+    let course = &state.course;
+    assert!(course.first().unwrap().thickness == 0.08 && course.last().unwrap().thickness == 0.0);
+}
+
+/// Layers come off one after another; what is removed never grows back, passes never run back, and each event takes a solution at most.
+#[test]
+fn layers_come_off_until_the_passes_are_done() {
+    let task = task(coated(0.3, Some(1e4), None, Some(1e4)), Some(2e6));
+    let (begun, state) = followed(&task);
+    let first = begun.fatigue.as_ref().unwrap().first;
+    assert!(first.passes < 2e6, "{first:?}");
+    assert!(state.events.len() >= 2 && state.passes == 2e6, "{:?}, {:?}", state.events, state.end);
+    for pair in state.course.windows(2) {
+        assert!(pair[1].passes >= pair[0].passes && pair[1].removed >= pair[0].removed);
+        assert!(pair[1].thickness <= pair[0].thickness);
+    }
+    // A fifth of the layer is a twentieth four times: solutions are for what has gone, not for events.
+    let relaid = (state.removed() / (0.05 * 0.05 * 0.3)).ceil();
+    assert!(
+        (state.solved as f64) < 2.0 + state.events.len() as f64 + relaid,
+        "{} loads, {:?}",
+        state.solved,
+        state.events
+    );
+}
+
+/// A state that is written and read back leads to the same end, bit for bit.
+#[test]
+fn a_life_goes_on_from_any_of_its_states() {
+    let wears = Durability { wear: Some(1e-3), ..Durability::default() };
+    let bodies = Bodies::from(coated(0.1, Some(1e4), Some(2e4), Some(1e4))).with_rigid_durability(wears).unwrap();
+    let task = task(bodies, Some(1e4));
+    let begun = task.beginning(&|| true).unwrap();
+    let mut states = vec![task.unworn(&begun)];
+    while states.last().unwrap().end.is_none() {
+        states.push(task.advance(states.last().unwrap().clone(), &begun, &|| true).unwrap());
+    }
+    assert!(states.len() > 3, "{}", states.len());
+    let last = states.last().unwrap();
+    for state in [0, 1, states.len() / 2] {
+        let mut own = states[state].clone();
+        while own.end.is_none() {
+            own = task.advance(own, &begun, &|| true).unwrap();
+        }
+        assert_eq!(&own, last);
+    }
+    assert_eq!(task.advance(last.clone(), &begun, &|| true).unwrap(), *last, "an end stays");
+}
+
+/// Without fatigue a life is a path of wear: the worn volume is k s P, and the shape that of the path.
+#[test]
+fn a_life_without_fatigue_is_a_path_of_wear() {
+    let wears = Durability { wear: Some(0.05), ..Durability::default() };
+    let bodies = Bodies::from(coated(0.1, None, None, None)).with_rigid_durability(wears).unwrap();
+    let task = LifeTask { passes: Some(10.0), tolerance: 2e-3, ..task(bodies, None) };
+    let (begun, state) = followed(&task);
+    assert!(begun.fatigue.is_none() && state.events.is_empty() && state.passes == 10.0);
+    let last = state.course.last().unwrap();
+    // k s P with s = 10 periods of 1 and P = 0.01, on a cell of the area 1.
+    assert!((last.counterbody / (0.05 * 10.0 * 0.01) - 1.0).abs() < 1e-10, "{}", last.counterbody);
+    assert_eq!((last.body, last.removed), (0.0, 0.0));
+    let mut solver = Solver::new(Arc::clone(&task.problem), [64; 2], Settings::default()).unwrap();
+    let wear = Wear::of(&task.problem);
+    let path = WearPath::new(task.load, wear, 10.0, 2e-3).unwrap();
+    path.slide(&mut solver, &mut |_, _| std::ops::ControlFlow::Continue(())).unwrap();
+    let whole = solver.worn().unwrap().largest(percoat::body::Side::Counterbody);
+    assert!((last.counterbody_depth / whole - 1.0).abs() < 4e-3, "{} {whole}", last.counterbody_depth);
+    let (first, last) = (state.course[0].max_pressure, last.max_pressure);
+    assert!(last < 0.9 * first, "{first} {last}");
+}
+
+#[test]
+fn a_body_that_neither_tires_nor_wears_is_refused() {
+    assert_eq!(task(coated(0.1, None, None, None), Some(1e3)).check(), Err(LifeError::NothingTires));
+    assert_eq!(task(coated(0.1, Some(1.0), None, None), None).check(), Ok(()));
+    let wears = Durability { wear: Some(1e-3), ..Durability::default() };
+    let bodies = Bodies::from(coated(0.1, None, None, None)).with_rigid_durability(wears).unwrap();
+    assert!(task(bodies.clone(), None).check().is_err() && task(bodies, Some(1.0)).check().is_ok());
+}
