@@ -1,6 +1,6 @@
 //! The contact problem: a counterbody, rigid or elastic, above a layered elastic half-space, at rest or sliding.
 
-use crate::body::{Bodies, HalfSpace, Interface};
+use crate::body::{Bodies, HalfSpace, Interface, Side};
 use crate::counterbody::Counterbody;
 use crate::friction::{Friction, FrictionError};
 use crate::lattice::Cell;
@@ -38,6 +38,18 @@ impl Problem {
         }
     }
 
+    /// Hardness that the pressure of contact does not exceed, in its unit, with the side of the softer surface. `None` without one, and
+    /// under a given pressure, which is prescribed, displaces elastically and presses nothing in.
+    pub fn hardness(&self) -> Option<(f64, Side)> {
+        self.bodies.hardness().filter(|_| self.counterbody.pressure().is_none())
+    }
+
+    /// The same problem without hardness: elastic under any pressure.
+    #[must_use]
+    pub fn without_hardness(&self) -> Self {
+        Self { bodies: self.bodies.without_hardness(), ..self.clone() }
+    }
+
     /// The same problem on another body.
     #[must_use]
     pub fn on_body(&self, body: HalfSpace) -> Self {
@@ -68,6 +80,11 @@ impl Problem {
     /// The friction of a sliding counterbody; `None` at rest.
     pub fn friction(&self) -> Option<&Friction> {
         self.friction.as_ref()
+    }
+
+    /// Direction of sliding, a unit vector: that of the friction, +x without any.
+    pub fn direction(&self) -> [f64; 2] {
+        self.friction.map_or([1.0, 0.0], |friction| friction.direction())
     }
 
     /// The unit cell.

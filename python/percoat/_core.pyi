@@ -67,7 +67,7 @@ class Progress:
         """Number of all; 0 where it is not known."""
     @property
     def points(self) -> Optional[Tuple[int, int]]:
-        """Points of the present grid along a₁ and a₂; ``None`` for a sweep and a search for parameters."""
+        """Points of the present grid along a₁ and a₂; ``None`` for a sweep, a search for parameters, and before the first contact of a life."""
     @property
     def iteration(self) -> int:
         """Iterations so far on that grid."""

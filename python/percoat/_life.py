@@ -52,7 +52,8 @@ def life(
     """Passes until damage first reaches 1, where, and of what; with ``life.passes`` what happens up to there.
 
     Parameters are those of :func:`percoat.solve`; the case needs ``fatigue``, ``interface_fatigue``, or ``wear`` with ``life.passes``,
-    and one load.
+    and one load. ``progress`` hears of the beginning and of every load that is solved. Ctrl-C raises at once; the work ends within the
+    load that is being solved.
 
     Examples
     --------
@@ -66,5 +67,5 @@ def life(
     own_life = Life({**found, "converged": converged}, own)
     warn(own_life.warnings)
     if not converged:
-        warn(["the contact before the first pass did not converge"], NotConverged)
+        warn(["a contact or the accuracy did not converge"], NotConverged)
     return own_life

@@ -2,12 +2,11 @@
 
 use crate::case::Case;
 use crate::errors::refused;
+use crate::progress::Progress;
 use crate::record::{from_python, to_python};
-use crate::work;
-use percoat::case::plausibility;
-use percoat::case::resources::Job;
-use percoat::output::{LifeFile, table};
-use percoat::run::StepRecord;
+use crate::work::{self, Listener};
+use percoat::case::resources::{Job, needs};
+use percoat::output::{LifeFile, number, table};
 use pyo3::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -21,26 +20,35 @@ pub fn life<'py>(
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyAny>, bool)> {
-    case.get().allow(Job::Life { pictures: false })?;
+    let job = Job::Life { pictures: false };
+    let room = case.get().allow(job)?;
     let own = Arc::clone(&case.get().own);
     let found = work::run(py, threads, progress, move |listener| {
         let task = own.life_task()?;
         task.check().map_err(|error| error.to_string())?;
+        tell(listener, 0, None, "damage of the first pass".to_owned());
         let stop = Arc::clone(listener.stop());
         let goes_on = || !stop.load(Ordering::Relaxed);
-        let begun = task.beginning(&goes_on).map_err(|error| error.to_string())?;
+        let fits = |points: [usize; 2]| needs(&own, points, job).fit(room);
+        let begun = task.beginning(&fits, &goes_on).map_err(|error| error.to_string())?;
         let mut state = task.unworn(&begun);
         while state.end.is_none() {
             state = task.advance(state, &begun, &goes_on).map_err(|error| error.to_string())?;
+            let [n1, n2] = begun.step.grid().points();
+            let phase = format!("{} passes, {} events", number(state.passes), state.events.len());
+            tell(listener, state.solved, Some((n1, n2)), phase);
+            listener.check()?;
         }
-        let converged = begun.step.report.stop.solved();
-        let record =
-            StepRecord { fatigue: begun.fatigue.clone(), ..StepRecord::new(&begun.step, begun.reading.clone()) };
-        let warnings = plausibility::of_case(&own);
-        Ok::<_, String>((LifeFile::new(&own, &task, (&begun, record), &state, &warnings), converged))
+        Ok::<_, String>((LifeFile::new(&own, &task, &begun, &state), state.converged(&begun)))
     })?;
     let (life, converged) = found.map_err(refused)?;
     Ok((to_python(py, &life)?, converged))
+}
+
+/// Reports the `done` loads of a life.
+fn tell(listener: &mut Listener, done: usize, points: Option<(usize, usize)>, phase: String) {
+    let (unit, of, iteration, residual) = ("load", 0, 0, f64::NAN);
+    listener.tell(true, |seconds| Progress { unit, done, of, points, iteration, residual, phase, seconds });
 }
 
 /// The text that the command line prints of this life, a dict of [`life`], in lines of `width` letters.

@@ -15,7 +15,7 @@ pub struct Progress {
     /// Number of all; 0 where it is not known.
     #[pyo3(get)]
     pub of: usize,
-    /// Points of the present grid along a₁ and a₂; `None` for a sweep and a search for parameters.
+    /// Points of the present grid along a₁ and a₂; `None` for a sweep, a search for parameters, and before the first contact of a life.
     #[pyo3(get)]
     pub points: Option<(usize, usize)>,
     /// Iterations so far on that grid.

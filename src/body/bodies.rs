@@ -83,6 +83,14 @@ impl Bodies {
         self.surface_durability(side).wear.unwrap_or(0.0)
     }
 
+    /// The bodies without hardness: elastic under any pressure.
+    #[must_use]
+    pub fn without_hardness(&self) -> Self {
+        let (body, counterbody) = (self.body.without_hardness(), self.counterbody.as_ref());
+        let counterbody = counterbody.map(HalfSpace::without_hardness);
+        Self { body, counterbody, rigid: Durability { hardness: None, ..self.rigid } }
+    }
+
     /// The bodies with another body in the place of the first.
     #[must_use]
     pub fn with_body(&self, body: HalfSpace) -> Self {

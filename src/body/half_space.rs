@@ -183,6 +183,14 @@ impl HalfSpace {
         Some((Self { layers, response, ..self.clone() }, gone))
     }
 
+    /// It without hardness: elastic under any pressure.
+    #[must_use]
+    pub fn without_hardness(&self) -> Self {
+        let layers = self.layers.iter().map(Layer::without_hardness).collect();
+        let substrate_durability = Durability { hardness: None, ..self.substrate_durability };
+        Self { layers, substrate_durability, ..self.clone() }
+    }
+
     /// Residual stresses of all materials, in the order of [`Self::materials`]: that of the substrate is zero.
     pub fn residual_stresses(&self) -> impl Iterator<Item = f64> {
         self.layers.iter().map(Layer::residual_stress).chain(self.substrate.material().map(|_| 0.0))

@@ -121,6 +121,11 @@ impl Layer {
         self.interface_fatigue
     }
 
+    /// It without hardness.
+    pub(super) fn without_hardness(&self) -> Self {
+        Self { durability: Durability { hardness: None, ..self.durability }, ..*self }
+    }
+
     /// It with another thickness, a length above zero.
     pub(super) fn thinned(&self, thickness: f64) -> Self {
         Self { thickness, ..*self }

@@ -74,7 +74,7 @@ impl<'a> IdentificationTask<'a> {
         Ok(Self { source, set, case, parameters })
     }
 
-    /// Finds the values, and the case with them. `progress` is called with each trial; `Break` ends the search.
+    /// Finds the values by the elastic curve, and the case with them. `progress` is called with each trial; `Break` ends the search.
     ///
     /// # Errors
     /// [`IdentificationError`].
@@ -84,7 +84,7 @@ impl<'a> IdentificationTask<'a> {
         progress: &mut Listener<'_>,
     ) -> Result<(Identification, Case), IdentificationError<CaseError>> {
         let problem =
-            |values: &[f64]| -> Result<Problem, CaseError> { Ok(self.with(values)?.problem().as_ref().clone()) };
+            |values: &[f64]| -> Result<Problem, CaseError> { Ok(self.with(values)?.problem().without_hardness()) };
         let model = Model { problem: &problem, points: points(self.case), settings: self.case.solver };
         let found = Identification::new_with_progress(&model, &self.parameters, measured, progress)?;
         let values: Vec<f64> = found.estimates.iter().map(|own| own.value).collect();

@@ -34,13 +34,11 @@ use crate::counterbody::{Counterbody, Topography};
 use crate::life::LifeTask;
 use crate::load::{Load, LoadQuantity};
 use crate::problem::Problem;
-use crate::run::{Refinement, Run, Sampling, StressRequest};
+use crate::run::{Run, Sampling, StressRequest};
 use crate::spectral::Settings;
 use crate::units::Units;
 use std::sync::Arc;
 
-/// Most points along a side of the grid of a life where an accuracy is prescribed.
-const LIFE_POINTS: usize = 512;
 /// Relative error of a step of wear without a section `[life]`.
 const LIFE_TOLERANCE: f64 = 1e-2;
 
@@ -157,8 +155,11 @@ impl Case {
     pub fn comparison(&self) -> ComparisonTask {
         let LocalizedSection { indenters, elements, radius, mutual_effect } = &self.localized;
         let loads = self.load.loads();
+        // The localized method has no hardness.
+        let is_elastic = self.problem.bodies().hardness().is_none();
+        let elastic = || Arc::new(self.problem.without_hardness());
         ComparisonTask {
-            problem: Arc::clone(&self.problem),
+            problem: if is_elastic { Arc::clone(&self.problem) } else { elastic() },
             load: loads[loads.len() - 1],
             settings: self.solver,
             indenters: indenters.clone(),
@@ -189,19 +190,10 @@ impl Case {
                     .to_owned(),
             );
         }
-        let cell = self.problem.cell();
-        let points = match self.grid {
-            Sampling::Points(points) => points,
-            Sampling::Accuracy(_) => {
-                let grids = Refinement::grids(&cell).map_err(|error| error.to_string())?;
-                let most = |points: &[usize; 2]| points.iter().all(|&n| n <= LIFE_POINTS);
-                grids.iter().rev().copied().find(most).unwrap_or(grids[0])
-            }
-        };
         Ok(LifeTask {
             problem: Arc::clone(&self.problem),
             load,
-            points,
+            sampling: self.grid,
             settings: self.solver,
             mean: self.mean_stress(),
             passes: self.life.and_then(|own| own.passes),

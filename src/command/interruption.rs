@@ -23,6 +23,8 @@ pub enum Saved {
     Steps { done: usize, of: usize, folder: PathBuf },
     /// Combinations of an unfinished sweep.
     Combinations { done: usize, of: usize, folder: PathBuf },
+    /// A life after some passes.
+    Passes { passes: f64, folder: PathBuf },
     /// The whole result.
     Result(PathBuf),
 }
@@ -34,7 +36,7 @@ impl Saved {
             Self::Nothing => false,
             Self::Steps { folder, .. } => output::has_begun(folder),
             Self::Combinations { done, .. } => *done > 0,
-            Self::Result(_) => true,
+            Self::Passes { .. } | Self::Result(_) => true,
         }
     }
 }
@@ -44,6 +46,13 @@ impl fmt::Display for Saved {
         let (done, of, folder, units, ended) = match self {
             Self::Nothing => return f.write_str("nothing is saved"),
             Self::Result(folder) => return write!(f, "the whole result is saved in {}", plain::path(folder)),
+            Self::Passes { passes, folder } => {
+                let (passes, folder) = (output::number(*passes), plain::path(folder));
+                return write!(
+                    f,
+                    "{passes} passes saved in {folder}; the same command with --resume goes on from there"
+                );
+            }
             Self::Steps { done, of, folder } => (done, of, folder, "steps", "finished"),
             Self::Combinations { done, of, folder } => (done, of, folder, "combinations", "done"),
         };

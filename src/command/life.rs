@@ -2,18 +2,19 @@
 
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
+use super::interruption::{self, Saved};
 use super::options::Common;
 use super::plan::plan;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal::{self, tell};
+use crate::case::Case;
 use crate::case::feasibility::Allowed;
 use crate::case::resources::Job;
-use crate::case::{Case, plausibility};
-use crate::life::{Beginning, LifeEnd, LifeState, LifeTask};
-use crate::output::{self, LifeFile, Plan, Writer, number, table, write_damage};
+use crate::life::{Beginning, LifeState, LifeTask};
+use crate::output::{self, CannotGoOn, LifeFile, Plan, Writer, number, table, write_damage};
 use crate::picture::{self, Snapshot};
-use crate::run::StepRecord;
+use crate::run::Recorder;
 use clap::Args;
 use std::path::Path;
 use std::time::Instant;
@@ -34,20 +35,23 @@ pub fn run(case: Option<&Path>, set: &[String], options: &LifeOptions, common: &
     let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), set)?;
     let folder = output_folder(common, &name)?;
     let task = case.life_task().map_err(Failure::refused)?;
-    Allowed::new(&case, &folder, Job::Life { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
+    let allowed = Allowed::new(&case, &folder, Job::Life { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
     task.check().map_err(Failure::refused)?;
     let plan = plan(Writer::Life, &["life.json", "life.csv", "damage.npz", "case.toml"], pictures, &["damage", "life"]);
-    let results = Results::claim(folder, Plan { resumes: options.resume, ..plan }, common.saying())?;
+    let mut results = Results::claim(folder, Plan { resumes: options.resume, ..plan }, common.saying())?;
     let fingerprint = output::fingerprint(&case, "life");
+    let saved = earlier(&mut results, &fingerprint)?;
     let progress = Progress::new("", 0, 0, common);
     progress.tell(format_args!("{}", task.problem));
     progress.say("damage of the first pass");
-    let begun = task.beginning(&|| true).map_err(Failure::refused)?;
-    let state = followed(&task, &begun, &results, &fingerprint, options.resume, &progress)?;
+    let begun = task.beginning(&|points| allowed.fits(points), &|| true).map_err(Failure::refused)?;
+    // Where an accuracy is prescribed the grid depends on the memory that is free.
+    if saved.as_ref().is_some_and(|saved| saved.points != begun.step.grid().points()) {
+        return Err(Failure::refused(CannotGoOn::Foreign(results.staging())));
+    }
+    let state = followed(&task, &begun, saved, &results, &fingerprint, &progress)?;
     progress.say("drawing pictures");
-    let record = StepRecord { fatigue: begun.fatigue.clone(), ..StepRecord::new(&begun.step, begun.reading.clone()) };
-    let warnings = [warnings(&begun, &state), plausibility::of_case(&case)].concat();
-    let file = LifeFile::new(&case, &task, (&begun, record), &state, &warnings);
+    let file = LifeFile::new(&case, &task, &begun, &state);
     let json = file.to_json();
     results.write("life.json", &json)?;
     results.write("life.csv", &file.course())?;
@@ -55,52 +59,53 @@ pub fn run(case: Option<&Path>, set: &[String], options: &LifeOptions, common: &
     write_damage(&results.staging(), &task, &begun)?;
     draw(&results, &case, &begun, &state, common)?;
     progress.finish();
-    output::forget_state(&results.staging())?;
     let line = || format!("{} loads solved; {:.2} s", state.solved.max(1), started.elapsed().as_secs_f64());
-    results.finish(|| json, || table::life(&case, &file, terminal::width()), line, &warnings)?;
-    Ok(Ending::of(begun.step.report.stop.solved() && state.end != Some(LifeEnd::Unsolved)))
+    results.finish(|| json, || table::life(&case, &file, terminal::width()), line, &file.warnings)?;
+    Ok(Ending::of(state.converged(&begun)))
 }
 
-/// The last state of a life, or that after the first failure; every state is saved.
+/// The state of an interrupted life into the folder with which this one goes on. One of another life is an error, and a damaged one is
+/// moved aside.
+fn earlier(results: &mut Results, fingerprint: &str) -> Result<Option<LifeState>, Failure> {
+    if !results.claim.resumes() {
+        return Ok(None);
+    }
+    match output::saved_state(&results.staging(), fingerprint) {
+        Ok(saved) => {
+            if let Some(saved) = saved.as_ref().filter(|_| !results.saying.quiet) {
+                tell!("note: goes on after {} passes", number(saved.passes));
+            }
+            Ok(saved)
+        }
+        Err(foreign @ CannotGoOn::Foreign(_)) => Err(Failure::refused(foreign)),
+        Err(damaged) => {
+            results.begin_after_damage(&damaged.to_string(), "all passes are followed again")?;
+            Ok(None)
+        }
+    }
+}
+
+/// The last state of a life that begins anew or goes on after one that was `saved`; every state is saved.
 fn followed(
     task: &LifeTask,
     begun: &Beginning,
+    saved: Option<LifeState>,
     results: &Results,
     fingerprint: &str,
-    resumes: bool,
     progress: &Progress,
 ) -> Result<LifeState, Failure> {
-    let saved = output::saved_state(&results.staging(), fingerprint).filter(|_| resumes);
-    if let Some(saved) = &saved {
-        tell!("note: goes on after {} passes", number(saved.passes));
-    }
     let mut state = saved.unwrap_or_else(|| task.unworn(begun));
     while state.end.is_none() {
         state = task.advance(state, begun, &|| true).map_err(Failure::refused)?;
-        output::save_state(&results.staging(), fingerprint, &state)?;
+        {
+            let mut saved = interruption::hold();
+            output::save_state(&results.staging(), fingerprint, &state)?;
+            *saved = Saved::Passes { passes: state.passes, folder: results.staging() };
+        }
         let events = state.events.len();
         progress.say(format!("{} passes, {events} events, {} loads solved", number(state.passes), state.solved));
     }
     Ok(state)
-}
-
-/// Warnings about a life, a sentence each.
-fn warnings(begun: &Beginning, state: &LifeState) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if !begun.step.report.stop.solved() {
-        warnings.push("the contact before the first pass has not converged: judge it by its certificate".to_owned());
-    }
-    if let Some(error) = begun.fatigue.as_ref().and_then(|own| own.first.error).filter(|error| *error > 0.5) {
-        warnings.push(format!(
-            "the passes to the first failure are known to {:.0} % only: an error of the range of the shear stress counts as often as \
-             the exponent; raise grid.points",
-            100.0 * error
-        ));
-    }
-    if state.end == Some(LifeEnd::LoadLimit) {
-        warnings.push("the life is followed no further: it takes too many loads".to_owned());
-    }
-    warnings
 }
 
 fn draw(results: &Results, case: &Case, begun: &Beginning, state: &LifeState, common: &Common) -> Result<(), Failure> {
@@ -108,8 +113,9 @@ fn draw(results: &Results, case: &Case, begun: &Beginning, state: &LifeState, co
     if !pictures.wanted() {
         return Ok(());
     }
-    if let Some(fatigue) = &begun.fatigue {
-        let snapshot = Snapshot::new(&case.title, begun.step.clone(), begun.reading.clone()).with_units(case.units());
+    if let Some(fatigue) = &begun.record.fatigue {
+        let snapshot =
+            Snapshot::new(&case.title, begun.step.clone(), begun.record.reading.clone()).with_units(case.units());
         pictures.write(&staging, "damage", || picture::damage(&snapshot, fatigue, &begun.planes))?;
     }
     pictures.write(&staging, "life", || {

@@ -3,7 +3,7 @@
 use super::ending::Failure;
 use super::interruption;
 use super::options::Saying;
-use super::terminal;
+use super::terminal::{self, tell};
 use crate::output::{Plan, RunFolder, make_folder, write_text};
 use crate::plain;
 use std::io::Write;
@@ -26,6 +26,14 @@ impl Results {
         let claim = RunFolder::claim(&folder, plan)?;
         terminal::tell_aside(claim.set_aside(), saying.quiet);
         Ok(Self { claim, folder, saying })
+    }
+
+    /// Begins anew because what an interrupted command has left is damaged, for a `reason`: it is kept, and a warning says where, and
+    /// what is `done`.
+    pub fn begin_after_damage(&mut self, reason: &str, done: &str) -> Result<(), Failure> {
+        let aside = self.claim.begin_after_damage()?;
+        tell!("warning: {}", terminal::damage(reason, aside.as_deref(), done));
+        Ok(())
     }
 
     /// The folder in which the files are gathered.

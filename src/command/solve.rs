@@ -138,8 +138,7 @@ fn earlier(results: &mut Results, fingerprint: &str, run: &Run, demanded: bool) 
         Ok(None) => format!("{}/checkpoint.npz is missing, no load can be given again", plain::path(&claim.staging())),
     };
     if demanded {
-        let aside = claim.begin_after_damage()?;
-        tell!("warning: {}", terminal::damage(&reason, aside.as_deref(), "all steps are solved again"));
+        results.begin_after_damage(&reason, "all steps are solved again")?;
     } else {
         terminal::tell_aside(claim.begin_anew()?.as_deref(), quiet);
     }

@@ -1,22 +1,29 @@
 //! Damage of the body below its surface, carried with the material.
 //!
 //! In the frame of the original surface the damage D(y, Z) of a material grows in each pass by Q(y, z), the damage of the law of fatigue
-//! at the depth z = Z − r below the present surface, r what has come off: D = ∫ Q dN. It is kept at nodes, a line of them at equal
-//! distances in each material, for each line y of the path. Between the planes of a step the range of τ₁ is linear in depth. Of an
-//! interface the largest damage counts.
+//! at the depth z = Z − r below the present surface, r what has come off ([`Rates`]): D = ∫ Q dN. It is kept at nodes, equally far apart
+//! over the depth of each material, on the lines y of the path under the unworn contact; what has come off is dropped. Of an interface
+//! the largest damage counts.
 
-use crate::body::{Fatigue, HalfSpace};
+use super::rates::Rates;
+use crate::body::{Durability, HalfSpace};
 use crate::numeric::serialised;
-use crate::reading::{FatiguePart, FatigueReading};
 use crate::stress::RangePlane;
 use serde::{Deserialize, Serialize};
 
-/// Nodes of a layer as thick as the smallest contact radius or thinner, and nodes to that radius in thicker ones and in the substrate.
+/// Nodes of a layer as thick as the smallest contact radius or thinner, and nodes to that radius in thicker ones and in the substrate;
+/// fewer where the largest radius would have more than 512.
 const NODES: f64 = 64.0;
+const MOST_NODES: f64 = 512.0;
+/// Part of the distance of nodes within which one is at the surface, and of the damage within which it has failed.
+const SURFACE: f64 = 1e-6;
+const FAILED: f64 = 1e-9;
 
 /// Damage of a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Damage {
+    /// y of each line across the path, lengths.
+    y: Vec<f64>,
     /// Of each material with a law of fatigue, from the original surface down.
     materials: Vec<MaterialDamage>,
     /// Largest damage of each interface, from the original surface down; those that have come off keep theirs.
@@ -35,19 +42,10 @@ struct MaterialDamage {
     bottom: f64,
     /// Distance of nodes, a length.
     spacing: f64,
-    /// Number of lines y.
-    lines: usize,
-    /// Damage at the nodes, all lines of a node one after the other, from the upper face down, as deep as damage was done.
+    /// Number of nodes from the upper face on that have come off.
+    gone: usize,
+    /// Damage at the nodes that are left, all lines of a node one after the other, from the upper one down, as deep as damage was done.
     damage: Vec<f64>,
-}
-
-/// Damage that one pass does on the present surface.
-#[derive(Debug, Clone)]
-pub struct Rates {
-    /// Planes of each material of the original body with its law, in the frame of the present surface.
-    materials: Vec<(usize, Fatigue, Vec<RangePlane>)>,
-    /// Damage in a pass of each interface of the original body.
-    interfaces: Vec<f64>,
 }
 
 /// Where damage reaches 1 next.
@@ -70,57 +68,12 @@ pub enum FailurePlace {
     Interface(usize),
 }
 
-impl Rates {
-    /// Rates by the planes and the reading of a step, on a body of whose original `gone` layers have come off.
-    pub fn new(original: &HalfSpace, gone: usize, planes: Vec<RangePlane>, reading: Option<&FatigueReading>) -> Self {
-        let laws = (1..).zip(original.durabilities()).skip(gone);
-        let of = |(number, own): (usize, crate::body::Durability)| {
-            let law = own.fatigue?;
-            let mut own: Vec<RangePlane> =
-                planes.iter().filter(|plane| plane.depth.material + gone == number).cloned().collect();
-            own.sort_by(|a, b| a.depth.z.total_cmp(&b.depth.z));
-            (!own.is_empty()).then_some((number, law, own))
-        };
-        let mut interfaces = vec![0.0; original.layers().len()];
-        for life in reading.iter().flat_map(|own| &own.lives) {
-            if let FatiguePart::Interface(own) = life.part
-                && !own.is_counterbody()
-            {
-                interfaces[own.number - 1 + gone] = life.damage;
-            }
-        }
-        Self { materials: laws.filter_map(of).collect(), interfaces }
-    }
-
-    /// Whether any damage is done.
-    pub fn is_any(&self) -> bool {
-        !self.materials.is_empty() || self.interfaces.iter().any(|rate| *rate > 0.0)
-    }
-
-    /// Damage in a pass of a material at a depth below the present surface, on all lines; none below the deepest plane.
-    fn of(&self, material: usize, z: f64) -> Option<impl Iterator<Item = f64> + '_> {
-        let (_, law, planes) = self.materials.iter().find(|(number, ..)| *number == material)?;
-        let last = planes.last().filter(|last| z <= last.depth.z)?;
-        let after = planes.partition_point(|plane| plane.depth.z < z);
-        let (above, below) = (&planes[after.saturating_sub(1)], planes.get(after).unwrap_or(last));
-        let apart = below.depth.z - above.depth.z;
-        let part = if apart > 0.0 { ((z - above.depth.z) / apart).clamp(0.0, 1.0) } else { 0.0 };
-        let ranges = above.lines.iter().zip(&below.lines);
-        Some(ranges.map(move |([_, above], [_, below])| law.damage(above + part * (below - above))))
-    }
-
-    /// Number of lines, and depth of the deepest plane of a material.
-    fn extent(&self, material: usize) -> Option<(usize, f64)> {
-        let (.., planes) = self.materials.iter().find(|(number, ..)| *number == material)?;
-        planes.last().map(|last| (last.lines.len(), last.depth.z))
-    }
-}
-
 impl Damage {
-    /// No damage in a body; `radius`: the smallest contact radius, a length.
-    pub fn none(original: &HalfSpace, radius: f64) -> Self {
+    /// No damage in a body, on the lines of `planes`; `radii`: the smallest and the largest contact radius, lengths.
+    pub fn none(original: &HalfSpace, [smallest, largest]: [f64; 2], planes: &[RangePlane]) -> Self {
+        let radius = smallest.max(largest * NODES / MOST_NODES);
         let laws = (1..).zip(original.durabilities()).filter(|(_, own)| own.fatigue.is_some());
-        let material = |(number, _): (usize, crate::body::Durability)| {
+        let material = |(number, _): (usize, Durability)| {
             let (top, bottom) = original.faces(number);
             let thickness = bottom - top;
             let spacing = if thickness.is_finite() {
@@ -128,22 +81,28 @@ impl Damage {
             } else {
                 radius / NODES
             };
-            MaterialDamage { material: number, top, bottom, spacing, lines: 0, damage: Vec::new() }
+            MaterialDamage { material: number, top, bottom, spacing, gone: 0, damage: Vec::new() }
         };
-        Self { materials: laws.map(material).collect(), interfaces: vec![0.0; original.layers().len()] }
+        let y = planes.first().map_or(Vec::new(), |plane| plane.y().collect());
+        Self { y, materials: laws.map(material).collect(), interfaces: vec![0.0; original.layers().len()] }
+    }
+
+    /// y of each line across the path, lengths.
+    pub(super) fn y(&self) -> &[f64] {
+        &self.y
     }
 
     /// Adds the damage of some passes on a surface `removed` below the original one.
     pub fn add(&mut self, rates: &Rates, passes: f64, removed: f64) {
         for own in &mut self.materials {
-            own.add(rates, passes, removed);
+            own.add(rates, passes, removed, self.y.len());
         }
         self.interfaces.iter_mut().zip(&rates.interfaces).for_each(|(own, rate)| *own += passes * rate);
     }
 
     /// Where the damage of what is left reaches 1 first at these rates; `None` where it never does.
     pub fn next_failure(&self, original: &HalfSpace, rates: &Rates, removed: f64) -> Option<Failure> {
-        let materials = self.materials.iter().filter_map(|own| own.next_failure(rates, removed));
+        let materials = self.materials.iter().filter_map(|own| own.next_failure(rates, removed, self.y.len()));
         let faces = original.interface_depths();
         let interfaces = (1..).zip(self.interfaces.iter().zip(&rates.interfaces)).zip(&faces);
         let interfaces = interfaces.filter(|((_, (_, rate)), face)| **rate > 0.0 && **face > removed).map(
@@ -171,16 +130,16 @@ impl Damage {
 
     /// Largest damage of what is left of each material, with its number in the original body.
     pub fn largest(&self, removed: f64) -> Vec<(usize, f64)> {
-        self.materials.iter().map(|own| (own.material, own.left(removed).fold(0.0, f64::max))).collect()
+        self.materials.iter().map(|own| (own.material, own.left(removed, self.y.len()).fold(0.0, f64::max))).collect()
     }
 
     /// Profiles of the largest damage of all lines over the depth below the present surface: material, and [z, D] at its nodes.
     pub fn profiles(&self, removed: f64) -> Vec<(usize, Vec<[f64; 2]>)> {
         let of = |own: &MaterialDamage| {
             let at = |(node, values): (usize, &[f64])| {
-                [own.depth(node) - removed, values.iter().copied().fold(0.0, f64::max)]
+                [own.depth(own.gone + node) - removed, values.iter().copied().fold(0.0, f64::max)]
             };
-            let nodes = own.damage.chunks(own.lines.max(1)).enumerate().map(at);
+            let nodes = own.damage.chunks(self.y.len().max(1)).enumerate().map(at);
             (own.material, nodes.filter(|[z, _]| *z >= 0.0).collect())
         };
         self.materials.iter().map(of).collect()
@@ -188,7 +147,7 @@ impl Damage {
 }
 
 impl MaterialDamage {
-    /// Depth of a node in the original body.
+    /// Depth of a node in the original body, by its number from the upper face on.
     fn depth(&self, node: usize) -> f64 {
         (self.top + node as f64 * self.spacing).min(self.bottom)
     }
@@ -200,44 +159,50 @@ impl MaterialDamage {
 
     /// Number of nodes down to a depth in the original body.
     fn count(&self, depth: f64) -> usize {
-        ((depth.min(self.bottom) - self.top) / self.spacing + 1e-9).floor() as usize + 1
+        ((depth.min(self.bottom) - self.top) / self.spacing + 1e-9).floor().max(-1.0) as usize + 1
     }
 
-    fn left(&self, removed: f64) -> impl Iterator<Item = f64> + '_ {
-        self.damage.iter().copied().skip(self.first(removed) * self.lines)
+    fn left(&self, removed: f64, lines: usize) -> impl Iterator<Item = f64> + '_ {
+        self.damage.iter().copied().skip((self.first(removed).saturating_sub(self.gone)) * lines)
     }
 
-    fn add(&mut self, rates: &Rates, passes: f64, removed: f64) {
-        let Some((lines, deepest)) = rates.extent(self.material) else { return };
-        if self.lines == 0 {
-            self.lines = lines;
-        }
-        let nodes = self.count(removed + deepest);
+    fn add(&mut self, rates: &Rates, passes: f64, removed: f64, lines: usize) {
+        let first = self.first(removed);
+        let off = first.saturating_sub(self.gone);
+        self.damage.drain(..(off * lines).min(self.damage.len()));
+        self.gone += off;
+        let Some(deepest) = rates.deepest(self.material) else { return };
+        let nodes = self.count(removed + deepest).saturating_sub(self.gone);
         // Deeper than any plane no damage was done.
-        if self.damage.len() < nodes * self.lines {
-            self.damage.resize(nodes * self.lines, 0.0);
+        if self.damage.len() < nodes * lines {
+            self.damage.resize(nodes * lines, 0.0);
         }
-        for node in self.first(removed)..nodes {
-            let z = self.depth(node) - removed;
-            let own = &mut self.damage[node * self.lines..(node + 1) * self.lines];
-            if let Some(rates) = rates.of(self.material, z) {
+        for node in 0..nodes {
+            let z = self.depth(self.gone + node) - removed;
+            let own = &mut self.damage[node * lines..(node + 1) * lines];
+            if let Some(rates) = rates.at(self.material, z.max(0.0)) {
                 own.iter_mut().zip(rates).for_each(|(own, rate)| *own += passes * rate);
             }
         }
     }
 
-    fn next_failure(&self, rates: &Rates, removed: f64) -> Option<Failure> {
-        let (lines, deepest) = rates.extent(self.material)?;
-        let (first, nodes) = (self.first(removed), self.count(removed + deepest));
+    fn next_failure(&self, rates: &Rates, removed: f64, lines: usize) -> Option<Failure> {
+        let nodes = self.count(removed + rates.deepest(self.material)?);
         let mut next: Option<Failure> = None;
-        for node in first..nodes {
+        for node in self.first(removed)..nodes {
             let depth = self.depth(node);
-            let done = |line: usize| self.damage.get(node * lines + line).copied().unwrap_or(0.0);
-            let passes = rates.of(self.material, depth - removed).into_iter().flatten().enumerate();
-            let passes =
-                passes.filter(|(_, rate)| *rate > 0.0).map(|(line, rate)| ((1.0 - done(line)) / rate).max(0.0));
+            let done = |line: usize| {
+                let kept = node.checked_sub(self.gone).and_then(|node| self.damage.get(node * lines + line));
+                kept.copied().unwrap_or(0.0)
+            };
+            let rates = rates.at(self.material, (depth - removed).max(0.0)).into_iter().flatten().enumerate();
+            // What failed at this depth has made the surface, and fails no more.
+            let is_surface = depth - removed < SURFACE * self.spacing;
+            let lasts = |(line, rate): &(usize, f64)| *rate > 0.0 && !(is_surface && done(*line) > 1.0 - FAILED);
+            let passes = rates.filter(lasts).map(|(line, rate)| ((1.0 - done(line)) / rate).max(0.0));
             let passes = passes.fold(f64::INFINITY, f64::min);
-            if passes.is_finite() && next.is_none_or(|next| passes < next.passes) {
+            // Of failures at the same time the deepest: it takes the others with it.
+            if passes.is_finite() && next.is_none_or(|next| passes <= next.passes) {
                 next = Some(Failure { place: FailurePlace::Material(self.material), passes, depth });
             }
         }

@@ -16,7 +16,7 @@ pub enum EventKind {
     SurfaceWear,
     /// An interface fails: the layers above it come off.
     Delamination,
-    /// Sliding has worn off the rest of a layer.
+    /// Sliding, or wear of the surface by fatigue, has taken the rest of a layer.
     WornThrough,
 }
 
@@ -41,7 +41,7 @@ pub struct Event {
     /// The material or the interface that fails, by its number in the original body.
     #[serde(flatten)]
     pub part: FatiguePart,
-    /// Depth z* below the present surface at which it fails, a length.
+    /// Depth below the surface down to which it comes off, a length: z* where it fails, or what fails at once below that.
     pub depth: f64,
     /// Thickness of all layers together afterwards, a length.
     pub thickness: f64,
@@ -56,7 +56,8 @@ pub struct Course {
     pub passes: f64,
     /// Thickness of all layers together, a length.
     pub thickness: f64,
-    /// Height of what has come off and was worn off the body, on the average, a length.
+    /// Height of what has come off and was worn off the body, a length: the mean of what was worn off on a lattice, the largest of it under
+    /// an isolated contact.
     pub removed: f64,
     /// Mean depth worn off the body by sliding, a length.
     pub body: f64,
@@ -66,7 +67,8 @@ pub struct Course {
     pub body_depth: f64,
     /// Largest depth worn off the counterbody, a length.
     pub counterbody_depth: f64,
-    /// Largest contact pressure, in the unit of Young's modulus; infinite under a tip.
+    /// Largest contact pressure, in the unit of Young's modulus; infinite under a tip. It is that of the contact before where the surfaces
+    /// have none that is known.
     #[serde(deserialize_with = "serialised::infinite")]
     pub max_pressure: f64,
     /// Area of contact, a length squared.

@@ -7,18 +7,26 @@
 //! is largest at the surface, slice by slice.
 //!
 //! - What comes off leaves the surface as it was: flat but for wear, without debris.
-//! - Layers stay homogeneous along the surface: a worn groove lowers the body by its mean depth, its shape is part of the gap.
-//! - The half-space is laid out anew where more than a twentieth of the first layer is gone since it last was.
+//! - Layers stay homogeneous along the surface: on a lattice sliding lowers the body by the mean depth that it wears off, under an isolated
+//!   contact by the depth of the groove, the shape of which is part of the gap.
+//! - The half-space is laid out anew where a twentieth of the thickness that the first layer had at first is gone since it last was, and
+//!   where a layer is gone.
+//! - Only the first failure has an error: later ones err by as much at least.
 //!
 //! A [`LifeState`] is all that the rest of a life depends on: [`LifeTask::advance`] leads from one to the next, with one solution of the
 //! contact, and can begin anywhere.
 
+mod advance;
+mod beginning;
 mod damage;
 mod event;
+mod rates;
 mod state;
 mod task;
+mod warnings;
 
+pub use beginning::Beginning;
 pub use damage::Damage;
 pub use event::{Course, Event, EventKind};
 pub use state::{LifeEnd, LifeState};
-pub use task::{Beginning, LifeError, LifeTask};
+pub use task::{LifeError, LifeTask};

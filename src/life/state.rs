@@ -10,14 +10,23 @@ use serde::{Deserialize, Serialize};
 pub struct LifeState {
     /// Passes so far.
     pub passes: f64,
+    /// Points of the grid of all its contacts.
+    pub points: [usize; 2],
     /// Height of what has come off by damage, a length.
     pub detached: f64,
+    /// Height by which sliding has lowered the body, a length: the mean depth worn off it on a lattice, the largest under an isolated
+    /// contact, beside which nothing is worn.
+    pub lowered: f64,
     /// Damage in the frame of the original body.
     pub damage: Damage,
     /// Depths worn off body and counterbody by sliding, lengths sample by sample, a₂ fastest; empty where nothing is.
     pub worn: [Vec<f64>; 2],
+    /// Depths pressed in for good of a counterbody that is softer, lengths sample by sample; empty where nothing is.
+    pub indented: Vec<f64>,
     /// Length of sliding that the next step of wear tries, a length; 0 at the beginning.
     pub step: f64,
+    /// Passes so far whose damage is to be added at the rates of the present surfaces.
+    pub pending: f64,
     /// Whether the last failure was at the surface, which wears on in slices.
     pub sheds: bool,
     /// Loads solved so far.
@@ -59,9 +68,9 @@ impl LifeState {
         self.of(side).iter().copied().fold(0.0, f64::max)
     }
 
-    /// Height of all that is gone from the body, on the average, a length.
+    /// Height of all that is gone from the body, a length.
     pub fn removed(&self) -> f64 {
-        self.detached + self.mean_worn(Side::Body)
+        self.detached + self.lowered
     }
 
     fn of(&self, side: Side) -> &[f64] {

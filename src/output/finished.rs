@@ -20,8 +20,8 @@ use std::path::{Path, PathBuf};
 pub enum CannotGoOn {
     /// The staging folder is of another run.
     #[error(
-        "{} is of another run: the case, its surface, --no-fields or the version of percoat is another one; give the same \
-         command again, or leave --resume out, which moves its finished steps aside", plain::path(.0)
+        "{} is of another run: the case, its surface, the grid, --no-fields or the version of percoat is another one; give the \
+         same command again, or leave --resume out, which moves aside what it has finished", plain::path(.0)
     )]
     Foreign(PathBuf),
     /// A file is damaged or missing, or of an earlier version that wrote no checksums.

@@ -1,15 +1,16 @@
 //! `life.json`, `life.csv` and `damage.npz`: passes until something fails, what happens then, and the damage in a pass below the surface.
 
 use super::columns::{csv, scalars};
-use super::error::AtPath;
+use super::finished::CannotGoOn;
 use super::json::{Unreadable, indented, read_back};
 use super::layout::LIFE_STATE as STATE;
 use super::npz::Archive;
 use super::summary::{UnitNames, check};
+use super::trailer::{with_checksum, without_checksum};
 use super::{OutputError, disk, write_file, write_text};
-use crate::case::Case;
+use crate::case::{Case, plausibility};
 use crate::life::{Beginning, Course, Event, LifeEnd, LifeState, LifeTask};
-use crate::reading::Life;
+use crate::reading::{DamageMap, Life};
 use crate::run::StepRecord;
 use crate::stress::SlidingPath;
 use serde::{Deserialize, Serialize};
@@ -42,7 +43,7 @@ pub struct LifeFile {
     pub events: Vec<Event>,
     /// What is left and worn, state by state.
     pub wear: Vec<Course>,
-    /// Why it ends; `None` where it was followed only to the first failure.
+    /// Why it ends; `None` where it was followed only to the first failure, and there is one.
     pub end: Option<LifeEnd>,
     /// Number of loads that were solved.
     pub solved: usize,
@@ -51,29 +52,24 @@ pub struct LifeFile {
 }
 
 impl LifeFile {
-    /// The record of a life of a case, whose contact before the first pass has this `record`.
-    pub fn new(
-        case: &Case,
-        task: &LifeTask,
-        (begun, record): (&Beginning, StepRecord),
-        state: &LifeState,
-        warnings: &[String],
-    ) -> Self {
+    /// The record of a life of a case.
+    pub fn new(case: &Case, task: &LifeTask, begun: &Beginning, state: &LifeState) -> Self {
+        let fatigue = begun.record.fatigue.as_ref();
         Self {
             percoat: env!("CARGO_PKG_VERSION").to_owned(),
             title: case.title.clone(),
             case: json!(case),
             units: UnitNames::of(case),
-            warnings: warnings.to_vec(),
+            warnings: [task.warnings(begun, state), plausibility::of_case(case)].concat(),
             distance: task.distance(),
-            path: begun.fatigue.as_ref().map(|own| own.path),
-            first: begun.fatigue.as_ref().map(|own| own.first),
-            criteria: begun.fatigue.as_ref().map_or(Vec::new(), |own| own.lives.clone()),
+            path: fatigue.map(|own| own.path),
+            first: fatigue.map(|own| own.first),
+            criteria: fatigue.map_or(Vec::new(), |own| own.lives.clone()),
             events: state.events.clone(),
             wear: state.course.clone(),
-            end: state.end.filter(|_| task.passes.is_some()),
+            end: state.end.filter(|end| task.passes.is_some() || *end == LifeEnd::Endless),
             solved: state.solved,
-            steps: vec![record],
+            steps: vec![begun.record.clone()],
         }
     }
 
@@ -103,22 +99,23 @@ impl LifeFile {
 /// # Errors
 /// [`OutputError`] with the path that cannot be written.
 pub fn write_damage(folder: &Path, task: &LifeTask, begun: &Beginning) -> Result<(), OutputError> {
-    let Some(first) = begun.planes.first() else { return Ok(()) };
-    let lines = first.lines.len();
-    let planes: Vec<_> = begun.planes.iter().filter(|plane| plane.lines.len() == lines).collect();
-    let laws: Vec<_> = task.problem.half_space().durabilities().map(|own| own.fatigue).collect();
+    let Some(map) = DamageMap::new(task.problem.half_space(), &begun.planes) else { return Ok(()) };
+    let shape = [map.z.len(), map.y.len()];
     write_file(&folder.join("damage.npz"), |writer| {
         let mut archive = Archive::new(writer);
-        archive.array("y", &[lines], first.lines.iter().map(|[y, _]| *y))?;
-        archive.array("z", &[planes.len()], planes.iter().map(|plane| plane.depth.z))?;
-        archive.array("side", &[planes.len()], planes.iter().map(|plane| plane.depth.material as i32))?;
-        let ranges =
-            || planes.iter().flat_map(|plane| plane.lines.iter().map(move |[_, range]| (plane.depth.material, *range)));
-        archive.array("range", &[planes.len(), lines], ranges().map(|(_, range)| range))?;
-        let damage = |(material, range): (usize, f64)| laws[material - 1].map_or(0.0, |law| law.damage(range));
-        archive.array("damage", &[planes.len(), lines], ranges().map(damage))?;
+        archive.array("y", &shape[1..], map.y.iter().copied())?;
+        archive.array("z", &shape[..1], map.z.iter().map(|depth| depth.z))?;
+        archive.array("side", &shape[..1], map.z.iter().map(|depth| depth.material as i32))?;
+        archive.array("range", &shape, map.range.iter().copied())?;
+        archive.array("damage", &shape, map.damage.iter().copied())?;
         archive.finish()
     })
+}
+
+/// The fingerprint of a life, first in the file of its state.
+#[derive(Debug, Deserialize)]
+struct Identity {
+    fingerprint: String,
 }
 
 /// A state with the fingerprint of its life.
@@ -128,28 +125,33 @@ struct Saved {
     state: LifeState,
 }
 
-/// Saves the state of a life that is not finished, in the place of the one before.
+/// Saves the state of a life, in the place of the one before. It goes with the staging folder once the result is published.
 ///
 /// # Errors
 /// [`OutputError`] with the path that cannot be written.
 pub fn save_state(staging: &Path, fingerprint: &str, state: &LifeState) -> Result<(), OutputError> {
     let saved = Saved { fingerprint: fingerprint.to_owned(), state: state.clone() };
     let text = serde_json::to_string(&saved).expect("numbers under names");
-    write_text(&staging.join(STATE), &(text + "\n"))
+    write_text(&staging.join(STATE), &(with_checksum(&text) + "\n"))
 }
 
-/// Removes the state of a life that is finished.
+/// The last state of an interrupted life of this fingerprint; `None` where none is saved.
 ///
 /// # Errors
-/// [`OutputError`] where it cannot be removed.
-pub fn forget_state(staging: &Path) -> Result<(), OutputError> {
+/// [`CannotGoOn`] for a state of another life, and for one that is not as it was written.
+pub fn saved_state(staging: &Path, fingerprint: &str) -> Result<Option<LifeState>, CannotGoOn> {
     let path = staging.join(STATE);
-    if disk::is_file(&path) { disk::remove(&path).at(&path) } else { Ok(()) }
-}
-
-/// The saved state of a life with this fingerprint; `None` where there is none, or one of another life.
-pub fn saved_state(staging: &Path, fingerprint: &str) -> Option<LifeState> {
-    let text = disk::read_text(&staging.join(STATE)).ok()?;
-    let saved: Saved = serde_json::from_str(&text).ok()?;
-    (saved.fingerprint == fingerprint).then_some(saved.state)
+    if !disk::is_file(&path) {
+        return Ok(None);
+    }
+    let damaged = |reason: String| CannotGoOn::Damaged { path: path.clone(), reason };
+    let text = disk::read_text(&path).map_err(|error| damaged(error.to_string()))?;
+    let text = without_checksum(text.trim_end()).map_err(|error| damaged(error.to_string()))?;
+    // Another version may have states of another form.
+    let own: Identity = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
+    if own.fingerprint != fingerprint {
+        return Err(CannotGoOn::Foreign(staging.to_owned()));
+    }
+    let saved: Saved = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
+    Ok(Some(saved.state))
 }

@@ -27,8 +27,12 @@ pub struct LimitFile {
     pub first: Option<FirstLimit>,
     /// The least and the largest load that were solved; `None` where none was.
     pub searched: Option<[f64; 2]>,
-    /// Load at which contact becomes complete; `None` where it never does.
+    /// Load at which contact becomes complete, with hardness at the latest; `None` where it never does, or not below `hardness_load`.
     pub complete_contact: Option<f64>,
+    /// Load that is 0.999 of the most that the hardness bears, beyond which none is solved; `None` without hardness and for an isolated
+    /// contact.
+    #[serde(default)]
+    pub hardness_load: Option<f64>,
     /// Sides of the largest window in which loads were solved; `None` where an isolated contact had room in its own in all.
     #[serde(default)]
     pub window: Option<[f64; 2]>,
@@ -56,6 +60,7 @@ impl LimitFile {
     pub fn new(limits: &Limits, case: &Case, warnings: &[String]) -> Self {
         let load = |step: &StepRecord| step.reading.load(limits.quantity);
         let ends = limits.steps.first().zip(limits.steps.last());
+        let finite = |load: f64| Some(load).filter(|load| load.is_finite());
         Self {
             percoat: env!("CARGO_PKG_VERSION").to_owned(),
             title: case.title.clone(),
@@ -64,7 +69,8 @@ impl LimitFile {
             warnings: warnings.to_vec(),
             first: limits.first().map(|limit| FirstLimit { limit: *limit, rivals: limits.rivals() }),
             searched: ends.map(|(first, last)| [load(first), load(last)]),
-            complete_contact: Some(limits.complete).filter(|pressure| pressure.is_finite()),
+            complete_contact: finite(limits.complete),
+            hardness_load: finite(limits.hardness_load),
             window: limits.window,
             change: limits.change,
             limits: limits.limits.clone(),
@@ -95,6 +101,7 @@ impl LimitFile {
             shown: Vec::new(),
             quantity: self.limits.first().map_or(LoadQuantity::MeanPressure, |limit| limit.quantity),
             complete: self.complete_contact.unwrap_or(f64::INFINITY),
+            hardness_load: self.hardness_load.unwrap_or(f64::INFINITY),
             window: self.window,
             ends_at_border: false,
             change: self.change,

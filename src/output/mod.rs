@@ -101,7 +101,7 @@ pub use interrupted::{coarser, has_begun, has_solved_alone, staged_bytes};
 pub use json::Unreadable;
 pub use kernel::{Traction, kernel};
 pub use layout::{COMBINATIONS, SWEEP_LOG, is_staging};
-pub use life::{LifeFile, forget_state, save_state, saved_state, write_damage};
+pub use life::{LifeFile, save_state, saved_state, write_damage};
 pub use limit::{FirstLimit, LimitFile};
 pub(crate) use log::LineLog;
 pub use log::whole_lines;

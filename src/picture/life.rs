@@ -11,11 +11,10 @@ use super::scale::Scale;
 use super::sheet::sheet;
 use super::snapshot::{Snapshot, caption};
 use crate::body::Fatigue;
-use crate::friction::Friction;
 use crate::life::{Course, Event, EventKind};
 use crate::problem::Problem;
 use crate::reading::FatigueReading;
-use crate::stress::{RangePlane, SlidingPath};
+use crate::stress::RangePlane;
 use crate::units::Units;
 
 /// Height over width of the map, least and largest.
@@ -33,12 +32,10 @@ pub fn damage(snapshot: &Snapshot, fatigue: &FatigueReading, planes: &[RangePlan
     if most <= 0.0 {
         return None;
     }
-    let [ex, ey] = snapshot.step.problem().friction().map_or([1.0, 0.0], Friction::direction);
+    let [ex, ey] = snapshot.step.problem().direction();
     let worst = fatigue.first;
     let across = worst.position[1] * ex - worst.position[0] * ey;
-    let planes = &about(planes, fatigue, across);
-    let ys = || planes.iter().flat_map(|plane| &plane.lines).map(|[y, _]| *y);
-    let (first, last) = (ys().fold(f64::INFINITY, f64::min), ys().fold(f64::NEG_INFINITY, f64::max));
+    let [first, last] = about(planes, across)?;
     // Down to where damage is next to nothing.
     let visible = planes.iter().filter(|plane| plane.lines.iter().any(|[_, range]| of(plane, *range) > LEAST * most));
     let depth = 1.1 * visible.map(|plane| plane.depth.z).fold(0.0, f64::max);
@@ -50,7 +47,7 @@ pub fn damage(snapshot: &Snapshot, fatigue: &FatigueReading, planes: &[RangePlan
         let below = own().filter(|plane| plane.depth.z >= z).min_by(|a, b| a.depth.z.total_cmp(&b.depth.z))?;
         let apart = below.depth.z - above.depth.z;
         let part = if apart > 0.0 { (z - above.depth.z) / apart } else { 0.0 };
-        let range = (1.0 - part) * at(&above.lines, y) + part * at(&below.lines, y);
+        let range = (1.0 - part) * above.at(y) + part * below.at(y);
         Some(of(above, range)).filter(|damage| *damage > LEAST * most)
     };
     let bar = Bar {
@@ -93,29 +90,14 @@ pub fn damage(snapshot: &Snapshot, fatigue: &FatigueReading, planes: &[RangePlan
     Some(sheet(&snapshot.caption(&words), &[&map]))
 }
 
-/// Planes whose lines lie about a place across the path, where lines repeat.
-fn about(planes: &[RangePlane], fatigue: &FatigueReading, across: f64) -> Vec<RangePlane> {
-    let is_closed = matches!(fatigue.path, SlidingPath::LatticeVector(_));
-    let turned = |plane: &RangePlane| {
-        let mut own = plane.clone();
-        if let ([[first, _], [second, _], ..], true) = (&plane.lines[..], is_closed) {
-            let period = plane.lines.len() as f64 * (second - first);
-            own.lines.iter_mut().for_each(|line| line[0] -= period * ((line[0] - across) / period).round());
-            own.lines.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        }
-        own
-    };
-    planes.iter().map(turned).collect()
-}
-
-/// The range at y, linear between the lines.
-fn at(lines: &[[f64; 2]], y: f64) -> f64 {
-    let after = lines.partition_point(|line| line[0] < y);
-    match (after.checked_sub(1).map(|before| lines[before]), lines.get(after)) {
-        (Some([y0, a]), Some(&[y1, b])) => a + (b - a) * (y - y0) / (y1 - y0),
-        (Some([_, own]), None) | (None, Some(&[_, own])) => own,
-        (None, None) => 0.0,
+/// First and last y shown of planes: one period about a place where lines repeat.
+fn about(planes: &[RangePlane], across: f64) -> Option<[f64; 2]> {
+    let plane = planes.first()?;
+    if let Some(period) = plane.period {
+        return Some([across - 0.5 * period, across + 0.5 * period]);
     }
+    let ([first, _], [last, _]) = (plane.lines.first()?, plane.lines.last()?);
+    Some([*first, *last])
 }
 
 /// What is left of the layers and worn off, over the passes, with the events; `None` for less than two states.
@@ -157,13 +139,13 @@ pub fn course(title: &str, problem: &Problem, units: &Units, course: &[Course], 
     let y = Axis::linear(units.length_of("height", "u"));
     charts.push(Chart { title: "removed and worn".to_owned(), x: x(), y, curves });
     let finite = |own: &Course| if own.max_pressure.is_finite() { own.max_pressure } else { f64::NAN };
+    // What comes off changes it at once.
+    let jumps = |own: &Course| events.iter().any(|event| event.passes == own.passes);
+    let before = course.windows(2).filter(|pair| jumps(&pair[1])).map(|pair| [pair[1].passes, finite(&pair[0])]);
+    let mut pressures: Vec<[f64; 2]> = before.chain(points(finite)).collect();
+    pressures.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let y = Axis::linear(units.pressure_of("largest pressure", "p"));
-    charts.push(Chart {
-        title: "pressure".to_owned(),
-        x: x(),
-        y,
-        curves: vec![curve("", 1, points(finite), Style::Line)],
-    });
+    charts.push(Chart { title: "pressure".to_owned(), x: x(), y, curves: vec![curve("", 1, pressures, Style::Line)] });
     for (letter, chart) in ('a'..).zip(&mut charts) {
         chart.title = format!("({letter}) {}", chart.title);
     }

@@ -15,7 +15,6 @@ use super::stress::{Tip, beside_site, contact_radii};
 use super::{Reading, Utilisation};
 use crate::body::{Fatigue, HalfSpace, InterfaceId, MaterialId, Side};
 use crate::numeric::serialised;
-use crate::problem::Problem;
 use crate::spectral::Step;
 use crate::stress::{PathPeak, PathPeaks, PathSought, RangePlane, SlidingPath, StressField, StressFields, transmitted};
 use serde::{Deserialize, Serialize};
@@ -159,7 +158,7 @@ impl PathReading {
             return Some(Self::default());
         }
         let coarser = step.coarser().first().map(|contact| fields.of_other(contact));
-        let (direction, radii) = (direction(step.problem()), contact_radii(step, reading));
+        let (direction, radii) = (step.problem().direction(), contact_radii(step, reading));
         let (mut lives, mut utilisations, mut path, mut planes) = (Vec::new(), Vec::new(), None, Vec::new());
         for field in wanted {
             let coarser = coarser.as_ref().map(|coarser| coarser.on(field.half_space().side()));
@@ -177,11 +176,6 @@ impl PathReading {
         }
         Some(Self { fatigue: path.and_then(|path| FatigueReading::new(path, lives)), utilisations, planes })
     }
-}
-
-/// The direction in which the counterbody slides, a unit vector: +x without friction.
-pub(super) fn direction(problem: &Problem) -> [f64; 2] {
-    problem.friction().map_or([1.0, 0.0], |friction| friction.direction())
 }
 
 /// Lives of a body's materials and interfaces.

@@ -102,7 +102,7 @@ fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units)
         Kind::Force => Some(units.force()),
         Kind::Length => Some(units.length().clone()),
         Kind::Area => Some(units.area()),
-        Kind::Fraction => None,
+        Kind::Fraction | Kind::Passes => None,
     };
     range(rows, keys, scalar.name, |result| (scalar.of)(result.step()?), unit)
 }

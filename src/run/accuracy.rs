@@ -24,10 +24,13 @@ pub fn balanced_points(cell: &Cell, points: usize) -> [usize; 2] {
 }
 
 /// Largest relative change between the load steps on two grids: of peak pressures (over the largest one), load shares,
-/// mean pressure and penetration, and of the largest stresses. Pressures and stresses that are infinite under a tip are left out.
+/// mean pressure and penetration, of the largest stresses, and of the passes to the first damage. Pressures and stresses that are infinite
+/// under a tip are left out.
 pub fn change(coarse: &[StepRecord], fine: &[StepRecord]) -> f64 {
-    let pairs = coarse.iter().zip(fine);
-    largest(pairs.flat_map(|(coarse, fine)| [step_change(&coarse.reading, &fine.reading), stress_change(coarse, fine)]))
+    let of = |(coarse, fine): (&StepRecord, &StepRecord)| {
+        [step_change(&coarse.reading, &fine.reading), stress_change(coarse, fine), life_change(coarse, fine)]
+    };
+    largest(coarse.iter().zip(fine).flat_map(of))
 }
 
 /// The error of a cell too oblong for any grid of a refinement.
@@ -180,6 +183,13 @@ fn stress_change(coarse: &StepRecord, fine: &StepRecord) -> f64 {
     let beyond = |fine: &Peak| fine.rival.map_or(0.0, |rival| rival.top() - fine.value);
     let change = largest(comparable().flat_map(|(coarse, fine)| [(fine.value - coarse.value).abs(), beyond(fine)]));
     if scale == 0.0 { 0.0 } else { change / scale }
+}
+
+/// Change of the passes until the first damage: with the exponent m, m times that of the range of the shear stress. 0 where nothing tires.
+fn life_change(coarse: &StepRecord, fine: &StepRecord) -> f64 {
+    let (Some(coarse), Some(fine)) = (&coarse.fatigue, &fine.fatigue) else { return 0.0 };
+    let (coarse, fine) = (coarse.first.passes, fine.first.passes);
+    if coarse == fine { 0.0 } else { (coarse / fine - 1.0).abs() }
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ mod wear;
 pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change};
 pub use alone::alone;
 pub use earlier_run::{EarlierRun, LastLoad};
-pub use limit::{At, EVENTS, Limit, LimitStep, Limits, first, rivals};
+pub use limit::{At, EVENTS, Limit, LimitStep, Limits, SearchEnd, first, rivals};
 pub use outcome::{BeyondFullContact, BeyondHardness, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
 pub use record::{Sliding, StepRecord};

@@ -10,7 +10,8 @@ use serde::Serialize;
 pub enum Sampling {
     /// One grid, with numbers of samples along a₁ and a₂.
     Points([usize; 2]),
-    /// Finer and finer grids, until peak pressures, loads, penetration and stresses change by less than this, relatively.
+    /// Finer and finer grids, until peak pressures, loads, penetration, stresses and passes to the first damage change by less than
+    /// this, relatively.
     Accuracy(f64),
 }
 

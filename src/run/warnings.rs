@@ -26,7 +26,7 @@ const FILLED: f64 = 0.5;
 const SURFACE_ERROR: f64 = 0.02;
 
 /// Warnings about the steps of a run, and about its refinement by its `end` and last `change`.
-pub(super) fn warnings(
+pub(crate) fn warnings(
     problem: &Problem,
     steps: &[StepRecord],
     end: Option<RefinementEnd>,

@@ -7,7 +7,7 @@ use crate::load::Load;
 use std::sync::Arc;
 
 /// State of a [`Solver`] after a load. It shares its fields with solver and step, which copy them if it is kept while the next
-/// load is solved.
+/// load is solved. Depths that sliding has worn off are not part of it, but of a [`WearState`](super::WearState).
 #[derive(Debug, Clone)]
 pub struct Checkpoint {
     /// Report of the solution on the finest grid.

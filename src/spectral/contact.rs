@@ -74,13 +74,13 @@ impl Contact {
         view(self.grid().points(), &self.gap)
     }
 
-    /// Hardness H of the softer surface, which the pressure does not exceed, in its unit; infinite without one.
+    /// Hardness H of the softer surface, which the pressure does not exceed, in its unit; infinite without one, and under a given pressure.
     pub fn hardness(&self) -> f64 {
-        self.problem.bodies().hardness().map_or(f64::INFINITY, |(hardness, _)| hardness)
+        self.problem.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness)
     }
 
     /// Depths that the softer surface is pressed in for good by this load and those before it, lengths ≥ 0 sample by sample, a₂ fastest:
-    /// −g where p = H, added up over the loads. `None` without hardness.
+    /// −g where p = H, added up over the loads. `None` without hardness, and under a given pressure.
     pub fn indentation(&self) -> Option<Vec<f64>> {
         let hardness = self.hardness();
         hardness.is_finite().then(|| {

@@ -21,16 +21,19 @@ use std::sync::Arc;
 /// around it with any load from zero on.
 const MAX_UNRESOLVED: usize = 4;
 
+/// What was pressed in for good: the surface without it, and the depths, lengths, a₂ fastest.
+pub(super) type Indented = (Arc<Surface>, Arc<Vec<f64>>);
+
 /// A problem on one grid.
 #[derive(Debug)]
 pub(super) struct GridLevel {
     surface: Arc<Surface>,
     /// The surface before any load has pressed it in, with the depths that earlier loads have; `None` before.
-    indented: Option<(Arc<Surface>, Arc<Vec<f64>>)>,
+    indented: Option<Indented>,
     largest_gap: f64,
     /// Whether contact may occur, one value per sample; `None`: everywhere.
     mask: Option<Vec<bool>>,
-    /// Hardness of the softer surface, a pressure; infinite without one.
+    /// Hardness of the softer surface, a pressure; infinite without one, and under a given pressure.
     hardness: f64,
     operator: BodyOperator,
     /// A given pressure with the mean 1, one value per sample; `None` where contact is solved.
@@ -93,7 +96,7 @@ impl GridLevel {
             largest_gap: surface.largest(),
             indented: None,
             mask: None,
-            hardness: bodies.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness),
+            hardness: problem.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness),
             operator,
             given,
             modulus: bodies.contact_modulus(),
@@ -160,21 +163,34 @@ impl GridLevel {
         &mut self.operator
     }
 
-    /// Sets the surface of another moment, of which what is pressed in is a part.
-    pub fn set_surface(&mut self, surface: Arc<Surface>) {
-        self.indented = None;
+    /// What was pressed in, with the surface without it.
+    pub fn indented(&self) -> Option<&Indented> {
+        self.indented.as_ref()
+    }
+
+    /// Sets the surface of another moment, with what is pressed in of it.
+    pub fn set_surface(&mut self, surface: Arc<Surface>, indented: Option<Indented>) {
+        self.indented = indented;
         self.largest_gap = surface.largest();
         self.surface = surface;
     }
 
-    /// Replaces the initial gap by that of the worn surfaces under the same pressure, measured from where these touch first; returns by
-    /// how much farther that is, a length.
-    pub fn wear_to(&mut self, mut gap: Array2<f64>) -> f64 {
+    /// Adds worn depths, lengths, to the initial gap under the same pressure, measured from where the surfaces touch first then; returns
+    /// by how much farther that is, a length.
+    pub fn wear_by(&mut self, depths: &Array2<f64>) -> f64 {
         let least = |gap: &[f64]| sums::least(gap.len(), |i| gap[i]);
+        let mut gap = self.surface.initial_gap().to_owned();
+        gap += depths;
         let recession = least(samples(&gap)) - least(self.surface.gaps());
-        gap -= recession;
+        let worn = |surface: &Surface| {
+            let mut gap = surface.initial_gap().to_owned();
+            gap += depths;
+            gap -= recession;
+            Arc::new(surface.with_initial_gap(gap))
+        };
         self.unknowns.penetration -= recession;
-        self.set_surface(Arc::new(self.surface.with_initial_gap(gap)));
+        let indented = self.indented.take().map(|(original, depths)| (worn(&original), depths));
+        self.set_surface(worn(&self.surface), indented);
         recession
     }
 

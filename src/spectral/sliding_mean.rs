@@ -14,10 +14,22 @@
 //! The mean is symmetric, its eigenvalues lie in [0, 1], and it keeps Σp.
 
 use super::wear_error::WearError;
-use crate::lattice::Grid;
+use crate::lattice::{Cell, Grid};
 use crate::numeric::sums;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
+
+/// Lattice vector along a `direction` of any length; `None` where no path along it closes.
+///
+/// # Errors
+/// [`WearError::Oblique`] in a window unless the direction is along a side.
+pub(super) fn vector_along(cell: Cell, direction: [f64; 2]) -> Result<Option<[i32; 2]>, WearError> {
+    let vector = cell.closing_vector(direction);
+    if cell.is_isolated() && !vector.is_some_and(|vector| vector.contains(&0)) {
+        return Err(WearError::Oblique(direction));
+    }
+    Ok(vector)
+}
 
 /// Mean along the direction of sliding on a grid.
 #[derive(Debug)]
@@ -48,10 +60,7 @@ impl SlidingMean {
     /// # Errors
     /// [`WearError::Oblique`] in a window unless the direction is along a side.
     pub fn new(grid: &Grid, direction: [f64; 2]) -> Result<Self, WearError> {
-        let (points, vector) = (grid.points(), grid.cell().closing_vector(direction));
-        if grid.cell().is_isolated() && !vector.is_some_and(|vector| vector.contains(&0)) {
-            return Err(WearError::Oblique(direction));
-        }
+        let (points, vector) = (grid.points(), vector_along(grid.cell(), direction)?);
         let Some(vector) = vector else { return Ok(Self { points, lines: None, parts: vec![([0, 0], 1.0)] }) };
         // The wave m = 1.
         let first = [-vector[1], vector[0]];

@@ -224,6 +224,11 @@ impl Solver {
         }
     }
 
+    /// Depths that earlier loads have pressed in for good, lengths sample by sample of the finest grid; `None` without any.
+    pub fn indented(&self) -> Option<&[f64]> {
+        self.levels[0].indented().map(|(_, depths)| &depths[..])
+    }
+
     /// Presses the surface in by these depths, sample by sample of the finest grid, in the place of those before.
     pub(super) fn press_in(&mut self, depths: Vec<f64>) {
         let depths = field(self.grid().points(), depths);

@@ -9,19 +9,20 @@
 //! contact with the compliance Ĉ(**q**) + k_c Δs + k_b Δs \[**q**·**e** = 0\], the wave **q** = 0 included. It is symmetric and
 //! positive, so that a step of any length is stable, has one solution, and has its certificate. Afterwards f ← f + Δh_c + Δh_b: with the
 //! compliance of the bodies alone the same pressure solves the contact of the worn surfaces. The error of a step is O(Δs²), that of a path
-//! O(Δs).
+//! O(Δs); [paths](crate::run::WearPath) are made of such steps and of [wear by known pressures](Solver::wear_by), and err by O(Δs²).
 //!
 //! In complete contact a wave of the pressure falls by 1/(1 + kΔs/Ĉ) in each step, and → e^{−ks/Ĉ}.
 //!
 //! The compliance is added to the tables of the operator for the step alone, one number for all waves and one for each of those constant
 //! along **e**: no second table.
 
-use super::sliding_mean::SlidingMean;
+use super::grid_level::GridLevel;
+use super::sliding_mean::{SlidingMean, vector_along};
 use super::wear_error::WearError;
 use super::worn::Worn;
 use super::{Progress, Solver, Step};
 use crate::body::Side;
-use crate::lattice::Grid;
+use crate::lattice::{Cell, Grid};
 use crate::load::Load;
 use crate::numeric::array::field;
 use crate::problem::Problem;
@@ -57,8 +58,7 @@ impl Wear {
     /// Wear of the surfaces of a problem by their own coefficients, along the direction of its friction, or along x without any.
     pub fn of(problem: &Problem) -> Self {
         let [body, counterbody] = [Side::Body, Side::Counterbody].map(|side| problem.bodies().wear(side));
-        let direction = problem.friction().map_or([1.0, 0.0], |friction| friction.direction());
-        Self { body, counterbody, direction, stroke: None }
+        Self { body, counterbody, direction: problem.direction(), stroke: None }
     }
 
     /// Wear by an isolated contact that goes to and fro over a `stroke` L, a length: while it slides Δs, each point of its track is
@@ -80,6 +80,19 @@ impl Wear {
             Side::Body => self.body,
             Side::Counterbody => self.counterbody,
         }
+    }
+
+    /// Stroke of an isolated contact, a length; `None` where it is the width of the window.
+    pub fn stroke(&self) -> Option<f64> {
+        self.stroke
+    }
+
+    /// Refuses a direction along which a body cannot wear.
+    ///
+    /// # Errors
+    /// [`WearError::Oblique`] in a window unless the direction is along a side.
+    pub fn check(&self, cell: Cell) -> Result<(), WearError> {
+        vector_along(cell, self.direction).map(|_| ())
     }
 
     /// Direction of sliding, of any length.
@@ -193,9 +206,7 @@ impl Solver {
         if self.problem().counterbody().pressure().is_some() {
             return Err(WearError::Given);
         }
-        let on_grids: Result<Vec<GridWear>, WearError> =
-            self.levels.iter().map(|level| GridWear::new(wear, distance, level.surface().grid())).collect();
-        let on_grids = on_grids?;
+        let on_grids = on_grids(self, wear, distance)?;
         self.levels.iter_mut().zip(&on_grids).for_each(|(level, own)| level.operator().add_wear(own));
         let step = self.solve_with_progress(load, progress);
         self.levels.iter_mut().for_each(|level| level.operator().remove_wear());
@@ -204,19 +215,33 @@ impl Solver {
         }
         let (report, convolutions, coarser) = (step.report, step.convolutions, step.coarser.len());
         drop(step);
+        self.wear_off(&on_grids, |_, level| level.unknowns().pressure.to_vec(), distance);
+        Ok(self.step(load, report, convolutions, coarser))
+    }
+
+    /// Takes off all grids what pressures wear, those of a grid by its number.
+    pub(super) fn wear_off(
+        &mut self,
+        on_grids: &[GridWear],
+        pressures: impl Fn(usize, &GridLevel) -> Vec<f64>,
+        distance: f64,
+    ) {
         let mut worn = self.worn.take().unwrap_or_else(|| Worn::none(self.grid()));
-        for (number, (level, own)) in self.levels.iter_mut().zip(&on_grids).enumerate() {
-            let depths = own.depths(&level.unknowns().pressure);
-            let mut gap = level.surface().initial_gap().to_owned();
-            depths.iter().flatten().for_each(|depth| gap += depth);
-            let recession = level.wear_to(gap);
+        for (number, (level, own)) in self.levels.iter_mut().zip(on_grids).enumerate() {
+            let depths = own.depths(&pressures(number, level));
+            let whole = depths.iter().flatten().cloned().reduce(|all, depth| all + depth);
+            let recession = whole.map_or(0.0, |whole| level.wear_by(&whole));
             if number == 0 {
                 worn.add(depths, distance, recession);
             }
         }
         self.worn = Some(worn);
-        Ok(self.step(load, report, convolutions, coarser))
     }
+}
+
+/// Wear over a `distance` of sliding on all grids of a solver.
+pub(super) fn on_grids(solver: &Solver, wear: &Wear, distance: f64) -> Result<Vec<GridWear>, WearError> {
+    solver.levels.iter().map(|level| GridWear::new(wear, distance, level.surface().grid())).collect()
 }
 
 #[cfg(test)]
@@ -224,7 +249,6 @@ mod tests {
     use super::*;
     use crate::body::{HalfSpace, Interface, Layer, Material};
     use crate::friction::Friction;
-    use crate::lattice::Cell;
     use crate::spectral::by_rows::{ResultRows, rows_of, rows_to};
     use crate::spectral::operator::{ElasticOperator, TractionUpdate, Workspace};
     use crate::spectral::{FreeSpaceOperator, LayeredOperator};
@@ -261,13 +285,11 @@ mod tests {
         [double, w.into_iter().map(|w| unit * f64::from(w)).collect()]
     }
 
+    /// A change of an operator by a step of wear.
+    type Change<'a, O> = &'a dyn Fn(&mut O, &GridWear);
+
     /// Displacement of the plain operator, with k_c Δs p + k_b Δs ⟨p⟩, and plain again.
-    fn check<O: ElasticOperator>(
-        operator: &mut O,
-        grid: &Grid,
-        wear: &GridWear,
-        [add, remove]: [&dyn Fn(&mut O, &GridWear); 2],
-    ) {
+    fn check<O: ElasticOperator>(operator: &mut O, grid: &Grid, wear: &GridWear, [add, remove]: [Change<'_, O>; 2]) {
         let p = noise(grid.len());
         let plain = displaced(operator, &p);
         let (unit, mean) = (operator.unit(), operator.mean_compliance());

@@ -17,9 +17,6 @@ pub struct Worn {
 }
 
 impl Worn {
-    /// Bytes per sample of the finest grid.
-    pub const BYTES_PER_SAMPLE: usize = 2 * size_of::<f64>();
-
     /// Nothing worn on a grid.
     pub(super) fn none(grid: &Arc<Grid>) -> Self {
         let zero = Arc::new(Array2::zeros(grid.points()));

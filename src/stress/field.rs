@@ -140,6 +140,14 @@ impl StressField {
         self.half_space.surface_material().poisson()
     }
 
+    /// The mean pressure over the cell of the series: around an isolated contact that of twice its window.
+    pub(super) fn mean_pressure(&self) -> f64 {
+        match self.load {
+            Load::Force(force) => force / self.series_grid.cell().area(),
+            _ => self.series.mean,
+        }
+    }
+
     /// The choice of the mean lateral stress.
     pub fn mean_stress(&self) -> MeanStress {
         self.mean_stress

@@ -225,12 +225,35 @@ impl LinePath<'_> {
         let points = self.deviators();
         let Chord { ends, length } = self.chord(&points);
         let mut pressed = self.largest(|k| hydrostatic(&stress[k])).value;
+        let mut beyond = 0.0;
         if self.comes_from_rest() {
             pressed = pressed.max(at_rest);
+            if self.may_rise_beyond(pressed, |k| hydrostatic(&stress[k]), at_rest) {
+                beyond = self.at_border(|k| (hydrostatic(&stress[k]) - at_rest).abs());
+            }
+            let rest = deviator(&self.rest);
+            if ends.iter().any(|&k| k == stress.len() || self.is_at_border(k)) {
+                beyond = beyond.max(self.at_border(|k| 0.5 * distance(&points[k], &rest)));
+            }
         }
         let size = |k: usize| points[k].iter().map(|x| x * x).sum::<f64>();
         let place = self.place_of_end(ends, size);
-        LineValue { value: endurance.crossland(0.5 * length, pressed), place, beyond: 0.0 }
+        LineValue { value: endurance.crossland(0.5 * length, pressed), place, beyond }
+    }
+
+    /// Whether a sample is the first or the last of the window of an isolated contact.
+    fn is_at_border(&self, k: usize) -> bool {
+        k == 0 || k + 1 == self.ordered
+    }
+
+    /// The larger of the values at the border of the window.
+    fn at_border(&self, value: impl Fn(usize) -> f64) -> f64 {
+        [0, self.ordered.saturating_sub(1)].into_iter().map(value).fold(0.0, f64::max)
+    }
+
+    /// Whether a value may rise beyond the window above the `most` on the path: where that is the value at rest or at the border.
+    fn may_rise_beyond(&self, most: f64, value: impl Fn(usize) -> f64, at_rest: f64) -> bool {
+        most <= at_rest.max(value(0)).max(value(self.ordered.saturating_sub(1)))
     }
 
     fn dang_van(&self, endurance: Endurance) -> LineValue {
@@ -246,10 +269,19 @@ impl LinePath<'_> {
         }
         let points = self.deviators();
         let Ball { centre, .. } = Ball::around(&points);
-        let own = self.largest(|k| endurance.dang_van(shear_about(&centre, &points[k]), hydrostatic(&stress[k])));
-        let rest =
-            self.comes_from_rest().then(|| endurance.dang_van(shear_about(&centre, &deviator(&self.rest)), at_rest));
-        LineValue { value: rest.map_or(own.value, |rest| own.value.max(rest)), ..own }
+        let value = |k: usize| endurance.dang_van(shear_about(&centre, &points[k]), hydrostatic(&stress[k]));
+        let own = self.largest(value);
+        if !self.comes_from_rest() {
+            return own;
+        }
+        let rest = deviator(&self.rest);
+        let of_rest = endurance.dang_van(shear_about(&centre, &rest), at_rest);
+        let most = own.value.max(of_rest);
+        let beyond = match self.may_rise_beyond(most, value, of_rest) {
+            true => self.at_border(|k| (hydrostatic(&stress[k]) - at_rest).abs().max(distance(&points[k], &rest))),
+            false => 0.0,
+        };
+        LineValue { value: most, beyond, ..own }
     }
 }
 

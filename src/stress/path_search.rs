@@ -8,14 +8,15 @@
 //! 3. **Errors** as those of the largest stresses ([`super::maxima::Maxima::with_errors`]): from the value at the same depth on the
 //!    next coarser grid, and by the samples along the radius of the smallest spot.
 //!
-//! Within two samples of the surface the values are those of the samples. On a surface that slides the states just outside the
-//! edges of contact belong to the lines nearest to them.
+//! Within two samples of the surface the values are those of the samples. On the surface the states just outside the edges of contact
+//! belong to the lines nearest to them.
 
 use super::constants::{CHANGE_SAFETY, DEEP_SHEAR_ERROR, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES, SHALLOW_ERROR};
 use super::field::StressField;
 use super::line_plane::Kept;
 use super::path_measure::{LinePath, LineValue, PathMeasure};
 use super::plane_search::SEARCH_REACH;
+use super::range_plane::{RangePlane, on_common_lines};
 use super::sliding_path::{SlidingLines, SlidingPath};
 use super::tensor::StressState;
 use crate::body::{Depth, Durability, Fatigue, Interface, Layer, Side};
@@ -26,8 +27,8 @@ use rayon::prelude::*;
 const MAX_PLANES: usize = 8;
 /// Part of a value that a further plane must promise.
 const LEAST_RISE: f64 = 2e-5;
-/// Part of a value that the search between planes and lines leaves open.
-const LEFT_OPEN: f64 = 1e-4;
+/// Part of a value that the search between planes, lines and places leaves open, with twelve places to a radius.
+const LEFT_OPEN: f64 = 2e-4;
 
 /// Which measures are searched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,15 +66,6 @@ pub(crate) struct MaterialPeaks {
     pub dang_van: Option<PathPeak>,
 }
 
-/// The range of τ₁ along the lines of a plane of constant depth.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RangePlane {
-    /// The depth, and its material.
-    pub depth: Depth,
-    /// y of each line and the range along it, a pressure; y ascending.
-    pub lines: Vec<[f64; 2]>,
-}
-
 /// Largest measures of fatigue of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PathPeaks {
@@ -82,10 +74,8 @@ pub(crate) struct PathPeaks {
     pub materials: Vec<MaterialPeaks>,
     /// Range of the shear traction of each interface with fatigue, from the surface down.
     pub interfaces: Vec<Option<PathPeak>>,
-    /// Planes of the materials with fatigue.
+    /// Planes of the materials with fatigue, all with the same lines.
     pub planes: Vec<RangePlane>,
-    /// Distance after which lines repeat across the path, a length; `None` where they do not.
-    pub period: Option<f64>,
 }
 
 impl PathPeaks {
@@ -166,7 +156,7 @@ impl StressField {
             });
             let ranges = |own: SearchedLines| {
                 let values = own.values.iter().zip(&own.y).map(|(line, &y)| [y, line[0].value]);
-                RangePlane { depth: own.depth, lines: values.collect() }
+                RangePlane { depth: own.depth, lines: values.collect(), period: lines.period() }
             };
             planes.extend(own.into_iter().filter(|_| measures.contains(&PathMeasure::Range)).map(ranges));
             if let Some(layer) = self.half_space().layers().get(number - 1) {
@@ -177,7 +167,7 @@ impl StressField {
                 });
             }
         }
-        Some(PathPeaks { path: lines.path, materials, interfaces, planes, period: lines.period() })
+        Some(PathPeaks { path: lines.path, materials, interfaces, planes: on_common_lines(planes) })
     }
 
     /// Whether the contact passes over it: a counterbody stays below it.
@@ -243,7 +233,7 @@ impl StressField {
         let (cell, lines) = (self.grid().cell(), &search.lines);
         let plane = self.line_plane(lines, depth, search.radii[0], kept);
         let (rest, is_swept) = (self.at_rest(depth.material), self.is_swept());
-        let edges = if depth == Depth::SURFACE && self.slides() { self.states_on_edges() } else { Vec::new() };
+        let edges = if depth == Depth::SURFACE { self.states_on_edges() } else { Vec::new() };
         let period = lines.period();
         let number = |line: usize| {
             let y = lines.y(plane.first_place(cell, line)?);

@@ -134,7 +134,7 @@ impl SmoothedSurface {
         Self {
             near: SmoothedPressure {
                 gaussian: gaussian.take_while(|&left| left > NEGLIGIBLE).collect(),
-                mean: -surface.mean.zz,
+                mean: field.mean_pressure(),
             },
             edge: SurfaceStresses::new(surface, |q| fourth(q * width)),
             open: SurfaceStresses::new(surface, |q| fourth(q * open)),

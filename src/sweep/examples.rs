@@ -3,7 +3,7 @@
 use super::{Axis, Combinations, Group, Row, Status, SweepResult};
 use crate::load::LoadQuantity;
 use crate::reading::{Criterion, Governing, Reading, Utilisation};
-use crate::run::{At, Limit, StepRecord};
+use crate::run::{At, Limit, SearchEnd, StepRecord};
 use crate::spectral::{Certificate, Route, Stop};
 
 /// All combinations of the values of some keys, `KEY=VALUES` each.
@@ -97,6 +97,6 @@ pub fn below(criterion: Criterion, mean_pressure: f64) -> Limit {
 
 /// A limit that is not reached up to a mean pressure.
 pub fn never(criterion: Criterion, up_to: f64) -> Limit {
-    let at = At::Never { up_to, complete: true, utilisation: 0.5, error: None, at: up_to };
+    let at = At::Never { up_to, end: SearchEnd::CompleteContact, utilisation: 0.5, error: None, at: up_to };
     Limit { criterion, quantity: LoadQuantity::MeanPressure, at }
 }

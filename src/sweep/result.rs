@@ -71,11 +71,13 @@ pub enum Kind {
     Area,
     /// A fraction.
     Fraction,
+    /// A number of passes.
+    Passes,
 }
 
 /// The main scalars of a load step: the load in both of its quantities; the fraction in contact, or the area of an isolated one.
-pub static SCALARS: [Scalar; 9] = {
-    use Kind::{Area, Force, Fraction, Length, Pressure};
+pub static SCALARS: [Scalar; 10] = {
+    use Kind::{Area, Force, Fraction, Length, Passes, Pressure};
     const fn scalar(name: &'static str, kind: Kind, of: fn(&StepRecord) -> Option<Measured>) -> Scalar {
         Scalar { name, kind, of }
     }
@@ -95,6 +97,10 @@ pub static SCALARS: [Scalar; 9] = {
         scalar("largest τ₁", Pressure, |step| finite(&step.stress.as_ref()?.overall.tau1)),
         scalar("largest tension", Pressure, |step| finite(&step.stress.as_ref()?.overall.tension)),
         scalar("largest von Mises", Pressure, |step| finite(&step.stress.as_ref()?.overall.mises)),
+        scalar("passes to damage", Passes, |step| {
+            let first = step.fatigue.as_ref()?.first;
+            first.passes.is_finite().then_some((first.passes, first.error.map(|error| error * first.passes)))
+        }),
     ]
 };
 

@@ -1,8 +1,13 @@
 //! `percoat life`: what it prints, writes, refuses, and goes on with.
 
-use crate::program::{Desk, number};
+use crate::damages::{BLOWS, strike};
+use crate::program::{Answer, Desk, Folder, number};
+use percoat::case::{Case, embedded};
+use percoat::life::LifeState;
+use percoat::output::{self, Plan, RunFolder, Writer};
 use serde_json::Value;
 use std::fs;
+use std::path::Path;
 
 const COARSE: [&str; 2] = ["--set", "grid.points=64"];
 
@@ -36,7 +41,9 @@ fn without_a_case_a_coating_that_tires_is_followed_to_its_end() {
     let report = desk.percoat(&["report", "out"]);
     assert_eq!(report.code, 0, "{}", report.err);
     let page = fs::read_to_string(desk.path("out/report.html")).unwrap();
-    assert!(page.contains("Passes until damage 1") && page.contains("Delamination") || page.contains("delamination"));
+    for words in ["Passes until damage 1", "<td class=\"number\">delamination</td>"] {
+        assert!(page.contains(words), "\"{words}\" does not stand in the report");
+    }
 }
 
 /// Passes of `life` are those of `solve`, and to the first failure one solution is enough.
@@ -83,4 +90,143 @@ fn a_life_that_was_interrupted_is_resumed_to_the_same_end() {
     for key in ["first", "events", "wear", "end", "solved"] {
         assert_eq!(resumed[key], expected[key], "{key}");
     }
+}
+
+/// A coating and a substrate that come off piece by piece.
+const PIECES: [&str; 3] = ["grid.points=48", "life.passes=2e7", "layers.0.fatigue.amplitude=0.8"];
+/// A coating that wears while it tires.
+const WORN: [&str; 3] = ["grid.points=48", "life.passes=2e5", "layers.0.wear=1e-8"];
+
+/// `percoat life` into a folder, without pictures, with settings and other options.
+fn life(desk: &Desk, folder: &str, settings: &[&str], more: &[&str]) -> Answer {
+    let set = settings.iter().flat_map(|setting| ["--set", *setting]);
+    let arguments = ["life", "tin-fatigue", "-o", folder, "--no-pictures"].into_iter().chain(set);
+    desk.percoat(&arguments.chain(more.iter().copied()).collect::<Vec<_>>())
+}
+
+fn case(settings: &[&str]) -> Case {
+    let settings: Vec<String> = settings.iter().map(|setting| (*setting).to_owned()).collect();
+    Case::read(&embedded::source("tin-fatigue").unwrap(), &settings).unwrap()
+}
+
+/// All states of a life, the last one with its end.
+fn states(case: &Case) -> Vec<LifeState> {
+    let task = case.life_task().unwrap();
+    let begun = task.beginning(&|_| true, &|| true).unwrap();
+    let next = |state: &LifeState| {
+        let goes_on = state.end.is_none();
+        goes_on.then(|| task.advance(state.clone(), &begun, &|| true).unwrap())
+    };
+    std::iter::successors(Some(task.unworn(&begun)), next).skip(1).collect()
+}
+
+/// The saved state of a life.
+const STATE: &str = "unfinished-life/life-state.json";
+
+/// Leaves in a folder what a life leaves that is killed after a state was saved.
+fn killed_after(state: &LifeState, case: &Case, folder: &Path) {
+    let claim = RunFolder::claim(folder, Plan::new(Writer::Life)).unwrap();
+    output::save_state(&claim.staging(), &output::fingerprint(case, "life"), state).unwrap();
+}
+
+/// Also from the last state, after which a life that is killed had only files to write.
+#[test]
+fn damage_goes_on_from_every_state_to_the_same_files() {
+    for settings in [&PIECES, &WORN] {
+        let desk = Desk::new();
+        let (answer, whole) = (life(&desk, "whole", settings, &[]), Folder(desk.path("whole")));
+        assert_eq!(answer.code, 0, "{}", answer.err);
+        let (case, killed) = (case(settings), Folder(desk.path("killed")));
+        let states = states(&case);
+        assert!(states.len() > 2 && states.last().unwrap().end.is_some(), "{} states", states.len());
+        for state in &states {
+            killed_after(state, &case, &killed.0);
+            let saved = killed.text(STATE);
+            assert!(saved.contains("\"bottom\":null"), "the substrate has no lower face");
+            let again = life(&desk, "killed", settings, &["--resume"]);
+            let note = format!("note: goes on after {} passes", output::number(state.passes));
+            assert!(again.code == 0 && again.err.contains(&note), "{note}: {}", again.err);
+            assert_eq!(killed.names(), whole.names());
+            assert!(killed.results() == whole.results(), "{settings:?} after {} passes", state.passes);
+            fs::remove_dir_all(&killed.0).unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_life_of_another_case_is_refused_and_a_damaged_one_is_kept_aside() {
+    let desk = Desk::new();
+    let (case, killed) = (case(&PIECES), Folder(desk.path("killed")));
+    let state = &states(&case)[0];
+    killed_after(state, &case, &killed.0);
+    let before = killed.bytes(STATE);
+    for change in ["friction.coefficient=0.2", "life.passes=1e7"] {
+        let refused = life(&desk, "killed", &[&PIECES[..], &[change]].concat(), &["--resume"]);
+        refused.complains(2, &["killed/unfinished-life is of another run", "same command", "leave --resume out"]);
+        assert_eq!(killed.names(), ["unfinished-life".to_owned()].into());
+        assert!(killed.bytes(STATE) == before, "{change}");
+    }
+    // The same case, but solved on another grid.
+    fs::remove_dir_all(&killed.0).unwrap();
+    killed_after(&LifeState { points: [40; 2], ..state.clone() }, &case, &killed.0);
+    life(&desk, "killed", &PIECES, &["--resume"]).complains(2, &["is of another run", "the grid"]);
+
+    assert_eq!(life(&desk, "whole", &PIECES, &[]).code, 0);
+    let whole = Folder(desk.path("whole")).results();
+    for (what, blow) in BLOWS.iter().filter(|(what, _)| *what != "missing") {
+        fs::remove_dir_all(&killed.0).unwrap();
+        killed_after(state, &case, &killed.0);
+        strike(&killed.0.join(STATE), *blow);
+        let damaged = killed.bytes(STATE);
+        let again = life(&desk, "killed", &PIECES, &["--resume", "--quiet"]);
+        assert_eq!(again.code, 0, "{what}: {}", again.err);
+        for words in
+            ["warning: killed/unfinished-life/life-state.json: it", "interrupted-1; all passes are followed again"]
+        {
+            assert!(again.err.contains(words), "{what}: {}", again.err);
+        }
+        assert!(killed.results() == whole && killed.bytes("interrupted-1/life-state.json") == damaged, "{what}");
+    }
+}
+
+/// A ball whose counterbody tires, and of the body nothing.
+const COUNTERBODY: &str = r#"
+[lattice]
+kind = "square"
+period = 1.0
+[[levels]]
+shape = "sphere"
+radius = 0.8
+[substrate]
+young = 1.0
+poisson = 0.3
+[counterbody]
+name = "pin"
+young = 1.0
+poisson = 0.3
+fatigue = { amplitude = 0.1, passes = 1e3, exponent = 6 }
+[load]
+mean_pressure = 0.02
+[grid]
+points = 32
+"#;
+
+#[test]
+fn a_counterbody_that_fails_is_warned_of_since_only_the_body_is_followed() {
+    let desk = Desk::new();
+    desk.write("case.toml", COUNTERBODY);
+    let life = |passes: &str| {
+        let answer = desk.percoat(&["life", "case.toml", "-o", "out", "--set", passes]);
+        assert_eq!(answer.code, 0, "{}", answer.err);
+        (answer, file(&desk))
+    };
+    let warning = "warning: the counterbody fails: pin of the counterbody after ";
+    let (answer, first) = life("life={}");
+    assert!(answer.err.contains(warning), "{}", answer.err);
+    assert!(answer.out.contains("nothing of the body ever fails by fatigue"), "{}", answer.out);
+    assert!(first["end"] == "endless" && first["first"]["body"] == "counterbody", "{}", first["first"]);
+    assert!(first["events"].as_array().unwrap().is_empty());
+    let passes = number(&first, "/first/passes");
+    let (longer, followed) = life(&format!("life.passes={}", 1.01 * passes));
+    assert!(longer.err.contains(warning) && followed["end"] == "passes", "{}", longer.err);
 }

@@ -1,10 +1,10 @@
 //! A given pressure in the place of a counterbody: closed forms, published pavements, both kinds of surroundings, limits.
 
 use ndarray::Array2;
-use percoat::body::{InterfaceStrength, Strength};
+use percoat::body::{Durability, InterfaceStrength, Strength};
 use percoat::localized::{disc, point::PointKernel};
 use percoat::reading::Criterion;
-use percoat::run::{At, StressRequest};
+use percoat::run::{At, SearchEnd, StressRequest};
 use percoat::{
     Cell, Depth, Friction, GivenPressure, HalfSpace, Interface, Layer, Load, LoadedDisc, Material, MeanStress, Problem,
     Route, Run, Sampling, Settings, Solver, Step, StressField, StressState,
@@ -230,6 +230,44 @@ fn the_largest_stress_is_found_under_the_smallest_disc() {
     assert!((x - 1.6).hypot(y) < 0.15 && z < 0.3, "{both:?}");
     // At the distance ρ = 2.4 the large disc adds σ_r = (1 − 2ν)pa²/(2ρ²) = 4.5e-4, 7 % of the small one's.
     assert!((both.value / alone.value - 1.0).abs() < 0.1, "{both:?}, {alone:?}");
+}
+
+/// A given pressure presses nothing in, be it the hardness or twice that; a limit is looked for until it comes near the hardness.
+#[test]
+fn a_hardness_presses_nothing_in_under_a_given_pressure() {
+    let p = 0.04;
+    let strength = Strength { yielding: Some(1.0), tensile: None };
+    let body = HalfSpace::new(vec![], young(1.0, 0.3)).with_substrate_strength(strength).unwrap();
+    let durability = Durability { hardness: Some(p), ..Durability::default() };
+    let hard = body.clone().with_substrate_durability(durability).unwrap();
+    let given = window([3.0, 3.0], &[disc([0.0, 0.0], 0.5, p)]);
+    let force = given.force();
+    let path = |body: &HalfSpace| {
+        let problem = Problem::new(given.clone(), body.clone());
+        let mut solver = Solver::new(problem, [96; 2], Settings::default()).unwrap();
+        let steps = [1.0, 2.0, 1.0].map(|factor| {
+            let step = solver.solve(Load::Force(factor * force));
+            solver.keep_indentation();
+            step
+        });
+        steps.to_vec()
+    };
+    for (elastic, hard) in path(&body).into_iter().zip(path(&hard)) {
+        assert!(hard.report.stop.solved() && hard.indentation().is_none() && hard.finest().hardness().is_infinite());
+        assert_eq!((elastic.pressure(), elastic.gap()), (hard.pressure(), hard.gap()));
+        assert_eq!(elastic.reading().max_pressure, hard.reading().max_pressure);
+    }
+    // Of two discs above each other the pressures add.
+    let twice = window([3.0, 3.0], &[disc([0.0, 0.0], 0.5, 0.5 * p), disc([0.0, 0.0], 0.5, 0.25 * p)]);
+    for (given, most) in [(given, 1.0), (twice, 4.0 / 3.0)] {
+        let load = Load::Force(given.force());
+        let most = 0.999 * most * given.force();
+        let limits = Run::new(Problem::new(given, hard.clone()), vec![load], Sampling::Points([96; 2])).limits(&mut ());
+        let limits = limits.unwrap();
+        let At::Never { up_to, end, .. } = limits.limits[0].at else { panic!("{limits}") };
+        assert!(end == SearchEnd::Hardness && (up_to / most - 1.0).abs() < 1e-9, "{limits}");
+        assert!(limits.to_string().contains("0.999 of the most that the hardness") && limits.converged(), "{limits}");
+    }
 }
 
 /// Under a given pressure stresses are proportional to it: the load at which something fails follows from the utilisation.

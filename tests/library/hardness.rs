@@ -1,12 +1,14 @@
 //! Hardness: 0 ≤ p ≤ H in all modes, by other algorithms and closed forms; what is pressed in stays on a load path.
 
 use ndarray::Array2;
-use percoat::run::RunError;
+use percoat::run::{PathEnd, RunError, WearPath};
+use percoat::spectral::Wear;
 use percoat::{
     Bodies, Cell, Contact, Durability, Friction, Grid, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load,
     Material, Method, Problem, Run, Sampling, Settings, Shape, Solver, Step, Stop, Topography,
 };
 use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 fn young(young: f64, poisson: f64) -> Material {
@@ -73,8 +75,8 @@ fn pressures(step: &Step) -> Vec<f64> {
     step.pressure().iter().copied().collect()
 }
 
-/// The conditions of the box on the samples: p in [0, H], g = 0 within `tolerance` of δ where p is free, g ≥ 0 where p = 0 and ≤ 0 where
-/// p = H; the number of free and of full samples.
+/// The conditions of the box on the samples, within `tolerance` of δ: p in [0, H], min(p, H − p) g = 0 where p is free, over H, g ≥ 0 where
+/// p = 0 and ≤ 0 where p = H; the number of free and of full samples.
 fn complies(contact: &Contact, tolerance: f64) -> [usize; 2] {
     let (hardness, slack) = (contact.hardness(), tolerance * contact.penetration().abs());
     let mut counts = [0; 2];
@@ -84,7 +86,7 @@ fn complies(contact: &Contact, tolerance: f64) -> [usize; 2] {
             assert!(g > -slack, "open: {g:e} {slack:e}");
         } else if p < hardness {
             counts[0] += 1;
-            assert!(g.abs() < slack, "free: {g:e} {slack:e}");
+            assert!(g.abs() * p.min(hardness - p) < slack * hardness, "free: {g:e} {slack:e}");
         } else {
             counts[1] += 1;
             assert!(g < slack, "full: {g:e} {slack:e}");
@@ -120,7 +122,8 @@ fn a_hardness_that_is_not_reached_changes_no_bit() {
 }
 
 /// Another algorithm: Gauss–Seidel on the assembled matrix with each pressure clipped to [0, H], under the penetration of the step.
-/// A step of the certificate 20 tolerance of the energy has an error of its square root in the norm of the energy.
+/// A step of the certificate 20 tolerance of the energy has an error of its square root in the norm of the energy, and of Σ p|g| ≤ 1e-8 δ Σp
+/// one sample has at most all, 5e-6 with 525 samples.
 #[test]
 fn the_box_is_solved_as_by_clipped_gauss_seidel() {
     let oblique = Cell::new([1.0, 0.1], [0.4, 0.8]).unwrap();
@@ -129,7 +132,7 @@ fn the_box_is_solved_as_by_clipped_gauss_seidel() {
         for (load, hardness) in [(0.01, 0.06), (0.03, 0.04), (0.02, 0.021)] {
             let problem = Problem::new(rough(cell, points), coated(Some(hardness)));
             let step = solved(problem.clone(), points, Load::MeanPressure(load));
-            let [free, full] = complies(step.finest(), 1e-6);
+            let [free, full] = complies(step.finest(), 5e-6);
             assert!(full > 0, "{free} free samples, none full");
             let reference = gauss_seidel(&step, hardness);
             let worst = pressures(&step).iter().zip(&reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -362,4 +365,70 @@ fn results_do_not_depend_on_the_number_of_threads() {
         pressures(&pool.install(solve))
     };
     assert_eq!(on(1), on(3));
+}
+
+/// A surface so soft that all of contact is at the hardness, with no sample between 0 and H: any penetration between the gaps inside and
+/// outside contact solves it.
+#[test]
+fn a_contact_of_full_samples_alone_is_solved() {
+    for (cell, points) in
+        [(Cell::square(1.0).unwrap(), [24, 24]), (Cell::new([1.0, 0.0], [0.35, 0.9]).unwrap(), [21, 24])]
+    {
+        let count = points[0] * points[1];
+        for (part, bodies) in [(10, bare(Some(1e-4))), (2, bare(Some(1e-4))), (2, coated(Some(1e-4)))] {
+            let full = count / part;
+            let mean = 1e-4 * full as f64 / count as f64;
+            let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+            let mut solver = Solver::new(Problem::new(rough(cell, points), bodies), points, settings).unwrap();
+            let step = solver.solve(Load::MeanPressure(mean));
+            assert!(step.report.stop.solved() && step.report.iterations < 60, "{}", step.report);
+            assert!(step.certificate.energy_gap < 1e-11, "{:?}", step.certificate);
+            // What single precision leaves: 1e-7 of H.
+            let pressed = |least: f64| step.pressure().iter().filter(|&&p| p >= least * 1e-4).count();
+            assert_eq!([pressed(1e-6), pressed(1.0 - 1e-6)], [full; 2], "{}", step.report);
+            let gap = |full: bool| {
+                let (p, g) = (step.pressure(), step.gap());
+                let own = p.iter().zip(&g).filter(|(p, _)| (**p > 5e-5) == full);
+                own.map(|(_, gap)| *gap).collect::<Vec<f64>>()
+            };
+            assert!(gap(true).iter().all(|gap| *gap < 1e-12) && gap(false).iter().all(|gap| *gap > -1e-12));
+        }
+    }
+}
+
+/// A counterbody that wears at its hardness keeps what it has pressed in: the path is that of elastic surfaces of the shape after the first
+/// load, and wear lowers the pressure from the hardness on at once.
+#[test]
+fn wear_begins_on_the_shape_that_is_pressed_in() {
+    let hardness = 0.06;
+    let bodies = Bodies::from(coated(None)).with_rigid_durability(hard(hardness)).unwrap();
+    let (cell, points, load) = (Cell::square(1.0).unwrap(), [48; 2], Load::MeanPressure(0.01));
+    let wear = Wear::new(0.0, 1.0, [1.0, 0.0]).unwrap();
+    let worn = |solver: &mut Solver| {
+        let mut largest = Vec::new();
+        let path = WearPath::new(load, wear, 0.02, 0.02).unwrap().slide(solver, &mut |step, _| {
+            largest.push(step.max_pressure);
+            ControlFlow::Continue(())
+        });
+        assert_eq!(path.unwrap().end, PathEnd::Complete);
+        largest
+    };
+    let topography = rough(cell, points);
+    let mut yielding = solver(Problem::new(topography.clone(), bodies), points);
+    let begun = yielding.solve(load);
+    assert!(begun.pressure().iter().any(|&p| p == hardness));
+    yielding.keep_indentation();
+    let shape = yielding.surface().initial_gap().to_owned();
+    let largest = worn(&mut yielding);
+    let mut elastic = solver(Problem::new(topography, coated(None)), points).with_gap(shape).unwrap();
+    worn(&mut elastic);
+    let [a, b] = [&mut yielding, &mut elastic].map(|own| own.solve(load));
+    // Both solve to the root of 20 tolerance in the norm of the energy.
+    let apart = pressures(&a).iter().zip(pressures(&b)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(apart < 5e-3 * hardness, "{apart:e} {largest:?}");
+    // Without what is pressed in the pressure would stay the hardness until wear has reached its depth.
+    assert!(largest.windows(2).all(|pair| pair[1] < pair[0]) && largest.last().unwrap() < &(0.995 * hardness));
+    let kept = yielding.indented().unwrap().iter().copied().fold(0.0, f64::max);
+    let first = begun.finest().indentation().unwrap().into_iter().fold(0.0, f64::max);
+    assert!((kept / first - 1.0).abs() < 1e-3, "{kept} {first}");
 }

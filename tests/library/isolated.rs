@@ -189,6 +189,28 @@ fn the_largest_stresses_lie_in_the_window() {
     }
 }
 
+/// On the surface the tension is largest at the edge of contact, (1 − 2ν)p₀/3 under Hertz' pressure, and with a traction in +x at the
+/// trailing edge p₀[(1 − 2ν)/3 + μπ(4 + ν)/8] (Hamilton, Proc. Inst. Mech. Eng. 197C (1983) 53), in windows of which contact fills three
+/// quarters and a third. The cusp behind the trailing edge errs by CUSP_ERROR/n and more of 2μp₀: 0.02 p₀ at least.
+#[test]
+fn the_largest_tension_lies_at_the_edge_of_contact() {
+    let p0 = 2.0 / PI;
+    for (window, points) in [(2.7, 96), (2.7, 128), (6.0, 256)] {
+        for (nu, mu) in [(0.0, 0.0), (0.25, 0.0), (0.0, 0.5), (0.25, 0.5)] {
+            let body = HalfSpace::new(vec![], material(1.0 - nu * nu, nu));
+            let problem = problem(body, window).sliding(Friction::new(mu, [1.0, 0.0]).unwrap().uncoupled()).unwrap();
+            let step = solved(problem, points, Load::Force(4.0 / 3.0));
+            let crest = StressField::new(step.finest(), MeanStress::Confined).maxima([1.0; 2]).crest.unwrap();
+            let [x, y, _] = crest.peak.position;
+            let exact = p0 * ((1.0 - 2.0 * nu) / 3.0 + mu * PI * (4.0 + nu) / 8.0);
+            let off = crest.peak.value - exact;
+            println!("{window} {points} {nu} {mu}: {off:e}, r = {}", x.hypot(y));
+            assert!((x.hypot(y) - 1.0).abs() < window / points as f64, "{:?}", crest.peak);
+            assert!(off.abs() < if mu > 0.0 { 0.02 * p0 } else { 0.02 * exact }, "{off:e}: {:?}", crest.peak);
+        }
+    }
+}
+
 /// A window of four times the length holds the same contact, and the same stresses far beside and below it.
 #[test]
 fn a_slender_window_has_the_stresses_of_a_square_one() {

@@ -3,12 +3,12 @@
 use crate::common;
 
 use common::one_level;
-use percoat::body::{InterfaceStrength, Strength};
+use percoat::body::{Durability, InterfaceStrength, Strength};
 use percoat::reading::Criterion;
-use percoat::run::{At, Limit, Limits, Recorder, RefinementEnd, RunError, StepRecord};
+use percoat::run::{At, Limit, Limits, Recorder, RefinementEnd, RunError, SearchEnd, StepRecord};
 use percoat::{
     Cell, Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, LoadQuantity, Material, Problem, Run, Sampling,
-    Shape, Solver, Step, StressFields,
+    Shape, Solver, Step, Stop, StressFields,
 };
 use std::convert::Infallible;
 
@@ -146,6 +146,81 @@ fn what_is_never_reached_or_at_once_is_said() {
     let pulled = rest(0.1);
     assert_eq!(pulled.limits.iter().map(|limit| limit.at).collect::<Vec<_>>(), [At::Rest; 2]);
     assert!(pulled.steps.is_empty(), "nothing is left to be solved");
+}
+
+/// The same on a surface of a hardness.
+fn hard(shape: Shape, yielding: f64, hardness: f64) -> Problem {
+    let problem = bare(shape, yielding);
+    let durability = Durability { hardness: Some(hardness), ..Durability::default() };
+    problem.on_body(problem.half_space().clone().with_substrate_durability(durability).unwrap())
+}
+
+/// With a hardness the search ends at 0.999 of it, which is not complete contact, unless contact is complete before.
+#[test]
+fn a_search_ends_at_the_hardness_and_says_so() {
+    let paraboloid = Shape::Paraboloid { radius: 1.0 };
+    let ended = |problem: Problem| {
+        let found = limits(problem, Load::MeanPressure(0.01), 48);
+        assert!(found.converged(), "{:?}", found.warnings);
+        let At::Never { up_to, end, .. } = found.limits[0].at else { panic!("{found}") };
+        (up_to, end, found)
+    };
+    let (complete, end, elastic) = ended(bare(paraboloid, 100.0));
+    assert_eq!((end, elastic.hardness_load), (SearchEnd::CompleteContact, f64::INFINITY));
+
+    let hardness = 0.05 * complete;
+    let (up_to, end, found) = ended(hard(paraboloid, 100.0, hardness));
+    assert_eq!((end, found.complete), (SearchEnd::Hardness, f64::INFINITY));
+    assert!((up_to / (0.999 * hardness) - 1.0).abs() < 1e-9 && found.hardness_load == 0.999 * hardness, "{up_to}");
+    let last = &found.steps.last().unwrap().reading;
+    assert!(last.max_pressure == hardness && last.contact_fraction > 0.998, "{last}");
+    let words = found.in_words(|load| format!("{:.4} H", load / hardness));
+    assert_eq!(
+        words,
+        "nothing fails up to the mean pressure 0.9990 H, 0.999 of the most that the hardness lets the surface bear"
+    );
+
+    let (up_to, end, found) = ended(hard(paraboloid, 100.0, 20.0 * complete));
+    assert_eq!((end, found.complete), (SearchEnd::CompleteContact, elastic.complete));
+    assert!((up_to / complete - 1.0).abs() < 1e-9 && found.to_string().ends_with("where contact is complete"));
+}
+
+/// Under a flat surface stresses are proportional to the load, with a hardness too: a limit below it is found from where everything
+/// holds, one above it is not reached.
+#[test]
+fn a_hardness_ends_the_search_under_a_flat_surface() {
+    let searched = |hardness: f64| {
+        let cell = Cell::square(1.0).unwrap();
+        let flat = percoat::Topography::new(cell, ndarray::Array2::zeros([24, 24])).unwrap();
+        let body = hard(Shape::Paraboloid { radius: 1.0 }, 0.1, hardness).half_space().clone();
+        limits(Problem::new(flat, body), Load::MeanPressure(0.01), 24)
+    };
+    let elastic = searched(1e3);
+    let At::Load { load: yields, .. } = elastic.limits[0].at else { panic!("{elastic}") };
+    let above = searched(2.0 * yields);
+    assert!((above.limits[0].load() / yields - 1.0).abs() < 1e-3 && above.steps.len() < 20, "{above}");
+    let below = searched(0.5 * yields);
+    let At::Never { up_to, end, .. } = below.limits[0].at else { panic!("{below}") };
+    assert!(end == SearchEnd::Hardness && !below.ends_at_border && below.steps.len() < 20, "{below}");
+    assert!((up_to / (0.4995 * yields) - 1.0).abs() < 1e-9 && below.converged(), "{:?}", below.warnings);
+}
+
+/// An isolated contact outgrows a window that the hardness would fill, and is solved in a larger one: no load is too large for it.
+#[test]
+fn a_hardness_does_not_end_the_search_of_an_isolated_contact() {
+    let cell = Cell::window([1.0; 2]).unwrap();
+    let lattice = Lattice::new(cell, vec![vec![[0.5; 2]]]).unwrap();
+    let paraboloid = Shape::Paraboloid { radius: 1.0 };
+    let indenters = percoat::Indenters::new(lattice, vec![Level::new(paraboloid, 0.0).unwrap()]).unwrap();
+    for hardness in [0.01, 0.3] {
+        let body = hard(paraboloid, 100.0, hardness).half_space().clone();
+        let found = limits(Problem::new(indenters.clone(), body), Load::Force(0.001), 24);
+        let At::Never { up_to, end, .. } = found.limits[0].at else { panic!("{found}") };
+        let stops: Vec<Stop> = found.steps.iter().map(|step| step.stop).collect();
+        assert!(!stops.contains(&Stop::BeyondHardness) && !stops.contains(&Stop::AtBorder), "{stops:?}");
+        assert!(end == SearchEnd::LargestLoad && found.ends_at_border, "{found}");
+        assert!(up_to > 100.0 * hardness && found.window.is_some_and(|[side, _]| side > 8.0), "{up_to}");
+    }
 }
 
 /// A stiff coating on a soft body, which comes off where it is opened: between the spheres.
@@ -326,6 +401,7 @@ fn an_error_is_told_with_what_else_may_come_first() {
             shown: Vec::new(),
             quantity,
             complete: f64::INFINITY,
+            hardness_load: f64::INFINITY,
             window: None,
             ends_at_border: false,
             change: None,

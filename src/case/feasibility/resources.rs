@@ -208,14 +208,22 @@ fn of_keeping(case: &Case, samples: u64, grids: [u64; 3]) -> Needs {
     Needs { memory: solving + kept * samples, disk: 0, disk_while_running: 0 }
 }
 
+/// A line of the damage of a material: 2048 nodes in two states and as text; and as text alone.
+const DAMAGE: [u64; 2] = [80 << 10, 40 << 10];
+/// Most of these lines.
+const DAMAGE_LINES: u64 = 512;
+
 /// A life: the contact before the first pass stays in memory while later ones are solved with their stresses.
 fn of_life(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool) -> Needs {
     let series = of_series(case, samples);
     let elastic = case.problem().bodies().each().count() as u64;
     let stress = elastic * (STRESS + SEARCH) * series + of_shells(case, series);
-    let solving = PROGRAM + grids + heights + (STEP + WORN) * samples + working.max(READING * samples).max(stress);
+    let tire = case.problem().half_space().durabilities().filter(|own| own.fatigue.is_some()).count() as u64;
+    let damage = DAMAGE.map(|bytes| bytes * tire * DAMAGE_LINES.min(samples));
+    let contact = working.max(READING * samples).max(stress);
+    let solving = PROGRAM + grids + heights + (STEP + WORN) * samples + damage[0] + contact;
     let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
-    let disk = COMPARISON + WORN * samples + if pictures { 2 * PICTURE } else { 0 };
+    let disk = COMPARISON + WORN * samples + damage[1] + if pictures { 2 * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: 2 * disk }
 }
 

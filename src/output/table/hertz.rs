@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::counterbody::Shape;
 use crate::output::number::number;
-use crate::reading::Reading;
+use crate::reading::{PlasticReading, Reading};
 use crate::run::StepRecord;
 use crate::units::Units;
 use std::f64::consts::PI;
@@ -25,7 +25,7 @@ impl Hertz {
 
 /// Peak pressure, contact radius and penetration by Hertz of the ball on the bare substrates, under the force of the last converged
 /// step with contact, and the relative differences of that step from them, in two lines; `None` unless the contact is isolated and that
-/// of one ball, or where no substrate is elastic.
+/// of one ball, where no substrate is elastic, and where a surface is pressed in.
 pub fn hertz(case: &Case, steps: &[StepRecord], units: &Units) -> Option<[String; 2]> {
     let problem = case.problem();
     let [level] = problem.counterbody().levels() else { return None };
@@ -35,6 +35,9 @@ pub fn hertz(case: &Case, steps: &[StepRecord], units: &Units) -> Option<[String
         return None;
     }
     let step = steps.iter().rev().find(|step| step.reading.touches() && step.converged())?;
+    if step.plastic.as_ref().is_some_and(PlasticReading::is_pressed_in) {
+        return None;
+    }
     let Reading { force, penetration, .. } = step.reading;
     let hertz = Hertz::new(force, ball, problem.bodies().substrate_modulus()?);
     let [load, peak, radius, approach] = [

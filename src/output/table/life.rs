@@ -51,13 +51,13 @@ pub fn events(events: &[Event], units: &Units) -> Option<Table> {
     Some(Table::new(&header, rows, 0))
 }
 
-/// What is left at the end, in a line; `None` where it was followed only to the first failure.
+/// What is left at the end, in a line, or that nothing ever fails; `None` where it was followed only to the first failure.
 pub fn left(course: &[Course], end: Option<LifeEnd>, units: &Units) -> Option<String> {
     let (last, end) = (course.last()?, end?);
     let length = |x: f64| units.length().with_unit(x, number);
     let why = match end {
         LifeEnd::Passes => String::new(),
-        LifeEnd::Endless => ", and nothing tires any further".to_owned(),
+        LifeEnd::Endless => return Some("nothing of the body ever fails by fatigue under this load".to_owned()),
         LifeEnd::NothingLeft => ", and nothing is left on the rigid base".to_owned(),
         LifeEnd::Unsolved => "; the contact of the worn surfaces could not be solved any further".to_owned(),
         LifeEnd::LoadLimit => "; no more loads are solved".to_owned(),

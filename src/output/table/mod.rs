@@ -133,7 +133,7 @@ pub fn life(case: &Case, file: &LifeFile, width: usize) -> String {
         text += &format!("\n{}", lines(&left, width));
     }
     if let Some(last) = file.steps.last() {
-        text += &format!("\n{}\n", solved(std::slice::from_ref(last)));
+        text += &format!("\n{}", lines(&solved(std::slice::from_ref(last)), width));
     }
     text += &Assumptions::of(case).lines(false, width);
     text

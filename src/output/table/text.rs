@@ -111,9 +111,9 @@ impl Table {
 }
 
 impl Worded {
-    /// The words, and the [fitted](Table::fitted) table.
+    /// The words in lines of at most `width` letters, and the [fitted](Table::fitted) table.
     pub fn fitted(&self, width: usize) -> String {
-        format!("{}\n\n{}", self.words, self.table.fitted(width))
+        format!("{}\n{}", lines(&self.words, width), self.table.fitted(width))
     }
 }
 

@@ -64,7 +64,9 @@ impl Keys {
             Curve { label, points, errors: Vec::new(), style, colour: colour(index) }
         });
         let x = Axis { scale: scale(values), ..Axis::linear(&self.names[*index][..]) };
-        (Chart { title: String::new(), x, y: Axis::linear(shown.quantity.clone()), curves: curves.collect() }, all)
+        let label = shown.quantity.clone();
+        let y = if shown.is_passes() { Axis::log(label) } else { Axis::linear(label) };
+        (Chart { title: String::new(), x, y, curves: curves.collect() }, all)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::label::Label;
 use crate::reading::{Criterion, Verdict};
-use crate::sweep::{LimitValue, Row, SCALARS, Scalar, SweepResult};
+use crate::sweep::{Kind, LimitValue, Row, SCALARS, Scalar, SweepResult};
 use crate::units::Units;
 
 /// A number of a result.
@@ -54,6 +54,11 @@ impl Number {
         }
     }
 
+    /// Whether it is a number of passes, which a power of the stresses spreads.
+    pub fn is_passes(&self) -> bool {
+        matches!(self.of, Of::Scalar(scalar) if scalar.kind == Kind::Passes)
+    }
+
     /// Whether it is a limit load.
     pub fn is_limit(&self) -> bool {
         matches!(self.of, Of::Limit(_))
@@ -93,6 +98,7 @@ pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
         limit("first limit", None),
         Number::scalar(units.pressure_of("peak pressure", "p"), "peak pressure"),
         Number::scalar(units.length_of("penetration", "δ"), "penetration"),
+        Number::scalar("passes until the first damage", "passes to damage"),
         Number::scalar("fraction in contact", "contact"),
         Number::scalar(units.area_of("area of contact", "A"), "contact area"),
         Number { quantity: "largest utilisation".into(), of: Of::Utilisation },

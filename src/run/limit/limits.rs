@@ -12,6 +12,17 @@ use std::cmp::Ordering;
 /// Relative error above which the ends of the interval of a limit are shown in place of the error.
 const WIDE: f64 = 0.3;
 
+/// What ends a search of limits at its largest load.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SearchEnd {
+    /// Contact is complete there.
+    CompleteContact,
+    /// It is [`SearchEnd::OF_HARDNESS`] of the most that the hardness bears.
+    Hardness,
+    /// Contact has no room under higher loads, or no more of them are tried.
+    LargestLoad,
+}
+
 /// How a limit is reached, or its bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum At {
@@ -45,12 +56,12 @@ pub enum At {
         /// x, y, z of the place that fails at this load; lengths.
         position: [f64; 3],
     },
-    /// Not reached up to complete contact, or up to the largest load that was solved.
+    /// Not reached up to the largest load that was solved.
     Never {
         /// Load up to which the criterion holds.
         up_to: f64,
-        /// Whether contact is complete there.
-        complete: bool,
+        /// What ends the search there.
+        end: SearchEnd,
         /// The largest utilisation, to a hundredth where it is more than a half and has its top between the loads.
         utilisation: f64,
         /// Estimated error of the largest utilisation.
@@ -98,8 +109,13 @@ pub struct Limits {
     pub shown: Vec<LimitStep>,
     /// The quantity of all loads.
     pub quantity: LoadQuantity,
-    /// Load at which contact becomes complete on the last grid; infinite for an isolated contact.
+    /// Load at which contact becomes complete on the last grid, with hardness at the latest; infinite for an isolated contact, and where
+    /// it is not below [`hardness_load`](Self::hardness_load).
     pub complete: f64,
+    /// Load that is [`SearchEnd::OF_HARDNESS`] of the most that the hardness bears: of the mean pressure of the hardness everywhere, or of
+    /// that under which the highest value of a given pressure is the hardness. No higher one is solved. Infinite without hardness and
+    /// for an isolated contact.
+    pub hardness_load: f64,
     /// Sides of the largest window in which loads were solved, lengths; `None` where an isolated contact had room in its own in all.
     pub window: Option<[f64; 2]>,
     /// Whether the search ended because an isolated contact had no room under higher loads.
@@ -230,9 +246,31 @@ pub fn rivals(limits: &[Limit]) -> Vec<Criterion> {
     contenders(limits).iter().map(|limit| limit.criterion).collect()
 }
 
-/// Whether contact is complete under a load that is read off a step, to rounding; it becomes so at `complete`.
-pub(super) fn is_complete(load: f64, complete: f64) -> bool {
-    load >= complete * (1.0 - 1e-9)
+impl SearchEnd {
+    /// Part of the most that the hardness bears up to which loads are solved.
+    pub const OF_HARDNESS: f64 = 0.999;
+
+    /// The end at a largest load that is read off a step, to rounding; contact becomes complete at `complete`, and the hardness ends the
+    /// search at `hardness_load`.
+    pub(super) fn of(load: f64, complete: f64, hardness_load: f64) -> Self {
+        let reaches = |end: f64| load >= end * (1.0 - 1e-9);
+        match (reaches(complete), reaches(hardness_load)) {
+            (true, _) => Self::CompleteContact,
+            (false, true) => Self::Hardness,
+            (false, false) => Self::LargestLoad,
+        }
+    }
+
+    /// It in words after the largest load.
+    pub(super) fn in_words(self) -> String {
+        match self {
+            Self::CompleteContact => ", where contact is complete".to_owned(),
+            Self::Hardness => {
+                format!(", {} of the most that the hardness lets the surface bear", Self::OF_HARDNESS)
+            }
+            Self::LargestLoad => String::new(),
+        }
+    }
 }
 
 impl Limits {

@@ -20,6 +20,9 @@
 //! Beyond complete contact the shape adds nothing, and stresses grow by those of a uniform pressure: no limit is searched for
 //! there. Shapes with ridges between them come into complete contact under an infinite pressure only; on a grid under a finite
 //! one, where the search ends.
+//!
+//! With a hardness H no contact bears a mean pressure of H, and the search ends at 0.999 H where contact is not complete before. A given
+//! pressure grows until its highest value is 0.999 H.
 
 mod band;
 mod curve;
@@ -31,7 +34,7 @@ mod section;
 mod windows;
 mod words;
 
-pub use limits::{At, Limit, LimitStep, Limits, first, rivals};
+pub use limits::{At, Limit, LimitStep, Limits, SearchEnd, first, rivals};
 pub use search::EVENTS;
 
 use super::{Recorder, Refinement, Run, RunError, Sampling};

@@ -1,7 +1,7 @@
 //! The record of a limit: every limit has the keys of a load, null where it does not have the value, and a code of how it is
 //! reached.
 
-use super::limits::{At, Limit};
+use super::limits::{At, Limit, SearchEnd};
 use crate::load::LoadQuantity;
 use crate::reading::Criterion;
 use serde::de::Error;
@@ -21,6 +21,7 @@ enum Reached {
     ContactOfFewSamples,
     #[serde(alias = "not up to complete contact")]
     NotUpToCompleteContact,
+    NotUpToHardness,
     #[serde(alias = "not up to the largest load")]
     NotUpToLargestLoad,
     Undecided,
@@ -108,9 +109,13 @@ impl From<Limit> for Keys {
                 utilisation: Some(finite(utilisation)),
                 ..own
             },
-            At::Never { up_to, complete, utilisation, error, at } => Self {
+            At::Never { up_to, end, utilisation, error, at } => Self {
                 interval: None,
-                reached: if complete { Reached::NotUpToCompleteContact } else { Reached::NotUpToLargestLoad },
+                reached: match end {
+                    SearchEnd::CompleteContact => Reached::NotUpToCompleteContact,
+                    SearchEnd::Hardness => Reached::NotUpToHardness,
+                    SearchEnd::LargestLoad => Reached::NotUpToLargestLoad,
+                },
                 up_to: Some(up_to),
                 utilisation: Some(Some(utilisation)),
                 utilisation_error: Some(error),
@@ -149,6 +154,9 @@ impl Keys {
         let position = || Some([self.x?, self.y?, self.z?]);
         let interval = || Some(self.interval?.map(|end| end.unwrap_or(f64::INFINITY)));
         let (utilisation, error) = (self.utilisation.flatten(), self.utilisation_error.flatten());
+        let never = |end| {
+            Some(At::Never { up_to: self.up_to?, end, utilisation: utilisation?, error, at: self.utilisation_at? })
+        };
         Some(match self.reached {
             Reached::ResidualStressAlone => At::Rest,
             Reached::TipAtAnyLoad => At::Tip { position: position()? },
@@ -159,13 +167,9 @@ impl Keys {
                 let utilisation = utilisation.unwrap_or(f64::INFINITY);
                 At::Below { load: self.below?, utilisation, position: position()? }
             }
-            Reached::NotUpToCompleteContact | Reached::NotUpToLargestLoad => At::Never {
-                up_to: self.up_to?,
-                complete: self.reached == Reached::NotUpToCompleteContact,
-                utilisation: utilisation?,
-                error,
-                at: self.utilisation_at?,
-            },
+            Reached::NotUpToCompleteContact => never(SearchEnd::CompleteContact)?,
+            Reached::NotUpToHardness => never(SearchEnd::Hardness)?,
+            Reached::NotUpToLargestLoad => never(SearchEnd::LargestLoad)?,
             Reached::Undecided => {
                 let [from, _] = interval()?;
                 let (up_to, utilisation, at) = (self.up_to?, utilisation?, self.utilisation_at?);
@@ -190,8 +194,9 @@ mod tests {
             At::Load { load: 0.2, error: None, interval: [0.0, f64::INFINITY], position },
             At::Load { load: 0.2, error, interval: [0.19, 0.21], position },
             At::Below { load: 0.1, utilisation: f64::INFINITY, position },
-            At::Never { up_to: 1.0, complete: true, utilisation: 0.5, error, at: 0.7 },
-            At::Never { up_to: 1.0, complete: false, utilisation: 0.5, error: None, at: 0.7 },
+            At::Never { up_to: 1.0, end: SearchEnd::CompleteContact, utilisation: 0.5, error, at: 0.7 },
+            At::Never { up_to: 1.0, end: SearchEnd::Hardness, utilisation: 0.5, error, at: 0.7 },
+            At::Never { up_to: 1.0, end: SearchEnd::LargestLoad, utilisation: 0.5, error: None, at: 0.7 },
             At::Undecided { from: 0.0, up_to: 1.0, utilisation: 0.5, error, at: 0.7, position },
         ];
         let quantities = [LoadQuantity::MeanPressure, LoadQuantity::Force];
@@ -203,6 +208,8 @@ mod tests {
             let keys = |key: &str| text.contains(&format!("\"{key}\":"));
             let is_far = matches!(at, At::Never { .. } | At::Undecided { .. });
             assert_eq!(keys("utilisation_error"), is_far, "{text}");
+            let is_hard = matches!(at, At::Never { end: SearchEnd::Hardness, .. });
+            assert_eq!(text.contains(r#""reached":"not_up_to_hardness""#), is_hard, "{text}");
             assert_eq!(keys("utilisation"), is_far || matches!(at, At::Below { .. }), "{text}");
         }
         let unknown = r#"{"criterion":"yield","material":1,"mean_pressure":null,"error":null,"interval":null,"x":null,"y":null,"z":null,"reached":"x"}"#;

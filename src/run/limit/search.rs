@@ -1,11 +1,12 @@
 //! The search for the limits on one grid, load by load.
 
 use super::band::{Crossing, UtilisationBand};
-use super::limits::is_complete;
 use super::windows::Windows;
-use super::{At, Limit, LimitStep, Limits};
+use super::{At, Limit, LimitStep, Limits, SearchEnd};
 use crate::body::{HalfSpace, Layer};
+use crate::lattice::Grid;
 use crate::load::LoadQuantity;
+use crate::problem::Problem;
 use crate::reading::{Criterion, Reading, Utilisation};
 use crate::run::{Loading, Recorder, Run, RunError, StepRecord};
 use crate::spectral::{Solver, Step, Stop};
@@ -45,8 +46,11 @@ pub(super) struct LimitSearch<'a, R: Recorder> {
     tables: Arc<Tables>,
     /// The quantity of all loads.
     quantity: LoadQuantity,
-    /// Load at which contact becomes complete; infinite for a flat surface and for an isolated contact.
+    /// Load at which contact becomes complete; infinite for a flat surface, for an isolated contact, and from [`Self::hardness_load`] on.
     complete: f64,
+    /// Load that is [`SearchEnd::OF_HARDNESS`] of the most that the hardness bears; infinite without hardness, and for an isolated
+    /// contact, whose window grows.
+    hardness_load: f64,
     /// A load of the order at which contact fills the cell or the window; infinite for a flat surface.
     filling: f64,
     /// The solved loads, by ascending load.
@@ -65,13 +69,29 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
         let (quantity, area) = (run.quantity(), run.problem.cell().area());
         let per_pressure = if quantity == LoadQuantity::Force { area } else { 1.0 };
-        let filling = complete.map_or(f64::INFINITY, |pressure| pressure * per_pressure);
+        let borne = SearchEnd::OF_HARDNESS * largest_borne(&run.problem, solver.grid()) * per_pressure;
+        let filling = complete.map_or(f64::INFINITY, |pressure| (pressure * per_pressure).min(borne));
         // An isolated contact is never complete, but fills its window under a load of this order.
-        let complete = if run.problem.cell().is_isolated() { f64::INFINITY } else { filling };
-        let windows = Windows::new(Arc::clone(&run.problem), complete);
+        let is_isolated = run.problem.cell().is_isolated();
+        let complete = if is_isolated || filling >= borne { f64::INFINITY } else { filling };
+        let has_windows = is_isolated && run.problem.counterbody().pressure().is_none();
+        let hardness_load = if has_windows { f64::INFINITY } else { borne };
+        let windows = Windows::new(Arc::clone(&run.problem), complete.min(hardness_load));
         let (tables, steps) = (Arc::default(), Vec::new());
-        let mut search =
-            Self { run, windows, window: 0, solver, tables, quantity, complete, filling, steps, last: None, recorder };
+        let mut search = Self {
+            run,
+            windows,
+            window: 0,
+            solver,
+            tables,
+            quantity,
+            complete,
+            hardness_load,
+            filling,
+            steps,
+            last: None,
+            recorder,
+        };
         let bodies = run.problem.bodies();
         let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
             Criterion::all(bodies).into_iter().partition(|criterion| criterion.at_rest(bodies) >= 1.0);
@@ -99,8 +119,9 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             shown: Vec::new(),
             quantity,
             complete,
+            hardness_load,
             window: search.largest_window(),
-            ends_at_border: search.complete.is_infinite() && search.windows.largest().is_finite(),
+            ends_at_border: search.windows.largest() < complete.min(hardness_load),
             change: None,
             end: None,
             warnings: Vec::new(),
@@ -174,29 +195,30 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let of_interfaces = bodies().flat_map(HalfSpace::layers).map(Layer::interface_strength);
         let of_interfaces = of_interfaces.flat_map(|strength| [strength.normal, strength.shear]);
         let least = of_materials.chain(of_interfaces).flatten().fold(f64::INFINITY, f64::min);
-        match self.quantity {
+        let least = match self.quantity {
             LoadQuantity::MeanPressure => least,
             LoadQuantity::Force => least * self.run.problem.cell().area(),
-        }
+        };
+        least.min(self.hardness_load)
     }
 
     /// Solves loads a factor of two apart, from the least whose contact has samples enough on, until every criterion has
     /// failed by more than its error or contact is complete. They do not depend on the loads of the run.
     fn scan(&mut self, sought: &[Criterion]) -> Result<(), RunError<R::Error>> {
         let mut lowest = self.start();
-        let mut at_border = self.solve(lowest)?.stop == Stop::AtBorder;
+        let mut at_border = has_no_room(self.solve(lowest)?);
         for _ in 0..HALVINGS {
             if !at_border {
                 break;
             }
             // Contact has no room in its window: a lower load may have.
             lowest *= 0.5;
-            at_border = self.solve(lowest)?.stop == Stop::AtBorder;
+            at_border = has_no_room(self.solve(lowest)?);
             self.steps.truncate(1);
         }
         while at_border && self.windows.end_at(0.0) {
             self.steps.clear();
-            at_border = self.solve(lowest)?.stop == Stop::AtBorder;
+            at_border = has_no_room(self.solve(lowest)?);
         }
         let mut highest = lowest;
         for _ in 0..DOUBLINGS {
@@ -219,7 +241,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             }
             let before = highest;
             highest = (2.0 * highest).min(self.windows.largest());
-            if self.solve(highest)?.stop == Stop::AtBorder {
+            if has_no_room(self.solve(highest)?) {
                 // Contact has no room in its window: the load says nothing.
                 self.steps.pop();
                 highest = before;
@@ -336,7 +358,8 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             let error = error.map(|error| error.max(most - utilisation));
             let at = load(at);
             if from.is_infinite() {
-                At::Never { up_to, complete: is_complete(up_to, self.complete), utilisation, error, at }
+                let end = SearchEnd::of(up_to, self.complete, self.hardness_load);
+                At::Never { up_to, end, utilisation, error, at }
             } else {
                 At::Undecided { from, up_to, utilisation, error, at, position }
             }
@@ -366,4 +389,21 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             }
         }
     }
+}
+
+/// Largest mean pressure that the hardness bears, which contact does not reach; that under which the highest value of a given pressure is
+/// the hardness. Infinite without hardness.
+fn largest_borne(problem: &Problem, grid: &Grid) -> f64 {
+    let hardness = problem.bodies().hardness().map_or(f64::INFINITY, |(hardness, _)| hardness);
+    let over_highest = problem.counterbody().pressure().map_or(1.0, |given| {
+        // Discs may overlap.
+        let highest = given.on(grid).into_iter().fold(given.highest(), f64::max);
+        given.force() / problem.cell().area() / highest
+    });
+    hardness * over_highest
+}
+
+/// Whether a contact has no room in its window: it reaches the border, or would at the hardness everywhere.
+fn has_no_room(step: &StepRecord) -> bool {
+    matches!(step.stop, Stop::AtBorder | Stop::BeyondHardness)
 }

@@ -2,7 +2,6 @@
 
 use super::LimitStep;
 use crate::body::HalfSpace;
-use crate::friction::Friction;
 use crate::run::Run;
 use crate::run::places::SECTION;
 use crate::stress::{StressFields, SurfaceLine, VerticalSection};
@@ -23,7 +22,7 @@ impl LimitStep {
         let [x, y, z] = limit.position()?;
         // The window of the step may be larger than that of the case.
         let (bodies, cell) = (run.problem.bodies(), step.grid().cell());
-        let direction = run.problem.friction().map_or([1.0, 0.0], Friction::direction);
+        let direction = run.problem.direction();
         let reading = step.reading();
         let radius = (reading.contact_area / (PI * reading.contact_spots.max(1) as f64)).sqrt();
         let reach = (HALF_LENGTH * radius).min(0.5 * cell.reduced().longer_side());

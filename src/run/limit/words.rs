@@ -1,7 +1,6 @@
 //! The first limit in words.
 
-use super::limits::is_complete;
-use super::{At, Limits};
+use super::{At, Limits, SearchEnd};
 use crate::notation::number;
 use crate::reading::{Criterion, within_the_errors};
 use crate::run::StepRecord;
@@ -17,16 +16,16 @@ impl Limits {
         let others: Vec<String> = self.rivals().iter().map(Criterion::to_string).collect();
         let others = others.join(" or ");
         let most = self.steps.last().map_or(0.0, of);
-        let complete = if is_complete(most, self.complete) { ", where contact is complete" } else { "" };
+        let end = SearchEnd::of(most, self.complete, self.hardness_load).in_words();
         let Some(limit) = self.first() else {
             if others.is_empty() {
-                return format!("nothing fails up to the {name} {}{complete}", load(most));
+                return format!("nothing fails up to the {name} {}{end}", load(most));
             }
             let from = self.contenders().iter().map(|limit| limit.interval()[0]).fold(f64::INFINITY, f64::min);
             let start = self.steps.first().map_or(0.0, of);
             let from = if from > 0.0 { load(from) } else { format!("below {}", load(start)) };
             let to = load(most);
-            return format!("undecided: {others} may fail within its error at {name}s from {from} to {to}{complete}");
+            return format!("undecided: {others} may fail within its error at {name}s from {from} to {to}{end}");
         };
         let at = match limit.at {
             At::Rest => ", without load, by residual stress alone".to_owned(),

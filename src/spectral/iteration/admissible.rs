@@ -4,6 +4,8 @@ use crate::load::Control;
 
 /// Part of the largest pressure beyond which a pressure is the largest one: what rounding takes off it is put back.
 const AT_MOST: f64 = 1.0 - 1e-15;
+/// Part of a load that rounding of its sum leaves.
+const ROUNDING: f64 = 1e-12;
 
 /// Admissible pressures: 0 ≤ p ≤ H with the hardness H where contact may occur, p = 0 elsewhere.
 ///
@@ -55,13 +57,26 @@ pub(super) struct WeightedSums {
 
 impl WeightedSums {
     /// The mean of g by which δ moves: weighted with p or, where samples are full, with p(1 − p/H), as pressures that are about to reach a
-    /// bound say nothing about δ. 0 where no sample is free.
-    pub fn mean(self, load: LoadSums) -> f64 {
+    /// bound say nothing about δ. `None` where no sample is free.
+    pub fn mean(self, load: LoadSums) -> Option<f64> {
         match load.full {
-            0.0 if load.free > 0.0 => self.work / load.free,
-            _ if self.weight > 0.0 => self.weighted / self.weight,
-            _ => 0.0,
+            0.0 if load.free > 0.0 => Some(self.work / load.free),
+            _ if self.weight > 0.0 => Some(self.weighted / self.weight),
+            _ => None,
         }
+    }
+}
+
+/// The middle between the largest gap where p = H and the least where p = 0, given as `samples` of pressure and gap: where no sample is
+/// free any δ between them solves the contact. 0 without a full sample.
+pub(super) fn between(samples: impl Iterator<Item = (f64, f64)>, most: f64) -> f64 {
+    let (closed, open) = samples.fold((f64::NEG_INFINITY, f64::INFINITY), |(closed, open), (p, gap)| {
+        if p >= most { (closed.max(gap), open) } else { (closed, open.min(gap)) }
+    });
+    match (closed.is_finite(), open.is_finite()) {
+        (true, true) => 0.5 * (closed + open),
+        (true, false) => closed,
+        _ => 0.0,
     }
 }
 
@@ -114,16 +129,31 @@ impl<'a> AdmissibleSet<'a> {
         self.closed().for_each(|i| pressure[i] = 0.0);
     }
 
-    /// The uniform pressure on the samples of the set with the given sum.
-    pub(super) fn fill(self, pressure: &mut [f64], sum: f64) {
-        let size = pressure.len() - self.closed().count();
-        pressure.fill(sum / size as f64);
+    /// Gives a pressure that is zero or H everywhere the given mean over all samples: uniform where contact may occur and p < H, which is
+    /// exactly the mean where that is everywhere.
+    pub(super) fn fill(self, pressure: &mut [f64], mean: f64) {
+        let samples = pressure.len() as f64;
+        let full = pressure.iter().filter(|p| **p >= self.most).count() as f64;
+        let borne = if full > 0.0 { full * self.most } else { 0.0 };
+        let missing = mean * samples - borne;
+        if full > 0.0 && missing <= ROUNDING * borne {
+            return;
+        }
+        let size = samples - full - self.closed().count() as f64;
+        let level = if full > 0.0 { missing / size } else { mean * (samples / size) };
+        pressure.iter_mut().filter(|p| **p < self.most).for_each(|p| *p = level);
         self.restrict(pressure);
     }
 
     /// g ← `far` where contact may not occur: such a sample never joins the active set.
     pub(super) fn open(self, gap: &mut [f64], far: f64) {
         self.closed().for_each(|i| gap[i] = far);
+    }
+
+    /// Pressure and gap of the samples where contact may occur.
+    pub(super) fn samples(self, pressure: &[f64], gap: &[f64]) -> impl Iterator<Item = (f64, f64)> {
+        let admissible = move |i: &usize| self.mask.is_none_or(|mask| mask[*i]);
+        (0..gap.len()).filter(admissible).map(|i| (pressure[i], gap[i]))
     }
 
     /// The sums that depend on samples without pressure, over those where contact may occur: min g, min g where p < H, min g where
@@ -154,8 +184,24 @@ mod tests {
         let sums = LoadSums { free: 3.0, full: 2.0 };
         assert_eq!([sums.total(2.0), LoadSums { full: 0.0, ..sums }.total(f64::INFINITY)], [7.0, 3.0]);
         let own = WeightedSums { work: 6.0, weight: 0.5, weighted: 2.0 };
-        assert_eq!([own.mean(sums), own.mean(LoadSums { full: 0.0, ..sums })], [4.0, 2.0]);
-        assert_eq!(WeightedSums::default().mean(LoadSums { free: 0.0, full: 2.0 }), 0.0);
+        assert_eq!([own.mean(sums), own.mean(LoadSums { full: 0.0, ..sums })], [Some(4.0), Some(2.0)]);
+        assert_eq!(WeightedSums::default().mean(LoadSums { free: 0.0, full: 2.0 }), None);
+    }
+
+    /// 1120 of 1600 samples at H = 0.1 bear a mean of 0.07 but for rounding.
+    #[test]
+    fn what_full_samples_do_not_bear_lies_on_the_others() {
+        let set = AdmissibleSet::default().at_most(0.1);
+        let mut pressure = vec![0.0; 1600];
+        pressure[..1120].fill(0.1);
+        let before = pressure.clone();
+        set.fill(&mut pressure, 0.07);
+        assert_eq!(pressure, before);
+        set.fill(&mut pressure, 0.08);
+        assert!(pressure[..1120] == before[..1120]);
+        assert!(pressure[1120..].iter().all(|p| (p - 16.0 / 480.0).abs() < 1e-15));
+        set.fill(&mut pressure[1120..], 0.05);
+        assert!(pressure[1120..].iter().all(|p| *p == 0.05));
     }
 
     #[test]

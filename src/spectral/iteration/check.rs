@@ -1,6 +1,6 @@
 //! Residual and certificate of an iterate, and the criteria of convergence: how the method terminates.
 
-use super::admissible::{LoadSums, WeightedSums};
+use super::admissible::{LoadSums, WeightedSums, between};
 use super::certificate::Certificate;
 use super::fields::Unknowns;
 use super::problem::ContactProblem;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// Residual, certificate and energy of an iterate.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ConvergenceCheck {
-    /// ε = Σ p|g| / (δ Σp), with max(g, 0) in the place of |g| where p = H.
+    /// ε = Σ p|g| / (δ Σp), with min(p, H − p) in the place of p where g < 0.
     pub residual: f64,
     /// Bounds on the error of the pressure.
     pub certificate: Certificate,
@@ -33,7 +33,7 @@ pub(super) struct GapSums {
     pub load: LoadSums,
     /// Σ p g where p < H.
     pub work: f64,
-    /// Σ p|g| where p < H, and Σ p max(g, 0) where p = H.
+    /// Σ p|g|, with min(p, H − p) in the place of p where g < 0.
     pub complementarity: f64,
     /// Σ max(−g, 0) where p < H, and Σ max(g, 0) where p = H.
     pub beyond: f64,
@@ -69,20 +69,20 @@ impl ConvergenceCheck {
     pub fn new<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> Self {
         let (load_control, len) = (problem.load.is_mean_pressure(), problem.initial_gap.len() as f64);
         let bound = problem.admissible.bound();
-        let [free, energy, work, open, full, full_work, weight, weighted] = displaced_gap(problem, unknowns);
+        let [free, energy, work, unpressed, full, weight, weighted] = displaced_gap(problem, unknowns);
         let load = LoadSums { free, full };
         let (penetration, deviation) = match problem.load {
             Control::MeanPressure(mean) => {
                 let deviation = relative((load.total(bound.most) / len - mean).abs(), mean);
-                // Where all of contact is full, δ is between its largest w + f and the least one outside.
-                let mean = WeightedSums { work, weight, weighted }.mean(load);
-                (if load.full > 0.0 && weight <= 0.0 { full_work / full } else { mean.max(0.0) }, deviation)
+                let free = WeightedSums { work, weight, weighted }.mean(load);
+                let samples = || problem.admissible.samples(&unknowns.pressure, &unknowns.gap);
+                (free.unwrap_or_else(|| between(samples(), bound.most)).max(0.0), deviation)
             }
             Control::Penetration(given) => (given, relative((work - free * given).abs(), free * given)),
         };
         unknowns.penetration = penetration;
         let (p, g) = (&unknowns.pressure[..], Arc::make_mut(&mut unknowns.gap));
-        let Totals { sums: [work, complementarity, mut beyond, closed], least: [mut least, mut below, mut outside] } =
+        let Totals { sums: [work, complementarity, mut beyond, open], least: [mut least, mut below, mut outside] } =
             rows::row_totals(
                 BLOCK,
                 (p.par_chunks(BLOCK), g.par_chunks_mut(BLOCK)),
@@ -91,11 +91,11 @@ impl ConvergenceCheck {
         if !problem.admissible.is_everywhere() {
             [least, below, outside, beyond] = problem.admissible.least_gaps(p, g);
         }
-        let gap = GapSums { load, work, complementarity, beyond, open: closed, least, below, outside };
+        let gap = GapSums { load, work, complementarity, beyond, open, least, below, outside };
         let mut check = Self::of(gap, penetration, energy / len, problem);
         check.certificate.load = deviation;
         let has_inverse = problem.operator.surroundings() == Surroundings::Periodic;
-        if load_control && open == 0.0 && has_inverse {
+        if load_control && unpressed == 0.0 && has_inverse {
             // Without p ≥ 0 the excess is ½⟨g, C⁻¹g⟩, whatever friction adds to C.
             let mut free = g.clone();
             problem.operator.symmetric_pressure(&mut free, &mut problem.working.transforms);
@@ -155,8 +155,8 @@ impl ConvergenceCheck {
 }
 
 /// g ← w + f for the pressure of `unknowns`; Σ p where p < H, ½ Σ p w, Σ p (w + f) where p < H, the number of samples without pressure,
-/// that of samples where p = H and Σ (w + f) there, Σ p(1 − p/H) and Σ p(1 − p/H)(w + f).
-fn displaced_gap<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> [f64; 8] {
+/// that of samples where p = H, Σ p(1 − p/H) and Σ p(1 − p/H)(w + f).
+fn displaced_gap<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> [f64; 7] {
     let (p, f, most) = (&unknowns.pressure[..], problem.initial_gap, problem.admissible.bound().most);
     if Arc::get_mut(&mut unknowns.gap).is_none() {
         unknowns.gap = Arc::new(vec![0.0; p.len()]);
@@ -194,10 +194,10 @@ fn deformed<S: Simd>(
     [p, f]: [&[f64]; 2],
     g: &mut [f64],
     [uniform, most]: [f64; 2],
-) -> Totals<8, 0> {
+) -> Totals<7, 0> {
     let (zero, one, most) = (splat(simd, 0.0), splat(simd, 1.0), splat(simd, most));
-    let (mut load, mut energy, mut work, mut open) = (zero, zero, zero, zero);
-    let (mut full, mut full_work, mut weight, mut weighted) = (zero, zero, zero, zero);
+    let (mut load, mut energy, mut work, mut unpressed) = (zero, zero, zero, zero);
+    let (mut full, mut weight, mut weighted) = (zero, zero, zero);
     for at in (0..p.len()).step_by(LANES) {
         let pressure = f64::group(simd, p, at, 0.0);
         let (displacement, gap) = (f64::group(simd, w, at, 0.0), f64::group(simd, f, at, 0.0));
@@ -207,19 +207,18 @@ fn deformed<S: Simd>(
         load += free;
         energy = ((pressure - uniform) * 0.5).mul_add(displacement, energy);
         work = free.mul_add(deformed, work);
-        open += pressure.simd_gt(zero).select(zero, one);
+        unpressed += pressure.simd_gt(zero).select(zero, one);
         full += below.select(zero, one);
-        full_work += below.select(zero, deformed);
         let own = weight_of(pressure, most);
         weight += own;
         weighted = own.mul_add(deformed, weighted);
         f64::put(deformed, g, at);
     }
-    // The padding beyond the end was counted as open.
+    // The padding beyond the end was counted as without pressure.
     let beyond = p.len().next_multiple_of(LANES) - p.len();
-    let open = total(open) - beyond as f64;
-    let [full, full_work, weight, weighted] = [full, full_work, weight, weighted].map(total);
-    Totals { sums: [total(load), total(energy), total(work), open, full, full_work, weight, weighted], least: [] }
+    let unpressed = total(unpressed) - beyond as f64;
+    let [full, weight, weighted] = [full, weight, weighted].map(total);
+    Totals { sums: [total(load), total(energy), total(work), unpressed, full, weight, weighted], least: [] }
 }
 
 /// g becomes g − δ; work, complementarity and what is beyond of [`GapSums`], min g, and min g where there is no pressure.
@@ -233,7 +232,7 @@ fn opened<S: Simd>(simd: S, p: &[f64], g: &mut [f64], penetration: f64, most: f6
         let gap = Real::group(simd, g, at, f64::MAX) - penetration;
         let sums = PointSums::of(simd, pressure, gap, most);
         work = sums.free.mul_add(gap, work);
-        complementarity = pressure.mul_add(sums.wrong, complementarity);
+        complementarity = sums.away.mul_add(gap.abs(), complementarity);
         beyond += sums.beyond;
         open += sums.open;
         least = least.min(gap);
@@ -256,8 +255,8 @@ pub(super) fn weight_of<S: Simd>(pressure: f64x8<S>, most: f64x8<S>) -> f64x8<S>
 pub(super) struct PointSums<S: Simd> {
     /// p where p < H, else 0.
     pub free: f64x8<S>,
-    /// |g| where p < H, max(g, 0) where p = H.
-    pub wrong: f64x8<S>,
+    /// p where g > 0, min(p, H − p) elsewhere: how far p is from where the sign of g puts it.
+    pub away: f64x8<S>,
     /// max(−g, 0) where p < H, max(g, 0) where p = H.
     pub beyond: f64x8<S>,
     /// max(g, 0) where p = H, else 0.
@@ -268,12 +267,12 @@ impl<S: Simd> PointSums<S> {
     #[inline(always)]
     pub fn of(simd: S, pressure: f64x8<S>, gap: f64x8<S>, most: f64x8<S>) -> Self {
         let (zero, below) = (splat(simd, 0.0), pressure.simd_lt(most));
-        let closed = gap.max(zero);
+        let open = gap.max(zero);
         Self {
             free: below.select(pressure, zero),
-            wrong: below.select(gap.abs(), closed),
-            beyond: below.select((-gap).max(zero), closed),
-            open: below.select(zero, closed),
+            away: gap.simd_gt(zero).select(pressure, pressure.min(most - pressure)),
+            beyond: below.select((-gap).max(zero), open),
+            open: below.select(zero, open),
         }
     }
 }

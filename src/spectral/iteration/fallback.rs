@@ -6,6 +6,7 @@
 //! fallback there.
 
 use super::fields::Unknowns;
+use super::full_step::full_steps;
 use super::inner_iteration::Continuation::{Fading, Zero};
 use super::inner_iteration::Variant;
 use super::problem::{ContactProblem, Method};
@@ -33,12 +34,13 @@ fn variants(coupling: f64) -> &'static [(Variant, Route)] {
     }
 }
 
-/// Iterates from and into `unknowns`; `iterations` are those before.
+/// Iterates from and into `unknowns`, with a hardness after [full steps](super::full_step); `iterations` are those before.
 pub(super) fn iterate<O: ElasticOperator>(
     problem: &mut ContactProblem<'_, O>,
     iterations: usize,
     unknowns: &mut Unknowns,
 ) -> Report {
+    full_steps(problem, unknowns);
     if problem.settings.method == Method::PolonskyKeer {
         let report = polonsky_keer::solve(problem, iterations, unknowns);
         return Report { stop: unless_rounding(problem, unknowns, report.stop), ..report };

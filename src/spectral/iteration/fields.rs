@@ -51,8 +51,8 @@ impl Unknowns {
         self.pressure = Arc::new(vec![0.0; self.pressure.len()]);
     }
 
-    /// Clips the pressure at zero and at the hardness and, under load control, scales it to the mean; uniform on the admissible samples
-    /// when nothing is left to scale.
+    /// Clips the pressure at zero and at the hardness and, under load control, scales it to the mean; where nothing is left to scale, what
+    /// is missing is uniform on the admissible samples below the hardness.
     pub(super) fn admit(&mut self, load: Control, admissible: AdmissibleSet<'_>) {
         let pressure = Arc::make_mut(&mut self.pressure);
         let bound = admissible.bound();
@@ -61,7 +61,7 @@ impl Unknowns {
         let Control::MeanPressure(mean) = load else { return };
         let total = mean * pressure.len() as f64;
         if !scaled(pressure, sums, total, bound) {
-            admissible.fill(pressure, total);
+            admissible.fill(pressure, mean);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Lines 3 to 5 of the method, and line 1 by changes: iterations in single precision from one gap in double precision to the
 //! next.
 
-use super::admissible::{LoadSums, UpperBound, WeightedSums};
+use super::admissible::{LoadSums, UpperBound, WeightedSums, between};
 use super::check::ConvergenceCheck;
 use super::direction;
 use super::fields::{Fields, Unknowns};
@@ -197,7 +197,7 @@ impl InnerIteration {
         let Fields { gap, direction, image, weight: step, residual, memory, .. } = problem.working.of(operator, double);
         for backtracks in 0..=MAX_BACKTRACKS {
             let along = [&*gap, &*direction, &*image, &*residual];
-            let advance = update::advance(p, along, [-tau, 0.0, unit], bound, step);
+            let mut advance = update::advance(p, along, [-tau, 0.0, unit], bound, step);
             if backtracks == 0 && !advance.clipped {
                 // C d = −τ C t.
                 return Some(TakenStep { restart: false, factor: -tau, load: advance.load, work: advance.work });
@@ -206,29 +206,28 @@ impl InnerIteration {
                 Control::MeanPressure(mean) => Some(mean * p.len() as f64),
                 Control::Penetration(_) => None,
             };
-            match total {
-                Some(total) if advance.load.full > 0.0 => {
-                    // Where pressures are H the load is restored by a shift of the active set.
-                    update::retreat(p, step, unit, bound);
-                    let shift = shift_to(total, p, [direction, residual], [-tau, unit], bound);
-                    update::advance(p, along, [-tau, shift, unit], bound, step);
-                }
-                Some(total) if advance.load.free > 0.0 => {
-                    let scale = total / advance.load.free;
-                    if scale != 1.0 {
-                        update::rescale(p, scale, unit, step);
-                    }
-                }
-                Some(_) => {
+            let mut is_full = advance.load.full > 0.0;
+            if let Some(total) = total.filter(|_| !is_full) {
+                if advance.load.free <= 0.0 {
                     update::retreat(p, step, unit, bound);
                     return None;
                 }
-                None => {}
+                let scale = total / advance.load.free;
+                is_full = scale != 1.0 && update::rescale(p, scale, unit, bound, step);
+                // ⟨g, p⟩ = 0 under load control: the scale adds nothing to the slope.
+                advance.slope *= scale;
+            }
+            if let Some(total) = total.filter(|_| is_full) {
+                // Where pressures are H the load is restored by a shift of the active set.
+                update::retreat(p, step, unit, bound);
+                let shift = shift_to(total, p, [direction, residual], [-tau, unit], bound);
+                advance = update::advance(p, along, [-tau, shift, unit], bound, step);
             }
             let mut sums = blocks.totals();
             let displaced = operator.displaced_single(self.variant.traction, memory, rows_of(blocks, step));
             displaced.rows(update::after_step(blocks, (p, bound.most), [gap, step], image, &mut sums));
-            let [curvature, slope, free, full, work, weight, weighted] = Totals::of(sums).sums;
+            let [curvature, free, full, work, weight, weighted] = Totals::of(sums).sums;
+            let slope = advance.slope;
             let (load, work) = (LoadSums { free, full }, WeightedSums { work, weight, weighted });
             let (uphill, part) = (slope >= 0.0, -slope / curvature);
             if curvature.is_finite() && (is_first || slope + 0.5 * curvature <= 0.0) {
@@ -264,7 +263,15 @@ impl InnerIteration {
         let most = problem.admissible.bound().most;
         problem.working.keep_residual();
         let Fields { gap, residual, image, .. } = problem.working.of(problem.operator, double);
-        let shift = if problem.load.is_mean_pressure() { step.work.mean(step.load) } else { 0.0 };
+        let samples = || {
+            let gaps =
+                gap.iter().zip(&*image).map(|(gap, change)| f64::from(*change).mul_add(step.factor, f64::from(*gap)));
+            p.iter().copied().zip(gaps)
+        };
+        let shift = match problem.load {
+            Control::MeanPressure(_) => step.work.mean(step.load).unwrap_or_else(|| between(samples(), most)),
+            Control::Penetration(_) => 0.0,
+        };
         self.penetration += shift * self.length;
         let (active, sums) = update::update_gap(p, step.load, (image, step.factor), [shift, most], gap, residual);
         self.active = active;
@@ -297,10 +304,13 @@ fn shift_to(
         // Where no sample moves, a step as large as H reaches some.
         let step = if moves > 0.0 { missing / moves } else { missing.signum() * bound.most };
         let next = shift + step / unit;
-        shift = if low < next && next < high { next } else { 0.5 * (low + high) };
-        if !shift.is_finite() {
-            return 0.0;
-        }
+        let middle = 0.5 * (low + high);
+        shift = match low < next && next < high {
+            true => next,
+            false if middle.is_finite() => middle,
+            // What is missing is less than the shift resolves.
+            false => break,
+        };
     }
     shift
 }

@@ -11,6 +11,7 @@
 //!            admissible       where contact may occur
 //!            fields           unknowns and working fields, and what lies in whose memory
 //!            route, fallback  what iterates: nothing, a variant of the method, a search for the load
+//!            full_step        pressures of zero and the hardness alone
 //! step       preconditioned   the method, by inner_iteration; direction and update are its fused loops
 //!            plain            its twin in plain lines
 //!            polonsky_keer    the baseline
@@ -39,6 +40,7 @@ mod check;
 mod direction;
 mod fallback;
 mod fields;
+mod full_step;
 mod inner_iteration;
 #[cfg(test)]
 mod plain;

@@ -1,6 +1,7 @@
 //! The preconditioned method in plain lines and double precision, line by line as the head of `preconditioned` has it: its
 //! documentation, and the twin that its fused loops are tested against.
 
+use super::admissible::between;
 use super::inner_iteration::{Continuation, MAX_BACKTRACK, MAX_BACKTRACKS, MIN_BACKTRACK, Variant};
 use super::preconditioned::OUTER_REDUCTION;
 use crate::load::Control;
@@ -37,6 +38,7 @@ impl Plain {
         let lagged = self.variant.traction == TractionUpdate::Lagged;
         let share = if lagged { 1.0 / (1.0 + self.body.coupling().powi(2)) } else { 1.0 };
         let (mut last, mut all) = (None, Vec::new());
+        p.iter_mut().for_each(|p| *p = self.bounded(*p));
         let (mut g, mut penetration) = self.gap(&p);
         let (mut energy, mut measure) = (self.energy(&p), f64::INFINITY);
         for number in 0..iterations {
@@ -71,8 +73,7 @@ impl Plain {
             let change = self.displacement(&d);
             g.iter_mut().zip(change).for_each(|(g, change)| *g += change);
             if self.load.is_mean_pressure() {
-                let weights = self.weights(&p);
-                let shift = dot(&weights, &g) / weights.iter().sum::<f64>();
+                let shift = self.mean(&p, &g);
                 g.iter_mut().for_each(|g| *g -= shift);
                 penetration += shift;
             }
@@ -87,7 +88,7 @@ impl Plain {
         self.body.displace(&mut w, &mut Workspace::default());
         let g: Field = w.iter().zip(&self.initial_gap).map(|(w, f)| w + f).collect();
         let penetration = match self.load {
-            Control::MeanPressure(_) => dot(&self.weights(p), &g) / self.weights(p).iter().sum::<f64>(),
+            Control::MeanPressure(_) => self.mean(p, &g),
             Control::Penetration(given) => given,
         };
         (g.into_iter().map(|g| g - penetration).collect(), penetration)
@@ -135,11 +136,12 @@ impl Plain {
             end.iter_mut().for_each(|p| *p = self.bounded(*p));
             if let (Control::MeanPressure(mean), true) = (self.load, is_clipped || backtracks > 0) {
                 let total = mean * p.len() as f64;
-                if end.iter().any(|&p| p >= self.hardness) {
-                    end = self.shifted_to(total, p, t, tau, active);
-                } else {
+                if end.iter().all(|&p| p < self.hardness) {
                     let scale = total / end.iter().sum::<f64>();
                     end.iter_mut().for_each(|p| *p *= scale);
+                }
+                if end.iter().any(|&p| self.bounded(p) >= self.hardness) {
+                    end = self.shifted_to(total, p, t, tau, active);
                 }
             }
             let d: Field = end.iter().zip(p).map(|(end, p)| end - p).collect();
@@ -163,10 +165,15 @@ impl Plain {
         if p > (1.0 - 1e-15) * self.hardness { self.hardness } else { p.max(0.0) }
     }
 
-    /// The weights of δ: p, and p(1 − p/H) where any sample is full.
-    fn weights(&self, p: &[f64]) -> Field {
+    /// The mean of g by which δ moves: with the weights p, and p(1 − p/H) where any sample is full; between the gaps inside and outside
+    /// contact where no sample is free.
+    fn mean(&self, p: &[f64], g: &[f64]) -> f64 {
         let is_full = p.iter().any(|&p| p >= self.hardness);
-        p.iter().map(|&p| if is_full { p * (1.0 - p / self.hardness) } else { p }).collect()
+        let weights: Field = p.iter().map(|&p| if is_full { p * (1.0 - p / self.hardness) } else { p }).collect();
+        match weights.iter().sum::<f64>() {
+            sum if sum > 0.0 => dot(&weights, g) / sum,
+            _ => between(p.iter().copied().zip(g.iter().copied()), self.hardness),
+        }
     }
 
     /// min(max(p − τt + λ, 0), H) on I with the λ that makes its sum `total`, by bisection.
@@ -176,7 +183,9 @@ impl Plain {
                 |((p, t), active): ((&f64, &f64), &bool)| self.bounded(p - tau * t + if *active { shift } else { 0.0 });
             p.iter().zip(t).zip(active).map(end).collect()
         };
-        let [mut low, mut high] = [-2.0 * self.hardness, 2.0 * self.hardness];
+        // From where all of I is empty to where all of it is full.
+        let reach = self.hardness + t.iter().fold(0.0, |most: f64, t| most.max((tau * t).abs()));
+        let [mut low, mut high] = [-reach, reach];
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
             if shifted(middle).iter().sum::<f64>() < total {
@@ -224,8 +233,8 @@ impl Plain {
         let least = g.iter().copied().fold(f64::INFINITY, f64::min);
         let least = if self.load.is_mean_pressure() { least } else { least.min(0.0) };
         let outside = p.iter().zip(g).filter(|(p, _)| **p == 0.0).fold(0.0, |least: f64, (_, g)| least.min(*g));
-        let wrong = |(&p, &g): (&f64, &f64)| if p < self.hardness { g.abs() } else { g.max(0.0) };
-        let residual = p.iter().zip(g).map(|at| at.0 * wrong(at)).sum::<f64>() / (load * penetration);
+        let away = |(&p, &g): (&f64, &f64)| g.abs() * if g > 0.0 { p } else { p.min(self.hardness - p) };
+        let residual = p.iter().zip(g).map(away).sum::<f64>() / (load * penetration);
         let gap = match p.iter().any(|&p| p >= self.hardness) {
             false => dot(p, g) - least * load,
             true => {
@@ -322,7 +331,14 @@ mod tests {
         let heights: Field = initial_gap.iter().map(|f| length - f).collect();
         let scale = mean * grid.len() as f64 / heights.iter().sum::<f64>();
         let hardness = hardness * unit;
-        let start: Field = heights.into_iter().map(|height| (scale * height).min(hardness)).collect();
+        let mut start: Field = heights.into_iter().map(|height| scale * height).collect();
+        // At most H, and of the mean.
+        for _ in 0..200 {
+            start.iter_mut().for_each(|p| *p = p.min(hardness));
+            let scale = mean * grid.len() as f64 / start.iter().sum::<f64>();
+            start.iter_mut().for_each(|p| *p *= scale);
+        }
+        start.iter_mut().for_each(|p| *p = p.min(hardness));
         let symmetric = LayeredOperator::new(&grid, &half_space);
         let mut plain =
             Plain { points, body: operator(), symmetric, initial_gap: initial_gap.clone(), load, hardness, variant };

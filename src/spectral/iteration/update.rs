@@ -120,7 +120,7 @@ fn update_gap_block<S: Simd>(
         sum += r;
         let sums = PointSums::of(simd, pressure, g, most);
         work = sums.free.mul_add(g, work);
-        complementarity = pressure.mul_add(sums.wrong, complementarity);
+        complementarity = sums.away.mul_add(g.abs(), complementarity);
         beyond += sums.beyond;
         open += sums.open;
         least = least.min(g);
@@ -136,6 +136,8 @@ fn update_gap_block<S: Simd>(
 pub(super) struct Advance {
     /// Sums of p after it.
     pub load: LoadSums,
+    /// ⟨g, d⟩.
+    pub slope: f64,
     /// Sums with g − τ C t after it, which is g + C d where nothing was clipped.
     pub work: WeightedSums,
     /// Whether a pressure ended at zero or at H before the step did.
@@ -159,13 +161,13 @@ pub(super) fn advance(
         residual.par_chunks(BLOCK),
         step.par_chunks_mut(BLOCK),
     );
-    let Totals { sums: [free, full, work, weight, weighted], least: [clipped] } = row_totals(
+    let Totals { sums: [free, full, slope, work, weight, weighted], least: [clipped] } = row_totals(
         BLOCK,
         fields,
         |_, (p, gap, direction, image, residual, step)| vectorised!(simd => advance_block(simd, p, [gap, direction, image, residual], [factor, shift, unit], bound, step)),
     );
     let work = WeightedSums { work, weight, weighted };
-    Advance { load: LoadSums { free, full }, work, clipped: clipped < 0.0 }
+    Advance { load: LoadSums { free, full }, slope, work, clipped: clipped < 0.0 }
 }
 
 #[inline(always)]
@@ -176,10 +178,10 @@ fn advance_block<S: Simd>(
     [factor, shift, unit]: [f64; 3],
     bound: UpperBound,
     step: &mut [f32],
-) -> Totals<5, 1> {
+) -> Totals<6, 1> {
     let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
     let [most, nearly] = [bound.most, bound.nearly].map(|bound| splat(simd, bound));
-    let (mut free, mut full, mut lowest_end) = (zero, zero, zero);
+    let (mut free, mut full, mut slope, mut lowest_end) = (zero, zero, zero, zero);
     let (mut work, mut weight, mut weighted) = (zero, zero, zero);
     for run in (0..p.len()).step_by(RUN) {
         let last = p.len().min(run + RUN);
@@ -206,6 +208,7 @@ fn advance_block<S: Simd>(
             let below = long.select(zero, end);
             free += below;
             full += long.select(one, zero);
+            slope = g.mul_add(d, slope);
             let after = f32::group(simd, image, at, 0.0).mul_add(splat(simd, factor), g);
             work = below.mul_add(after, work);
             let own = weight_of(end, most);
@@ -215,7 +218,7 @@ fn advance_block<S: Simd>(
             Real::put(d, step, at);
         }
     }
-    let sums = [free, full, work, weight, weighted].map(total);
+    let sums = [free, full, slope, work, weight, weighted].map(total);
     Totals { sums, least: [lowest(lowest_end)] }
 }
 
@@ -277,15 +280,25 @@ fn rounded<S: Simd>(simd: S, group: f64x8<S>) -> f64x8<S> {
     f32::group(simd, &single, 0, 0.0)
 }
 
-/// p ← s p after a step d, which becomes the whole step from the pressure before it; nothing of it is H.
-pub(super) fn rescale(p: &mut [f64], scale: f64, unit: f64, step: &mut [f32]) {
-    each_row(BLOCK, (p.par_chunks_mut(BLOCK), step.par_chunks_mut(BLOCK)), |_, (p, step)| {
-        vectorised!(simd => rescale_block(simd, p, scale, unit, step));
-    });
+/// p ← s p after a step d, which becomes the whole step from the pressure before it. Whether any of it is beyond H then.
+pub(super) fn rescale(p: &mut [f64], scale: f64, unit: f64, bound: UpperBound, step: &mut [f32]) -> bool {
+    let fields = (p.par_chunks_mut(BLOCK), step.par_chunks_mut(BLOCK));
+    let Totals { sums: [], least: [beyond] } =
+        row_totals(BLOCK, fields, |_, (p, step)| vectorised!(simd => rescale_block(simd, p, scale, unit, bound, step)));
+    beyond < 0.0
 }
 
 #[inline(always)]
-fn rescale_block<S: Simd>(simd: S, p: &mut [f64], scale: f64, unit: f64, step: &mut [f32]) {
+fn rescale_block<S: Simd>(
+    simd: S,
+    p: &mut [f64],
+    scale: f64,
+    unit: f64,
+    bound: UpperBound,
+    step: &mut [f32],
+) -> Totals<0, 1> {
+    let (zero, nearly) = (splat(simd, 0.0), splat(simd, bound.nearly));
+    let mut beyond = zero;
     for run in (0..p.len()).step_by(RUN) {
         let last = p.len().min(run + RUN);
         if all_zero(simd, &step[run..last]) && all_zero(simd, &p[run..last]) {
@@ -295,11 +308,13 @@ fn rescale_block<S: Simd>(simd: S, p: &mut [f64], scale: f64, unit: f64, step: &
             let (end, d) = (f64::group(simd, p, at, 0.0), f32::group(simd, step, at, 0.0));
             let whole = rounded(simd, end.mul_add(splat(simd, (scale - 1.0) / unit), d));
             let before = end - d * unit;
-            let zero = splat(simd, 0.0);
-            Real::put((before.max(zero) + whole * unit).max(zero), p, at);
+            let scaled = (before.max(zero) + whole * unit).max(zero);
+            beyond = beyond.min(scaled.simd_gt(nearly).select(splat(simd, -1.0), zero));
+            Real::put(scaled, p, at);
             Real::put(whole, step, at);
         }
     }
+    Totals { sums: [], least: [lowest(beyond)] }
 }
 
 /// p ← max(p − unit d, 0), at most H.
@@ -319,13 +334,13 @@ fn retreat_block<S: Simd>(simd: S, p: &mut [f64], step: &[f32], unit: f64, bound
     }
 }
 
-/// Sinks that put the rows of C d for a step d into `image`; ⟨d, C d⟩, ⟨g, d⟩ and the sums with g + C d go to `sums`.
+/// Sinks that put the rows of C d for a step d into `image`; ⟨d, C d⟩ and the sums with g + C d go to `sums`.
 pub(super) fn after_step<'a>(
     blocks: RowBlocks,
     (p, most): (&'a [f64], f64),
     [gap, step]: [&'a [f32]; 2],
     image: &'a mut [f32],
-    sums: &'a mut [Totals<7, 0>],
+    sums: &'a mut [Totals<6, 0>],
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
     let fields = blocks.of(p).zip(blocks.of(gap)).zip(blocks.of(step)).zip(blocks.of_mut(image)).zip(sums);
     fields.map(move |((((p, gap), step), image), sums)| {
@@ -339,16 +354,13 @@ pub(super) fn after_step<'a>(
 }
 
 #[inline(always)]
-fn step_sums<S: Simd>(simd: S, (p, most): (&[f64], f64), [gap, step, image]: [&[f32]; 3]) -> Totals<7, 0> {
-    let zero = splat(simd, 0.0);
-    let (mut curvature, mut slope) = (zero, zero);
+fn step_sums<S: Simd>(simd: S, (p, most): (&[f64], f64), [gap, step, image]: [&[f32]; 3]) -> Totals<6, 0> {
+    let mut curvature = splat(simd, 0.0);
     for at in (0..p.len()).step_by(LANES) {
-        let (change, d) = (f32::group(simd, image, at, 0.0), f32::group(simd, step, at, 0.0));
-        curvature = d.mul_add(change, curvature);
-        slope = d.mul_add(f32::group(simd, gap, at, 0.0), slope);
+        curvature = f32::group(simd, step, at, 0.0).mul_add(f32::group(simd, image, at, 0.0), curvature);
     }
     let [free, full, work, weight, weighted] = load_and_work_of(simd, (p, most), gap, (image, 1.0)).sums;
-    Totals { sums: [total(curvature), total(slope), free, full, work, weight, weighted], least: [] }
+    Totals { sums: [total(curvature), free, full, work, weight, weighted], least: [] }
 }
 
 /// Sums of p, and those with g + factor · changes.

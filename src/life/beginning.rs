@@ -1,0 +1,71 @@
+//! The body before its first pass: the contact, with what it does in each pass.
+
+use super::task::{LifeError, LifeTask};
+use crate::reading::PathReading;
+use crate::run::{Refinement, RefinementEnd, Sampling, StepRecord, change};
+use crate::spectral::{Solver, Step};
+use crate::stress::{PathSought, RangePlane, StressFields};
+use std::sync::Arc;
+
+/// The body before its first pass: the contact with what it does in each pass.
+#[derive(Debug, Clone)]
+pub struct Beginning {
+    /// The step that was solved.
+    pub step: Step,
+    /// Its record, with the lives of what tires.
+    pub record: StepRecord,
+    /// Range of τ₁ on planes of the materials that tire.
+    pub planes: Vec<RangePlane>,
+    /// Largest [change](crate::run::change) from the grid before, that of the passes included; `None` on a first or prescribed grid.
+    pub change: Option<f64>,
+    /// Why a refinement has ended; `None` on a prescribed grid.
+    pub end: Option<RefinementEnd>,
+}
+
+impl LifeTask {
+    /// The contact before the first pass; where an accuracy is prescribed on finer and finer grids, all that `fits` says have room, until
+    /// its results change by less: with the exponent m of a law the passes change m times as much as the range of the shear stress.
+    ///
+    /// # Errors
+    /// [`LifeError`].
+    pub fn beginning(
+        &self,
+        fits: &dyn Fn([usize; 2]) -> bool,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Result<Beginning, LifeError> {
+        let on_grid = |points: [usize; 2]| {
+            let mut solver = Solver::new(Arc::clone(&self.problem), points, self.settings)?;
+            self.contact(&mut solver, goes_on)
+        };
+        let accuracy = match self.sampling {
+            Sampling::Points(points) => return on_grid(points),
+            Sampling::Accuracy(accuracy) => accuracy,
+        };
+        let mut refinement = Refinement::new(&self.problem.cell(), accuracy)?;
+        let mut coarse: Option<StepRecord> = None;
+        loop {
+            let begun = on_grid(refinement.points())?;
+            let own = std::slice::from_ref(&begun.record);
+            let change = coarse.as_ref().map(|coarse| change(std::slice::from_ref(coarse), own));
+            if let Some(end) = refinement.refine(change, fits) {
+                return Ok(Beginning { change, end: Some(end), ..begun });
+            }
+            coarse = Some(begun.record);
+        }
+    }
+
+    /// The contact of the surfaces of a solver, with what it does in a pass.
+    pub(super) fn contact(&self, solver: &mut Solver, goes_on: &dyn Fn() -> bool) -> Result<Beginning, LifeError> {
+        let step = solver.solve(self.load);
+        let reading = step.reading();
+        let fields = StressFields::new(step.finest(), self.mean);
+        let sought = PathSought { fatigue: true, endurance: false };
+        let found = match reading.touches() {
+            true => PathReading::of_while(&step, &reading, &fields, sought, goes_on).ok_or(LifeError::Interrupted)?,
+            false => PathReading::default(),
+        };
+        drop(fields);
+        let record = StepRecord { fatigue: found.fatigue, ..StepRecord::new(&step, reading) };
+        Ok(Beginning { step, record, planes: found.planes, change: None, end: None })
+    }
+}
