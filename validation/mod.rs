@@ -12,6 +12,7 @@
 //! ```
 
 mod alone;
+mod cells;
 mod check;
 #[path = "convergence/study.rs"]
 mod convergence;
@@ -21,6 +22,8 @@ mod disc;
 mod discretisation;
 mod draw;
 pub mod exact;
+#[path = "fatigue/study.rs"]
+mod fatigue;
 #[path = "free-space/study.rs"]
 mod free_space;
 #[path = "hertz/study.rs"]
@@ -47,6 +50,8 @@ pub mod paper;
 mod peer;
 #[path = "periodic-hertz/study.rs"]
 mod periodic_hertz;
+#[path = "plasticity/study.rs"]
+mod plasticity;
 mod random;
 mod report;
 #[path = "rings/study.rs"]
@@ -66,6 +71,8 @@ mod thin_coatings;
 mod two_bodies;
 #[path = "wavy/study.rs"]
 mod wavy;
+#[path = "wear/study.rs"]
+mod wear;
 #[path = "westergaard/study.rs"]
 mod westergaard;
 
@@ -74,7 +81,7 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, contradictions, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 31] = [
+pub const STUDIES: [Study; 34] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -92,6 +99,9 @@ pub const STUDIES: [Study; 31] = [
     hertz_stresses::STUDY,
     sliding_sphere::STUDY,
     limit::STUDY,
+    plasticity::STUDY,
+    wear::STUDY,
+    fatigue::STUDY,
     sinusoidal_stresses::STUDY,
     convergence::STUDY,
     discretisation::STUDY,

@@ -124,6 +124,20 @@ impl Data {
         }
         Ok(data)
     }
+
+    /// Reads a CSV table in which the number of one of these `names` stands for each cell that is one.
+    ///
+    /// # Errors
+    /// Those of [`Self::parse`].
+    pub fn parse_named(name: &'static str, text: &str, names: &[&str]) -> Result<Self, String> {
+        let number = |cell: &str| names.iter().position(|own| *own == cell).map(|number| number.to_string());
+        let mut lines = text.lines();
+        let header = lines.by_ref().find(|line| !line.starts_with('#')).unwrap_or_default().to_owned();
+        let row = |line: &str| {
+            line.split(',').map(|cell| number(cell).unwrap_or(cell.to_owned())).collect::<Vec<_>>().join(",")
+        };
+        Self::parse(name, &[header].into_iter().chain(lines.map(row)).collect::<Vec<_>>().join("\n"))
+    }
 }
 
 #[cfg(test)]
@@ -138,6 +152,8 @@ mod tests {
         assert_eq!(data.column("b"), [-2e-300, 4.0]);
         assert!(Data::parse("x", "a,b\n1,2\n3\n").unwrap_err().contains("line 3"));
         assert!(Data::parse("x", "a,b\n1,zwei\n").unwrap_err().contains("line 2"));
+        let named = Data::parse_named("x", "# source\na,two\none,1.5\ntwo,2\n", &["one", "two"]).unwrap();
+        assert_eq!((named.columns, named.rows), (vec!["a".into(), "two".into()], vec![vec![0.0, 1.5], vec![1.0, 2.0]]));
     }
 
     #[test]

@@ -1,0 +1,9 @@
+//! Bodies with a hardness.
+
+use crate::body::{Bodies, Durability, HalfSpace};
+use crate::validation::StudyError;
+
+/// A body and a rigid counterbody with a hardness, a pressure.
+pub fn with_hardness(body: HalfSpace, hardness: f64) -> Result<Bodies, StudyError> {
+    Ok(Bodies::from(body).with_rigid_durability(Durability { hardness: Some(hardness), ..Durability::default() })?)
+}
