@@ -96,7 +96,7 @@ impl LifeTask {
         let room = original.layers().get(gone).map_or(f64::INFINITY, |own| (RELAID * own.thickness()).min(left));
         let wear = self.wear(solver.problem())?;
         let wears = [Side::Body, Side::Counterbody].iter().any(|&side| wear.coefficient(side) > 0.0);
-        let before = next.events.len();
+        let before = next.removed();
         let until = if wears && self.passes.is_some() {
             self.wear_on(&mut next, &mut solver, (&wear, room), (&rates, &contact), goes_on)?;
             next.passes
@@ -109,7 +109,7 @@ impl LifeTask {
             return Ok(self.ended(next, LifeEnd::Unsolved));
         }
         // Surfaces that stay as they are have this contact to the end.
-        if next.end.is_none() && next.passes >= last && next.events.len() == before && next.pending == 0.0 {
+        if next.end.is_none() && next.passes >= last && next.removed() == before && next.pending == 0.0 {
             self.record(&mut next, &contact, &rates);
             next.end = Some(LifeEnd::Passes);
         }

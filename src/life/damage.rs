@@ -127,23 +127,6 @@ impl Damage {
             (own.top + next * own.spacing).min(own.bottom) - removed
         })
     }
-
-    /// Largest damage of what is left of each material, with its number in the original body.
-    pub fn largest(&self, removed: f64) -> Vec<(usize, f64)> {
-        self.materials.iter().map(|own| (own.material, own.left(removed, self.y.len()).fold(0.0, f64::max))).collect()
-    }
-
-    /// Profiles of the largest damage of all lines over the depth below the present surface: material, and [z, D] at its nodes.
-    pub fn profiles(&self, removed: f64) -> Vec<(usize, Vec<[f64; 2]>)> {
-        let of = |own: &MaterialDamage| {
-            let at = |(node, values): (usize, &[f64])| {
-                [own.depth(own.gone + node) - removed, values.iter().copied().fold(0.0, f64::max)]
-            };
-            let nodes = own.damage.chunks(self.y.len().max(1)).enumerate().map(at);
-            (own.material, nodes.filter(|[z, _]| *z >= 0.0).collect())
-        };
-        self.materials.iter().map(of).collect()
-    }
 }
 
 impl MaterialDamage {
@@ -160,10 +143,6 @@ impl MaterialDamage {
     /// Number of nodes down to a depth in the original body.
     fn count(&self, depth: f64) -> usize {
         ((depth.min(self.bottom) - self.top) / self.spacing + 1e-9).floor().max(-1.0) as usize + 1
-    }
-
-    fn left(&self, removed: f64, lines: usize) -> impl Iterator<Item = f64> + '_ {
-        self.damage.iter().copied().skip((self.first(removed).saturating_sub(self.gone)) * lines)
     }
 
     fn add(&mut self, rates: &Rates, passes: f64, removed: f64, lines: usize) {

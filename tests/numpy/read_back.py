@@ -29,6 +29,9 @@ def checks(folder):
     isolated = summary["case"].get("lattice", {}).get("kind") == "isolated"
     if isolated:
         del shapes["mean_pressure"]
+    # A material with a hardness.
+    if any(step.get("plastic") is not None for step in steps):
+        shapes["indentation"] = fields
     yield "arrays are those of the interface", set(contact) == set(shapes)
     for name, shape in shapes.items():
         dtype = np.dtype("<i4" if name == "owner" else "<f8")
@@ -48,6 +51,8 @@ def checks(folder):
         contact[name].tolist() == [step[name] for step in steps] for name in scalars
     )
     yield "pressure is nowhere negative", (p >= 0).all()
+    if "indentation" in contact:
+        yield "nothing is pressed out", (contact["indentation"] >= 0).all()
     complementarity = (p * np.abs(g)).sum(axis=(1, 2)) / (penetration * p.sum(axis=(1, 2)))
     yield f"pressure stands only where the gap is closed: {complementarity.max():.1e}", (complementarity < 1e-8).all()
     overlap = -np.where(p == 0, g, 0).min(axis=(1, 2)) / penetration
