@@ -222,14 +222,14 @@ impl LifeTask {
         };
         state.detached += depth;
         let is_slice = what == EventKind::SurfaceWear;
-        let removed_now = state.removed();
-        let thickness = self.thickness(removed_now);
+        let after = state.removed();
+        let thickness = self.thickness(after);
         // What fails just below what has just come off is part of it: damage is next to 1 about the depth that fails.
         let follows = |last: &&mut Event| {
             last.what == EventKind::Detachment && last.part == part && last.passes >= state.passes * (1.0 - NOW)
         };
         if let Some(last) = state.events.last_mut().filter(follows) {
-            *last = Event { depth: last.depth + depth, thickness, removed: removed_now, ..*last };
+            *last = Event { depth: last.depth + depth, thickness, removed: after, ..*last };
             if is_slice {
                 self.worn_through(state, removed);
             }
@@ -237,7 +237,7 @@ impl LifeTask {
         }
         // Of slices that follow each other the first one is an event.
         if !(is_slice && state.sheds) {
-            state.events.push(Event { passes: state.passes, what, part, depth, thickness, removed: removed_now });
+            state.events.push(Event { passes: state.passes, what, part, depth, thickness, removed: after });
         }
         state.sheds = is_slice;
         if is_slice {
@@ -296,7 +296,7 @@ impl LifeTask {
         if !goes_on() {
             return Err(LifeError::Interrupted);
         }
-        // A path cut short before a failure or a face says nothing about the steps after it.
+        // Where no step was accepted the length that is tried next stays.
         state.step = if followed.next > 0.0 { followed.next } else { state.step };
         if let PathEnd::Unsolved(_) = followed.end {
             state.end = Some(LifeEnd::Unsolved);

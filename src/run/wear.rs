@@ -319,7 +319,7 @@ struct Tried {
 }
 
 impl Tried {
-    /// By how much the step exceeds what is allowed: 1 at most where it is accepted.
+    /// The larger of two ratios: error over tolerance, and change of the largest pressure over its limit. A step of at most 1 is accepted.
     fn excess(&self, path: &WearPath) -> f64 {
         (self.relative / path.tolerance).max(self.change / path.change)
     }

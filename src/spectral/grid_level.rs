@@ -163,12 +163,12 @@ impl GridLevel {
         &mut self.operator
     }
 
-    /// What was pressed in, with the surface without it.
+    /// The permanent depths that the initial gap contains, with the surface before them; `None` without any.
     pub fn indented(&self) -> Option<&Indented> {
         self.indented.as_ref()
     }
 
-    /// Sets the surface of another moment, with what is pressed in of it.
+    /// Sets the initial gap of another moment, and the permanent depths that it contains.
     pub fn set_surface(&mut self, surface: Arc<Surface>, indented: Option<Indented>) {
         self.indented = indented;
         self.largest_gap = surface.largest();

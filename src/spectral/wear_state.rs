@@ -1,4 +1,4 @@
-//! Surfaces, what is pressed in of them, pressures and worn depths of a solver at a moment, to which it may return.
+//! State of a solver during wear: initial gaps, permanent depths, pressures and worn depths. The solver may return to it.
 
 use super::grid_level::{GridLevel, Indented};
 use super::iteration::Unknowns;
@@ -9,8 +9,8 @@ use crate::counterbody::Surface;
 use ndarray::Array2;
 use std::sync::Arc;
 
-/// Surfaces, what is pressed in of them, pressures and worn depths of a [`Solver`], to which it may return. It shares its fields with the solver, which copies them
-/// while it wears on: on all grids pressure, gap and initial gap, and the worn depths.
+/// State of a [`Solver`] during wear, to which it may return: on all grids initial gap, permanent depths, pressure and gap, and the worn
+/// depths. It shares its fields with the solver, which copies them while it wears on.
 #[derive(Debug, Clone)]
 pub struct WearState {
     levels: Vec<LevelState>,

@@ -426,7 +426,7 @@ fn wear_begins_on_the_shape_that_is_pressed_in() {
     // Both solve to the root of 20 tolerance in the norm of the energy.
     let apart = pressures(&a).iter().zip(pressures(&b)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(apart < 5e-3 * hardness, "{apart:e} {largest:?}");
-    // Without what is pressed in the pressure would stay the hardness until wear has reached its depth.
+    // On the shape before the first load the pressure would stay H until the worn depth exceeds the permanent depth.
     assert!(largest.windows(2).all(|pair| pair[1] < pair[0]) && largest.last().unwrap() < &(0.995 * hardness));
     let kept = yielding.indented().unwrap().iter().copied().fold(0.0, f64::max);
     let first = begun.finest().indentation().unwrap().into_iter().fold(0.0, f64::max);

@@ -10,7 +10,7 @@ use ndarray::Array2;
 
 const PERIODIC: &str = include_str!("periodic.csv");
 const PATH: &str = include_str!("path.csv");
-/// Pressures of the rough cells by their number, and what is pressed into them after three steps.
+/// Tables of the rough cells by number: pressure at each sample, and permanent depth after step 3 of the load path, a length.
 const PRESSURES: [&str; 3] = [
     include_str!("square-pressures.csv"),
     include_str!("rectangle-pressures.csv"),
