@@ -1,7 +1,7 @@
 //! Declaration of the keys of the case file, each once, as a field of its section.
 //!
 //! [`section!`] makes of one list of fields the struct, the table of keys ([`Keys`]: forms, ranges, units, defaults, examples,
-//! from which refusals, `percoat explain`, the schema and the README's table are made), the reader and the writer:
+//! from which refusals, `percoat explain`, the schema and the table of all keys are made), the reader and the writer:
 //!
 //! ```text
 //! section! {

@@ -189,6 +189,9 @@ pub enum Command {
         /// Print the JSON schema of case files, for editors
         #[arg(long, conflicts_with = "key")]
         schema: bool,
+        /// Print all keys as tables in Markdown
+        #[arg(long, conflicts_with_all = ["key", "schema"])]
+        markdown: bool,
     },
     #[cfg(feature = "validate")]
     /// Compare percoat with closed forms, references and other programs; exit code 1 when a check fails

@@ -23,3 +23,9 @@ pub fn schema() -> Result<Ending, Failure> {
     writeln!(terminal::out(), "{:#}", case::schema())?;
     Ok(Ending::Done)
 }
+
+/// Prints all keys as tables in Markdown.
+pub fn table() -> Result<Ending, Failure> {
+    write!(terminal::out(), "{}", case::key_table())?;
+    Ok(Ending::Done)
+}

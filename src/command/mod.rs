@@ -81,6 +81,7 @@ fn carry_out(command: &Command) -> Result<Ending, Failure> {
         Command::Cases { name, changes } => cases::run(name.as_deref(), &changes.set),
         Command::Materials { name, file } => materials::run(name.as_deref(), file.as_deref()),
         Command::Explain { schema: true, .. } => explain::schema(),
+        Command::Explain { markdown: true, .. } => explain::table(),
         Command::Explain { key, .. } => explain::run(key.as_deref()),
         #[cfg(feature = "validate")]
         Command::Validate { list: true, study, .. } => validate::list(study.as_deref()),

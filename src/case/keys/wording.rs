@@ -1,4 +1,4 @@
-//! Descriptions of keys and of the forms of their values, in errors, in the README and by `percoat explain`.
+//! Descriptions of keys and of the forms of their values, in errors and by `percoat explain`.
 
 use super::super::suggestions::{alternatives, joined};
 use super::key::{Form, Key};
