@@ -59,7 +59,7 @@
 pub mod body;
 #[cfg(feature = "cli")]
 pub mod case;
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", not(target_family = "wasm")))]
 pub mod command;
 pub mod comparison;
 pub mod counterbody;

@@ -5,8 +5,8 @@ use crate::notation::number;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Memory assumed where the system does not report it, bytes.
-const UNKNOWN: u64 = 64 << 30;
+/// Memory assumed where the system does not report it, bytes: a browser gives a page 2 to 4 GiB.
+const UNKNOWN: u64 = if cfg!(target_family = "wasm") { 2 << 30 } else { 64 << 30 };
 
 /// Address space that a thread reserves for its stack and its allocator, bytes.
 const RESERVED: u64 = 72 << 20;
@@ -27,15 +27,25 @@ impl Capacity {
     /// Memory and disk for a run that writes into `folder`, which need not exist.
     pub fn on_this_machine(folder: &Path) -> Self {
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-        let space = folder.ancestors().find_map(|folder| fs4::statvfs(folder).ok());
-        // Virtual file systems report no size.
-        let disk = space.filter(|space| space.total_space() > 0).map_or(u64::MAX, |space| space.available_space());
-        Self { memory: available_memory(), disk }
+        Self { memory: available_memory(), disk: disk(&folder).unwrap_or(u64::MAX) }
     }
 }
 
+/// Free disk under the nearest of the parents of a folder that exists, bytes; `None` for virtual file systems, which report no size.
+#[cfg(not(target_family = "wasm"))]
+fn disk(folder: &Path) -> Option<u64> {
+    let space = folder.ancestors().find_map(|folder| fs4::statvfs(folder).ok())?;
+    (space.total_space() > 0).then(|| space.available_space())
+}
+
+/// There is no disk.
+#[cfg(target_family = "wasm")]
+fn disk(_folder: &Path) -> Option<u64> {
+    None
+}
+
 /// Memory that this process can take without being killed or swapped out, bytes: the least of free memory, the limits of its
-/// control groups and that of its address space; 64 GiB where none of them can be read.
+/// control groups and that of its address space; 64 GiB (2 in a browser) where none of them can be read.
 pub fn available_memory() -> u64 {
     let limits = [free(), groups(), address_space()];
     limits.into_iter().flatten().min().unwrap_or(UNKNOWN)

@@ -7,7 +7,7 @@ pub(super) const ROUNDING: f64 = 1e-12;
 
 /// A number with its error, both to the first digit of the error: 0.4217 ± 0.0001. A smaller error than one of the fifth digit is
 /// shown as one of it; an error of rounding is left out; a number below its error has at most one digit more than the error.
-pub(crate) fn with_error(x: f64, error: Option<f64>) -> String {
+pub fn with_error(x: f64, error: Option<f64>) -> String {
     let Some(error) = error.filter(|error| error.is_finite() && *error > ROUNDING * x.abs() && x.is_finite()) else {
         return number(x);
     };

@@ -30,16 +30,21 @@ impl Format {
 }
 
 impl Canvas {
+    /// The sheet as the content of a file.
+    pub fn encoded(&self, format: Format) -> Vec<u8> {
+        match format {
+            Format::Png => raster::png(self),
+            Format::Svg => vector::svg(self).into_bytes(),
+            Format::Pdf => paper::pdf(self),
+        }
+    }
+
     /// Writes the sheet as `<folder>/<name>.png`, `.svg` or `.pdf`, completely or not at all.
     ///
     /// # Errors
     /// [`OutputError`] with the path.
     pub fn write(&self, folder: &Path, name: &str, format: Format) -> Result<(), OutputError> {
-        let picture = match format {
-            Format::Png => raster::png(self),
-            Format::Svg => vector::svg(self).into_bytes(),
-            Format::Pdf => paper::pdf(self),
-        };
+        let picture = self.encoded(format);
         write_file(&folder.join(format!("{name}.{}", format.extension())), |writer| writer.write_all(&picture))
     }
 }

@@ -1,0 +1,47 @@
+//! The parts of pages that the program itself writes: lines `<!-- percoat: … -->`.
+
+use crate::run::Tools;
+use anyhow::{Result, bail};
+use std::fmt::Write;
+use std::path::Path;
+
+/// The page with its generated parts.
+pub fn filled(text: &str, tools: &Tools) -> Result<String> {
+    let mut filled = String::with_capacity(text.len());
+    for line in text.split_inclusive('\n') {
+        let name = line.trim().strip_prefix("<!-- percoat: ").and_then(|rest| rest.strip_suffix(" -->"));
+        match name {
+            None => filled += line,
+            Some("keys") => filled += &tools.shell("percoat explain --markdown", Path::new("."))?,
+            Some("cases") => filled += &cases(tools)?,
+            Some("commands") => filled += &commands(tools)?,
+            Some(other) => bail!("nothing is generated under the name {other}"),
+        }
+    }
+    Ok(filled)
+}
+
+/// The embedded cases with their titles, as a list.
+fn cases(tools: &Tools) -> Result<String> {
+    Ok(format!("```text\n{}```\n", tools.shell("percoat cases", Path::new("."))?))
+}
+
+/// The help of each command under its name.
+fn commands(tools: &Tools) -> Result<String> {
+    let help = |command: &str| tools.shell(&format!("percoat {command} --help"), Path::new("."));
+    let whole = help("")?;
+    let list = whole.split_once("Commands:\n").map_or("", |(_, rest)| rest);
+    let names = list.lines().take_while(|line| !line.trim().is_empty()).filter_map(|line| {
+        // A line that begins further right goes on with the one above.
+        let own = line.strip_prefix("  ")?;
+        own.split_whitespace().next().filter(|_| !own.starts_with(' '))
+    });
+    let mut text = String::new();
+    for name in names.filter(|name| *name != "help") {
+        write!(text, "## `percoat {name}`\n\n```text\n{}```\n\n", help(name)?)?;
+    }
+    if text.is_empty() {
+        bail!("percoat --help lists no commands");
+    }
+    Ok(text)
+}

@@ -1,0 +1,179 @@
+//! Runs the cells of a page in an empty folder and compares what they print.
+
+use crate::cells::{Cell, Page};
+use anyhow::{Context, Result, bail};
+use regex::Regex;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use tempfile::TempDir;
+
+/// The programs that run the cells of pages.
+#[derive(Debug)]
+pub struct Tools {
+    /// A folder with the program `percoat` under its name.
+    programs: TempDir,
+    python: Option<PathBuf>,
+    time: Regex,
+    progress: Regex,
+}
+
+/// Separates what the cells of Python print.
+const MARK: char = '\u{1}';
+
+impl Tools {
+    /// Tools with the program at a path, and a Python if there is one.
+    pub fn new(percoat: &Path, python: Option<&Path>) -> Result<Self> {
+        let programs = tempfile::tempdir()?;
+        let own = percoat.canonicalize().with_context(|| format!("no program {}", percoat.display()))?;
+        std::os::unix::fs::symlink(own, programs.path().join("percoat"))?;
+        // A link of a virtual environment is not followed: it is found by its place.
+        let python = python.map(std::path::absolute).transpose()?;
+        let time = Regex::new(r"\b\d+(\.\d+)?(e-?\d+)?( s\b|[,)])")?;
+        // Printed every ten seconds, where a command takes as long.
+        let progress = Regex::new(r"(?m)^.*, (\d+ min )?\d+ s(, about .* left)?\n")?;
+        Ok(Self { programs, python, time, progress })
+    }
+
+    /// The shell in a folder, as a user has it.
+    pub fn shell(&self, line: &str, folder: &Path) -> Result<String> {
+        let path = format!("{}:{}", self.programs.path().display(), std::env::var("PATH").unwrap_or_default());
+        let mut command = Command::new("sh");
+        command.args(["-c", &format!("exec 2>&1\n{line}")]).current_dir(folder).stdin(Stdio::null());
+        command.env("PATH", path).env("COLUMNS", "80").env_remove("RAYON_NUM_THREADS");
+        let output = command.output().with_context(|| line.to_owned())?;
+        let printed = String::from_utf8(output.stdout)?;
+        Ok(self.progress.replace_all(&printed, "").into_owned())
+    }
+
+    /// Runs the cells of a page, whose pictures are copied beside its file `to`. What a cell prints takes the place of what the page
+    /// has, where they differ; returns a text for each difference.
+    pub fn run(&self, page: &mut Page, to: &Path) -> Result<Vec<String>> {
+        let folder = tempfile::tempdir()?;
+        let mut differences = Vec::new();
+        for cell in &mut page.cells {
+            match cell {
+                Cell::Text(_) | Cell::Python { .. } => {}
+                Cell::File { name, content, .. } => fs::write(folder.path().join(name), content)?,
+                Cell::Console(commands) => {
+                    for command in commands {
+                        let found = self.shell(&command.line, folder.path())?;
+                        differences.extend(self.take(&command.line, &mut command.prints, found));
+                    }
+                }
+            }
+        }
+        differences.extend(self.run_python(page, folder.path())?);
+        copy_made(&page.source(), folder.path(), to)?;
+        Ok(differences)
+    }
+
+    fn run_python(&self, page: &mut Page, folder: &Path) -> Result<Vec<String>> {
+        let Some(python) = &self.python else { return Ok(Vec::new()) };
+        let codes = page.cells.iter().filter_map(|cell| match cell {
+            Cell::Python { code, .. } => Some(format!("{code}\nprint('\\x01', end='')\n")),
+            _ => None,
+        });
+        let program: String = codes.collect();
+        if program.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut command = Command::new(python);
+        command.args(["-c", &program]).current_dir(folder).env("MPLBACKEND", "Agg").env("COLUMNS", "80");
+        let output = command.output()?;
+        if !output.status.success() {
+            bail!("{}", String::from_utf8_lossy(&output.stderr));
+        }
+        let prints = String::from_utf8(output.stdout)?;
+        let mut prints = prints.split(MARK).map(str::to_owned);
+        let mut differences = Vec::new();
+        for cell in &mut page.cells {
+            if let Cell::Python { code, prints: shown } = cell {
+                let found = prints.next().unwrap_or_default();
+                match shown {
+                    Some(shown) => differences.extend(self.take(code, shown, found)),
+                    None if found.is_empty() => {}
+                    None => bail!("a block prints what no block `text` behind it shows:\n{code}{found}"),
+                }
+            }
+        }
+        Ok(differences)
+    }
+
+    /// Takes over what was found where it differs from what is shown; the difference as a text.
+    fn take(&self, what: &str, shown: &mut String, mut found: String) -> Option<String> {
+        if !found.is_empty() && !found.ends_with('\n') {
+            found.push('\n');
+        }
+        if self.alike(shown, &found) {
+            return None;
+        }
+        let text = format!("{what}\nshows\n{shown}\nbut prints\n{found}");
+        if !shown.lines().any(|line| line == "…") {
+            *shown = found;
+        }
+        Some(text)
+    }
+
+    /// Whether a shown text is what was found, but for times and the lines that "…" leaves out.
+    fn alike(&self, shown: &str, found: &str) -> bool {
+        let plain = |text: &str| -> Vec<String> {
+            let without_times =
+                |line: &str| match line.contains(" s (") || line.ends_with(" s") || line.contains(" s; ") {
+                    true => self.time.replace_all(line, "t$3").into_owned(),
+                    false => line.to_owned(),
+                };
+            text.lines().map(|line| without_times(line).trim_end().to_owned()).collect()
+        };
+        matches(&plain(shown), &plain(found))
+    }
+}
+
+/// Whether lines match a pattern of lines, in which "…" stands for any number of them.
+fn matches(pattern: &[String], lines: &[String]) -> bool {
+    match pattern {
+        [] => lines.is_empty(),
+        [first, rest @ ..] if first == "…" => (0..=lines.len()).any(|skipped| matches(rest, &lines[skipped..])),
+        [first, rest @ ..] => lines.first() == Some(first) && matches(rest, &lines[1..]),
+    }
+}
+
+/// Copies the pictures of a page that its commands have made beside its file.
+fn copy_made(text: &str, folder: &Path, to: &Path) -> Result<()> {
+    for name in crate::source::pictures(text) {
+        let made = folder.join(&name);
+        if made.is_file() {
+            let copy = to.parent().unwrap_or(Path::new("")).join(&name);
+            crate::make_parent(&copy)?;
+            fs::copy(made, copy)?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lines(text: &str) -> Vec<String> {
+        text.lines().map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn dots_stand_for_lines() {
+        assert!(matches(&lines("a\n…\nd"), &lines("a\nb\nc\nd")));
+        assert!(matches(&lines("a\n…"), &lines("a")));
+        assert!(!matches(&lines("a\n…\nd"), &lines("a\nb")));
+        assert!(!matches(&lines("a"), &lines("a\nb")));
+    }
+
+    #[test]
+    fn times_are_not_compared_and_numbers_are() {
+        let percoat = std::env::current_exe().unwrap();
+        let tools = Tools::new(&percoat, None).unwrap();
+        let line = "1.18 s (setup 0.07, solution 0.45, output 0.66); written to out/fig2";
+        assert!(tools.alike(line, "12.5 s (setup 0.1, solution 11, output 1e-3); written to out/fig2"));
+        assert!(!tools.alike(line, "1.18 s (setup 0.07, solution 0.45, output 0.66); written to out/fig3"));
+        assert!(!tools.alike("radius 0.25, 3", "radius 0.26, 3"));
+    }
+}

@@ -1,0 +1,45 @@
+//! The numbers of a step that are shown first.
+
+use crate::answer::CaseNumber;
+use percoat::output::with_error;
+use percoat::run::StepRecord;
+use percoat::stress::Peak;
+use percoat::units::{Unit, Units};
+
+/// Penetration, contact, largest pressure and largest stresses of a step.
+pub fn of(step: &StepRecord, units: &Units) -> Vec<CaseNumber> {
+    let reading = &step.reading;
+    let shown = |name: &str, unit: &Unit, value: f64, error: Option<f64>| {
+        let suited = unit.suited([value]);
+        let factor = 10f64.powi(suited.exponent);
+        let text = with_error(factor * value, error.map(|error| factor * error));
+        let text = if suited.name.is_empty() { text } else { format!("{text}\u{a0}{}", suited.name) };
+        CaseNumber { name: name.to_owned(), text, value: Some(value).filter(|x| x.is_finite()), error }
+    };
+    let (length, pressure) = (units.length(), units.pressure());
+    let mut all = vec![shown("penetration", length, reading.penetration, reading.errors.penetration)];
+    if let [level] = &reading.levels[..]
+        && let Some(radius) = level.contact_radius
+    {
+        all.push(shown("contact radius", length, radius, level.errors.contact_radius));
+    } else if reading.contact_fraction.is_finite() {
+        all.push(shown("fraction in contact", &Unit::None, reading.contact_fraction, reading.errors.contact_fraction));
+    }
+    all.push(shown("largest pressure", pressure, reading.max_pressure, reading.errors.max_pressure));
+    if let Some(stress) = &step.stress {
+        let peak = |name: &str, Peak { value, error, .. }: Peak| shown(name, pressure, value, error);
+        all.push(peak("largest shear stress τ₁", stress.overall.tau1));
+        all.push(peak("largest tension", stress.overall.tension));
+        all.push(peak("largest von Mises stress", stress.overall.mises));
+    }
+    if let Some(stiffness) = step.contact_stiffness {
+        let error = step.contact_stiffness_error;
+        all.push(CaseNumber {
+            name: "contact stiffness".to_owned(),
+            text: with_error(stiffness, error),
+            value: Some(stiffness),
+            error,
+        });
+    }
+    all
+}

@@ -1,0 +1,227 @@
+"""The page that computes, clicked through in a headless browser.
+
+Environment: PERCOAT_PAGE, the built page; PERCOAT, the program whose numbers it must have; PERCOAT_SHOTS, a folder for pictures of the screen.
+"""
+
+import json
+import os
+import re
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from selenium import webdriver
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import Select, WebDriverWait
+
+PAGE = Path(os.environ["PERCOAT_PAGE"]).resolve()
+PROGRAM = Path(os.environ["PERCOAT"]).resolve()
+SHOTS = os.environ.get("PERCOAT_SHOTS")
+SIZES = {"desk": (1280, 1000), "phone": (390, 844)}
+# Longest time that a machine under load may take, seconds.
+PATIENCE = 180
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    options = webdriver.ChromeOptions()
+    options.binary_location = next(path for path in ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome") if Path(path).exists())
+    downloads = tmp_path_factory.mktemp("downloads")
+    for flag in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-sync", "--no-first-run"):
+        options.add_argument(flag)
+    options.add_experimental_option("prefs", {"download.default_directory": str(downloads)})
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService("/usr/bin/chromedriver"))
+    driver.downloads = downloads
+    yield driver
+    driver.quit()
+
+
+def wait(browser, condition, what):
+    return WebDriverWait(browser, PATIENCE, 0.05).until(lambda _: condition(), what)
+
+
+def status(browser):
+    return browser.find_element(By.ID, "status").text
+
+
+def done(browser):
+    """Waits until the last calculation is done."""
+    rounds = "return [String(round), document.body.dataset.done, document.getElementById('error').hidden]"
+
+    def ended():
+        now, finished, fine = browser.execute_script(rounds)
+        assert fine, browser.find_element(By.ID, "error").text
+        return now == finished
+
+    wait(browser, ended, f"the calculation has not ended: {status(browser)}")
+
+
+def opened(browser, address="", size="desk"):
+    browser.set_window_size(*SIZES[size])
+    browser.get("about:blank")
+    browser.get(PAGE.as_uri() + address)
+    wait(browser, lambda: browser.find_elements(By.CSS_SELECTOR, "#numbers tbody tr"), "no numbers")
+
+
+def numbers(browser):
+    rows = "return [...document.querySelectorAll('#numbers tbody tr')].map((row) => [...row.cells].map((cell) => cell.textContent))"
+    return {name: cells for name, *cells in browser.execute_script(rows)}
+
+
+def typed(browser, selector, text):
+    field = browser.find_element(By.CSS_SELECTOR, selector)
+    field.clear()
+    field.send_keys(text)
+
+
+def downloaded(browser, name, click):
+    path = browser.downloads / name
+    path.unlink(missing_ok=True)
+    click()
+    wait(browser, path.exists, f"{name} was not saved")
+    time.sleep(0.2)
+    return path
+
+
+def saved(browser, name):
+    button = browser.find_element(By.CSS_SELECTOR, f"[data-save={name}]")
+    return downloaded(browser, "case.toml" if name == "case" else f"{name}.csv", button.click)
+
+
+def shot(browser, name):
+    if SHOTS:
+        height = browser.execute_script("return document.documentElement.scrollHeight")
+        width = browser.execute_script("return innerWidth")
+        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+        Path(SHOTS).mkdir(parents=True, exist_ok=True)
+        browser.save_screenshot(str(Path(SHOTS) / f"{name}.png"))
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+def scalars(record, path=""):
+    """The numbers of a record by their paths; those of rounding alone, and positions, which mirror images share, are left out."""
+    left_out = {"seconds", "certificate", "residual", "x", "y", "z", "direction", "rival", "centre", "errors", "error", "uncertainty"}
+    if isinstance(record, dict):
+        for key, value in record.items():
+            if key not in left_out:
+                yield from scalars(value, f"{path}/{key}")
+    elif isinstance(record, list):
+        for index, value in enumerate(record):
+            yield from scalars(value, f"{path}/{index}")
+    elif isinstance(record, (int, float)) and not isinstance(record, bool):
+        yield path, record
+
+
+def same_numbers(browser, folder):
+    """The numbers of the page are those of the command line with the case that it saves, to 1e-12."""
+    step = browser.execute_script("return shown.coated.step")
+    case = saved(browser, "case")
+    subprocess.run([PROGRAM, "solve", case, "-o", folder, "--no-pictures", "--no-fields", "-q"], check=True)
+    other = json.loads((folder / "summary.json").read_text())["steps"][0]
+    ours, theirs = dict(scalars(step)), dict(scalars(other))
+    assert ours.keys() == theirs.keys() and len(ours) > 20
+    for path, value in theirs.items():
+        # The asymmetry is a small difference of radii.
+        scale = 1.0 if path.endswith("asymmetry") else abs(value)
+        assert abs(ours[path] - value) <= 1e-12 * scale, (path, ours[path], value)
+
+
+def test_a_ball_on_a_coating(browser, tmp_path):
+    opened(browser)
+    done(browser)
+    found = numbers(browser)
+    assert {"penetration", "contact radius", "largest pressure", "largest tension"} <= found.keys()
+    assert all("±" in cell for cells in found.values() for cell in cells[:2]), found
+    assert browser.find_element(By.ID, "verdict").text
+    assert len(browser.find_elements(By.CSS_SELECTOR, "#pictures img")) == 3
+    same_numbers(browser, tmp_path / "ball")
+    shot(browser, "ball")
+
+
+def test_a_change_is_computed_at_once_and_stands_in_the_address(browser, tmp_path):
+    opened(browser)
+    before = numbers(browser)["contact radius"][0]
+    typed(browser, "[name=force]", "2,5")
+    wait(browser, lambda: numbers(browser).get("contact radius", [before])[0] != before, "nothing changes")
+    done(browser)
+    found = numbers(browser)
+    address = browser.execute_script("return location.hash")
+    opened(browser, address)
+    done(browser)
+    assert numbers(browser) == found
+    assert browser.find_element(By.CSS_SELECTOR, "[name=force]").get_attribute("value") == "2.5"
+
+
+def test_layers_come_and_go(browser, tmp_path):
+    opened(browser)
+    browser.find_element(By.ID, "add").click()
+    done(browser)
+    assert "CrN" in saved(browser, "case").read_text()
+    tension = numbers(browser)["largest tension"]
+    rows = browser.find_elements(By.CSS_SELECTOR, "#layers .part")
+    assert len(rows) == 2
+    Select(rows[1].find_element(By.TAG_NAME, "select")).select_by_value("")
+    rows = browser.find_elements(By.CSS_SELECTOR, "#layers .part")
+    for key, value in (("young", "100"), ("poisson", "0.3"), ("tensile_strength", "0.4")):
+        rows[1].find_element(By.CSS_SELECTOR, f"[data-key={key}]").send_keys(value)
+    done(browser)
+    assert numbers(browser)["largest tension"] != tension
+    assert re.search("young = 100.0", saved(browser, "case").read_text())
+    for _ in range(2):
+        browser.find_element(By.CSS_SELECTOR, "#layers button").click()
+    done(browser)
+    assert len(numbers(browser)["penetration"]) == 1, "without layers there is nothing to compare with"
+
+
+def test_asperities_under_a_pressure(browser, tmp_path):
+    opened(browser)
+    browser.find_element(By.CSS_SELECTOR, "[name=body][value=asperities]").click()
+    wait(browser, lambda: "asperities" in browser.execute_script("return shown.coated?.case ?? ''").lower(), "no asperities")
+    done(browser)
+    same_numbers(browser, tmp_path / "asperities")
+    shot(browser, "asperities")
+    Select(browser.find_element(By.CSS_SELECTOR, "[name=load]")).select_by_value("cell")
+    Select(browser.find_element(By.CSS_SELECTOR, "[name=lattice]")).select_by_value("hexagonal")
+    done(browser)
+    assert "hexagonal" in saved(browser, "case").read_text()
+
+
+def test_tables_and_pictures_are_saved(browser):
+    opened(browser)
+    done(browser)
+    assert saved(browser, "profile").read_text().startswith("x,y,pressure,gap\n")
+    assert saved(browser, "section").read_text().count("\n") > 1000
+    assert "penetration" in saved(browser, "numbers").read_text()
+    button = browser.find_element(By.CSS_SELECTOR, "[data-picture=section]")
+    assert downloaded(browser, "section.png", button.click).read_bytes().startswith(b"\x89PNG")
+
+
+def test_what_is_refused_is_said(browser):
+    opened(browser)
+    typed(browser, "#layers [data-key=thickness]", "-1")
+    error = browser.find_element(By.ID, "error")
+    wait(browser, lambda: error.is_displayed(), "no error")
+    assert "thickness" in error.text
+    shot(browser, "error")
+    typed(browser, "#layers [data-key=thickness]", "2")
+    wait(browser, lambda: not error.is_displayed(), "the error stays")
+
+
+def test_a_telephone(browser):
+    opened(browser, size="phone")
+    done(browser)
+    wide = browser.execute_script("return document.documentElement.scrollWidth - innerWidth")
+    assert wide <= 0, "the page is wider than the screen"
+    shot(browser, "phone")
+
+
+def test_nothing_is_uploaded(browser):
+    opened(browser)
+    done(browser)
+    asked = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
+    sent = [own["params"]["request"]["url"] for own in asked if own["method"] == "Network.requestWillBeSent"]
+    assert all(url.startswith(("file:", "blob:", "data:", "about:")) for url in sent), sent
+    severe = [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
+    assert not severe, severe

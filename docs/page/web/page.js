@@ -1,0 +1,340 @@
+// The form, the calculations that follow a change of it, and what they show.
+
+const form = document.getElementById("form");
+const at = (id) => document.getElementById(id);
+let state = decode(location.hash.slice(1));
+let library = [];
+let shown = {}; // What is on the page: the case and its answers.
+
+// The worker. A new change ends a calculation that is under way: the worker is replaced.
+const worker = {
+  module: null, own: null, busy: false, waiting: new Map(), count: 0,
+  start() {
+    const source = new Blob([WORKER], { type: "text/javascript" });
+    this.own = new Worker(URL.createObjectURL(source));
+    this.own.onmessage = ({ data }) => {
+      this.waiting.get(data.number)?.(data);
+      this.waiting.delete(data.number);
+    };
+    return this.send({ module: this.module });
+  },
+  send(message) {
+    const number = ++this.count;
+    return new Promise((resolve) => {
+      this.waiting.set(number, resolve);
+      this.own.postMessage({ ...message, number });
+    });
+  },
+  async restart() {
+    this.own.terminate();
+    this.waiting.clear();
+    await this.start();
+  },
+};
+
+async function ask(request) {
+  const { bytes, seconds, failure } = await worker.send({ request });
+  if (failure) throw new Error(`the calculation has ended: ${failure}`);
+  return { bytes, seconds };
+}
+
+// A picture or table of the step that is kept.
+async function bytesOf(request) {
+  const { bytes } = await ask(request);
+  if (bytes[0] === "{".charCodeAt(0)) throw new Error(JSON.parse(new TextDecoder().decode(bytes)).error);
+  return bytes;
+}
+
+async function answerOf(request) {
+  const { bytes, seconds } = await ask(request);
+  const answer = JSON.parse(new TextDecoder().decode(bytes));
+  if (answer.error) throw new Error(answer.error);
+  return { ...answer, seconds };
+}
+
+// --- The form
+
+function element(name, properties = {}, ...children) {
+  const own = Object.assign(document.createElement(name), properties);
+  own.append(...children);
+  return own;
+}
+
+function materialsIn(select, first) {
+  select.replaceChildren(...first.map(([value, text]) => element("option", { value, textContent: text })));
+  for (const kind of new Set(library.map((own) => own.kind ?? "other"))) {
+    const group = element("optgroup", { label: kind });
+    for (const own of library.filter((own) => (own.kind ?? "other") === kind)) {
+      group.append(element("option", { value: own.name, textContent: own.name }));
+    }
+    select.append(group);
+  }
+}
+
+// The row of a layer, or of the substrate.
+function rowOf(part, index) {
+  const isLayer = index !== undefined;
+  const select = element("select", { ariaLabel: isLayer ? `material of layer ${index + 1}` : "material of the substrate" });
+  materialsIn(select, [["", "own material"]]);
+  select.value = part.material ?? "";
+  select.onchange = () => {
+    if (select.value) part.material = select.value;
+    else delete part.material;
+    drawStack();
+    changed();
+  };
+  const head = element("div", { className: "head" }, select);
+  if (isLayer) {
+    head.append(numberOf(part, "thickness", "thickness, µm", true), "µm");
+    const remove = element("button", { type: "button", textContent: "×", ariaLabel: `remove layer ${index + 1}` });
+    remove.onclick = () => {
+      state.layers.splice(index, 1);
+      drawStack();
+      changed();
+    };
+    head.append(remove);
+  } else {
+    head.append("substrate");
+  }
+  const details = element("details", { open: !part.material }, element("summary", { textContent: "moduli and strengths" }));
+  const own = library.find((entry) => entry.name === part.material);
+  for (const [key, name, unit] of PROPERTIES) {
+    if (!isLayer && OF_LAYERS.includes(key)) continue;
+    const known = own?.[key];
+    const input = numberOf(part, key, name, false);
+    input.placeholder = known === null || known === undefined ? "none" : String(known.value ?? known);
+    details.append(element("label", {}, `${name} `, input, element("span", { textContent: unit })));
+  }
+  return element("div", { className: "part" }, head, details);
+}
+
+// An input of a number of a part of the stack.
+function numberOf(part, key, name, isNeeded) {
+  const input = element("input", { inputMode: "decimal", ariaLabel: name, value: part[key] ?? "" });
+  input.dataset.key = key;
+  input.oninput = () => {
+    const value = Number(input.value.replace(",", "."));
+    const empty = input.value.trim() === "";
+    input.classList.toggle("wrong", Number.isNaN(value) || (empty && isNeeded));
+    if (empty) delete part[key];
+    else part[key] = value;
+    changed();
+  };
+  return input;
+}
+
+function drawStack() {
+  at("layers").replaceChildren(...state.layers.map(rowOf));
+  at("substrate").replaceChildren(rowOf(state.substrate));
+}
+
+const NUMBERS = ["diameter", "period", "radius", "force", "pressure"];
+
+function drawForm() {
+  materialsIn(form.elements.counterbody, [["", "rigid"]]);
+  form.elements.counterbody.value = state.counterbody;
+  for (const name of [...NUMBERS, "lattice", "load", "friction", "samples"]) form.elements[name].value = state[name];
+  form.elements.body.value = state.body;
+  drawStack();
+  drawChoices();
+}
+
+function drawChoices() {
+  form.dataset.body = state.body;
+  at("friction").textContent = state.friction;
+  at("load-unit").textContent = state.load === "cell" ? "mN" : "MPa";
+}
+
+// A field of the form. Text fields have the event "input", lists "change".
+function entered({ target }) {
+  const name = target.name;
+  if (!name) return;
+  let value = target.value;
+  if (NUMBERS.includes(name) || name === "friction" || name === "samples") {
+    value = Number(value.replace(",", "."));
+    target.classList.toggle("wrong", !(value > 0) && name !== "friction");
+  }
+  if (Object.is(state[name], value)) return;
+  state[name] = value;
+  drawChoices();
+  changed();
+}
+
+form.addEventListener("input", entered);
+form.addEventListener("change", entered);
+
+at("add").onclick = () => {
+  state.layers.push({ material: "CrN", thickness: 1 });
+  drawStack();
+  changed();
+};
+
+// --- The calculations
+
+let pause = 0;
+let round = 0; // Counts the changes: what an earlier one has asked for is dropped.
+
+function changed() {
+  round += 1;
+  history.replaceState(null, "", "#" + encode(state));
+  clearTimeout(pause);
+  pause = setTimeout(calculate, 150);
+}
+
+const samples = (points) => `${points} × ${points} samples`;
+
+async function calculate() {
+  const own = round;
+  if (worker.busy) await worker.restart();
+  if (own !== round) return;
+  worker.busy = true;
+  try {
+    await stages(own);
+  } catch (error) {
+    if (own === round) showError(error.message);
+  } finally {
+    if (own === round) worker.busy = false;
+  }
+}
+
+// One grid after another: the coated body, the bare one, then the loads at which something fails.
+async function stages(own) {
+  const has = state.layers.length > 0;
+  let radius;
+  for (let points = FIRST; points <= state.samples; points *= 2) {
+    at("status").textContent = `computing on ${samples(points)} …`;
+    const coated = await answerOf({ task: "solve", case: caseOf(state, library, { points, radius }), pictures: true });
+    if (own !== round) return;
+    shown = { coated, points, bare: null, limit: shown.round === own ? shown.limit : null, round: own };
+    show();
+    if (has) {
+      shown.bare = await answerOf({ task: "solve", case: caseOf(state, library, { points, bare: true }), pictures: false });
+      if (own !== round) return;
+      show();
+    }
+    radius = coated.step.levels[0]?.contact_radius ?? undefined;
+    if (points === FIRST && coated.step.strength?.length) {
+      at("status").textContent = "searching the loads at which something fails …";
+      shown.limit = await answerOf({ task: "limit", case: caseOf(state, library, { points, radius }) });
+      if (own !== round) return;
+      show();
+    }
+  }
+  at("status").textContent = `${samples(shown.points)}; ${shown.coated.seconds.toFixed(2)} s`;
+  document.body.dataset.done = String(own);
+}
+
+// --- What is shown
+
+// A line that is there only with a text.
+function write(id, text) {
+  at(id).hidden = !text;
+  at(id).textContent = text ?? "";
+}
+
+function showError(message) {
+  at("error").hidden = false;
+  at("error").textContent = message;
+  at("status").textContent = "";
+  for (const id of ["verdict", "here", "unknown", "actions", "same"]) at(id).hidden = true;
+  for (const id of ["numbers", "warnings", "pictures", "more"]) at(id).replaceChildren();
+}
+
+function show() {
+  const { coated, bare, limit, points } = shown;
+  at("error").hidden = true;
+  at("status").textContent = `${samples(points)}: ${coated.seconds.toFixed(2)} s`;
+  write("verdict", limit?.verdict ?? coated.verdict);
+  write("here", limit ? coated.verdict : null);
+  const unknown = withoutStrength(state, library);
+  write("unknown", unknown.length ? `No strength is known of ${unknown.join(" and ")}: give it under “moduli and strengths”.` : null);
+  showNumbers(coated, bare);
+  at("warnings").replaceChildren(...coated.warnings.map((text) => element("li", { textContent: text })));
+  showPictures(coated);
+  const tables = [...coated.tables, ...(limit?.tables ?? [])].map(tableOf);
+  const notes = [...coated.assumptions, ...(limit?.warnings ?? []).map((text) => `Search of limits, ${samples(FIRST)}: ${text}`)].map((text) => element("p", { textContent: text }));
+  const details = element("details", { open: at("more").querySelector("details")?.open ?? false },
+    element("summary", { textContent: "all tables" }), ...tables, ...notes);
+  at("more").replaceChildren(details);
+  at("actions").hidden = at("same").hidden = false;
+}
+
+function showNumbers(coated, bare) {
+  const head = element("tr", {}, ...["", state.layers.length ? "coated" : "bare", ...(bare ? ["bare substrate", "difference"] : [])]
+    .map((text) => element("th", { textContent: text, scope: "col" })));
+  const rows = coated.numbers.map((number) => {
+    const cells = [number.name, number.text];
+    if (bare) {
+      const other = bare.numbers.find(({ name }) => name === number.name);
+      const change = other?.value && number.value !== null ? 100 * (number.value / other.value - 1) : null;
+      cells.push(other?.text ?? "–", change === null ? "–" : `${change > 0 ? "+" : ""}${change.toFixed(1)} %`);
+    }
+    return element("tr", {}, ...cells.map((text, index) => element(index ? "td" : "th", { textContent: text })));
+  });
+  at("numbers").replaceChildren(element("thead", {}, head), element("tbody", {}, ...rows));
+}
+
+const CAPTIONS = { pressure: "Contact pressure", section: "Stresses in a vertical section, with interfaces", profiles: "Pressure across the contact" };
+
+function showPictures({ pictures }) {
+  const figures = pictures.map(([name, svg]) => {
+    const image = element("img", { alt: CAPTIONS[name], src: URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })) });
+    const button = element("button", { type: "button", textContent: "PNG" });
+    button.dataset.picture = name;
+    button.onclick = async () => save(`${name}.png`, await bytesOf({ task: "picture", name }), "image/png");
+    const figure = element("figure", {}, element("figcaption", {}, `${CAPTIONS[name]} `, button), image);
+    figure.dataset.name = name;
+    return figure;
+  });
+  at("pictures").querySelectorAll("img").forEach((image) => URL.revokeObjectURL(image.src));
+  at("pictures").replaceChildren(...figures);
+}
+
+function tableOf({ name, head, rows, words }) {
+  const kind = (index) => (index < words ? "word" : "");
+  const line = (cells, tag) => element("tr", {}, ...cells.map((text, index) => element(tag, { textContent: text, className: kind(index) })));
+  const table = element("table", {}, element("caption", { textContent: name }), element("thead", {}, line(head, "th")),
+    element("tbody", {}, ...rows.map((row) => line(row, "td"))));
+  return element("div", { className: "scroll" }, table);
+}
+
+// --- What is taken along
+
+function save(name, content, type) {
+  const link = element("a", { href: URL.createObjectURL(new Blob([content], { type })), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+for (const button of document.querySelectorAll("[data-save]")) {
+  button.onclick = async () => {
+    const name = button.dataset.save;
+    if (name === "case") save("case.toml", shown.coated.case, "application/toml");
+    else save(`${name}.csv`, await bytesOf({ task: "table", name }), "text/csv");
+  };
+}
+
+at("copy").onclick = async () => {
+  await navigator.clipboard.writeText(location.href);
+  at("copy").textContent = "copied";
+  setTimeout(() => (at("copy").textContent = "copy the address"), 1500);
+};
+
+addEventListener("hashchange", () => {
+  state = decode(location.hash.slice(1));
+  round += 1;
+  drawForm();
+  calculate();
+});
+
+async function begin() {
+  const packed = Uint8Array.from(atob(MODULE), (c) => c.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  worker.module = await WebAssembly.compile(await new Response(stream).arrayBuffer());
+  await worker.start();
+  library = (await answerOf({ task: "materials" })).materials;
+  drawForm();
+  calculate();
+}
+
+begin().catch((error) => showError(`this browser cannot run the page: ${error}`));
