@@ -1,13 +1,15 @@
 //! Letters as outlines, for files that look the same without the typeface.
 
-use super::text::{FONT, placed};
-use ab_glyph::{Font, OutlineCurve, Point};
+use super::text::placed;
+use super::typeface;
+use skrifa::GlyphId;
+use skrifa::font::glyph::outline::PathElement;
 
 /// A letter of a line of text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Letter {
-    /// Index of the glyph in the typeface.
-    pub glyph: u16,
+    /// Its glyph in the typeface.
+    pub glyph: GlyphId,
     /// Distance of its origin from the beginning of the line, in units of the size.
     pub x: f64,
 }
@@ -36,35 +38,34 @@ impl Piece {
 
 /// The letters of a line of text that have an outline.
 pub fn letters(text: &str) -> Vec<Letter> {
-    let letters = placed(text).0.into_iter().map(|own| Letter { glyph: own.glyph.0, x: own.x });
-    letters.filter(|letter| !outline(letter.glyph).is_empty()).collect()
+    let letters = placed(text).0.into_iter().map(|own| Letter { glyph: own.glyph, x: own.x });
+    letters.filter(|letter| typeface::bounds(letter.glyph).is_some()).collect()
 }
 
-/// Outline of a glyph by its index in the typeface; empty for a space.
-pub fn outline(glyph: u16) -> Vec<Piece> {
-    let em = FONT.units_per_em().unwrap_or(2048.0);
-    let at = |point: Point| [point.x, point.y].map(|c| f64::from(c / em));
-    let between = |[a, b]: [[f64; 2]; 2], part: f64| [0, 1].map(|k| a[k] + part * (b[k] - a[k]));
-    let (mut pieces, mut end) = (Vec::new(), None);
-    for curve in FONT.outline(ab_glyph::GlyphId(glyph)).map_or(Vec::new(), |outline| outline.curves) {
-        let (from, piece, to) = match curve {
-            OutlineCurve::Line(from, to) => (at(from), Piece::Line(at(to)), at(to)),
-            // A parabola is a cubic whose control points lie two thirds of the way to that of the parabola.
-            OutlineCurve::Quad(from, aside, to) => {
-                let [a, q, b] = [from, aside, to].map(at);
-                (a, Piece::Curve([between([a, q], 2.0 / 3.0), between([b, q], 2.0 / 3.0), b]), b)
+/// Outline of a glyph; empty for a space.
+pub fn outline(glyph: GlyphId) -> Vec<Piece> {
+    let at = |x: f32, y: f32| [x, y].map(f64::from);
+    // A parabola is a cubic whose control points lie two thirds of the way to that of the parabola.
+    let toward = |aside: [f64; 2], end: [f64; 2]| [0, 1].map(|k| end[k] + 2.0 / 3.0 * (aside[k] - end[k]));
+    let (mut begin, mut end) = ([0.0; 2], [0.0; 2]);
+    let piece = |element| {
+        let piece = match element {
+            PathElement::MoveTo { x, y } => Piece::Move(at(x, y)),
+            PathElement::LineTo { x, y } => Piece::Line(at(x, y)),
+            PathElement::QuadTo { cx0, cy0, x, y } => {
+                let (aside, to) = (at(cx0, cy0), at(x, y));
+                Piece::Curve([toward(aside, end), toward(aside, to), to])
             }
-            OutlineCurve::Cubic(from, first, second, to) => {
-                (at(from), Piece::Curve([first, second, to].map(at)), at(to))
-            }
+            PathElement::CurveTo { cx0, cy0, cx1, cy1, x, y } => Piece::Curve([at(cx0, cy0), at(cx1, cy1), at(x, y)]),
+            PathElement::Close => Piece::Line(begin),
         };
-        if end != Some(from) {
-            pieces.push(Piece::Move(from));
-        }
-        pieces.push(piece);
-        end = Some(to);
-    }
-    pieces
+        (begin, end) = match piece {
+            Piece::Move(to) => (to, to),
+            Piece::Line(to) | Piece::Curve([_, _, to]) => (begin, to),
+        };
+        piece
+    };
+    typeface::outline(glyph).into_iter().map(piece).collect()
 }
 
 #[cfg(test)]

@@ -49,6 +49,7 @@ mod sweep;
 mod text;
 mod ticks;
 mod tiling;
+mod typeface;
 mod utilisations;
 pub(crate) mod vector;
 mod window;

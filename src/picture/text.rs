@@ -1,15 +1,12 @@
-//! Text in the embedded typeface: its width and its pixels.
+//! Text in the embedded typeface: the places of its glyphs, its width and its pixels.
 //!
-//! The typeface is DejaVu Sans (its licence stands beside it): Latin, Greek, Cyrillic, indices and signs, so that
-//! pictures look the same on every machine. Combining marks, as the bar of p̄, are centred over the letter before them.
+//! Combining marks, as the bar of p̄, are centred over the letter before them.
 
+use super::typeface::{advance, bounds, glyph, kerning, outline};
 use crate::plain;
-use ab_glyph::{Font, FontRef, GlyphId, Point};
-use std::sync::LazyLock;
-
-pub(super) static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
-    FontRef::try_from_slice(include_bytes!("font/DejaVuSans.ttf")).expect("the embedded typeface is whole")
-});
+use ab_glyph_rasterizer::{Point, Rasterizer, point};
+use skrifa::GlyphId;
+use skrifa::font::glyph::outline::PathElement;
 
 /// Height of capital letters over the size.
 pub const CAPITALS: f64 = 0.73;
@@ -23,23 +20,17 @@ pub(super) struct Placed {
 
 /// The glyphs of a text in a line, and its width, in units of the size.
 pub(super) fn placed(text: &str) -> (Vec<Placed>, f64) {
-    let em = f64::from(FONT.units_per_em().unwrap_or(2048.0));
-    let advance = |glyph: GlyphId| f64::from(FONT.h_advance_unscaled(glyph)) / em;
-    let middle = |glyph: GlyphId| {
-        let bounds = FONT.outline(glyph).map(|outline| outline.bounds);
-        bounds.map_or(0.0, |bounds| 0.5 * f64::from(bounds.min.x + bounds.max.x) / em)
-    };
+    let middle = |glyph: GlyphId| bounds(glyph).map_or(0.0, |[from, to]| 0.5 * (from[0] + to[0]));
     let (mut glyphs, mut end, mut before): (Vec<Placed>, f64, Option<Placed>) = (Vec::new(), 0.0, None);
     for letter in text.chars() {
-        let glyph = FONT.glyph_id(letter);
+        let glyph = glyph(letter);
         let combining = ('\u{300}'..='\u{36f}').contains(&letter);
         match before {
             Some(base) if combining => {
                 glyphs.push(Placed { glyph, x: base.x + middle(base.glyph) - middle(glyph) });
             }
             _ => {
-                let kern = before.map_or(0.0, |base| f64::from(FONT.kern_unscaled(base.glyph, glyph)) / em);
-                let here = Placed { glyph, x: end + kern };
+                let here = Placed { glyph, x: end + before.map_or(0.0, |base| kerning(base.glyph, glyph)) };
                 end = here.x + advance(glyph);
                 before = Some(here);
                 glyphs.push(here);
@@ -85,28 +76,44 @@ pub fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
 /// Calls `put` with place and coverage (0 to 1) of every pixel of a line of text that starts at `origin` on its
 /// baseline, x to the right and y down; `size` in pixels.
 pub fn draw(text: &str, size: f64, [x, y]: [f64; 2], mut put: impl FnMut(i32, i32, f32)) {
-    // The scale of the crate is the height of a line, not of the em.
-    let scale = size * f64::from(FONT.height_unscaled() / FONT.units_per_em().unwrap_or(2048.0));
     for Placed { glyph, x: offset } in placed(text).0 {
-        let place = Point { x: (x + size * offset) as f32, y: y as f32 };
-        if let Some(outline) = FONT.outline_glyph(glyph.with_scale_and_position(scale as f32, place)) {
-            let corner = outline.px_bounds().min;
-            outline.draw(|i, j, coverage| put(corner.x as i32 + i as i32, corner.y as i32 + j as i32, coverage));
+        let Some([from, to]) = bounds(glyph) else { continue };
+        let x = x + size * offset;
+        let [left, top] = [x + size * from[0], y - size * to[1]].map(f64::floor);
+        let [right, bottom] = [x + size * to[0], y - size * from[1]].map(f64::ceil);
+        let mut pixels = Rasterizer::new((right - left) as usize, (bottom - top) as usize);
+        fill(&mut pixels, &outline(glyph), |[u, v]| {
+            point((x - left + size * f64::from(u)) as f32, (y - top - size * f64::from(v)) as f32)
+        });
+        pixels.for_each_pixel_2d(|i, j, coverage| put(left as i32 + i as i32, top as i32 + j as i32, coverage));
+    }
+}
+
+/// Covers the pixels within an outline, whose points stand `at` theirs.
+fn fill(pixels: &mut Rasterizer, outline: &[PathElement], at: impl Fn([f32; 2]) -> Point) {
+    let mut begin = point(0.0, 0.0);
+    let mut end = begin;
+    for element in outline {
+        let to = match *element {
+            PathElement::MoveTo { x, y } | PathElement::LineTo { x, y } => at([x, y]),
+            PathElement::QuadTo { x, y, .. } | PathElement::CurveTo { x, y, .. } => at([x, y]),
+            PathElement::Close => begin,
+        };
+        match *element {
+            PathElement::MoveTo { .. } => begin = to,
+            PathElement::LineTo { .. } | PathElement::Close => pixels.draw_line(end, to),
+            PathElement::QuadTo { cx0, cy0, .. } => pixels.draw_quad(end, at([cx0, cy0]), to),
+            PathElement::CurveTo { cx0, cy0, cx1, cy1, .. } => {
+                pixels.draw_cubic(end, at([cx0, cy0]), at([cx1, cy1]), to);
+            }
         }
+        end = to;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn every_sign_of_the_pictures_has_a_glyph() {
-        for letter in "p̄δσντχρθ₀₁₂₃₉ₘ⁰¹²³⁴⁵⁶⁷⁸⁹⁻₋−–×·√Åµ°∞≈≤".chars()
-        {
-            assert_ne!(FONT.glyph_id(letter).0, 0, "{letter} is missing");
-        }
-    }
 
     #[test]
     fn a_text_is_cut_in_its_middle_where_it_is_too_wide() {

@@ -8,6 +8,7 @@ use super::canvas::{Anchor, Canvas, Dash, Mark, Stroke};
 use super::colour::Colour;
 use super::letters::{Letter, Piece, letters, outline};
 use super::{raster, text};
+use skrifa::GlyphId;
 use std::collections::BTreeSet;
 
 /// Units of letter outlines per em.
@@ -20,7 +21,7 @@ pub fn svg(canvas: &Canvas) -> String {
     let marks: String = canvas.marks.iter().map(element).collect();
     let texts =
         canvas.marks.iter().filter_map(|mark| if let Mark::Text { text, .. } = mark { Some(text) } else { None });
-    let used: BTreeSet<u16> = texts.flat_map(|text| letters(text)).map(|letter| letter.glyph).collect();
+    let used: BTreeSet<GlyphId> = texts.flat_map(|text| letters(text)).map(|letter| letter.glyph).collect();
     let outlines: String = used.into_iter().map(outlined).collect();
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide}mm\" height=\"{high}mm\" \
@@ -30,7 +31,7 @@ pub fn svg(canvas: &Canvas) -> String {
 }
 
 /// Definition of a letter's outline, y down, named by the index of the glyph, which is the same in all files.
-fn outlined(glyph: u16) -> String {
+fn outlined(glyph: GlyphId) -> String {
     let units = |[x, y]: [f64; 2]| format!("{:.0},{:.0}", EM * x, 0.0 - EM * y);
     let piece = |piece: Piece| match piece {
         Piece::Move(to) => format!("M{}", units(to)),
@@ -38,7 +39,7 @@ fn outlined(glyph: u16) -> String {
         Piece::Curve(places) => format!("C{}", places.map(units).join(" ")),
     };
     let path: String = outline(glyph).into_iter().map(piece).collect();
-    format!("<path id=\"g{glyph}\" d=\"{path}Z\"/>\n")
+    format!("<path id=\"g{}\" d=\"{path}Z\"/>\n", glyph.to_u32())
 }
 
 /// A mark as an element of the file.
@@ -66,7 +67,8 @@ fn element(mark: &Mark) -> String {
                 Anchor::Right => length,
             };
             let rotation = if *upward { " rotate(-90)" } else { "" };
-            let used = |Letter { glyph, x }: Letter| format!("<use href=\"#g{glyph}\" x=\"{:.0}\"/>", EM * x);
+            let used =
+                |Letter { glyph, x }: Letter| format!("<use href=\"#g{}\" x=\"{:.0}\"/>", glyph.to_u32(), EM * x);
             let used: String = letters(text).into_iter().map(used).collect();
             let ([x, y], colour, words) = (at.map(hundredths), hex(*colour), escaped(text));
             let (scale, start) = (format!("{:.5}", size / EM), hundredths(-before));
