@@ -12,6 +12,10 @@ python:
 ci:
     .ci/run
 
+# What a release offers: static programs, wheels and checksums in target/dist, tried; as arguments other architectures than this machine's.
+dist *architectures:
+    .ci/dist {{architectures}}
+
 # Solve a case: a file, an embedded name, or nothing for the default.
 solve *arguments:
     cargo run --release --locked -- solve {{arguments}}

@@ -2,6 +2,11 @@
 
 use std::process::ExitCode;
 
+// That of musl returns every large block to the system and takes it anew, with a page fault for each 4 kB of it.
+#[cfg(target_env = "musl")]
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> ExitCode {
     ExitCode::from(percoat::command::main(std::env::args_os()))
 }
