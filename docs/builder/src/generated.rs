@@ -14,6 +14,7 @@ pub fn filled(text: &str, tools: &Tools) -> Result<String> {
             None => filled += line,
             Some("keys") => filled += &tools.shell("percoat explain --markdown", Path::new("."))?,
             Some("cases") => filled += &cases(tools)?,
+            Some("exit codes") => filled += &exit_codes(tools)?,
             Some("commands") => filled += &commands(tools)?,
             Some(other) => bail!("nothing is generated under the name {other}"),
         }
@@ -24,6 +25,18 @@ pub fn filled(text: &str, tools: &Tools) -> Result<String> {
 /// The embedded cases with their titles, as a list.
 fn cases(tools: &Tools) -> Result<String> {
     Ok(format!("```text\n{}```\n", tools.shell("percoat cases", Path::new("."))?))
+}
+
+/// The exit codes, a row each, from the end of the help.
+fn exit_codes(tools: &Tools) -> Result<String> {
+    let help = tools.shell("percoat --help", Path::new("."))?;
+    let Some((_, codes)) = help.split_once("Exit codes: ") else { bail!("percoat --help lists no exit codes") };
+    let codes = codes.split_whitespace().collect::<Vec<_>>().join(" ");
+    let row = |code: &str| {
+        let (number, means) = code.trim().split_once(' ').unwrap_or((code, ""));
+        format!("| {number} | {means} |\n")
+    };
+    Ok(format!("| code | means |\n|---|---|\n{}", codes.split(';').map(row).collect::<String>()))
 }
 
 /// The help of each command under its name.

@@ -56,21 +56,16 @@ fn main() -> Result<()> {
             continue;
         }
         let text = fs::read_to_string(&from)?;
-        let wanted = arguments.only.as_ref().is_none_or(|only| path.to_string_lossy().contains(only));
         let mut page = cells::Page::read(&text).with_context(|| path.display().to_string())?;
-        if wanted {
-            let ran = tools.run(&mut page, &to).with_context(|| path.display().to_string())?;
-            if arguments.write && !ran.is_empty() {
-                fs::write(&from, page.source())?;
-                println!("written: {}", from.display());
-            } else {
-                differences.extend(ran.into_iter().map(|text| format!("{}: {text}", from.display())));
-            }
-        }
-        source::copy_pictures(&text, &from, &to)?;
-        let text = generated::filled(&page.source(), &tools)?;
+        differences.extend(ran(&mut page, &from, &to, &tools, &arguments)?);
+        let text = source::with_pictures(&page.source(), &from, &to)?;
+        let text = generated::filled(&text, &tools)?;
         fs::write(&to, math::typeset(&text).with_context(|| path.display().to_string())?)?;
     }
+    // The README is no page of the book, but its commands run too.
+    let readme = arguments.docs.join("../README.md");
+    let mut page = cells::Page::read(&fs::read_to_string(&readme)?)?;
+    differences.extend(ran(&mut page, &readme, &place.path().join("README.md"), &tools, &arguments)?);
     fs::copy(arguments.docs.join("book.toml"), place.path().join("book.toml"))?;
     source::copy_folder(&arguments.docs.join("theme"), &place.path().join("theme"))?;
     build(place.path(), &arguments.output)?;
@@ -86,6 +81,27 @@ fn main() -> Result<()> {
         count => bail!("{count} faults; --write takes over what commands print"),
     }
     Ok(())
+}
+
+/// Runs the cells of the page of the file `from`, if it is wanted; what differs from what they print, unless that is written into the file.
+fn ran(
+    page: &mut cells::Page,
+    from: &Path,
+    to: &Path,
+    tools: &run::Tools,
+    arguments: &Arguments,
+) -> Result<Vec<String>> {
+    if arguments.only.as_ref().is_some_and(|only| !from.to_string_lossy().contains(only)) {
+        return Ok(Vec::new());
+    }
+    let name = from.display().to_string();
+    let differences = tools.run(page, to).with_context(|| name.clone())?;
+    if arguments.write && !differences.is_empty() {
+        fs::write(from, page.source())?;
+        println!("written: {name}");
+        return Ok(Vec::new());
+    }
+    Ok(differences.into_iter().map(|text| format!("{name}: {text}")).collect())
 }
 
 /// Makes the folder of a file.

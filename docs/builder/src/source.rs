@@ -27,15 +27,19 @@ pub fn pictures(text: &str) -> Vec<String> {
     picture.captures_iter(text).map(|found| found[1].to_owned()).collect()
 }
 
-/// Copies the pictures of the page `from` that stand in the repository outside of the book beside its copy `to`, under the same paths.
-pub fn copy_pictures(text: &str, from: &Path, to: &Path) -> Result<()> {
-    let beside = |file: &Path, name: &str| file.parent().unwrap_or(Path::new("")).join(name);
-    for name in pictures(text).into_iter().filter(|name| name.starts_with("..")) {
-        let (own, copy) = (beside(from, &name), beside(to, &name));
+/// Copies the pictures of the page `from` that stand in the repository outside of the book into the folder `repository` beside its
+/// copy `to`; the page with its new paths.
+pub fn with_pictures(text: &str, from: &Path, to: &Path) -> Result<String> {
+    let folder = |file: &Path| file.parent().unwrap_or(Path::new("")).to_owned();
+    let mut text = text.to_owned();
+    for name in pictures(&text).into_iter().filter(|name| name.starts_with("../")) {
+        let own = format!("repository/{}", name.trim_start_matches("../"));
+        let copy = folder(to).join(&own);
         crate::make_parent(&copy)?;
-        fs::copy(&own, &copy).with_context(|| own.display().to_string())?;
+        fs::copy(folder(from).join(&name), copy).with_context(|| name.clone())?;
+        text = text.replace(&format!("({name})"), &format!("({own})"));
     }
-    Ok(())
+    Ok(text)
 }
 
 /// Copies a folder with everything in it.
