@@ -2,7 +2,7 @@
 //!
 //! The first line names the columns: `force` and `penetration` in the units of the case, or with a unit behind the name as in
 //! `force_mN`, `penetration_nm`, which is converted where the case names its units; `penetration_error` is the standard deviation
-//! of each penetration. Other columns are left out. Lines that begin with `#`, and empty ones, are comments. Columns that stand in no
+//! of each penetration, in the unit of the penetration unless it names its own. Other columns are left out. Lines that begin with `#`, and empty ones, are comments. Columns that stand in no
 //! table but in memory are read alike.
 
 use crate::identification::{Measurement, MeasurementError};
@@ -174,11 +174,14 @@ impl Columns {
             found: plain::line(&names.join(", ")).to_string(),
             unit: kind.example,
         };
-        Ok(Self {
-            force: column(&FORCE)?.ok_or_else(|| missing(&FORCE))?,
-            penetration: column(&PENETRATION)?.ok_or_else(|| missing(&PENETRATION))?,
-            deviation: column(&DEVIATION)?,
-        })
+        let force = column(&FORCE)?.ok_or_else(|| missing(&FORCE))?;
+        let penetration = column(&PENETRATION)?.ok_or_else(|| missing(&PENETRATION))?;
+        // Without a unit of its own it has that of the penetration.
+        let deviation = column(&DEVIATION)?.map(|own| match names[own.place] == DEVIATION.name {
+            true => Column { factor: penetration.factor, ..own },
+            false => own,
+        });
+        Ok(Self { force, penetration, deviation })
     }
 }
 
@@ -231,6 +234,8 @@ mod tests {
         let own = read(text, &units()).unwrap();
         assert_eq!(own.forces(), [2.0, 4.0]);
         assert!((own.penetrations()[1] - 0.024).abs() < 1e-17 && own.deviations().unwrap()[0] == 0.5 / 1000.0);
+        let own = read("force,penetration_nm,penetration_error\n2,15,0.5\n", &units()).unwrap();
+        assert_eq!(own.deviations().unwrap(), [0.5 / 1000.0], "in the unit of the penetration");
         let own = read("penetration,force\n0.1,3\n", &Units::unknown()).unwrap();
         assert_eq!((own.forces(), own.penetrations(), own.deviations()), (&[3.0][..], &[0.1][..], None));
     }

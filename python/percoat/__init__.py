@@ -1,8 +1,7 @@
-"""Periodic contact of coated bodies.
+"""Contact of coated bodies.
 
-Which pressures, contact spots, penetrations and internal stresses arise when a doubly periodic system of rigid asperities
-at several heights, or any periodic topography, is pressed into a coated elastic half-space, and at which load something
-fails.
+Which pressures, contact spots, penetrations and internal stresses arise when a ball, asperities at several heights or a rough
+surface, rigid or elastic, is pressed into a coated elastic half-space, and at which load or after how many passes something fails.
 
 >>> import percoat
 >>> result = percoat.solve("fig2", set={"grid.points": 96})

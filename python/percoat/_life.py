@@ -52,7 +52,7 @@ def life(
     """Passes until damage first reaches 1, where, and of what; with ``life.passes`` what happens up to there.
 
     Parameters are those of :func:`percoat.solve`; the case needs ``fatigue``, ``interface_fatigue``, or ``wear`` with ``life.passes``,
-    and one load. ``progress`` hears of the beginning and of every load that is solved. Ctrl-C raises at once; the work ends within the
+    and one load. ``progress`` is called at the beginning and with every load that is solved. Ctrl-C raises at once; the work ends within the
     load that is being solved.
 
     Examples

@@ -646,7 +646,7 @@ def solve(
     threads
         Threads to use, all cores if it is not said; results do not depend on it.
     progress
-        A callable that hears how far it is (it prints as a line, and has ``done``, ``of``, ``phase``, …), or ``True`` to
+        A callable that is called with how far it is (it prints as a line, and has ``done``, ``of``, ``phase``, …), or ``True`` to
         have that printed on standard error.
 
     Returns

@@ -38,9 +38,13 @@ pub(super) fn apply(text: &str, source: usize, root: &mut Table, keys: &'static 
     }
     let value = match Node::parse(value, source, offset) {
         Err(_) if is_bare_word(value) => Node { value: Value::Text(value.to_owned()), span },
-        parsed => {
-            parsed.map_err(|refusal| if is_decimal_comma(value) { refusal.help(WITH_A_POINT) } else { refusal })?
-        }
+        parsed => parsed.map_err(|refusal| match value {
+            value if is_decimal_comma(value) => refusal.help(WITH_A_POINT),
+            value if is_list_of_numbers(value) => {
+                refusal.help(format!("a list has brackets: '{key}=[{value}]'; percoat sweep takes several values without"))
+            }
+            _ => refusal,
+        })?,
     };
     set_in_table(root, keys, "", &steps, value)
 }
@@ -94,6 +98,11 @@ fn steps(key: &str, source: usize) -> Result<Vec<PathStep>, Refusal> {
 
 const WITH_BOTH: &str = "write KEY=VALUE, for example solver.tolerance=1e-10";
 const WITH_A_POINT: &str = "write the number with a point: 0.5; several values are a list: [0, 5]";
+
+/// Whether a text is numbers with commas between.
+fn is_list_of_numbers(text: &str) -> bool {
+    text.contains(',') && text.split(',').all(|item| item.trim().parse::<f64>().is_ok())
+}
 
 /// Whether it is two integers with a comma between them.
 fn is_decimal_comma(value: &str) -> bool {

@@ -20,8 +20,8 @@ use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 
-/// Periodic contact of coated bodies: pressures, contact spots and penetrations of a doubly periodic
-/// system of rigid asperities at several heights on a layered elastic half-space.
+/// Contact of coated bodies: pressures, contact spots, penetration and stresses under a ball, asperities at several heights or a rough
+/// surface, rigid or elastic, and the load or number of passes at which something fails.
 #[derive(Debug, Parser)]
 #[command(version, propagate_version = true, arg_required_else_help = true, after_help = help::PERCOAT)]
 pub struct Arguments {

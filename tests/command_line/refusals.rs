@@ -40,6 +40,8 @@ fn cases_prints_a_changed_case_that_runs_as_the_override_would() {
     let own = desk.solve("own", &["fig2", "--set=grid.points=48", "--set=layers.0.thickness=0.3", "--no-pictures"]);
     assert!(mine.bytes("contact.npz") == own.bytes("contact.npz"));
     desk.percoat(&["cases", "fig2", "--set", "grid.point=48"]).complains(2, &["did you mean `points`?"]);
+    let list = desk.percoat(&["cases", "fig2", "--set", "load.mean_pressure=0.02,0.06"]);
+    list.complains(2, &["'load.mean_pressure=[0.02,0.06]'", "percoat sweep"]);
 }
 
 #[test]
