@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Dict, Iterable, Mapping, Optional
+from concurrent.futures import Executor
+from time import monotonic
+from typing import Any, Callable, Dict, Iterable, Mapping, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
 from percoat import _core
 from percoat._case import CaseLike
+from percoat._executor import solve_on
 from percoat._solve import Listener, listener
 from percoat._warnings import NotConverged, warn
 
 
 TEXTS = ("status", "reason", "warnings", "route", "criterion", "reached", "state", "rivals", "name")
 """How the columns of texts end; what they do not have is an empty one."""
+
+
+Row = Dict[str, Any]
+"""A row of the table as it is done: names with their cells, ``None`` where there is no value."""
 
 
 class Columns(Dict[str, NDArray[Any]]):
@@ -38,6 +45,8 @@ def sweep(
     limit: bool = False,
     threads: Optional[int] = None,
     progress: Listener = None,
+    executor: Optional[Executor] = None,
+    on_row: Optional[Callable[[Row], object]] = None,
 ) -> Columns:
     """Solve a case for every combination of values.
 
@@ -52,8 +61,18 @@ def sweep(
         Pair the values of the keys, instead of all their combinations.
     limit
         Look for the limit loads of each combination instead of solving its load steps.
-    threads, progress
-        As for :func:`percoat.solve`.
+    threads
+        As for :func:`percoat.solve`; with an executor, threads of each of its tasks, one if it is not given.
+    progress
+        As for :func:`percoat.solve`: called after each combination.
+    executor
+        Any :class:`concurrent.futures.Executor`: each combination is one task of it. The table is that of a sweep without
+        one, bit for bit. A task that raises, or whose worker dies, becomes a row with the status ``failed`` and the reason.
+        Files that the case names are read by the workers, under the same paths; arrays travel with the task. The executor
+        is not shut down.
+    on_row
+        Called in this process with each row of the table as soon as its combination is done, whatever the order: a dict of
+        names and cells, ``None`` where there is no value.
 
     Returns
     -------
@@ -61,6 +80,14 @@ def sweep(
         One row a combination and load step: ``combination``, ``set_<key>`` of what was set, ``status``, ``step``, and the
         scalars of ``curve.csv``. Numbers that are not there are NaN, truths ``None``; whole numbers of which one is not
         there are floats.
+
+    Raises
+    ------
+    CaseError
+        Every combination is refused, or memory does not suffice for all rows.
+    KeyboardInterrupt
+        On Ctrl-C. Without an executor solutions end between two iterations; with one no further task begins, and those that
+        have begun end.
 
     Warns
     -----
@@ -73,25 +100,79 @@ def sweep(
     >>> table = percoat.sweep("fig2", {"layers.0.thickness": [0.2, 0.5], "grid.points": 96})
     >>> table["set_layers_0_thickness"], table["status"].tolist()
     (array([0.2, 0.5]), ['done', 'done'])
+
+    On the processes of this machine; where processes are spawned the script needs ``if __name__ == "__main__":``
+
+    >>> from concurrent.futures import ProcessPoolExecutor
+    >>> def study():
+    ...     with ProcessPoolExecutor(4) as executor:
+    ...         return percoat.sweep("fig2", {"layers.0.thickness": "0.05:2:25:log"}, executor=executor)
+
+    On a Dask cluster, here one on this machine:
+
+    >>> def study_by_dask():
+    ...     from dask.distributed import Client, LocalCluster
+    ...     with LocalCluster(n_workers=4, threads_per_worker=1) as cluster, Client(cluster) as client:
+    ...         return percoat.sweep("fig2", {"layers.0.thickness": "0.05:2:25:log"}, executor=client.get_executor())
+
+    On the processes of MPI, as ``mpiexec -n 5 python -m mpi4py.futures study.py``:
+
+    >>> def study_by_mpi():
+    ...     from mpi4py.futures import MPIPoolExecutor
+    ...     with MPIPoolExecutor() as executor:
+    ...         return percoat.sweep("fig2", {"layers.0.thickness": "0.05:2:25:log"}, executor=executor)
     """
     if not isinstance(set, Mapping):
         raise TypeError("what is swept over is a dict of keys and their values, {'layers.0.thickness': [0.1, 0.2]}")
-    columns, told = _core.sweep(case, dict(set), zip, limit, threads, listener(progress))
-    warn(_merged(told))
-    warn((f"{name}: failed: {reason}" for name, status, reason, _ in told if status == "failed"))
-    unsettled = (f"{name}: not converged: {reason}" for name, status, reason, _ in told if status == "not_converged")
+    if executor is not None and not isinstance(executor, Executor):
+        kind = type(executor).__name__
+        raise TypeError(
+            f"executor is a concurrent.futures.Executor, not a {kind}; a Dask client gives one by client.get_executor()"
+        )
+    own = _core.Sweep(case, dict(set), zip, limit)
+    done = _Done(own, listener(progress), on_row)
+    rows = own.solve(threads, done.heard()) if executor is None else solve_on(executor, own, threads, done)
+    rows.sort(key=lambda row: row.combination)
+    warn(_merged(rows))
+    warn((f"{row.name}: failed: {row.reason}" for row in rows if row.status == "failed"))
+    unsettled = (f"{row.name}: not converged: {row.reason}" for row in rows if row.status == "not_converged")
     warn(unsettled, NotConverged)
-    return Columns({name: _column(name, cells) for name, cells in columns})
+    return Columns({name: _column(name, cells) for name, cells in _core.columns(rows)})
 
 
-def _merged(told: list[tuple[str, str, str, list[str]]]) -> Iterable[str]:
+class _Done:
+    """Passes on each combination that is done, to the progress and to ``on_row``."""
+
+    def __init__(
+        self,
+        sweep: _core.Sweep,
+        progress: Optional[Callable[[_core.Progress], object]],
+        on_row: Optional[Callable[[Row], object]],
+    ) -> None:
+        self.sweep, self.progress, self.on_row = sweep, progress, on_row
+        self.count, self.began = 0, monotonic()
+
+    def heard(self) -> Optional[Callable[[_core.Row], object]]:
+        """This, or ``None`` where nothing is passed on."""
+        return None if self.progress is None and self.on_row is None else self
+
+    def __call__(self, row: _core.Row) -> None:
+        self.count += 1
+        if self.on_row is not None:
+            for line in row.lines():
+                self.on_row({name: _number(cell) if name.startswith("set_") else cell for name, cell in line})
+        if self.progress is not None:
+            self.progress(self.sweep.told(row, self.count, monotonic() - self.began))
+
+
+def _merged(rows: list[_core.Row]) -> Iterable[str]:
     """Each doubt once, whatever its numbers, with the number of combinations that have it."""
     found: dict[str, tuple[str, list[str]]] = {}
-    for name, _, _, doubts in told:
-        for doubt in doubts:
+    for row in rows:
+        for doubt in row.warnings:
             _, names = found.setdefault(re.sub(r"[\s0-9.,e+-]+", " ", doubt), (doubt, []))
-            if name not in names:
-                names.append(name)
+            if row.name not in names:
+                names.append(row.name)
     for doubt, names in found.values():
         others = f" (and {len(names) - 1} more)" if len(names) > 1 else ""
         yield f"{names[0]}{others}: {doubt}"

@@ -76,13 +76,7 @@ impl Case {
         let (py, case) = (slf.py(), slf.get());
         let own = case.clone();
         let source = work::run(py, None, None, move |_| own.portable())??;
-        let (files, arrays) = (PyDict::new(py), PyDict::new(py));
-        for (name, bytes) in &source.files {
-            files.set_item(name, PyBytes::new(py, bytes))?;
-        }
-        for (name, heights) in &source.arrays {
-            arrays.set_item(name, PyArrayDyn::from_array(py, heights))?;
-        }
+        let (files, arrays) = in_memory(py, &source)?;
         let state = (to_python(py, &source.values)?, files, arrays, &case.name).into_pyobject(py)?;
         Ok((slf.get_type().getattr("_restore")?, state))
     }
@@ -94,18 +88,9 @@ impl Case {
         arrays: &Bound<'_, PyDict>,
         name: String,
     ) -> PyResult<Self> {
-        let file = |(name, bytes): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<(String, Arc<[u8]>)> {
-            Ok((name.extract()?, Arc::from(bytes.cast::<PyBytes>()?.as_bytes())))
-        };
-        let heights = |(name, own): (Bound<'_, PyAny>, Bound<'_, PyAny>)| Ok((name.extract()?, array(&own)?));
-        let source = Source {
-            name: name.clone(),
-            values: Some(table(values.as_mapping(), "")?),
-            files: files.iter().map(file).collect::<PyResult<_>>()?,
-            arrays: arrays.iter().map(heights).collect::<PyResult<_>>()?,
-            ..Source::default()
-        };
-        Self::read(values.py(), source, Vec::new(), name)
+        let values = Some(table(values.as_mapping(), "")?);
+        let source = with_memory(Source { name: name.clone(), values, ..Source::default() }, files, arrays)?;
+        Self::read(files.py(), source, Vec::new(), name)
     }
 }
 
@@ -149,6 +134,29 @@ impl Case {
         }
         Ok(source)
     }
+}
+
+/// The files of a source that are in memory, and its arrays, by their names.
+pub fn in_memory<'py>(py: Python<'py>, source: &Source) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>)> {
+    let (files, arrays) = (PyDict::new(py), PyDict::new(py));
+    for (name, bytes) in &source.files {
+        files.set_item(name, PyBytes::new(py, bytes))?;
+    }
+    for (name, heights) in &source.arrays {
+        arrays.set_item(name, PyArrayDyn::from_array(py, heights))?;
+    }
+    Ok((files, arrays))
+}
+
+/// The source with these files and arrays [in memory](in_memory).
+pub fn with_memory(source: Source, files: &Bound<'_, PyDict>, arrays: &Bound<'_, PyDict>) -> PyResult<Source> {
+    let file = |(name, bytes): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<(String, Arc<[u8]>)> {
+        Ok((name.extract()?, Arc::from(bytes.cast::<PyBytes>()?.as_bytes())))
+    };
+    let heights = |(name, own): (Bound<'_, PyAny>, Bound<'_, PyAny>)| Ok((name.extract()?, array(&own)?));
+    let files = files.iter().map(file).collect::<PyResult<_>>()?;
+    let arrays = arrays.iter().map(heights).collect::<PyResult<_>>()?;
+    Ok(Source { files, arrays, ..source })
 }
 
 /// A case as the values of its keys.

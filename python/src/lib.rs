@@ -15,6 +15,7 @@ mod limit;
 mod materials;
 mod progress;
 mod record;
+mod row;
 mod solve;
 mod step;
 mod sweep;
@@ -44,11 +45,13 @@ mod _core {
     #[pymodule_export]
     use super::progress::Progress;
     #[pymodule_export]
+    use super::row::Row;
+    #[pymodule_export]
     use super::solve::{outcome_text, solve};
     #[pymodule_export]
     use super::step::{Step, step};
     #[pymodule_export]
-    use super::sweep::sweep;
+    use super::sweep::{Sweep, columns};
 
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {

@@ -1,75 +1,193 @@
 //! `percoat.sweep`: a case, solved for many settings of its keys.
 
-use crate::case;
+use crate::case::{self, in_memory, with_memory};
 use crate::errors::refused;
 use crate::progress::Progress;
 use crate::record::to_python;
+use crate::row::Row;
 use crate::value::{text, value};
 use crate::work;
 use percoat::case::Source;
-use percoat::machine::Capacity;
-use percoat::sweep::{Axis, Combinations, Group, Row, Study, Task, columns};
+use percoat::machine::{Capacity, available_memory};
+use percoat::sweep::{self, Axis, Combination, Combinations, Group, Study, Task};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::collections::HashSet;
-use std::path::Path;
-use toml::Value;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use toml::{Table, Value};
 
-/// Of a combination its name, its status, the reason where it is not `done`, and its warnings.
-type Told = (String, &'static str, String, Vec<String>);
+/// The combinations of the values of some keys of a case, all of a sweep or a part of them.
+#[pyclass(frozen, skip_from_py_object, module = "percoat._core")]
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    source: Arc<Source>,
+    /// Settings of all combinations, `KEY=VALUE`.
+    fixed: Vec<String>,
+    combinations: Arc<Combinations>,
+    task: Task,
+}
 
-/// The columns of the table of a sweep, each a name with a list of cells; and name, status, reason and warnings of each combination.
-type Swept<'py> = (Bound<'py, PyAny>, Vec<Told>);
+/// Name, text, values, folder, and settings of a source; its files and arrays in memory.
+type Sourced<'py> =
+    (String, String, Option<String>, OsString, Vec<(String, String)>, (Bound<'py, PyDict>, Bound<'py, PyDict>));
 
-/// Solves the combinations of the values of `set`, with `zip` only those of values at the same place of their lists.
-#[pyfunction]
-#[pyo3(signature = (case, set, zip = false, limit = false, threads = None, progress = None))]
-pub fn sweep<'py>(
-    py: Python<'py>,
-    case: &Bound<'py, PyAny>,
-    set: &Bound<'py, PyDict>,
-    zip: bool,
-    limit: bool,
-    threads: Option<i64>,
-    progress: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Swept<'py>> {
-    let (mut source, _) = case::source(case)?;
-    let (axes, fixed) = axes(set, &mut source)?;
-    let groups = match zip && !axes.is_empty() {
-        true => vec![Group::zip(&axes).map_err(refused)?],
-        false => axes.iter().map(Group::of).collect(),
-    };
-    let combinations = Combinations::product(&groups).map_err(refused)?;
-    let task = if limit { Task::Limit } else { Task::Solve };
-    let rows = work::run(py, threads, progress, move |listener| {
-        let room = Capacity { disk: u64::MAX, ..Capacity::on_this_machine(Path::new(".")) };
-        let study = Study::new(&source, &fixed, &combinations, task, room).map_err(|error| error.to_string())?;
-        let study = study.stopped_by(listener.stop().clone());
-        let (of, mut rows) = (combinations.all.len(), Vec::<Row>::new());
-        let ended = study.run(&HashSet::new(), Path::new("."), |row| {
-            let phase = format!("{} {}", row.named(), row.status.name());
-            rows.push(row);
-            let done = rows.len();
-            listener.tell(true, |seconds| Progress {
-                unit: "combination",
-                done,
-                of,
-                points: None,
-                iteration: 0,
-                residual: f64::NAN,
-                phase,
-                seconds,
+/// Settings, keys, and numbers with values of some combinations, and whether their limit loads are searched.
+type Combined = (Vec<String>, Vec<String>, Vec<(usize, Vec<String>)>, bool);
+
+#[pymethods]
+impl Sweep {
+    /// The combinations of the values of `set`, with `zip` only those of values at the same place of their lists.
+    #[new]
+    #[pyo3(signature = (case, set, zip = false, limit = false))]
+    fn new(case: &Bound<'_, PyAny>, set: &Bound<'_, PyDict>, zip: bool, limit: bool) -> PyResult<Self> {
+        let (mut source, _) = case::source(case)?;
+        let (axes, fixed) = axes(set, &mut source)?;
+        let groups = match zip && !axes.is_empty() {
+            true => vec![Group::zip(&axes).map_err(refused)?],
+            false => axes.iter().map(Group::of).collect(),
+        };
+        let combinations = Arc::new(Combinations::product(&groups).map_err(refused)?);
+        Ok(Self { source: Arc::new(source), fixed, combinations, task: if limit { Task::Limit } else { Task::Solve } })
+    }
+
+    fn __len__(&self) -> usize {
+        self.combinations.all.len()
+    }
+
+    /// Solves all combinations here. `done` receives each row when its combination is done, in the order in which they end.
+    #[pyo3(signature = (threads = None, done = None))]
+    fn solve(&self, py: Python<'_>, threads: Option<i64>, done: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Row>> {
+        let Self { source, fixed, combinations, task } = self.clone();
+        let rows = work::run(py, threads, done, move |listener| {
+            let study = Study::new(&source, &fixed, &combinations, task, room()).map_err(|error| error.to_string())?;
+            let study = study.stopped_by(Arc::clone(listener.stop()));
+            let mut rows = Vec::new();
+            let ended = study.run(&HashSet::new(), Path::new("."), |row| {
+                rows.push(Row::from(row));
+                listener.row(rows[rows.len() - 1].clone());
+                listener.check()
             });
-            if listener.stops() { Err(()) } else { Ok(()) }
-        });
-        // The caller of a sweep that was stopped has raised already.
-        let _ = ended;
-        Ok::<_, String>(rows)
-    })?;
-    let rows = rows.map_err(refused)?;
-    let told =
-        |row: &Row| (row.named(), row.status.name(), row.reason.clone().unwrap_or_default(), row.warnings.clone());
-    Ok((to_python(py, &columns(&rows))?, rows.iter().map(told).collect()))
+            // The caller of a sweep that was stopped has raised already.
+            drop(ended);
+            Ok::<_, String>(rows)
+        })?;
+        rows.map_err(refused)
+    }
+
+    /// Reads and checks the case of every combination, for solutions elsewhere; the fingerprints, empty ones of refused cases.
+    fn check(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        let Self { source, fixed, combinations, task } = self.clone();
+        let checked = work::run(py, None, None, move |_| {
+            let study = Study::elsewhere(&source, &fixed, &combinations, task, available_memory());
+            study.map(|study| study.fingerprints()).map_err(|error| error.to_string())
+        })?;
+        checked.map_err(refused)
+    }
+
+    /// One combination alone, by its place among all of them, from 0.
+    fn part(&self, index: usize) -> PyResult<Self> {
+        let combinations =
+            self.combinations.alone(index).ok_or_else(|| PyIndexError::new_err("no such combination"))?;
+        Ok(Self { combinations: Arc::new(combinations), ..self.clone() })
+    }
+
+    /// The row of the first combination, solved here on this number of threads; a failed one where it cannot be solved.
+    fn solve_first(&self, py: Python<'_>, threads: i64) -> PyResult<Row> {
+        let Self { source, fixed, combinations, task } = self.part(0)?;
+        let failed = self.clone();
+        let row = work::run(py, Some(threads), None, move |listener| {
+            let study = Study::part(&source, &fixed, &combinations, task, room()).map_err(|error| error.to_string())?;
+            let (study, mut solved) = (study.stopped_by(Arc::clone(listener.stop())), None);
+            let _ = study.run(&HashSet::new(), Path::new("."), |row| {
+                solved = Some(row);
+                listener.check()
+            });
+            solved.ok_or_else(|| "it was stopped before its end".to_owned())
+        })?;
+        row.map_or_else(|reason| failed.failed(0, String::new(), reason), |row| Ok(row.into()))
+    }
+
+    /// The row of a combination without results, by its place among all of them, from 0.
+    fn failed(&self, index: usize, fingerprint: String, reason: String) -> PyResult<Row> {
+        let Self { combinations, .. } = self.part(index)?;
+        let own = &combinations.all[0];
+        Ok(sweep::Row::failed(own.number, combinations.named_values(own), fingerprint, reason).into())
+    }
+
+    /// Progress after `done` combinations and a number of seconds, of which `row` is the last.
+    fn told(&self, row: &Bound<'_, Row>, done: usize, seconds: f64) -> Progress {
+        let own = row.get().own();
+        Progress {
+            unit: "combination",
+            done,
+            of: self.combinations.all.len(),
+            points: None,
+            iteration: 0,
+            residual: f64::NAN,
+            phase: format!("{} {}", own.named(), own.status.name()),
+            seconds,
+        }
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, own) = (slf.py(), slf.get());
+        let state = (own.sourced(py)?, own.combined()).into_pyobject(py)?;
+        Ok((slf.get_type().getattr("_restore")?, state))
+    }
+
+    #[staticmethod]
+    fn _restore(sourced: Sourced<'_>, combined: Combined) -> PyResult<Self> {
+        let (name, text, values, folder, set, (files, arrays)) = sourced;
+        let (fixed, keys, all, limit) = combined;
+        let parsed = |text: String| text.parse::<Table>().map_err(refused);
+        let set = set.into_iter().map(|(key, text)| Ok((key, parsed(text)?.remove(VALUE).ok_or_else(lost)?)));
+        let set = set.collect::<PyResult<Vec<_>>>()?;
+        let (values, folder) = (values.map(parsed).transpose()?, PathBuf::from(folder));
+        let source = with_memory(Source { name, text, values, set, folder, ..Source::default() }, &files, &arrays)?;
+        let all = all.into_iter().map(|(number, values)| Combination { number, values }).collect();
+        let task = if limit { Task::Limit } else { Task::Solve };
+        Ok(Self { source: Arc::new(source), fixed, combinations: Arc::new(Combinations { keys, all }), task })
+    }
+}
+
+/// Key of a value that is pickled alone.
+const VALUE: &str = "value";
+
+fn lost() -> PyErr {
+    refused("what was pickled of a sweep is not whole")
+}
+
+/// Memory of this machine; a sweep from Python writes nothing.
+fn room() -> Capacity {
+    Capacity { disk: u64::MAX, memory: available_memory() }
+}
+
+impl Sweep {
+    /// Its source, from which any process that finds the same files under the same paths reads the same cases.
+    fn sourced<'py>(&self, py: Python<'py>) -> PyResult<Sourced<'py>> {
+        let Source { name, text, values, set, folder, .. } = &*self.source;
+        let written = |table: &Table| toml::to_string(table).map_err(refused);
+        let alone = |value: &Value| written(&Table::from_iter([(VALUE.to_owned(), value.clone())]));
+        let set = set.iter().map(|(key, value)| Ok((key.clone(), alone(value)?))).collect::<PyResult<_>>()?;
+        let folder = std::env::current_dir()?.join(folder).into_os_string();
+        let values = values.as_ref().map(written).transpose()?;
+        Ok((name.clone(), text.clone(), values, folder, set, in_memory(py, &self.source)?))
+    }
+
+    fn combined(&self) -> Combined {
+        let all = self.combinations.all.iter().map(|own| (own.number, own.values.clone())).collect();
+        (self.fixed.clone(), self.combinations.keys.clone(), all, self.task == Task::Limit)
+    }
+}
+
+/// The columns of the table of a sweep, each a name with a list of cells, by ascending combination.
+#[pyfunction]
+pub fn columns<'py>(py: Python<'py>, rows: Vec<PyRef<'py, Row>>) -> PyResult<Bound<'py, PyAny>> {
+    let rows: Vec<sweep::Row> = rows.iter().map(|row| row.own().clone()).collect();
+    to_python(py, &sweep::columns(&rows))
 }
 
 /// The keys with lists of values, and `KEY=VALUE` of those with one value, in their order. Without a text among these they are

@@ -6,6 +6,7 @@
 
 use crate::errors::refused;
 use crate::progress::Progress;
+use crate::row::Row;
 use percoat::machine::Threads;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -25,9 +26,16 @@ const PAUSE: Duration = Duration::from_millis(50);
 
 /// A message from the work to the thread of the caller.
 enum Event<T> {
+    Told(Message),
+    Done(thread::Result<T>),
+}
+
+/// What the callable of the caller receives.
+enum Message {
     /// A report, and whether it is passed on even where a later one is there.
     Progress(Progress, bool),
-    Done(thread::Result<T>),
+    /// A combination that is done.
+    Row(Row),
 }
 
 /// Events in the order in which they came.
@@ -36,7 +44,7 @@ type Events<T> = VecDeque<Event<T>>;
 /// The caller as seen from the work: receives reports and may stop it.
 pub struct Listener {
     stop: Arc<AtomicBool>,
-    tell: Option<Box<dyn Fn(Progress, bool) + Send>>,
+    tell: Option<Box<dyn Fn(Message) + Send>>,
     began: Instant,
     told: Option<Instant>,
 }
@@ -73,12 +81,17 @@ impl Listener {
         let Some(tell) = &self.tell else { return };
         if new || self.told.is_none_or(|told| told.elapsed() > PAUSE) {
             self.told = Some(Instant::now());
-            tell(progress(self.began.elapsed().as_secs_f64()), new);
+            tell(Message::Progress(progress(self.began.elapsed().as_secs_f64()), new));
         }
+    }
+
+    /// Passes on a combination that is done.
+    pub fn row(&self, row: Row) {
+        self.tell.iter().for_each(|tell| tell(Message::Row(row.clone())));
     }
 }
 
-/// The result of the work on this number of threads, without one on all cores.
+/// The result of the work on this number of threads, without one on all cores; `progress` receives reports, and rows of a sweep.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     threads: Option<i64>,
@@ -95,8 +108,7 @@ pub fn run<T: Send + 'static>(
     let tell = progress.is_some_and(|progress| !progress.is_none()).then(|| {
         let send: Sender<Event<T>> = send.clone();
         // After Ctrl-C the receiver is gone.
-        Box::new(move |progress, new| drop(send.send(Event::Progress(progress, new))))
-            as Box<dyn Fn(Progress, bool) + Send>
+        Box::new(move |message| drop(send.send(Event::Told(message)))) as Box<dyn Fn(Message) + Send>
     });
     let mut listener = Listener { stop: Arc::clone(&stop), tell, began: Instant::now(), told: None };
     let spawned = thread::Builder::new().name("percoat".to_owned()).spawn(move || {
@@ -120,10 +132,11 @@ pub fn run<T: Send + 'static>(
                 }
             }
         }
-        let heard = py.check_signals().and_then(|()| match next(&mut events) {
-            Some(Event::Progress(own, _)) => progress.map_or(Ok(None), |callable| callable.call1((own,)).map(|_| None)),
-            Some(Event::Done(done)) => Ok(Some(done)),
-            None => Ok(None),
+        let heard = py.check_signals().and_then(|()| match (next(&mut events), progress) {
+            (Some(Event::Told(Message::Progress(own, _))), Some(callable)) => callable.call1((own,)).map(|_| None),
+            (Some(Event::Told(Message::Row(row))), Some(callable)) => callable.call1((row,)).map(|_| None),
+            (Some(Event::Done(done)), _) => Ok(Some(done)),
+            _ => Ok(None),
         });
         match heard {
             Ok(None) => {}
@@ -151,10 +164,8 @@ fn wait<T>(receive: Receiver<Event<T>>) -> (Result<Events<T>, RecvTimeoutError>,
 
 /// The next event, past reports that a later one replaces: a slow callable receives the latest.
 fn next<T>(events: &mut Events<T>) -> Option<Event<T>> {
-    let stale = |events: &Events<T>| {
-        matches!(events.front(), Some(Event::Progress(_, false)))
-            && matches!(events.get(1), Some(Event::Progress(_, false)))
-    };
+    let replaceable = |event: Option<&Event<T>>| matches!(event, Some(Event::Told(Message::Progress(_, false))));
+    let stale = |events: &Events<T>| replaceable(events.front()) && replaceable(events.get(1));
     while stale(events) {
         events.pop_front();
     }
@@ -171,11 +182,12 @@ struct Pool {
 static POOLS: Mutex<Vec<Pool>> = Mutex::new(Vec::new());
 
 /// A pool of this number of threads, without one as many as the environment says, at most four a core; the pool without a number and
-/// the last one with a number are kept.
+/// the last one with a number are kept. While one with a number is at work, another caller gets threads of its own.
 fn pool(threads: Option<i64>) -> PyResult<Arc<ThreadPool>> {
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
-    if let Some(own) = pools.iter().find(|own| own.process == process && own.threads == threads) {
+    let is_free = |own: &Pool| threads.is_none() || Arc::strong_count(&own.pool) == 1;
+    if let Some(own) = pools.iter().find(|own| own.process == process && own.threads == threads && is_free(own)) {
         return Ok(Arc::clone(&own.pool));
     }
     let count = Threads::new("threads", threads.map(|threads| threads as usize)).map_err(refused)?.count;

@@ -15,6 +15,7 @@ from conftest import environment
 SCRIPT = '''
 """What a user may write."""
 
+from concurrent.futures import Executor, ProcessPoolExecutor
 from pathlib import Path
 from typing import Any, Dict, List, Optional
 
@@ -89,6 +90,17 @@ print(percoat.identify(case, Path("curve.csv"), "offset", set=["grid.points=64"]
 columns: percoat.Columns = percoat.sweep(case, {"layers.0.thickness": [0.1, 0.2]}, zip=True, limit=False)
 print(columns.rows, columns["penetration"])
 
+
+def row(cells: Dict[str, Any]) -> None:
+    print(cells["combination"], cells["status"])
+
+
+def study(executor: Executor) -> percoat.Columns:
+    return percoat.sweep("fig2", {"layers.0.thickness": [0.1]}, executor=executor, on_row=row, threads=2)
+
+
+study(ProcessPoolExecutor(2))
+
 body = percoat.HalfSpace(layers=case["layers"], substrate=case["substrate"])
 print(body.compliance(np.geomspace(0.1, 10.0, 5)), percoat.HalfSpace.of("fig2").correction(1.0))
 response: percoat.Record = percoat.kernel("fig2", [1.0, 2.0], depth=0.5, traction="along")
@@ -113,6 +125,8 @@ MISTAKES = [
     'percoat.solve("fig2").steps[0].penetration.upper()',
     'percoat.solve("fig2").steps[0].plane("deep")',
     'percoat.sweep("fig2", 3)',
+    'percoat.sweep("fig2", {}, executor=4)',
+    'percoat.sweep("fig2", {}, on_row=len("x"))',
     'percoat.identify("fig2", 3.0, ["offset"])',
     'percoat.identify("fig2", "curve.csv", ["offset"]).values.upper()',
     'percoat.kernel("fig2", 1.0, traction=3)',

@@ -8,7 +8,6 @@ use super::progress::Progress;
 use super::results::Results;
 use super::sweep_files::{finish, may_write};
 use super::terminal::{self, tell};
-use crate::case::{Case, Source};
 use crate::machine::Capacity;
 use crate::output::{Plan, SWEEP_LOG};
 use crate::plain;
@@ -58,7 +57,7 @@ pub fn run(case: &Path, set: &[String], options: &SweepOptions, common: &Common)
     let (source, name) = read_source(Some(case))?;
     let (combinations, fixed) = combinations(options, set)?;
     let task = if options.limit { Task::Limit } else { Task::Solve };
-    let described = described(&source, &fixed, &combinations, task);
+    let described = Description::of(&source, &fixed, &combinations, task);
     let mut folder = output_folder(common, &name)?;
     let combinations = match options.shard {
         Some((part, of)) => {
@@ -83,16 +82,6 @@ pub fn run(case: &Path, set: &[String], options: &SweepOptions, common: &Common)
     solve(&study, &results, log, &mut rows, count, common)?;
     rows.sort_by_key(|row| row.combination);
     finish(results, &rows, &describe(&rows), &common.pictures)
-}
-
-/// The description of a sweep that has not begun.
-fn described(source: &Source, fixed: &[String], combinations: &Combinations, task: Task) -> Description {
-    // Without the keys that vary the case may be refused: its text then stands for it.
-    let whole = Case::read(source, fixed).ok();
-    let text = whole.as_ref().map_or_else(|| source.text.clone(), Case::to_toml);
-    let fingerprint = sweep::fingerprint(&text, fixed, combinations);
-    let title = whole.map_or(String::new(), |case| case.title);
-    Description::new(&title, &text, task, fingerprint, combinations.all.len())
 }
 
 /// Combinations of an earlier sweep into the folder with which this one of `count` combinations goes on; their files are taken

@@ -5,16 +5,16 @@ use super::pictures::PictureOptions;
 use super::plan::plan;
 use super::results::Results;
 use super::terminal;
-use crate::output::{Plan, SWEEP_LOG, Writer};
+use crate::output::{Plan, Writer};
 use crate::picture;
-use crate::sweep::{self, Description, Log, Row, Status};
+use crate::sweep::{self, Description, Row, Status};
 use crate::units::Units;
 use std::collections::HashSet;
 use std::path::Path;
 
 /// Files of the result, without those of single combinations.
 pub fn may_write(pictures: &PictureOptions) -> Plan {
-    plan(Writer::Sweep, &["sweep.csv", "sweep.json", SWEEP_LOG], pictures, &["sweep"])
+    plan(Writer::Sweep, &sweep::FILES, pictures, &["sweep"])
 }
 
 /// Writes, publishes and prints the result with `rows` by ascending combination.
@@ -25,10 +25,7 @@ pub fn finish(
     pictures: &PictureOptions,
 ) -> Result<Ending, Failure> {
     let (staging, saying) = (results.staging(), results.saying);
-    // The log so far has the order in which combinations ended.
-    drop(Log::begin(&staging, &description.identity(), rows)?);
-    results.write("sweep.csv", &sweep::table(rows))?;
-    results.write("sweep.json", &description.to_json())?;
+    sweep::write(&staging, rows, description)?;
     let units = description.first_case(rows, Path::new("")).map_or_else(Units::unknown, |case| case.units());
     pictures.write(&staging, "sweep", || picture::sweep(&description.title, &units, rows))?;
     let warnings = if saying.json { Vec::new() } else { [warnings(rows), failures(rows)].concat() };

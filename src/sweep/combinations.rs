@@ -204,6 +204,16 @@ impl Combinations {
         Some(kinds.into_values().collect())
     }
 
+    /// One combination alone, by its place among all of them, from 0; `None` beyond the last.
+    pub fn alone(&self, index: usize) -> Option<Self> {
+        Some(Self { keys: self.keys.clone(), all: vec![self.all.get(index)?.clone()] })
+    }
+
+    /// The keys with their values in a combination.
+    pub fn named_values(&self, combination: &Combination) -> Vec<(String, String)> {
+        self.keys.iter().cloned().zip(combination.values.iter().cloned()).collect()
+    }
+
     /// The settings of a combination, `KEY=VALUE` each.
     pub fn settings(&self, combination: &Combination) -> Vec<String> {
         self.keys.iter().zip(&combination.values).map(|(key, value)| format!("{key}={value}")).collect()

@@ -56,7 +56,7 @@ impl Study<'_> {
                     continue;
                 }
             }
-            let settings = self.settings(combination);
+            let settings = self.combinations.named_values(combination);
             found.rows.push(Row { combination: combination.number, settings, ..Row::clone(row) });
         }
         found.is_foreign = found.rows.is_empty() && found.solved > 0 && found.damaged.len() == damaged_lines;

@@ -8,6 +8,7 @@
 //! case has the fingerprint of a row are not solved again. A line of the log that is not as it was written is no row.
 
 mod axis;
+mod checked;
 mod combinations;
 #[cfg(test)]
 pub(crate) mod examples;
@@ -33,5 +34,5 @@ pub use parts::{Part, PartError, UNFINISHED, join};
 pub use result::{Foremost, Kind, LimitValue, SCALARS, Scalar, SweepResult, scalars_with};
 pub use row::{Row, Status};
 pub use study::{Study, StudyError};
-pub use table::{Description, SweptKey, columns, fingerprint, table};
+pub use table::{Description, FILES, SweptKey, columns, table, write};
 pub use task::Task;

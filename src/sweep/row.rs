@@ -102,6 +102,12 @@ impl Ended {
 }
 
 impl Row {
+    /// The row of a combination without results, for a `reason`; `settings` are its keys with their values.
+    pub fn failed(number: usize, settings: Vec<(String, String)>, fingerprint: String, reason: String) -> Self {
+        let Ended { status, reason, warnings, results, files } = Ended::failed(reason);
+        Self { combination: number, settings, fingerprint, status, reason, warnings, results, seconds: 0.0, files }
+    }
+
     /// Refuses a row that no sweep writes.
     pub(super) fn checked(&self) -> Result<(), String> {
         let has_failed = self.status == Status::Failed;

@@ -1,11 +1,12 @@
 //! `sweep.csv` and `sweep.json`: the table of a sweep and its description.
 
 use super::combinations::Combinations;
+use super::log::Log;
 use super::row::{Row, Status};
 use super::task::Task;
 use crate::case::{Case, Source};
 use crate::output::columns::{csv, names};
-use crate::output::{checksum, digest};
+use crate::output::{OutputError, SWEEP_LOG, checksum, digest, write_text};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::{BTreeSet, HashMap};
@@ -101,6 +102,16 @@ impl Description {
         }
     }
 
+    /// Description of a sweep of all `combinations` that has not begun; `fixed` are the settings of all of them, `KEY=VALUE`.
+    pub fn of(source: &Source, fixed: &[String], combinations: &Combinations, task: Task) -> Self {
+        // Without the keys that vary the case may be refused: its text then stands for it.
+        let whole = Case::read(source, fixed).ok();
+        let text = whole.as_ref().map_or_else(|| source.text.clone(), Case::to_toml);
+        let fingerprint = fingerprint(&text, fixed, combinations);
+        let title = whole.map_or(String::new(), |case| case.title);
+        Self::new(&title, &text, task, fingerprint, combinations.all.len())
+    }
+
     /// The same sweep after these rows and a wall time in seconds.
     #[must_use]
     pub fn after(&self, rows: &[Row], wall: f64) -> Self {
@@ -143,6 +154,20 @@ impl Description {
         serde_json::to_string_pretty(self).expect("a description is numbers and texts under names") + "\n"
     }
 }
+
+/// Writes the rows, by ascending combination, with their description into a folder: `sweep.jsonl`, `sweep.csv` and `sweep.json`.
+///
+/// # Errors
+/// [`OutputError`] with the path.
+pub fn write(folder: &Path, rows: &[Row], description: &Description) -> Result<(), OutputError> {
+    // The log of a sweep that was solved here has the order in which combinations ended.
+    drop(Log::begin(folder, &description.identity(), rows)?);
+    write_text(&folder.join("sweep.csv"), &table(rows))?;
+    write_text(&folder.join("sweep.json"), &description.to_json())
+}
+
+/// Names of the files that [`write`] writes.
+pub const FILES: [&str; 3] = ["sweep.csv", "sweep.json", SWEEP_LOG];
 
 /// Each text once, in the order of first occurrence.
 fn distinct<'a>(texts: impl Iterator<Item = &'a String>) -> Vec<String> {
