@@ -399,7 +399,7 @@ class Step:
         return self._record.to_dict()
 
     def to_xarray(self) -> xarray.Dataset:
-        """Fields and scalars as an :class:`xarray.Dataset` over the dimensions ``i``, ``j`` along a₁, a₂."""
+        """Fields and scalars as an :class:`xarray.Dataset`, with the dimensions of :meth:`Result.to_xarray` but ``step``."""
         alone: xarray.Dataset = Result(self._common, [self]).to_xarray().isel(step=0)
         return alone
 
@@ -546,8 +546,11 @@ class Result:
     def to_xarray(self) -> xarray.Dataset:
         """Fields and scalars as an :class:`xarray.Dataset`.
 
-        Dimensions ``step`` and ``i``, ``j`` along a₁, a₂; coordinates ``x``, ``y`` (i, j), ``mean_pressure`` and ``force``
-        (step). An isolated contact has no ``mean_pressure`` and no ``contact_fraction``.
+        On a rectangular cell, a₁ along x and a₂ along y, the dimensions are ``step``, ``x`` and ``y``, with the places of the
+        samples as their coordinates. On any other cell they are ``step`` and ``i``, ``j`` along a₁, a₂, with coordinates ``x``,
+        ``y`` (i, j). In both, axes are those of :attr:`Step.pressure`, and ``mean_pressure`` and ``force`` are coordinates of
+        the steps. ``data.pressure.isel(step=0).plot(x="x", y="y")`` draws both. An isolated contact has no
+        ``mean_pressure`` and no ``contact_fraction``.
 
         Examples
         --------
@@ -556,6 +559,9 @@ class Result:
         >>> data = percoat.solve("fig2", set={"grid.points": 96}).to_xarray()
         >>> dict(data.pressure.sizes)
         {'step': 1, 'i': 96, 'j': 96}
+        >>> square = percoat.solve("rough", set={"grid.points": 32}).to_xarray()
+        >>> dict(square.pressure.isel(step=0).sizes), square.x.dims
+        ({'x': 32, 'y': 32}, ('x',))
         """
         import xarray
 
@@ -571,17 +577,20 @@ class Result:
         if self._common.isolated:
             del scalars["contact_fraction"], loads["mean_pressure"]
         fields = {"pressure": pressure, "displacement": length, "gap": length}
+        x, y = self.x, self.y
+        rectangular = bool(np.all(x == x[:, :1]) and np.all(y == y[:1]))
+        i, j = ("x", "y") if rectangular else ("i", "j")
         data: dict[str, Any] = {
-            name: (("step", "i", "j"), np.stack([getattr(step, name) for step in self.steps]), attributes)
+            name: (("step", i, j), np.stack([getattr(step, name) for step in self.steps]), attributes)
             for name, attributes in fields.items()
         }
         for name, attributes in scalars.items():
             values = [step._record[name] for step in self.steps]
             data[name] = ("step", np.array([np.nan if value is None else value for value in values]), attributes)
-        data["owner"] = (("i", "j"), self.owner)
+        data["owner"] = ((i, j), self.owner)
         coordinates = {
-            "x": (("i", "j"), self.x, length),
-            "y": (("i", "j"), self.y, length),
+            "x": (i, x[:, 0], length) if rectangular else ((i, j), x, length),
+            "y": (j, y[0], length) if rectangular else ((i, j), y, length),
             **{
                 name: ("step", np.array([step._record[name] for step in self.steps]), attributes)
                 for name, attributes in loads.items()

@@ -43,13 +43,14 @@ def test_to_dict_is_a_copy(sliding: percoat.Result) -> None:
 def test_datasets_have_dimensions_coordinates_and_units(sliding: percoat.Result) -> None:
     xarray = pytest.importorskip("xarray")
     data = sliding.to_xarray()
-    assert isinstance(data, xarray.Dataset) and dict(data.sizes) == {"step": 3, "i": 48, "j": 64}
+    assert isinstance(data, xarray.Dataset) and dict(data.sizes) == {"step": 3, "x": 48, "y": 64}
     for name, unit in (("pressure", "GPa"), ("displacement", "µm"), ("gap", "µm")):
-        assert data[name].dims == ("step", "i", "j") and data[name].attrs["units"] == unit
+        assert data[name].dims == ("step", "x", "y") and data[name].attrs["units"] == unit
         for index, step in enumerate(sliding):
             assert data[name][index].values.tobytes() == getattr(step, name).tobytes()
-    assert data.x.dims == data.y.dims == data.owner.dims == ("i", "j") and data.x.attrs["units"] == "µm"
-    assert np.array_equal(data.x, sliding.x) and np.array_equal(data.y, sliding.y)
+    # The cell is rectangular.
+    assert data.x.dims == ("x",) and data.y.dims == ("y",) and data.owner.dims == ("x", "y")
+    assert data.x.attrs["units"] == data.y.attrs["units"] == "µm"
     assert np.array_equal(data.owner, sliding.owner)
     assert set(data.coords) == {"x", "y", "mean_pressure", "force"}
     assert data.mean_pressure.dims == ("step",) and data.mean_pressure.attrs["units"] == "GPa"
@@ -66,6 +67,10 @@ def test_datasets_have_dimensions_coordinates_and_units(sliding: percoat.Result)
 def test_datasets_of_cases_without_units(three_levels: percoat.Result) -> None:
     pytest.importorskip("xarray")
     data = three_levels.to_xarray()
+    # On an oblique cell neither x nor y alone is an axis.
+    assert dict(data.sizes) == {"step": 2, "i": 96, "j": 96} and data.pressure.dims == ("step", "i", "j")
+    assert data.x.dims == data.y.dims == data.owner.dims == ("i", "j")
+    assert np.array_equal(data.x, three_levels.x) and np.array_equal(data.y, three_levels.y)
     assert all("units" not in data[name].attrs for name in (*data.data_vars, *data.coords))
     # They select by load, as xarray does.
     chosen = data.swap_dims(step="mean_pressure").sel(mean_pressure=0.05, method="nearest")
@@ -77,7 +82,34 @@ def test_datasets_of_one_step(sliding: percoat.Result) -> None:
     whole = sliding.to_xarray()
     for index, step in enumerate(sliding):
         own = step.to_xarray()
-        assert dict(own.sizes) == {"i": 48, "j": 64} and own.identical(whole.isel(step=index))
+        assert dict(own.sizes) == {"x": 48, "y": 64} and own.identical(whole.isel(step=index))
+
+
+def test_datasets_of_rectangular_cells_have_axes(flat_wave: percoat.Result) -> None:
+    xarray = pytest.importorskip("xarray")
+    data = flat_wave.to_xarray()
+    assert dict(data.sizes) == {"step": 2, "x": 32, "y": 8} and data.pressure.dims == ("step", "x", "y")
+    assert data.x.dims == ("x",) and data.y.dims == ("y",) and data.owner.dims == ("x", "y")
+    # The axes are those of the arrays: a₁ first.
+    assert data.pressure[1].values.tobytes() == flat_wave[1].pressure.tobytes()
+    x, y = xarray.broadcast(data.x, data.y)
+    assert np.array_equal(x, flat_wave.x) and np.array_equal(y, flat_wave.y)
+    ridge = data.pressure.isel(step=1).sel(x=0.1, method="nearest")
+    assert float(ridge.x) == flat_wave.x[2, 0] and np.array_equal(ridge, flat_wave[1].pressure[2])
+    assert dict(flat_wave[0].to_xarray().sizes) == {"x": 32, "y": 8}
+
+
+@pytest.mark.parametrize("name", ["flat_wave", "three_levels"])
+def test_one_call_draws_datasets_of_any_cell(name: str, request: pytest.FixtureRequest) -> None:
+    pytest.importorskip("xarray")
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    result = request.getfixturevalue(name)
+    figure, ax = pyplot.subplots()
+    result.to_xarray().pressure.isel(step=-1).plot(x="x", y="y", ax=ax)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("x", "y")
+    low, high = ax.get_xlim()
+    assert low <= result.x.min() and high >= result.x.max() and high - low < 1.1 * np.ptp(result.x) + 0.1
+    pyplot.close(figure)
 
 
 def test_datasets_may_be_written_to(sliding: percoat.Result) -> None:
