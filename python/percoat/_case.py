@@ -5,7 +5,7 @@ from __future__ import annotations
 from os import PathLike
 from typing import Any, List, Mapping, Optional, Union
 
-from percoat import _core
+from percoat import _core, _html
 from percoat._record import Record
 
 CaseLike = Union[str, "PathLike[str]", Mapping[str, Any], _core.Case]
@@ -35,6 +35,9 @@ class Check(Record):
 
     def __str__(self) -> str:
         return self.text
+
+    def _repr_html_(self) -> str:
+        return _html.text(self.text)
 
     def __repr__(self) -> str:
         return f"<percoat.Check {self.title!r}: {self.points[0]} × {self.points[1]} samples>"

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import shutil
-from typing import Optional
+from typing import Any, Optional, Sequence
 
-from percoat import _core
+from percoat import _core, _html
 from percoat._case import CaseLike, Settings
 from percoat._record import Record
 from percoat._solve import Listener, listener
@@ -26,8 +26,18 @@ class Comparison(Record):
     warnings: list[str]
     converged: bool
 
+    def __init__(self, entries: Any, tables: Sequence[_html.Table] = ()) -> None:
+        super().__init__(entries)
+        self.__dict__["_tables"] = tables
+
     def __str__(self) -> str:
         return self.text
+
+    def _repr_html_(self) -> str:
+        return _html.page(self.title, self.__dict__["_tables"])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Comparison, (dict(self), self.__dict__["_tables"])
 
     def __repr__(self) -> str:
         return f"<percoat.Comparison {self.title!r}: circles of {[own.indenters for own in self.localized]}>"
@@ -48,8 +58,8 @@ def compare(
     True
     """
     width = shutil.get_terminal_size().columns
-    found, table, warnings, converged = _core.compare(_core.Case(case, set), width, threads, listener(progress))
-    own = Comparison({**found, "text": table.rstrip(), "warnings": warnings, "converged": converged})
+    found, text, tables, warnings, converged = _core.compare(_core.Case(case, set), width, threads, listener(progress))
+    own = Comparison({**found, "text": text.rstrip(), "warnings": warnings, "converged": converged}, tables)
     warn(warnings)
     if not converged:
         warn(["a solution or the accuracy did not converge"], NotConverged)

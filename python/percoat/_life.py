@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from typing import Any, Optional
 
-from percoat import _core
+from percoat import _core, _html
 from percoat._case import CaseLike, Settings
 from percoat._record import Record
 from percoat._solve import Listener, listener
@@ -36,6 +36,9 @@ class Life(Record):
     def __str__(self) -> str:
         width = shutil.get_terminal_size().columns
         return _core.life_text(self.__dict__["_case"], self.to_dict(), width).rstrip()
+
+    def _repr_html_(self) -> str:
+        return _html.page(self.title, _core.life_tables(self.__dict__["_case"], self.to_dict()))
 
     def __repr__(self) -> str:
         if self.first is None:

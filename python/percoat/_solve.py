@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import io
 import shutil
 from functools import cached_property
+from os import PathLike
 from typing import TYPE_CHECKING, Any, Callable, Iterator, Literal, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from percoat import _core
+from percoat import _core, _html
 from percoat._case import CaseLike, Settings
 from percoat._record import Record
 from percoat._warnings import NotConverged, warn
@@ -427,6 +429,10 @@ class Step:
     def __str__(self) -> str:
         return str(Result(self._common, [self]))
 
+    def _repr_html_(self) -> str:
+        first, *_ = _core.outcome_tables(self._common.case, Result(self._common, [self]).to_dict())
+        return _html.page("", [first])
+
 
 class Result:
     """Every load step of a case, solved. It prints the table of the command line.
@@ -599,6 +605,37 @@ class Result:
         attributes = {"title": self.title, "percoat": self._common.summary.percoat, "a1": self.a1, "a2": self.a2}
         return xarray.Dataset(data, coordinates, attributes)
 
+    def save(self, folder: Union[str, PathLike[str]]) -> None:
+        """Write the output folder of ``percoat solve --no-pictures``: ``summary.json``, ``contact.npz``, ``curve.csv``, ``case.toml``, …
+
+        As on the command line only files are replaced that percoat wrote there as a finished result, and only by a complete
+        one. ``percoat report folder`` makes a page of it, and ``percoat solve folder/case.toml`` solves it again; heights that
+        are an array of the case become ``heights.npy`` beside it.
+
+        Raises
+        ------
+        CaseError
+            The folder holds a file of somebody else that would be replaced, or another run writes into it.
+        OSError
+            A file cannot be written.
+
+        Examples
+        --------
+        >>> import os, percoat, tempfile
+        >>> result = percoat.solve("fig2", set={"grid.points": 96})
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     result.save(folder)
+        ...     sorted(name for name in os.listdir(folder) if not name.startswith("."))
+        ['case.toml', 'contact.npz', 'curve.csv', 'summary.json']
+        """
+        heights, case = None, self._common.case
+        own = case.as_dict().get("surface", {}).get("heights")
+        if isinstance(own, np.ndarray):
+            file = io.BytesIO()
+            np.save(file, own)
+            heights = file.getvalue()
+        aside(_core.save_result(case, self.to_dict(), [step._core for step in self.steps], folder, heights))
+
     def __reduce__(self) -> tuple[Any, ...]:
         kept = [(step._index, step.to_dict(), step._bytes()) for step in self.steps]
         return _result, (self._common, kept)
@@ -613,6 +650,9 @@ class Result:
         width = shutil.get_terminal_size().columns
         return _core.outcome_text(self._common.case, self.to_dict(), width).rstrip()
 
+    def _repr_html_(self) -> str:
+        return _html.page(self.title, _core.outcome_tables(self._common.case, self.to_dict()))
+
 
 def _step(common: Common, index: int, entries: dict[str, Any], core: Union[_core.Step, bytes]) -> Step:
     record = Record(entries)
@@ -622,6 +662,12 @@ def _step(common: Common, index: int, entries: dict[str, Any], core: Union[_core
 
 def _result(common: Common, kept: Sequence[tuple[int, dict[str, Any], bytes]]) -> Result:
     return Result(common, [_step(common, *step) for step in kept])
+
+
+def aside(place: Optional[str]) -> None:
+    """Warn where files are now that stood where a result is gathered."""
+    if place is not None:
+        warn([f"steps of an interrupted run, or files of somebody else, stood where a result is gathered; they are now in {place}"])
 
 
 def listener(progress: Listener) -> Optional[Callable[[_core.Progress], object]]:

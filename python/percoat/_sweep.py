@@ -4,25 +4,33 @@ from __future__ import annotations
 
 import re
 from concurrent.futures import Executor
+from os import PathLike
 from time import monotonic
-from typing import Any, Callable, Dict, Iterable, Mapping, Optional
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
-from percoat import _core
+from percoat import _core, _html
 from percoat._case import CaseLike
 from percoat._executor import solve_on
-from percoat._solve import Listener, listener
+from percoat._solve import Listener, aside, listener
 from percoat._warnings import NotConverged, warn
 
 
 TEXTS = ("status", "reason", "warnings", "route", "criterion", "reached", "state", "rivals", "name")
 """How the columns of texts end; what they do not have is an empty one."""
 
+ROWS, COLUMNS = 10, 12
+"""Most rows and columns of a table that a notebook shows."""
+
 
 Row = Dict[str, Any]
 """A row of the table as it is done: names with their cells, ``None`` where there is no value."""
+
+
+Solved = Tuple[_core.Sweep, List[_core.Row], float]
+"""The combinations of a table, their rows, and the wall time of the sweep in seconds."""
 
 
 class Columns(Dict[str, NDArray[Any]]):
@@ -33,8 +41,39 @@ class Columns(Dict[str, NDArray[Any]]):
         """How many rows it has."""
         return len(next(iter(self.values()), ()))
 
+    def save(self, folder: Union[str, PathLike[str]]) -> None:
+        """Write the output folder of ``percoat sweep --no-pictures``: ``sweep.csv``, ``sweep.json`` and ``sweep.jsonl``.
+
+        What was solved is written, whatever columns have been added or changed since. As on the command line only files are
+        replaced that percoat wrote there as a finished result. ``percoat report folder`` makes a page of it.
+
+        Raises
+        ------
+        CaseError
+            The folder holds a file of somebody else that would be replaced, or another run writes into it.
+        OSError
+            A file cannot be written.
+        TypeError
+            The columns are not those of a sweep.
+        """
+        solved: Optional[Solved] = self.__dict__.get("_solved")
+        if solved is None:
+            raise TypeError("these columns are not those that a sweep returned: write them with pandas.DataFrame(columns)")
+        sweep, rows, wall = solved
+        aside(_core.save_sweep(sweep, rows, wall, folder))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _columns, (dict(self), self.__dict__.get("_solved"))
+
     def __repr__(self) -> str:
         return f"<percoat.Columns: {self.rows} rows of {', '.join(list(self)[:8])}{', …' if len(self) > 8 else ''}>"
+
+    def _repr_html_(self) -> str:
+        shown = list(self)[:COLUMNS]
+        more = ["…"] if len(self) > COLUMNS else []
+        rows = [[_cell(self[name][row]) for name in shown] + more for row in range(min(self.rows, ROWS))]
+        note = f"{self.rows} rows × {len(self)} columns" + (f", the first {ROWS} rows" if self.rows > ROWS else "")
+        return _html.page("", [("", shown + more, rows, 0)], [note])
 
 
 def sweep(
@@ -137,7 +176,8 @@ def sweep(
     warn((f"{row.name}: failed: {row.reason}" for row in rows if row.status == "failed"))
     unsettled = (f"{row.name}: not converged: {row.reason}" for row in rows if row.status == "not_converged")
     warn(unsettled, NotConverged)
-    return Columns({name: _column(name, cells) for name, cells in _core.columns(rows)})
+    wall = monotonic() - done.began
+    return _columns({name: _column(name, cells) for name, cells in _core.columns(rows)}, (own, rows, wall))
 
 
 class _Done:
@@ -163,6 +203,19 @@ class _Done:
                 self.on_row({name: _number(cell) if name.startswith("set_") else cell for name, cell in line})
         if self.progress is not None:
             self.progress(self.sweep.told(row, self.count, monotonic() - self.began))
+
+
+def _columns(own: Dict[str, NDArray[Any]], solved: Optional[Solved]) -> Columns:
+    """The columns of a table with the sweep of which they are, its rows and its wall time."""
+    columns = Columns(own)
+    if solved is not None:
+        columns.__dict__["_solved"] = solved
+    return columns
+
+
+def _cell(value: Any) -> str:
+    """A cell in a few letters."""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def _merged(rows: list[_core.Row]) -> Iterable[str]:

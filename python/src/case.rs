@@ -213,7 +213,9 @@ fn array(heights: &Bound<'_, PyAny>) -> PyResult<Arc<ArrayD<f64>>> {
     let py = heights.py();
     // A table of another library, as a sequence, is that of its columns.
     let is_table = heights.hasattr("__array__")?;
-    let heights = if is_table { py.import("numpy")?.call_method1("asarray", (heights,))? } else { heights.clone() };
+    // Arrays out of the memory of a message may begin at any byte.
+    let aligned = || py.import("numpy")?.call_method1("require", (heights, py.None(), "A"));
+    let heights = if is_table { aligned()? } else { heights.clone() };
     let heights: PyArrayLikeDyn<'_, f64, numpy::AllowTypeChange> = heights.extract().map_err(|error: PyErr| {
         if error.is_instance_of::<PyMemoryError>(py) {
             return error;

@@ -4,6 +4,7 @@ use crate::case::Case;
 use crate::errors::refused;
 use crate::progress::Progress;
 use crate::record::to_python;
+use crate::tables::{Shown, compared as tables_of};
 use crate::work;
 use percoat::Sampling;
 use percoat::case::plausibility;
@@ -26,11 +27,11 @@ impl<F: Fn([usize; 2]) -> bool + Send> Recorder for Fits<F> {
     }
 }
 
-/// A comparison as a dict, its tables, its warnings, and whether all solutions have converged.
-type Compared<'py> = (Bound<'py, PyAny>, String, Vec<String>, bool);
+/// A comparison as a dict, its text and tables, its warnings, and whether all solutions have converged.
+type Compared<'py> = (Bound<'py, PyAny>, String, Vec<Shown>, Vec<String>, bool);
 
-/// Both methods under the last load: a dict with the keys of `compare.json`, the tables of the command line in lines of `width`
-/// letters, the warnings, and whether all solutions have converged.
+/// Both methods under the last load: a dict with the keys of `compare.json`, the text of the command line in lines of `width`
+/// letters and its tables, the warnings, and whether all solutions have converged.
 #[pyfunction]
 #[pyo3(signature = (case, width, threads = None, progress = None))]
 pub fn compare<'py>(
@@ -72,15 +73,15 @@ pub fn compare<'py>(
             if listener.stops() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         let comparison = comparison.map_err(|error| error.to_string())?;
-        let text = table::compared(&own, &comparison, width);
+        let (text, tables) = (table::compared(&own, &comparison, width), tables_of(&comparison, &own.units()));
         let mut warnings = [comparison.warnings(), plausibility::of_case(&own)].concat();
         if end != RefinementEnd::Reached {
             warnings.push(format!("grid.accuracy is not reached: {end}"));
         }
         let converged = comparison.converged() && end == RefinementEnd::Reached;
         let file = ComparisonFile::new(&comparison, &own, own.load.values().len());
-        Ok::<_, String>((file, text, warnings, converged))
+        Ok::<_, String>((file, text, tables, warnings, converged))
     })?;
-    let (file, text, warnings, converged) = compared.map_err(refused)?;
-    Ok((to_python(py, &file)?, text, warnings, converged))
+    let (file, text, tables, warnings, converged) = compared.map_err(refused)?;
+    Ok((to_python(py, &file)?, text, tables, warnings, converged))
 }

@@ -1,9 +1,11 @@
 //! Errors with the messages of the command line.
 
 use percoat::case::NoCase;
+use percoat::output::FolderError;
 use percoat::plain;
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
+use std::error::Error;
 use std::fmt;
 use std::io;
 use std::path::Path;
@@ -38,5 +40,18 @@ pub fn no_case(none: NoCase) -> PyErr {
     match none {
         NoCase::Unreadable { path, error } => unreadable(&path, &error),
         other => refused(other),
+    }
+}
+
+/// The error of a folder that cannot be claimed or written: what is refused is a `CaseError`, what the system refuses an `OSError`.
+pub fn no_folder(error: FolderError) -> PyErr {
+    let FolderError::Output(error) = error else {
+        // In Python there is no such option.
+        return refused(error.to_string().replace(" with -o", ""));
+    };
+    let system = error.source().and_then(|source| source.downcast_ref::<io::Error>());
+    match system.and_then(io::Error::raw_os_error) {
+        Some(code) => PyOSError::new_err((code, error.to_string())),
+        None => PyOSError::new_err(error.to_string()),
     }
 }

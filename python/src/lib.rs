@@ -16,9 +16,11 @@ mod materials;
 mod progress;
 mod record;
 mod row;
+mod save;
 mod solve;
 mod step;
 mod sweep;
+mod tables;
 mod value;
 mod work;
 
@@ -47,11 +49,15 @@ mod _core {
     #[pymodule_export]
     use super::row::Row;
     #[pymodule_export]
+    use super::save::{save_result, save_sweep};
+    #[pymodule_export]
     use super::solve::{outcome_text, solve};
     #[pymodule_export]
     use super::step::{Step, step};
     #[pymodule_export]
     use super::sweep::{Sweep, columns};
+    #[pymodule_export]
+    use super::tables::{life_tables, limit_tables, outcome_tables};
 
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {

@@ -173,6 +173,11 @@ impl Step {
 }
 
 impl Step {
+    /// The step with its case and checkpoint.
+    pub fn kept(&self) -> Arc<Kept> {
+        Arc::clone(&self.0)
+    }
+
     /// A field of a step as an array that cannot be written to; nothing is copied.
     #[expect(unsafe_code, reason = "NumPy reads memory that belongs to the step")]
     fn shared<'py>(slf: &Bound<'py, Self>, field: ArrayView2<'_, f64>) -> Bound<'py, PyArray2<f64>> {

@@ -9,7 +9,7 @@ use crate::value::{text, value};
 use crate::work;
 use percoat::case::Source;
 use percoat::machine::{Capacity, available_memory};
-use percoat::sweep::{self, Axis, Combination, Combinations, Group, Study, Task};
+use percoat::sweep::{self, Axis, Combination, Combinations, Description, Group, Study, Task};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -166,6 +166,11 @@ fn room() -> Capacity {
 }
 
 impl Sweep {
+    /// The description of the sweep, which has not begun.
+    pub fn description(&self) -> Description {
+        Description::of(&self.source, &self.fixed, &self.combinations, self.task)
+    }
+
     /// Its source, from which any process that finds the same files under the same paths reads the same cases.
     fn sourced<'py>(&self, py: Python<'py>) -> PyResult<Sourced<'py>> {
         let Source { name, text, values, set, folder, .. } = &*self.source;

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import pickle
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Sequence
@@ -259,6 +260,26 @@ def test_table(both: Both, as_piped: None) -> None:
     # What follows in the output of the command is its time and folder.
     assert both.told.startswith(str(both.result))
     assert len(str(both.result)) > 300
+
+
+def files(folder: Path) -> dict[str, Path]:
+    """The files of a result by their names, without percoat's own list of them."""
+    return {path.name: path for path in folder.iterdir() if path.is_file()}
+
+
+def test_a_saved_result_is_the_folder_of_the_command_line(both: Both, tmp_path: Path) -> None:
+    both.result.save(tmp_path)
+    ours, theirs = files(tmp_path), files(both.folder)
+    assert set(ours) == set(theirs)
+    for name in set(ours) - {"summary.json", "curve.csv"}:
+        assert ours[name].read_bytes() == theirs[name].read_bytes(), name
+    again = json.loads(ours["summary.json"].read_text("utf-8"))
+    assert json.dumps(timeless(again)) == json.dumps(timeless(both.summary))
+    own, other = read(ours["curve.csv"]), read(theirs["curve.csv"])
+    assert list(own) == list(other) and all(own[name] == other[name] for name in own if name != "seconds")
+    # So is one that has been pickled, in the place of the first.
+    pickle.loads(pickle.dumps(both.result)).save(tmp_path)
+    assert ours["contact.npz"].read_bytes() == theirs["contact.npz"].read_bytes()
 
 
 def test_a_dict_gives_what_its_file_gives(both: Both, tmp_path: Path) -> None:

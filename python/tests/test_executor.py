@@ -72,8 +72,7 @@ def test_the_table_is_that_of_a_sweep_without_executor(pool: str, serial: percoa
         table = percoat.sweep("fig2", SETTINGS, executor=executor, on_row=rows.append, progress=heard.append)
         # It is not shut down, and takes arrays and limits too.
         surfaces = {"substrate.poisson": [0.2, 0.3]}
-        if pool != "dask":
-            equal(percoat.sweep(wave(), surfaces), percoat.sweep(wave(), surfaces, executor=executor))
+        equal(percoat.sweep(wave(), surfaces), percoat.sweep(wave(), surfaces, executor=executor))
     equal(serial, table)
     assert [own.done for own in heard] == [1, 2, 3, 4] and {own.of for own in heard} == {4}
     rows.sort(key=lambda row: (row["combination"], row["step"]))

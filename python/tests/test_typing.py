@@ -99,7 +99,8 @@ def study(executor: Executor) -> percoat.Columns:
     return percoat.sweep("fig2", {"layers.0.thickness": [0.1]}, executor=executor, on_row=row, threads=2)
 
 
-study(ProcessPoolExecutor(2))
+result.save(Path("out"))
+study(ProcessPoolExecutor(2)).save("out/study")
 
 body = percoat.HalfSpace(layers=case["layers"], substrate=case["substrate"])
 print(body.compliance(np.geomspace(0.1, 10.0, 5)), percoat.HalfSpace.of("fig2").correction(1.0))
@@ -127,6 +128,7 @@ MISTAKES = [
     'percoat.sweep("fig2", 3)',
     'percoat.sweep("fig2", {}, executor=4)',
     'percoat.sweep("fig2", {}, on_row=len("x"))',
+    'percoat.solve("fig2").save()',
     'percoat.identify("fig2", 3.0, ["offset"])',
     'percoat.identify("fig2", "curve.csv", ["offset"]).values.upper()',
     'percoat.kernel("fig2", 1.0, traction=3)',
