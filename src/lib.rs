@@ -35,7 +35,7 @@
 //! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `measurements` from tables, `machine` (memory, disk, threads), file formats
 //! of `heights`, `case`, `output`, `sweep`, `picture`, `report` and the `command` line; behind `validate`: `validation`, the studies and the closed forms they compare with.
 //!
-//! [`theory`] leads from the equations of the paper to what is solved.
+//! [`theory`] leads from each equation of the book, `docs/src/theory.md`, to its code and to the test that guards it.
 //!
 //! # Example
 //!

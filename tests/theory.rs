@@ -1,9 +1,10 @@
-//! The equations of `src/theory.md` have their code, and a test or a study that guards them.
+//! The equations of the book, `docs/src/theory.md`, have their code in the table of `src/theory.md`, and a test or a study that guards
+//! them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// One row of the table at the end of the page.
+/// One row of the table of `src/theory.md`.
 struct Equation {
     number: usize,
     code: Vec<Reference>,
@@ -21,12 +22,19 @@ fn root() -> PathBuf {
 }
 
 fn page() -> String {
-    fs::read_to_string(root().join("src/theory.md")).unwrap()
+    source("src/theory.md")
 }
 
 /// The number of a text that begins with "(n)".
 fn number(text: &str) -> Option<usize> {
     text.strip_prefix('(')?.split_once(')')?.0.parse().ok()
+}
+
+/// The numbers of the equations in the book, in their order: what stands behind the beginnings of blocks of mathematics.
+fn numbers_in_the_book(book: &str) -> Vec<usize> {
+    let begins = book.lines().filter_map(|line| line.strip_prefix("```math"));
+    let numbered = begins.map(str::trim).filter(|number| !number.is_empty());
+    numbered.map(|number| number.parse().unwrap_or_else(|_| panic!("```math {number}"))).collect()
 }
 
 /// The texts within backticks: a path begins a reference, what follows are items of that file.
@@ -111,17 +119,9 @@ fn every_equation_is_guarded_by_a_test_or_a_study() {
 }
 
 #[test]
-fn the_numbers_of_the_table_are_those_of_the_page() {
-    let page = page();
-    let numbers: Vec<usize> = equations(&page).iter().map(|equation| equation.number).collect();
-    assert_eq!(numbers, (1..=numbers.len()).collect::<Vec<_>>(), "the rows in their order");
-    let text = page.split("# From equation to test").next().unwrap();
-    for number in &numbers {
-        assert!(text.contains(&format!("({number})")), "({number}) is not in the text");
-    }
-    // Numbers of equations stand at the ends of lines.
-    let ends = text.lines().filter_map(|line| number(line.trim_end().rsplit_once("  ")?.1.trim()));
-    for end in ends {
-        assert!(numbers.contains(&end), "({end}) is not in the table");
-    }
+fn the_numbers_of_the_table_are_those_of_the_book() {
+    let rows: Vec<usize> = equations(&page()).iter().map(|equation| equation.number).collect();
+    assert!(!rows.is_empty());
+    assert_eq!(rows, (1..=rows.len()).collect::<Vec<_>>(), "the rows in their order");
+    assert_eq!(numbers_in_the_book(&source("docs/src/theory.md")), rows, "each equation once, in its order");
 }
