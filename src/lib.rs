@@ -66,6 +66,10 @@ pub mod counterbody;
 pub mod friction;
 #[cfg(feature = "cli")]
 mod heights;
+/// The examples of the book's page on the library, which are tests of the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/src/how-to/rust.md")]
+mod how_to_rust {}
 pub mod identification;
 pub mod lattice;
 pub mod life;
