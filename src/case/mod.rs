@@ -69,7 +69,7 @@ pub use grid::Points;
 pub use half_space::half_space;
 pub use identification::{IdentificationTask, NotFree};
 pub use interface::{InterfaceSection, InterfaceStrengthSection, InterfaceWord, SpringSection};
-pub use keys::{Explanation, UnknownKey, explain, overview, schema, table as key_table};
+pub use keys::{Explanation, NamedKey, UnknownKey, explain, overview, schema, table as key_table};
 pub use lattice::{LatticeKind, LatticeSection};
 pub use layers::{LayerSection, Rigid, SubstrateSection};
 pub use levels::{LevelSection, ShapeKind};

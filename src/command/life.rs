@@ -119,6 +119,7 @@ fn draw(results: &Results, case: &Case, begun: &Beginning, state: &LifeState, co
         pictures.write(&staging, "damage", || picture::damage(&snapshot, fatigue, &begun.planes))?;
     }
     pictures.write(&staging, "life", || {
-        picture::course(&case.title, case.problem(), &case.units(), &state.course, &state.events)
+        let error = begun.record.fatigue.as_ref().and_then(|own| own.first.error);
+        picture::course(&case.title, case.problem(), &case.units(), (&state.course, &state.events), error)
     })
 }

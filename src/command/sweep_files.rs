@@ -7,7 +7,7 @@ use super::results::Results;
 use super::terminal;
 use crate::output::{Plan, Writer};
 use crate::picture;
-use crate::sweep::{self, Description, Row, Status};
+use crate::sweep::{self, Description, Row, Status, SweepResult};
 use crate::units::Units;
 use std::collections::HashSet;
 use std::path::Path;
@@ -27,9 +27,16 @@ pub fn finish(
     let (staging, saying) = (results.staging(), results.saying);
     sweep::write(&staging, rows, description)?;
     let units = description.first_case(rows, Path::new("")).map_or_else(Units::unknown, |case| case.units());
-    pictures.write(&staging, "sweep", || picture::sweep(&description.title, &units, rows))?;
+    let quantity = rows.iter().flat_map(|row| &row.results).find_map(SweepResult::quantity);
+    let loads = units.clone().with_loads_in(quantity.unwrap_or(units.quantity()));
+    let keys = description.named_keys(rows, Path::new(""));
+    pictures.write(&staging, "sweep", || picture::sweep(&description.title, &units, &keys, rows))?;
     let warnings = if saying.json { Vec::new() } else { [warnings(rows), failures(rows)].concat() };
-    results.finish(|| description.to_json(), String::new, || counts(description), &warnings)?;
+    let best = || {
+        let table = sweep::best_and_worst(rows, &loads);
+        table.map_or(String::new(), |own| format!("{}\n{}\n\n", own.words, own.table))
+    };
+    results.finish(|| description.to_json(), best, || counts(description), &warnings)?;
     Ok(Ending::of(description.done == rows.len()))
 }
 

@@ -2,9 +2,10 @@
 
 use super::axis::Axis;
 use super::canvas::Canvas;
-use super::curve::{Curve, Style};
+use super::curve::{Curve, MARKER, Style};
 use super::frame::Frame;
 use super::legend::{self, Legend};
+use super::scale::Scale;
 use super::sheet::{Margins, Panel, sheet};
 
 /// A chart.
@@ -69,8 +70,9 @@ impl<'a> Plot<'a> {
     fn ranges(&self) -> [[f64; 2]; 2] {
         let Chart { x, y, curves, .. } = self.chart;
         let values = |axis: usize| curves.iter().flat_map(move |curve| curve.points.iter().map(move |p| p[axis]));
+        let ends = shown_ends(curves, y.scale);
         let dots = curves.iter().any(|curve| matches!(curve.style, Style::Markers | Style::LineMarkers));
-        [x.reach(values(0), if dots { 0.03 } else { 0.0 }), y.reach(values(1), 0.05)]
+        [x.reach(values(0), if dots { 0.03 } else { 0.0 }), y.reach(values(1).chain(ends), 0.05)]
     }
 
     fn layout(&self, width: f64, margins: Margins) -> Layout {
@@ -113,30 +115,53 @@ impl<'a> Plot<'a> {
     }
 }
 
+/// Ends of error bars that extend the vertical axis: on a linear one those of errors up to the largest value, on a logarithmic one those
+/// of errors up to half of their own.
+fn shown_ends(curves: &[Curve], scale: Scale) -> impl Iterator<Item = f64> {
+    let points = || curves.iter().flat_map(|curve| (0..curve.points.len()).map(move |index| (curve, index)));
+    let value = |(curve, index): (&Curve, usize)| curve.points[index][1].abs();
+    let largest = points().map(value).filter(|y| y.is_finite()).fold(0.0, f64::max);
+    let is_shown = move |own: &(&Curve, usize)| {
+        let most = if scale == Scale::Log { 0.5 * value(*own) } else { largest };
+        own.0.error(own.1) <= most
+    };
+    points().filter(is_shown).filter_map(|(curve, index)| curve.bar(index)).flatten().collect::<Vec<f64>>().into_iter()
+}
+
+/// Upper and lower end of the error of a point. One that reaches zero on a logarithmic axis ends below the plot.
+fn bar(curve: &Curve, frame: &Frame, index: usize) -> Option<[[f64; 2]; 2]> {
+    let ([x, _], [low, high]) = (curve.points[index], curve.bar(index)?);
+    let top = frame.place([x, high])?;
+    let below = frame.corner[1] + frame.size[1] + 2.0;
+    Some([top, frame.place([x, low]).unwrap_or([top[0], below])])
+}
+
+/// All of them.
+fn bars(curve: &Curve, frame: &Frame) -> Vec<[[f64; 2]; 2]> {
+    (0..curve.points.len()).filter_map(|index| bar(curve, frame, index)).collect()
+}
+
+/// Whether the line of a curve leads from each point to the next one.
+fn leads(curve: &Curve, frame: &Frame) -> Vec<bool> {
+    let half = |[[_, top], [_, low]]: [[f64; 2]; 2]| 0.5 * (low - top);
+    curve.leads(|index| bar(curve, frame, index).is_some_and(|ends| half(ends) > 0.5 * MARKER))
+}
+
 /// Uninterrupted pieces of a curve within its panel.
 fn runs(curve: &Curve, frame: &Frame) -> Vec<Vec<[f64; 2]>> {
+    let leads = leads(curve, frame);
     let mut runs: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
     for (index, &point) in curve.points.iter().enumerate() {
         match (frame.place(point), runs.last_mut()) {
             (Some(place), Some(run)) => run.push(place),
             _ => runs.push(Vec::new()),
         }
-        if !curve.errors.is_empty() && !curve.leads_on(index) {
+        if leads.get(index) == Some(&false) {
             runs.push(Vec::new());
         }
     }
     runs.retain(|run| !run.is_empty());
     runs
-}
-
-/// Upper and lower end of each error bar of a curve. A bar that reaches zero on a logarithmic axis ends below the plot.
-fn bars(curve: &Curve, frame: &Frame) -> Vec<[[f64; 2]; 2]> {
-    let below = frame.corner[1] + frame.size[1] + 2.0;
-    let ends = |(x, [low, high]): (f64, [f64; 2])| {
-        let top = frame.place([x, high])?;
-        Some([top, frame.place([x, low]).unwrap_or([top[0], below])])
-    };
-    curve.bars().filter_map(ends).collect()
 }
 
 impl Panel for Plot<'_> {
@@ -159,7 +184,14 @@ impl Panel for Plot<'_> {
         frame.draw_marks(canvas, &self.chart.x, [ox, oy]);
         let bounds = frame.bounds([ox, oy]);
         let on_sheet = |[x, y]: [f64; 2]| [ox + x, oy + y];
-        for curve in &self.chart.curves {
+        for curve in self.chart.curves.iter().filter(|curve| curve.has_band()) {
+            let ends: Vec<_> = (0..curve.points.len()).map(|index| bar(curve, &frame, index)).collect();
+            for run in ends.chunk_by(|a, b| a.is_some() && b.is_some()) {
+                let run: Vec<_> = run.iter().flatten().map(|ends| ends.map(on_sheet)).collect();
+                curve.draw_band(canvas, &run, bounds);
+            }
+        }
+        for curve in self.chart.curves.iter().filter(|curve| !curve.has_band()) {
             for ends in bars(curve, &frame) {
                 curve.draw_bar(canvas, ends.map(on_sheet), bounds);
             }
@@ -169,10 +201,13 @@ impl Panel for Plot<'_> {
                 let run: Vec<[f64; 2]> = run.into_iter().map(on_sheet).collect();
                 curve.draw(canvas, &run, bounds);
             }
-            if !curve.errors.is_empty() {
+            if curve.has_errors() {
+                let leads = leads(curve, &frame);
                 let places = curve.points.iter().map(|&point| frame.place(point));
                 for (index, place) in places.enumerate().filter_map(|(index, place)| Some((index, place?))) {
-                    curve.draw_point(canvas, index, on_sheet(place), bounds);
+                    let before = index.checked_sub(1).is_some_and(|before| leads[before]);
+                    let has_line = before || leads.get(index) == Some(&true);
+                    curve.draw_point(canvas, index, on_sheet(place), has_line, bounds);
                 }
             }
         }

@@ -55,33 +55,18 @@ pub fn comparison(title: &str, units: &Units, comparison: &Comparison) -> Option
         format!("localized with {} elements across the largest contact", comparison.task.elements),
         format!("spectral on {n1}\u{a0}×\u{a0}{n2} samples"),
     ];
-    let what = "Lines with markers: largest difference of any level from the spectral solution. Dashed: what half the \
-                elements change, a bound of the mesh's own error.";
+    let what = "Largest difference of any level from the spectral solution. Bars: what half the elements change, a bound of the mesh's \
+                own error; open: it exceeds half of the difference.";
     Some(plots(&format!("{} {what}", caption(title, &comparison.task.problem, units, &more)), &charts))
 }
 
 fn curves(circles: &[CircleComparison]) -> Vec<Curve> {
-    let mut curves = Vec::new();
-    for (colour, (name, value)) in (1usize..).zip(QUANTITIES) {
-        let points = |of: &dyn Fn(&CircleComparison) -> f64| {
-            circles.iter().map(|circle| [circle.indenters as f64, of(circle)]).collect()
-        };
-        let label = name.to_owned();
-        curves.push(Curve {
-            label,
-            points: points(&|circle| value(&circle.difference)),
-            errors: Vec::new(),
-            style: Style::LineMarkers,
-            colour: colour.into(),
-        });
-        let points = points(&|circle| value(&circle.mesh_error));
-        curves.push(Curve {
-            label: String::new(),
-            points,
-            errors: Vec::new(),
-            style: Style::Dashed,
-            colour: colour.into(),
-        });
-    }
-    curves
+    let curve = |(colour, (name, value)): (usize, (&str, Value))| Curve {
+        label: name.to_owned(),
+        points: circles.iter().map(|own| [own.indenters as f64, value(&own.difference)]).collect(),
+        errors: circles.iter().map(|own| value(&own.mesh_error)).collect(),
+        style: Style::LineMarkers,
+        colour: colour.into(),
+    };
+    (1usize..).zip(QUANTITIES).map(curve).collect()
 }

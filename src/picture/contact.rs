@@ -9,10 +9,11 @@ use super::map::{Fill, Map, Over};
 use super::number::signed;
 use super::pressure::{axes, numbers, sliding_arrow, sliding_words, unit_cell};
 use super::scale::Scale;
-use super::sheet::sheet;
+use super::sheet::{Panel, sheet};
 use super::snapshot::Snapshot;
 use super::tiling::images;
 use super::window::{View, Window};
+use super::zoom;
 use crate::reading::LevelReading;
 use std::f64::consts::TAU;
 
@@ -25,31 +26,43 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
     if snapshot.levels() == 0 {
         return None;
     }
-    let view = View::cells(snapshot.step.grid().cell());
+    let grid = snapshot.step.grid();
+    let view = zoom::view(grid, true, |index| snapshot.pressures()[index] > 0.0);
+    let close = zoom::close(snapshot, &view);
     let colour = |place: [f64; 2]| {
         snapshot.level_in_contact(place).map_or(Colour::WHITE, |level| Colour::line(level).lighter(0.6))
     };
-    let [x, y] = axes(snapshot, view.window);
-    let mut over = unit_cell(snapshot, view);
-    over.extend(boundaries(snapshot, view.window, without_mutual_effect));
-    let outlines = snapshot.outlines(view.window).into_iter();
-    over.extend(outlines.map(|points| line(points, Dash::Solid, 0.6, Colour::BLACK)));
-    over.extend(numbers(snapshot, view, |_| Colour::BLACK));
-    over.extend(sliding_arrow(snapshot, view));
-    let fill = Fill::Colours(&colour);
-    let spots = Map { title: "(a) contact spots".into(), x, y, aspect: view.aspect(), fill, over };
-    let radii = radii(snapshot, without_mutual_effect);
+    let map = |title: &str, view: View, outline: Option<Over>| {
+        let [x, y] = axes(snapshot, view.window);
+        let mut over = unit_cell(snapshot, view);
+        over.extend(outline);
+        over.extend(boundaries(snapshot, view.window, without_mutual_effect));
+        let outlines = snapshot.outlines(view.window).into_iter();
+        over.extend(outlines.map(|points| line(points, Dash::Solid, 0.6, Colour::BLACK)));
+        over.extend(numbers(snapshot, view, |_| Colour::BLACK));
+        over.extend(sliding_arrow(snapshot, view));
+        Map { title: title.to_owned(), x, y, aspect: view.aspect(), fill: Fill::Colours(&colour), over }
+    };
+    let mut maps = vec![map("contact spots", view, close.as_ref().map(zoom::outline))];
+    maps.extend(close.map(|part| map("one contact", part, None)));
+    let letter = if close.is_some() { 'c' } else { 'b' };
+    let radii = radii(snapshot, letter, without_mutual_effect);
     let mut words = "Numbers are levels.".to_owned() + &merged_words(snapshot);
     if let Some((_, beyond)) = &radii {
-        words += &radii_words(snapshot, without_mutual_effect.is_some(), beyond);
+        words += &radii_words(snapshot, letter, without_mutual_effect.is_some(), beyond);
     }
     words += sliding_words(snapshot);
+    words += zoom::words(grid, &view, close.as_ref());
     words += &view.words();
-    let caption = snapshot.caption(&words);
-    Some(match radii {
-        Some((chart, _)) => sheet(&caption, &[&spots, &Plot { chart: &chart, aspect: view.aspect().min(1.0) }]),
-        None => sheet(&caption, &[&Map { title: String::new(), ..spots }]),
-    })
+    let plot = radii.as_ref().map(|(chart, _)| Plot { chart, aspect: view.aspect().min(1.0) });
+    for (letter, map) in ('a'..).zip(&mut maps).filter(|_| plot.is_some() || close.is_some()) {
+        map.title = format!("({letter}) {}", map.title);
+    }
+    if plot.is_none() && close.is_none() {
+        maps[0].title.clear();
+    }
+    let panels = maps.iter().map(|map| map as &dyn Panel).chain(plot.iter().map(|plot| plot as &dyn Panel));
+    Some(sheet(&snapshot.caption(&words), &panels.collect::<Vec<_>>()))
 }
 
 /// The located boundaries and holes in a window, and dashed circles of the radii without mutual effect.
@@ -86,17 +99,21 @@ fn line(points: Vec<[f64; 2]>, dash: Dash, width: f64, colour: Colour) -> Over {
 }
 
 /// Text of the caption on the chart of radii; `beyond`: the levels whose radius without mutual effect is not in the chart.
-fn radii_words(snapshot: &Snapshot, has_dashed: bool, beyond: &[String]) -> String {
+fn radii_words(snapshot: &Snapshot, letter: char, has_dashed: bool, beyond: &[String]) -> String {
     let mut words =
         " ρ(θ) is the boundary's distance from the indenter's axis, θ its direction from the x axis, πa² the area \
                      within it."
             .to_owned();
     if snapshot.reading.boundaries.iter().flatten().any(|boundary| !boundary.hole.is_empty()) {
-        words += " Dotted in (b): the hole of a ring, over its own mean radius.";
+        words += &format!(" Dotted in ({letter}): the hole of a ring, over its own mean radius.");
+    }
+    if snapshot.reading.levels.iter().any(|own| own.errors.radius_max.is_some()) {
+        words += " Bands: estimated errors.";
     }
     if has_dashed {
         words += " Dashed circles and lines: without the mutual effect of the indenters";
-        words += &if beyond.is_empty() { ".".to_owned() } else { format!(", beyond (b) {}.", beyond.join(", ")) };
+        words +=
+            &if beyond.is_empty() { ".".to_owned() } else { format!(", beyond ({letter}) {}.", beyond.join(", ")) };
     }
     words
 }
@@ -126,7 +143,7 @@ fn merged_words(snapshot: &Snapshot) -> String {
 
 /// Boundary radius against direction, relative to the radius of the circle of equal area, and the levels whose radius
 /// without mutual effect is not in the chart; `None` when no spot has a boundary of its own.
-fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<(Chart, Vec<String>)> {
+fn radii(snapshot: &Snapshot, letter: char, without_mutual_effect: Option<&[f64]>) -> Option<(Chart, Vec<String>)> {
     let degrees = |k: usize, count: usize| 360.0 * k as f64 / count as f64;
     let deviations = |radii: &[f64], mean: f64| -> Vec<[f64; 2]> {
         let count = radii.len();
@@ -136,17 +153,21 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<(
     for level in 1..=snapshot.levels() {
         let site = snapshot.step.surface().site_of(level)?;
         let Some(boundary) = &snapshot.reading.boundaries[site] else { continue };
-        let curve = |label: String, points: Vec<[f64; 2]>, style: Style| Curve {
+        let curve = |label: String, points: Vec<[f64; 2]>, error: Option<f64>, style: Style| Curve {
             label,
+            errors: error.map_or(Vec::new(), |error| vec![error; points.len()]),
             points,
-            errors: Vec::new(),
             style,
             colour: level.into(),
         };
-        curves.push(curve(format!("level {level}"), deviations(&boundary.radii, boundary.mean_radius()), Style::Line));
+        let (mean, errors) = (boundary.mean_radius(), snapshot.reading.levels[level - 1].errors);
+        let error =
+            errors.radius_min.into_iter().chain(errors.radius_max).reduce(f64::max).map(|own| 100.0 * own / mean);
+        curves.push(curve(format!("level {level}"), deviations(&boundary.radii, mean), error, Style::Line));
         if !boundary.hole.is_empty() {
             let points = deviations(&boundary.hole, boundary.mean_hole_radius());
-            curves.push(curve(format!("level {level}, hole"), points, Style::Dotted));
+            let error = 100.0 * boundary.hole_error / boundary.mean_hole_radius();
+            curves.push(curve(format!("level {level}, hole"), points, Some(error), Style::Dotted));
         }
         let own = without_mutual_effect.and_then(|radii| radii.get(level - 1)).filter(|radius| **radius > 0.0);
         if let Some(radius) = own {
@@ -154,7 +175,7 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<(
             alone.push((
                 level,
                 deviation,
-                curve(String::new(), vec![[0.0, deviation], [360.0, deviation]], Style::Dashed),
+                curve(String::new(), vec![[0.0, deviation], [360.0, deviation]], None, Style::Dashed),
             ));
         }
     }
@@ -162,7 +183,10 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<(
     let y = Axis::linear("boundary radius, ρ/a − 1 (%)");
     let computed = || curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]);
     let largest = computed().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    let [low, high] = if largest < LEAST { [-LEAST, LEAST] } else { y.reach(computed(), 0.05) };
+    // Bands that are narrower than the deviations are shown whole.
+    let ends = curves.iter().flat_map(|curve| (0..curve.points.len()).filter_map(|index| curve.bar(index)));
+    let ends = ends.filter(|[low, high]| high - low <= 2.0 * largest).flatten();
+    let [low, high] = if largest < LEAST { [-LEAST, LEAST] } else { y.reach(computed().chain(ends), 0.05) };
     let mut beyond = Vec::new();
     for (level, deviation, curve) in alone {
         if (low..=high).contains(&deviation) {
@@ -172,7 +196,7 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<(
         }
     }
     let chart = Chart {
-        title: "(b) boundary".into(),
+        title: format!("({letter}) boundary"),
         x: Axis { scale: Scale::Degrees, ..Axis::linear("direction θ (degrees)").from_to(0.0, 360.0) },
         y: y.from_to(low, high),
         curves,
@@ -217,7 +241,7 @@ mod tests {
     fn the_computed_boundaries_make_the_scale_and_what_lies_beyond_is_told() {
         let snapshot = snapshot(0.05);
         let range = |alone: Option<&[f64]>| {
-            let (chart, beyond) = radii(&snapshot, alone).unwrap();
+            let (chart, beyond) = radii(&snapshot, 'b', alone).unwrap();
             (chart.y.range.unwrap(), chart.curves.len(), beyond)
         };
         let own = |level: usize| snapshot.reading.levels[level].contact_radius.unwrap();
@@ -233,7 +257,7 @@ mod tests {
     fn merged_contacts_are_outlined_and_have_no_radius() {
         let snapshot = snapshot(0.6);
         assert!(snapshot.reading.levels.iter().all(|level| level.merged), "{}", snapshot.reading);
-        assert!(radii(&snapshot, None).is_none());
+        assert!(radii(&snapshot, 'b', None).is_none());
         assert!(merged_words(&snapshot).contains("levels 1, 2 have merged"));
         assert!(!snapshot.outlines(View::cells(snapshot.step.grid().cell()).window).is_empty());
     }

@@ -11,10 +11,7 @@ pub struct Curve {
     pub label: String,
     /// Points (x, y); one that is not finite, or not positive on a logarithmic axis, interrupts the curve.
     pub points: Vec<[f64; 2]>,
-    /// Error of y at each point, in its unit, drawn as a bar; NaN where none is known. Empty: the curve has none.
-    ///
-    /// The line is interrupted where it falls from one point to the next by less than both errors together: the numbers do not show
-    /// such a fall. A point whose error exceeds half of its value has an open marker.
+    /// Error of y at each point, in its unit, drawn as a bar or a band; NaN where none is known. Empty: the curve has none.
     pub errors: Vec<f64>,
     /// Style of line and markers.
     pub style: Style,
@@ -47,7 +44,7 @@ impl Ink {
         }
     }
 
-    fn colour(self) -> Colour {
+    pub(super) fn colour(self) -> Colour {
         match self {
             Self::Number(number) => Colour::line(number),
             Self::Depth(part) => Colour::deep(part),
@@ -63,10 +60,12 @@ pub(super) const NUMBERED_COLOURS: usize = 5;
 pub enum Style {
     /// A solid line.
     Line,
-    /// A dashed line.
+    /// A dashed line: what the results are compared with.
     Dashed,
     /// A dotted line.
     Dotted,
+    /// A thin solid line without markers.
+    Thin,
     /// Open markers without a line.
     Markers,
     /// Filled markers on a line.
@@ -76,77 +75,16 @@ pub enum Style {
 /// Width of curves, points.
 const STROKE: f64 = 1.1;
 /// Half the size of a marker, points.
-const MARKER: f64 = 1.9;
+pub(super) const MARKER: f64 = 1.9;
 /// Distance between a piece of line in a legend and its text, points.
 pub(super) const TEXT_GAP: f64 = 3.5;
 
-/// Half the length of the ends of an error bar, points.
-const CAP: f64 = 1.6;
-/// Width of an error bar, points.
-const BAR: f64 = 0.6;
-
 impl Curve {
-    /// Error at a point, 0 where none is known.
-    fn error(&self, index: usize) -> f64 {
-        self.errors.get(index).copied().filter(|error| *error > 0.0).unwrap_or(0.0)
-    }
-
-    /// Whether the line leads from a point (by its index) to the next: it does not where it would fall by less than the
-    /// errors of both.
-    pub(super) fn leads_on(&self, index: usize) -> bool {
-        let (Some([_, y]), Some([_, next])) = (self.points.get(index), self.points.get(index + 1)) else {
-            return false;
-        };
-        *next >= *y || y - next > self.error(index) + self.error(index + 1)
-    }
-
-    /// Whether the error of a point exceeds half of its value.
-    fn is_rough(&self, index: usize) -> bool {
-        self.error(index) > 0.5 * self.points[index][1].abs()
-    }
-
-    /// Error bars of the points that have errors: x, and least and largest y.
-    pub(super) fn bars(&self) -> impl Iterator<Item = (f64, [f64; 2])> {
-        let known = self.points.iter().enumerate().filter(|(index, _)| self.error(*index) > 0.0);
-        known.map(|(index, [x, y])| (*x, [y - self.error(index), y + self.error(index)]))
-    }
-
-    /// Draws a bar given by its ends on the sheet, the upper one first, within a rectangle. An end beyond it has no cap.
-    pub(super) fn draw_bar(&self, canvas: &mut Canvas, [top, end]: [[f64; 2]; 2], bounds: [[f64; 2]; 2]) {
-        let colour = self.colour.colour();
-        for piece in clipped(&[top, end], bounds) {
-            canvas.line(&piece, BAR, colour);
-        }
-        let [low, high] = bounds;
-        for [x, y] in [top, end] {
-            if y > low[1] && y < high[1] && x >= low[0] && x <= high[0] {
-                canvas.line(&[[x - CAP, y], [x + CAP, y]], BAR, colour);
-            }
-        }
-    }
-
-    /// Draws a point of a curve with errors, within a rectangle: an open marker where its error exceeds half of its value, else a dot
-    /// where no line leads to it or from it and the curve has no markers.
-    pub(super) fn draw_point(&self, canvas: &mut Canvas, index: usize, [x, y]: [f64; 2], bounds: [[f64; 2]; 2]) {
-        let [low, high] = bounds;
-        if !(x >= low[0] - 0.1 && x <= high[0] + 0.1 && y >= low[1] - 0.1 && y <= high[1] + 0.1) {
-            return;
-        }
-        let has_line = self.leads_on(index) || index > 0 && self.leads_on(index - 1);
-        let has_marker = matches!(self.style, Style::Markers | Style::LineMarkers);
-        if self.is_rough(index) {
-            canvas.disc([x, y], MARKER, self.colour.colour());
-            canvas.disc([x, y], MARKER - 0.7, Colour::WHITE);
-        } else if !has_line && !has_marker {
-            canvas.disc([x, y], 0.6 * MARKER, self.colour.colour());
-        }
-    }
-
     /// Draws an uninterrupted piece of the curve, given by its places on the sheet, within a rectangle.
     pub(super) fn draw(&self, canvas: &mut Canvas, run: &[[f64; 2]], bounds: [[f64; 2]; 2]) {
         if let Some(dash) = self.style.dash() {
             for piece in clipped(run, bounds) {
-                canvas.dashed(&piece, STROKE, dash, self.colour.colour());
+                canvas.dashed(&piece, self.style.width(), dash, self.colour.colour());
             }
         }
         let [low, high] = bounds;
@@ -159,7 +97,7 @@ impl Curve {
     /// Draws the curve's entry in a legend: a piece of it, then its name.
     pub(super) fn entry(&self, text: &str, canvas: &mut Canvas, [x, y]: [f64; 2], length: f64) {
         if let Some(dash) = self.style.dash() {
-            canvas.dashed(&[[x, y], [x + length, y]], STROKE, dash, self.colour.colour());
+            canvas.dashed(&[[x, y], [x + length, y]], self.style.width(), dash, self.colour.colour());
         }
         self.mark(canvas, [x + 0.5 * length, y]);
         canvas.label(text, [x + length + TEXT_GAP, y], Anchor::Left, NUMBERS, Colour::BLACK);
@@ -197,11 +135,15 @@ impl Curve {
 impl Style {
     fn dash(self) -> Option<Dash> {
         match self {
-            Self::Line | Self::LineMarkers => Some(Dash::Solid),
+            Self::Line | Self::LineMarkers | Self::Thin => Some(Dash::Solid),
             Self::Dashed => Some(Dash::Dashed),
             Self::Dotted => Some(Dash::Dotted),
             Self::Markers => None,
         }
+    }
+
+    fn width(self) -> f64 {
+        if self == Self::Thin { 0.5 * STROKE } else { STROKE }
     }
 }
 
@@ -237,17 +179,6 @@ pub(super) fn clipped(points: &[[f64; 2]], [low, high]: [[f64; 2]; 2]) -> Vec<Ve
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_line_does_not_fall_by_less_than_the_errors() {
-        let points = [1.0, 2.0, 1.5, 1.9, 1.0].iter().enumerate().map(|(k, y)| [k as f64, *y]).collect();
-        let curve =
-            |errors: Vec<f64>| Curve { label: String::new(), points, errors, style: Style::Line, colour: 1.into() };
-        let curve = curve(vec![0.2, 0.3, 0.3, 0.1, f64::NAN]);
-        // Up; down by 0.5 with 0.6 of errors; up; down by 0.9 with 0.1.
-        assert_eq!([0, 1, 2, 3, 4].map(|index| curve.leads_on(index)), [true, false, true, true, false]);
-        assert_eq!(curve.bars().map(|(x, _)| x).collect::<Vec<_>>(), [0.0, 1.0, 2.0, 3.0]);
-    }
 
     #[test]
     fn lines_end_at_the_frame() {

@@ -8,40 +8,33 @@ use super::number::short;
 use crate::identification::{Identification, Measurement};
 use crate::units::Units;
 
-/// The picture: measured and fitted penetrations over the force, and their differences with the band of two standard errors of the fit, by
-/// those of the parameters alone: measured points scatter by their own deviations besides.
+/// The picture: measured and fitted penetrations over the force, and their differences, with the band of two standard errors of the fit, by
+/// those of the parameters alone: measured points scatter by their own deviations besides, which are their bars where they are known.
 pub fn identification(title: &str, units: &Units, measured: &Measurement, found: &Identification) -> Canvas {
     let mut order: Vec<usize> = (0..measured.forces().len()).collect();
     order.sort_by(|&a, &b| measured.forces()[a].total_cmp(&measured.forces()[b]));
-    let points = |of: &dyn Fn(usize) -> f64| order.iter().map(|&i| [measured.forces()[i], of(i)]).collect();
-    let curve = |label: &str, of: &dyn Fn(usize) -> f64, style, colour| Curve {
+    let curve = |label: &str, of: &dyn Fn(usize) -> f64, error: &dyn Fn(usize) -> f64, style, colour| Curve {
         label: label.to_owned(),
-        points: points(of),
-        errors: Vec::new(),
+        points: order.iter().map(|&i| [measured.forces()[i], of(i)]).collect(),
+        errors: order.iter().map(|&i| error(i)).collect(),
         style,
         colour: Ink::Number(colour),
     };
-    let difference = |i: usize| measured.penetrations()[i] - found.fitted[i];
+    // Without deviations all points scatter alike, and by how much is the residual in the caption.
+    let deviation = |i: usize| measured.deviations().map_or(f64::NAN, |own| own[i]);
+    let band = |i: usize| 2.0 * found.band[i];
     let force = || Axis::linear(units.load_of(""));
-    let curves = Chart {
+    let chart = |name: &str, symbol: &str, below: &dyn Fn(usize) -> f64| Chart {
         title: String::new(),
         x: force(),
-        y: Axis::linear(units.length_of("penetration", "δ")),
+        y: Axis::linear(units.length_of(name, symbol)),
         curves: vec![
-            curve("measured", &|i| measured.penetrations()[i], Style::Markers, 1),
-            curve("fit", &|i| found.fitted[i], Style::Line, 2),
+            curve("fit ± 2 standard errors", &|i| found.fitted[i] - below(i), &band, Style::Line, 2),
+            curve("measured", &|i| measured.penetrations()[i] - below(i), &deviation, Style::Markers, 1),
         ],
     };
-    let differences = Chart {
-        title: String::new(),
-        x: force(),
-        y: Axis::linear(units.length_of("measured − fit", "")),
-        curves: vec![
-            curve("measured", &difference, Style::Markers, 1),
-            curve("fit ± 2 standard errors", &|i| 2.0 * found.band[i], Style::Line, 2),
-            curve("", &|i| -2.0 * found.band[i], Style::Line, 2),
-        ],
-    };
+    let curves = chart("penetration", "δ", &|_| 0.0);
+    let differences = chart("measured − fit", "", &|i| found.fitted[i]);
     let values: Vec<String> = found
         .estimates
         .iter()
@@ -49,10 +42,11 @@ pub fn identification(title: &str, units: &Units, measured: &Measurement, found:
         .collect();
     let title = if title.is_empty() { String::new() } else { format!("{title}. ") };
     let caption = format!(
-        "{title}{}. Least squares of {} points; residual {} (root mean square).",
+        "{title}{}. Least squares of {} points; residual {} (root mean square).{}",
         values.join(", "),
         found.fitted.len(),
-        units.length().with_unit(found.rms, short)
+        units.length().with_unit(found.rms, short),
+        if measured.deviations().is_some() { " Bars: their standard deviations." } else { "" }
     );
     plots(&caption, &[curves, differences])
 }

@@ -9,7 +9,7 @@ use super::map::{Fill, Map};
 use super::pressure::{axes, unit_cell};
 use super::sheet::sheet;
 use super::snapshot::Snapshot;
-use super::window::View;
+use super::zoom;
 use crate::numeric::array::samples;
 
 /// Points of the profile.
@@ -24,7 +24,8 @@ pub fn indentation(snapshot: &Snapshot) -> Option<Canvas> {
         return None;
     }
     let is_isolated = cell.is_isolated();
-    let view = if snapshot.levels() == 0 || is_isolated { View::one(cell) } else { View::cells(cell) };
+    let is_seen = |index: usize| samples(&depths)[index] > 0.0 || snapshot.pressures()[index] > 0.0;
+    let view = zoom::view(grid, snapshot.levels() > 0, is_seen);
     let at = |place: [f64; 2]| {
         let fractions = cell.fractions(place);
         let outside = is_isolated && fractions.iter().any(|part| !(0.0..=1.0).contains(part));
@@ -66,7 +67,7 @@ pub fn indentation(snapshot: &Snapshot) -> Option<Canvas> {
     let words = "What the hardness has pressed in, without the elastic displacement; without pile-up. White: nothing."
         .to_owned();
     Some(sheet(
-        &snapshot.caption(&(words + &view.words())),
+        &snapshot.caption(&(words + zoom::words(grid, &view, None) + &view.words())),
         &[&map, &Plot { chart: &chart, aspect: view.aspect().min(1.0) }],
     ))
 }

@@ -1,6 +1,7 @@
 //! Labels of quantities on axes and in captions: words, symbol and unit.
 
 use super::number::short;
+use crate::case::NamedKey;
 use crate::load::LoadQuantity;
 use crate::units::{Prefixed, Unit, Units};
 
@@ -21,6 +22,12 @@ impl Label {
     /// Words and symbol.
     pub(super) fn text(&self) -> &str {
         &self.text
+    }
+
+    /// The label with a value, "thickness of layer 1 = 2 µm".
+    pub(super) fn equals(&self, value: f64) -> String {
+        let unit = self.unit(value);
+        unit.behind(&format!("{}\u{a0}=\u{a0}{}", self.text, short(unit.shown(value))))
     }
 
     /// The label with the unit alone, for a quantity that is named elsewhere.
@@ -71,6 +78,16 @@ impl Units {
             LoadQuantity::MeanPressure => self.pressure_of(&words, symbol),
             LoadQuantity::Force => label(&words, symbol, &self.force(), "unit\u{a0}of\u{a0}force"),
         }
+    }
+
+    /// The key of a case, with its words.
+    pub(super) fn key_of(&self, key: &NamedKey) -> Label {
+        let text = match (key.unit(self), key.unknown_unit()) {
+            (Unit::Relative(to), _) => format!("{}\u{a0}/\u{a0}{to}", key.words),
+            (Unit::None, Some(unknown)) => format!("{}\u{a0}({unknown})", key.words),
+            _ => key.words.clone(),
+        };
+        Label { text, unit: key.unit(self) }
     }
 
     /// Loads in a list of parameters, with their symbol.

@@ -100,8 +100,46 @@ fn about(planes: &[RangePlane], across: f64) -> Option<[f64; 2]> {
     Some([*first, *last])
 }
 
-/// What is left of the layers and worn off, over the passes, with the events; `None` for less than two states.
-pub fn course(title: &str, problem: &Problem, units: &Units, course: &[Course], events: &[Event]) -> Option<Canvas> {
+/// Points (passes, height removed): what comes off does so at once, the height before and after.
+fn removed(course: &[Course], events: &[Event]) -> Vec<[f64; 2]> {
+    let off = |event: &Event| [[event.passes, event.removed - event.depth], [event.passes, event.removed]];
+    let off = events.iter().filter(|own| own.what != EventKind::WornThrough).flat_map(off);
+    let mut removed: Vec<[f64; 2]> = off.chain(course.iter().map(|own| [own.passes, own.removed])).collect();
+    removed.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    removed
+}
+
+/// The first damage of a life.
+struct FirstDamage {
+    /// Passes until then less and more their error.
+    passes: [f64; 2],
+    /// Height in the middle of what comes off, from the original surface; a length.
+    removed: f64,
+}
+
+impl FirstDamage {
+    /// That of these events with the relative error of its passes; `None` without one.
+    fn of(events: &[Event], error: Option<f64>) -> Option<Self> {
+        let (own, error) = (events.first()?, error.filter(|error| *error > 0.0 && error.is_finite())?);
+        let passes = [1.0 - error, 1.0 + error].map(|part| own.passes * part.max(0.0));
+        Some(Self { passes, removed: own.removed - 0.5 * own.depth })
+    }
+
+    /// A level bar over the error of the passes.
+    fn bar(&self, height: f64) -> Vec<[f64; 2]> {
+        self.passes.map(|passes| [passes, height]).to_vec()
+    }
+}
+
+/// What is left of the layers and worn off, over the passes, with the events; `None` for less than two states. `error`: relative error
+/// of the passes until the first damage, which is a level bar.
+pub fn course(
+    title: &str,
+    problem: &Problem,
+    units: &Units,
+    (course, events): (&[Course], &[Event]),
+    error: Option<f64>,
+) -> Option<Canvas> {
     if course.len() < 2 {
         return None;
     }
@@ -116,20 +154,19 @@ pub fn course(title: &str, problem: &Problem, units: &Units, course: &[Course], 
     };
     let points = |value: fn(&Course) -> f64| course.iter().map(|own| [own.passes, value(own)]).collect::<Vec<_>>();
     let has_layers = course.iter().any(|own| own.thickness > 0.0);
-    // What comes off does so at once: the height before and after.
-    let off = |event: &Event| [[event.passes, event.removed - event.depth], [event.passes, event.removed]];
-    let mut removed: Vec<[f64; 2]> =
-        events.iter().filter(|own| own.what != EventKind::WornThrough).flat_map(off).collect();
-    removed.extend(points(|own| own.removed));
-    removed.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let removed = removed(course, events);
+    let first = FirstDamage::of(events, error);
     let mut charts = Vec::new();
     if has_layers {
         let whole = course[0].thickness;
         let left = removed.iter().map(|[n, removed]| [*n, (whole - removed).max(0.0)]).collect();
         let y = Axis::linear(units.length_of("layers left", "h")).from_to(0.0, 1.05 * whole);
-        charts.push(Chart { title: "layers".to_owned(), x: x(), y, curves: vec![curve("", 1, left, Style::Line)] });
+        let bar = first.as_ref().map(|first| curve("", 1, first.bar(whole - first.removed), Style::Line));
+        let curves = [curve("", 1, left, Style::Line)].into_iter().chain(bar).collect();
+        charts.push(Chart { title: "layers".to_owned(), x: x(), y, curves });
     }
     let mut curves = vec![curve("removed from the body", 1, removed, Style::Line)];
+    curves.extend(first.as_ref().map(|first| curve("", 1, first.bar(first.removed), Style::Line)));
     if course.iter().any(|own| own.body > 0.0) {
         curves.push(curve("worn off the body by sliding, mean", 2, points(|own| own.body), Style::Line));
     }
@@ -150,5 +187,6 @@ pub fn course(title: &str, problem: &Problem, units: &Units, course: &[Course], 
         chart.title = format!("({letter}) {}", chart.title);
     }
     let more = [format!("{} events in {} passes", events.len(), super::number::short(last))];
-    Some(plots(&caption(title, problem, units, &more), &charts))
+    let words = first.as_ref().map_or("", |_| " Level bar: estimated error of the passes until the first damage.");
+    Some(plots(&format!("{}{words}", caption(title, problem, units, &more)), &charts))
 }

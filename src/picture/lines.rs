@@ -21,7 +21,7 @@ pub fn lines(snapshot: &Snapshot, sections: &[VerticalSection]) -> Canvas {
         bodies.zip(sections).flat_map(|(half_space, section)| of_body(snapshot, half_space, section)).collect();
     let what = format!("Lines along {} from the x axis.", degrees(sections[0].line.direction));
     let many = sections.iter().any(|section| section.interfaces().len() >= MANY);
-    let sides = if many { " Solid: above an interface; dashed: below." } else { "" };
+    let sides = if many { " Thick: above an interface; thin: below." } else { "" };
     plots(&snapshot.caption(&(what + sides)), &charts)
 }
 
@@ -67,7 +67,7 @@ fn of_body(snapshot: &Snapshot, half_space: &HalfSpace, section: &VerticalSectio
                 label: name(row),
                 points: points(row, measure),
                 errors: Vec::new(),
-                style: if below(row) { Style::Dashed } else { Style::Line },
+                style: if below(row) && interfaces >= MANY { Style::Thin } else { Style::Line },
                 colour: match interfaces {
                     MANY.. => Ink::by_depth(number / 2, interfaces + 1),
                     _ => number.into(),

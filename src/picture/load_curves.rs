@@ -4,6 +4,7 @@ use super::axis::{Axis, log_spaced};
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Ink, NUMBERED_COLOURS, Style};
+use super::error_bars::MOST_MARKERS;
 use super::label::Label;
 use super::snapshot::caption;
 use super::utilisations::{BARS, utilisation_axis, utilisation_curves};
@@ -14,6 +15,7 @@ use crate::run::StepRecord;
 use crate::run::touches::touches;
 use crate::stress::Peak;
 use crate::stress::maxima::{Carried, Extremes};
+use crate::sweep::Measured;
 use crate::units::Units;
 
 /// The picture; `None` for less than two steps, or where none of them carries load.
@@ -44,7 +46,7 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
         0 => "",
         _ => " Dotted, with the level's number: where a level touches first, from its loads at the steps behind.",
     };
-    let has_errors = charts.iter().flat_map(|chart| &chart.curves).any(|curve| curve.bars().next().is_some());
+    let has_errors = charts.iter().flat_map(|chart| &chart.curves).any(Curve::has_errors);
     let bars = if has_errors { format!(" {BARS}") } else { String::new() };
     Some(plots(&format!("{}{what}{bars}", caption(title, problem, units, &more)), &charts))
 }
@@ -78,42 +80,44 @@ impl LoadPath<'_> {
         Chart { title: title.to_owned(), x: Axis { marks, ..x }, y, curves }
     }
 
-    fn curve(&self, label: &str, colour: Ink, value: impl Fn(&StepRecord) -> f64) -> Curve {
-        let points: Vec<[f64; 2]> =
-            self.steps.iter().map(|step| [step.reading.load(self.units.quantity()), value(step)]).collect();
+    /// A curve of values with their errors; a step without one has none of both.
+    fn curve(&self, label: &str, colour: Ink, value: impl Fn(&StepRecord) -> Option<Measured>) -> Curve {
+        let values: Vec<Option<Measured>> = self.steps.iter().map(value).collect();
+        let load = |step: &StepRecord| step.reading.load(self.units.quantity());
+        let points = self.steps.iter().zip(&values).map(|(step, own)| [load(step), own.map_or(f64::NAN, |own| own.0)]);
+        let points: Vec<[f64; 2]> = points.collect();
+        let errors = values.iter().map(|own| own.and_then(|own| own.1).unwrap_or(f64::NAN)).collect();
         // Markers show the steps of short paths.
-        let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
-        Curve { label: label.to_owned(), points, errors: Vec::new(), style, colour }
+        let style = if points.len() <= MOST_MARKERS { Style::LineMarkers } else { Style::Line };
+        Curve { label: label.to_owned(), points, errors, style, colour }
     }
 
-    /// The curve of a largest stress with its errors.
+    /// The curve of a largest stress.
     fn peaks(&self, label: &str, colour: Ink, peak: impl Fn(&StepRecord) -> Option<Peak>) -> Curve {
-        let errors = |step: &StepRecord| peak(step).and_then(|peak| peak.error).unwrap_or(f64::NAN);
-        let value = |step: &StepRecord| peak(step).and_then(|peak| peak.finite()).unwrap_or(f64::NAN);
-        Curve { errors: self.steps.iter().map(errors).collect(), ..self.curve(label, colour, value) }
+        self.curve(label, colour, |step| peak(step).and_then(|peak| Some((peak.finite()?, peak.error))))
     }
 
     /// One curve for each level, interrupted where the level has no value or no contact; one of the `whole` for a topography.
     fn by_level(
         &self,
-        whole: impl Fn(&Reading) -> Option<f64>,
-        value: impl Fn(&LevelReading) -> Option<f64>,
+        whole: impl Fn(&Reading) -> Option<Measured>,
+        value: impl Fn(&LevelReading) -> Option<Measured>,
     ) -> Vec<Curve> {
         if self.levels == 0 {
-            return vec![self.curve("", 1.into(), |step| whole(&step.reading).unwrap_or(f64::NAN))];
+            return vec![self.curve("", 1.into(), |step| whole(&step.reading))];
         }
         let touching = |level: &LevelReading| if level.load > 0.0 { value(level) } else { None };
         let of = |level: usize| {
-            self.curve(&format!("level {level}"), level.into(), |step| {
-                touching(&step.reading.levels[level - 1]).unwrap_or(f64::NAN)
-            })
+            self.curve(&format!("level {level}"), level.into(), |step| touching(&step.reading.levels[level - 1]))
         };
         (1..=self.levels).map(of).collect()
     }
 
     fn peak_pressure(&self) -> Chart {
         let label = self.units.pressure_of("peak pressure", "p");
-        self.chart("peak pressure", self.axis(label), self.by_level(Reading::finite_peak, LevelReading::finite_peak))
+        let whole = |own: &Reading| Some((own.finite_peak()?, own.errors.max_pressure));
+        let of_level = |own: &LevelReading| Some((own.finite_peak()?, own.errors.max_pressure));
+        self.chart("peak pressure", self.axis(label), self.by_level(whole, of_level))
     }
 
     fn extent(&self) -> Chart {
@@ -122,15 +126,18 @@ impl LoadPath<'_> {
             0 => ("contact area", "fraction of the cell in contact".into()),
             _ => ("contact radius", self.units.length_of("contact radius", "a")),
         };
-        let area = |reading: &Reading| if self.isolated { reading.contact_area } else { reading.contact_fraction };
-        let curves = self.by_level(|reading| Some(area(reading)), |level| level.contact_radius);
+        let area = |own: &Reading| match self.isolated {
+            true => Some((own.contact_area, own.errors.contact_area)),
+            false => Some((own.contact_fraction, own.errors.contact_fraction)),
+        };
+        let curves = self.by_level(area, |level| Some((level.contact_radius?, level.errors.contact_radius)));
         self.chart(title, self.axis(label), curves)
     }
 
     fn penetration(&self) -> Chart {
         // Far from an isolated contact there is nothing to which displacement could be additional.
         let title = if self.isolated { "penetration" } else { "additional displacement" };
-        let curve = self.curve("", 0.into(), |step| step.reading.penetration);
+        let curve = self.curve("", 0.into(), |step| Some((step.reading.penetration, step.reading.errors.penetration)));
         self.chart(title, self.axis(self.units.length_of(title, "δ")), vec![curve])
     }
 
@@ -138,12 +145,12 @@ impl LoadPath<'_> {
     fn indentation(&self) -> Option<Chart> {
         let mut readings = self.steps.iter().filter_map(|step| step.plastic.as_ref());
         readings.any(PlasticReading::is_pressed_in).then(|| {
-            let curve = |label: &str, colour: usize, value: fn(&PlasticReading) -> f64| {
-                self.curve(label, colour.into(), |step| step.plastic.as_ref().map_or(f64::NAN, value))
+            let curve = |label: &str, colour: usize, value: fn(&PlasticReading) -> Measured| {
+                self.curve(label, colour.into(), |step| step.plastic.as_ref().map(value))
             };
             let curves = vec![
-                curve("largest depth", 1, |own| own.depth),
-                curve("permanent depth", 2, |own| own.permanent_depth),
+                curve("largest depth", 1, |own| (own.depth, own.depth_error)),
+                curve("permanent depth", 2, |own| (own.permanent_depth, own.permanent_depth_error)),
             ];
             let label = self.units.length_of("pressed in for good", "u");
             self.chart("pressed in for good", Axis::linear(label), curves)
@@ -151,7 +158,9 @@ impl LoadPath<'_> {
     }
 
     fn shares(&self) -> Chart {
-        let curves = self.by_level(|_| None, |level| Some(100.0 * level.load_share));
+        let percent = |own: f64| 100.0 * own;
+        let share = |own: &LevelReading| Some((percent(own.load_share), own.errors.load_share.map(percent)));
+        let curves = self.by_level(|_| None, share);
         self.chart("share of the load", Axis::linear("load share (%)").from_to(0.0, 105.0), curves)
     }
 
@@ -182,16 +191,16 @@ impl LoadPath<'_> {
     fn interfaces(&self) -> Option<Chart> {
         let any = &self.steps.iter().find_map(|step| step.stress.as_ref())?.interfaces;
         let interfaces = any.len();
-        let curve = |index: usize, what: &str, value: fn(&Carried) -> Peak, dashed: bool| {
+        let curve = |index: usize, what: &str, value: fn(&Carried) -> Peak, thin: bool| {
             let name = match interfaces {
                 1 => what.to_owned(),
-                NUMBERED_COLOURS.. if dashed => String::new(),
+                NUMBERED_COLOURS.. if thin => String::new(),
                 NUMBERED_COLOURS.. => any[index].interface.to_string(),
                 _ => format!("{what}, {}", any[index].interface),
             };
             let of = |step: &StepRecord| step.stress.as_ref()?.interfaces.get(index).map(value);
             let curve = self.peaks(&name, Ink::by_depth(index, interfaces), of);
-            if dashed { Curve { style: Style::Dashed, ..curve } } else { curve }
+            if thin { Curve { style: Style::Thin, ..curve } } else { curve }
         };
         let curves = (0..interfaces).flat_map(|index| {
             [
@@ -201,7 +210,7 @@ impl LoadPath<'_> {
         });
         let y = Axis::linear(self.units.pressure_of("largest tension and shear", "σ, τ"));
         let title =
-            if interfaces < NUMBERED_COLOURS { "interfaces" } else { "interfaces; solid: shear, dashed: tension" };
+            if interfaces < NUMBERED_COLOURS { "interfaces" } else { "interfaces; thick: shear, thin: tension" };
         (interfaces > 0).then(|| self.chart(title, y, curves.collect()))
     }
 

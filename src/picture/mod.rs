@@ -3,7 +3,18 @@
 //! A picture is one column (85 mm) or two columns wide, its letters 6 to 8 points high, its typeface embedded. It is drawn on a
 //! sheet measured in points ([`Canvas`]), which is written as pixels or as lines.
 //!
+//! What lines mean, in every picture and in Python's `percoat.plot`:
+//!
+//! - **dashed**: what the results are compared with: an indenter alone, the bare body, a closed form, another method, the limit of
+//!   failure;
+//! - dotted: a value marked on an axis, the hole of a ring, and a third kind of curve beside thick and thin ones;
+//! - thin and solid: borders (interfaces, the unit cell, zero), and the second kind of many curves;
+//! - bars and bands: the estimated errors; no line leads through noise (`error_bars`).
+//!
+//! What is drawn:
+//!
 //! - Any curves: [`Chart`], and [`Figure`] for several charts side by side.
+//! - The part of the surface that a map shows: [`view`].
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles());
 //!   what hardness has pressed in: [`indentation`](indentation()).
 //! - Its stresses under a line ([sections](crate::stress::VerticalSection)): [`section`](section()), [`lines`](lines()).
@@ -23,6 +34,7 @@ mod comparison;
 mod contact;
 pub(crate) mod contour;
 mod curve;
+mod error_bars;
 mod file;
 mod frame;
 mod identification;
@@ -43,6 +55,8 @@ mod raster;
 mod scale;
 mod section;
 mod sheet;
+mod shown_depths;
+mod signed_values;
 mod snapshot;
 mod spectrum;
 mod sweep;
@@ -53,6 +67,7 @@ mod typeface;
 mod utilisations;
 pub(crate) mod vector;
 mod window;
+mod zoom;
 
 pub use axis::Axis;
 pub use canvas::Canvas;
@@ -75,3 +90,5 @@ pub use snapshot::Snapshot;
 pub use spectrum::spectrum;
 pub use sweep::sweep;
 pub use utilisations::utilisations;
+pub use window::{View, Window};
+pub use zoom::view;

@@ -5,43 +5,55 @@ use super::bar::Bar;
 use super::canvas::{Canvas, Dash, Stroke};
 use super::colour::Colour;
 use super::map::{Fill, Map, Over};
-use super::sheet::sheet;
+use super::sheet::{Panel, sheet};
 use super::snapshot::{Snapshot, is_oblique};
 use super::tiling::images;
 use super::window::{View, Window};
+use super::zoom;
 
 /// Least distance of numbers beside and above each other, in widths of a plot.
 const NUMBERS_APART: [f64; 2] = [0.035, 0.055];
 
 /// The picture; places without contact are white.
 pub fn pressure(snapshot: &Snapshot) -> Canvas {
-    let cell = snapshot.step.grid().cell();
-    let view = if snapshot.levels() == 0 { View::one(cell) } else { View::cells(cell) };
-    let window = view.window;
+    let (grid, cell) = (snapshot.step.grid(), snapshot.step.grid().cell());
+    let view = zoom::view(grid, snapshot.levels() > 0, |index| snapshot.pressures()[index] > 0.0);
+    let close = zoom::close(snapshot, &view);
     let value = |place: [f64; 2]| snapshot.pressure_at(place);
     let most = snapshot.pressures().iter().copied().fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
     let is_given = snapshot.step.problem().counterbody().pressure().is_some();
     let name = if is_given { "pressure" } else { "contact pressure" };
-    let bar = Bar::sequential(snapshot.units.pressure_of(name, "p"), most);
-    let [x, y] = axes(snapshot, window);
-    let mut over: Vec<Over> = sliding_arrow(snapshot, view).into_iter().collect();
-    over.extend(unit_cell(snapshot, view));
-    over.extend(numbers(snapshot, view, |place| {
-        let dark = snapshot.pressure_at(place).is_some_and(|p| p < 0.6 * most);
-        if dark { Colour::WHITE } else { Colour::BLACK }
-    }));
-    let map = Map { title: String::new(), x, y, aspect: view.aspect(), fill: Fill::Values(bar, &value), over };
+    let map = |title: &str, view: View, outline: Option<Over>| {
+        let [x, y] = axes(snapshot, view.window);
+        let mut over: Vec<Over> = sliding_arrow(snapshot, view).into_iter().collect();
+        over.extend(unit_cell(snapshot, view));
+        over.extend(outline);
+        over.extend(numbers(snapshot, view, |place| {
+            let dark = snapshot.pressure_at(place).is_some_and(|p| p < 0.6 * most);
+            if dark { Colour::WHITE } else { Colour::BLACK }
+        }));
+        let bar = Bar::sequential(snapshot.units.pressure_of(name, "p"), most);
+        Map { title: title.to_owned(), x, y, aspect: view.aspect(), fill: Fill::Values(bar, &value), over }
+    };
+    let maps = match close {
+        None => vec![map("", view, None)],
+        Some(part) => {
+            vec![map("(a) whole cells", view, Some(zoom::outline(&part))), map("(b) one contact", part, None)]
+        }
+    };
     let what = match snapshot.levels() {
         0 if is_given && cell.is_rectangular() && !view.is_part => "White: no pressure.",
-        0 if is_given => "White: no pressure; dashed: the unit cell.",
+        0 if is_given => "White: no pressure; thin line: the unit cell.",
         0 if cell.is_isolated() => "White: no contact.",
         _ if cell.is_isolated() => "Numbers are levels; white: no contact.",
         0 if cell.is_rectangular() && !view.is_part => "White: no contact; one unit cell.",
-        0 => "White: no contact; dashed: the unit cell.",
-        _ => "Numbers are levels; white: no contact; dashed: the unit cell.",
+        0 => "White: no contact; thin line: the unit cell.",
+        _ => "Numbers are levels; white: no contact; thin line: the unit cell.",
     };
-    sheet(&snapshot.caption(&(what.to_owned() + sliding_words(snapshot) + &view.words())), &[&map])
+    let words = [what, sliding_words(snapshot), zoom::words(grid, &view, close.as_ref()), &view.words()].concat();
+    let panels: Vec<&dyn Panel> = maps.iter().map(|map| map as &dyn Panel).collect();
+    sheet(&snapshot.caption(&words), &panels)
 }
 
 /// An arrow along the sliding, where there is friction.
@@ -75,9 +87,7 @@ pub fn unit_cell(snapshot: &Snapshot, view: View) -> Vec<Over> {
         let [from, to] = [corners[k], corners[(k + 1) % 4]];
         let at = move |part: f64| [0, 1].map(|c| from[c] + (to[c] - from[c]) * part);
         let open = snapshot.stretches([from, to], false).into_iter().map(move |ends| ends.map(at).to_vec());
-        open.map(|points| {
-            Over::Line(Stroke { points, width: 0.6, dash: Dash::Dashed, colour: Colour([120, 120, 120]) })
-        })
+        open.map(|points| Over::Line(Stroke { points, width: 0.6, dash: Dash::Solid, colour: Colour([120, 120, 120]) }))
     };
     (0..4).flat_map(side).chain(names(snapshot, view, corners)).collect()
 }

@@ -23,6 +23,15 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
             style: Style::Line,
             colour: level.into(),
         });
+        if let Some((&peak, error)) = peak_of(&curves).zip(snapshot.reading.levels[level - 1].errors.max_pressure) {
+            curves.push(Curve {
+                label: String::new(),
+                points: vec![peak],
+                errors: vec![error],
+                style: Style::LineMarkers,
+                colour: level.into(),
+            });
+        }
         directions.push(degrees([direction.cos(), direction.sin()]));
         if let Some(points) = isolated.and_then(|levels| levels.get(level - 1)) {
             let points = smooth(points);
@@ -45,6 +54,9 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
         if isolated.is_some() {
             what += " Dashed: isolated indenters under the same loads.";
         }
+        if curves.iter().any(Curve::has_errors) {
+            what += " Markers with bars: the peaks with their estimated errors.";
+        }
         let chart = Chart {
             title: String::new(),
             x: Axis::linear(snapshot.units.length_of("distance from the axis", "s"))
@@ -54,6 +66,11 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
         };
         plots(&snapshot.caption(&what), &[chart])
     })
+}
+
+/// The point of the last curve where it is largest.
+fn peak_of(curves: &[Curve]) -> Option<&[f64; 2]> {
+    curves.last()?.points.iter().max_by(|a, b| a[1].total_cmp(&b[1]))
 }
 
 /// Number of points on either side of the axis.

@@ -8,7 +8,9 @@ use super::curve::NUMBERED_COLOURS;
 use super::label::equals;
 use super::map::{Fill, Map, Over};
 use super::number::degrees;
-use super::sheet::sheet;
+use super::sheet::{Panel, sheet};
+use super::shown_depths::{ShownDepths, deepest};
+use super::signed_values::{SIGNS, SignedValues};
 use super::snapshot::Snapshot;
 use super::tiling::images;
 use super::window::Window;
@@ -16,13 +18,6 @@ use crate::body::{HalfSpace, Side};
 use crate::friction::Friction;
 use crate::reading::{Criterion, LargestInSection, SectionMeasure, Utilisation, Verdict, tears, tips};
 use crate::stress::{SurfaceLine, VerticalSection};
-use ndarray::Array2;
-
-/// Height over width of a section that is not shown to scale, least and largest.
-const ASPECT: [f64; 2] = [0.4, 1.1];
-
-/// Signs of z in the body and in the counterbody, which is drawn above.
-const SIGNS: [f64; 2] = [1.0, -1.0];
 
 /// Width of the bar of a contact between the bodies, points.
 const BETWEEN: f64 = 2.4;
@@ -40,49 +35,25 @@ pub fn section(snapshot: &Snapshot, sections: &[VerticalSection]) -> Canvas {
         move |place: [f64; 2]| values.at(place)
     });
     let zero = values[0].zero_lines().into_iter().map(|points| line(points, 0.5, Dash::Solid, Colour::GREY));
+    let zero: Vec<Over> = zero.collect();
     let highest = sections.iter().filter_map(|section| section.highest).map(|[_, value]| value);
     let along_bar = Bar::signed(snapshot.units.pressure_of("", "σₛ"), values[0].span(highest));
     let apart = along_bar.apart;
     let (governing_bar, ink) = picture.governing_bar(&values[1]);
-    let along = picture.panel('a', 0, Fill::Values(along_bar, &along), Colour::BLACK, zero.collect());
-    let governing = picture.panel('b', 1, Fill::Values(governing_bar, &governing), ink, Vec::new());
-    sheet(&snapshot.caption(&picture.words(apart)), &[&along, &governing])
+    let mut panels = Vec::new();
+    for shown in [Some(picture.whole), picture.coating].into_iter().flatten() {
+        let fill = Fill::Values(along_bar.clone(), &along);
+        panels.push(picture.panel(0, shown, fill, Colour::BLACK, zero.clone()));
+        panels.push(picture.panel(1, shown, Fill::Values(governing_bar.clone(), &governing), ink, Vec::new()));
+    }
+    for (letter, panel) in ('a'..).zip(&mut panels) {
+        panel.title = format!("({letter}) {}", panel.title);
+    }
+    let panels: Vec<&dyn Panel> = panels.iter().map(|panel| panel as &dyn Panel).collect();
+    sheet(&snapshot.caption(&picture.words(apart)), &panels)
 }
 
-/// Values of a measure in the bodies; z < 0 in the counterbody.
-struct SignedValues<'a> {
-    parts: Vec<(&'a VerticalSection, Array2<f64>)>,
-}
-
-impl<'a> SignedValues<'a> {
-    fn new(sections: &'a [VerticalSection], measure: SectionMeasure) -> Self {
-        Self { parts: sections.iter().map(|section| (section, section.values(measure))).collect() }
-    }
-
-    /// The value at s, z; `None` outside.
-    fn at(&self, [s, z]: [f64; 2]) -> Option<f64> {
-        let above = self.parts.get(1).filter(|_| z < 0.0);
-        let (section, values) = above.or(self.parts.first())?;
-        section.at(values, s, if above.is_some() { -z } else { z })
-    }
-
-    /// Lines of points s, z on which values are zero.
-    fn zero_lines(&self) -> Vec<Vec<[f64; 2]>> {
-        let of = |(part, (section, values)): (usize, &(&VerticalSection, Array2<f64>))| {
-            let lines = section.zero_lines(values).into_iter();
-            lines.map(|line| line.into_iter().map(|[s, z]| [s, SIGNS[part] * z]).collect()).collect::<Vec<_>>()
-        };
-        self.parts.iter().enumerate().flat_map(of).collect()
-    }
-
-    /// Least and largest of the values, of zero and of `more` values.
-    fn span(&self, more: impl Iterator<Item = f64>) -> [f64; 2] {
-        let values = self.parts.iter().flat_map(|(_, values)| values.iter().copied());
-        values.chain(more).fold([0.0, 0.0], |[low, high], x| [x.min(low), x.max(high)])
-    }
-}
-
-/// The contents of both panels and of the caption.
+/// The contents of all panels and of the caption.
 struct SectionPicture<'a> {
     snapshot: &'a Snapshot,
     /// That of the body, then that of the counterbody where it is elastic.
@@ -95,9 +66,9 @@ struct SectionPicture<'a> {
     singular: bool,
     /// Criteria that fail in the plane of the section, and where: s, z; lengths.
     failures: Vec<(Criterion, [f64; 2])>,
-    /// Whether depth is shown to the scale of the line, and height over width of the panels.
-    is_to_scale: bool,
-    aspect: f64,
+    /// The depths that the upper panels show, and those of thin coatings, which others show once more.
+    whole: ShownDepths,
+    coating: Option<ShownDepths>,
 }
 
 impl<'a> SectionPicture<'a> {
@@ -111,9 +82,6 @@ impl<'a> SectionPicture<'a> {
         let measures = [SectionMeasure::Along, governing.unwrap_or(SectionMeasure::Tau1)];
         let singular = is_singular(snapshot, measures[1]) && passes_tip(snapshot, &sections[0]);
         let [along, governing] = measures.map(|measure| largest(sections, measure));
-        let [first, last] = sections[0].line.span;
-        let scale = sections.iter().map(deepest).sum::<f64>() / (last - first);
-        let aspect = scale.clamp(ASPECT[0], ASPECT[1]);
         Self {
             snapshot,
             sections,
@@ -121,13 +89,14 @@ impl<'a> SectionPicture<'a> {
             largest: [along, governing.filter(|_| !singular)],
             singular,
             failures: failures(snapshot, sections),
-            is_to_scale: aspect == scale,
-            aspect,
+            whole: ShownDepths::whole(sections),
+            coating: ShownDepths::coating(sections),
         }
     }
 
-    /// One of both panels by its `number`: a field with the interfaces, the contacts, the largest value and the failures over it.
-    fn panel<'f>(&self, letter: char, number: usize, fill: Fill<'f>, ink: Colour, below: Vec<Over>) -> Map<'f> {
+    /// A panel of one of both stresses by its `number`: a field with the interfaces, the contacts, the largest value and the failures
+    /// over it.
+    fn panel<'f>(&self, number: usize, shown: ShownDepths, fill: Fill<'f>, ink: Colour, below: Vec<Over>) -> Map<'f> {
         let (sections, units) = (self.sections, &self.snapshot.units);
         let [first, last] = sections[0].line.span;
         let level = |z: f64| vec![[first, z], [last, z]];
@@ -137,19 +106,22 @@ impl<'a> SectionPicture<'a> {
         let interfaces: Vec<_> = sections.iter().zip(SIGNS).flat_map(of).collect();
         // The lines of many interfaces are thin.
         let width = if interfaces.len() < NUMBERED_COLOURS { 0.9 } else { 0.4 };
-        let interfaces = interfaces.into_iter().map(|points| line(points, width, Dash::Dashed, ink));
-        let surface = (sections.len() > 1).then(|| line(level(0.0), 0.6, Dash::Solid, ink));
-        let mark = self.largest[number].map(|(_, at)| Over::Mark { at, colour: ink });
-        let rings = (1..).zip(&self.failures).map(|(number, &(_, at))| Over::Ring { at, number });
+        let interfaces = interfaces.into_iter().map(|points| line(points, width, Dash::Solid, ink));
+        let has_both = shown.top < 0.0 && shown.bottom > 0.0;
+        let surface = has_both.then(|| line(level(0.0), 0.6, Dash::Solid, ink));
+        let is_shown = |at: &[f64; 2]| (shown.top..=shown.bottom).contains(&at[1]);
+        let mark = self.largest[number].map(|(_, at)| at).filter(is_shown).map(|at| Over::Mark { at, colour: ink });
+        let rings = (1..).zip(&self.failures).filter(|(_, (_, at))| is_shown(at));
+        let rings = rings.map(|(number, &(_, at))| Over::Ring { at, number });
         let over = below.into_iter().chain(interfaces).chain(surface);
-        let over = over.chain(contacts(self.snapshot, sections, ink)).chain(mark).chain(rings);
+        let over = over.chain(contacts(self.snapshot, sections, shown, ink)).chain(mark).chain(rings);
         let [name, symbol] = named(self.measures[number]);
-        let top = sections.get(1).map_or(0.0, |above| -deepest(above));
+        let title = if shown.is_coating { format!("{symbol} in the coating") } else { format!("{name} {symbol}") };
         Map {
-            title: format!("({letter}) {name} {symbol}"),
+            title,
             x: Axis::linear(units.length_of("distance", "s")).from_to(first, last),
-            y: Axis::linear(units.length_of("depth", "z")).from_to(deepest(&sections[0]), top),
-            aspect: self.aspect,
+            y: Axis::linear(units.length_of("depth", "z")).from_to(shown.bottom, shown.top),
+            aspect: shown.aspect,
             fill,
             over: over.collect(),
         }
@@ -171,7 +143,10 @@ impl<'a> SectionPicture<'a> {
         let problem = self.snapshot.step.problem();
         let direction = self.sections[0].line.direction;
         let apart = if apart { "; tension and compression have scales of their own" } else { "" };
-        let to_scale = if self.is_to_scale { "" } else { " Depth is stretched." };
+        let coating = self.coating.map_or(String::new(), |coating| {
+            format!(" (c), (d): the coating of (a), (b) in the same colours.{}", coating.words(" There depth"))
+        });
+        let to_scale = self.whole.words(" Depth") + &coating;
         let residual = problem.bodies().each().flat_map(HalfSpace::residual_stresses).any(|stress| stress != 0.0);
         let residual = if residual { " Residual stress is in it." } else { "" };
         let bodies = if problem.counterbody().pressure().is_some() {
@@ -182,7 +157,7 @@ impl<'a> SectionPicture<'a> {
             "; bars on top: contacts"
         };
         format!(
-            "Section along {} from the x axis{}{bodies}; dashed: interface; thin line in (a): \
+            "Section along {} from the x axis{}{bodies}; level lines: interfaces; curved line in (a): \
              {}{apart}.{to_scale}{residual} Crosses: the largest values here, {}.{}",
             degrees(direction),
             sliding_words(problem.friction(), direction),
@@ -262,11 +237,6 @@ fn line(points: Vec<[f64; 2]>, width: f64, dash: Dash, colour: Colour) -> Over {
     Over::Line(Stroke { points, width, dash, colour })
 }
 
-/// Depth of the last row, a length.
-fn deepest(section: &VerticalSection) -> f64 {
-    section.depths.last().map_or(1.0, |depth| depth.z)
-}
-
 /// The largest value of a measure in the bodies, and where: s, z; lengths.
 fn largest(sections: &[VerticalSection], measure: SectionMeasure) -> Option<(f64, [f64; 2])> {
     let of = |(section, sign): (&VerticalSection, f64)| {
@@ -323,13 +293,13 @@ fn rounded(x: f64) -> f64 {
 }
 
 /// The contacts along the section, as bars on the surface: on top of the plot, or between the bodies.
-fn contacts(snapshot: &Snapshot, sections: &[VerticalSection], ink: Colour) -> Vec<Over> {
+fn contacts(snapshot: &Snapshot, sections: &[VerticalSection], shown: ShownDepths, ink: Colour) -> Vec<Over> {
     let [first, last] = sections[0].line.span;
     let stretches = snapshot.stretches(sections[0].line.ends(), true).into_iter();
     let stretches = stretches.map(|ends| ends.map(|part| first + (last - first) * part));
-    let over = |from_to: [f64; 2]| match sections.len() {
-        1 => Over::Roof { from_to },
-        _ => line(from_to.map(|s| [s, 0.0]).to_vec(), BETWEEN, Dash::Solid, ink),
+    let over = |from_to: [f64; 2]| match shown.top == 0.0 {
+        true => Over::Roof { from_to },
+        false => line(from_to.map(|s| [s, 0.0]).to_vec(), BETWEEN, Dash::Solid, ink),
     };
     stretches.map(over).collect()
 }
@@ -338,11 +308,12 @@ fn contacts(snapshot: &Snapshot, sections: &[VerticalSection], ink: Colour) -> V
 mod tests {
     use super::super::canvas::Mark;
     use super::*;
-    use crate::body::{Depth, HalfSpace, Material, MeanStress};
+    use crate::body::{Depth, HalfSpace, Interface, Layer, Material, MeanStress};
     use crate::counterbody::{Indenters, Level, Shape};
     use crate::lattice::Lattice;
     use crate::load::Load;
     use crate::problem::Problem;
+    use crate::run::places::section_depths;
     use crate::spectral::{Settings, Solver};
     use crate::stress::{StressField, SurfaceLine};
 
@@ -362,6 +333,36 @@ mod tests {
             let canvas = section(&snapshot, &[field.section(&line, &depths)]);
             let infinite = |mark: &Mark| matches!(mark, Mark::Text { text, .. } if text.contains("infinite"));
             assert_eq!(canvas.marks.iter().any(infinite), singular, "{aside}");
+        }
+    }
+
+    #[test]
+    fn a_thin_coating_has_panels_of_its_own_in_the_same_colours() {
+        let substrate = Material::from_young(1.0, 0.3).unwrap();
+        let words = |thickness: f64| {
+            let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+            let indenters = Indenters::new(Lattice::square(1.0, 1).unwrap(), vec![level]).unwrap();
+            let coating = Layer::new(Material::from_young(2.0, 0.3).unwrap(), thickness, Interface::Bonded).unwrap();
+            let problem = Problem::new(indenters, HalfSpace::new(vec![coating], substrate));
+            let step = Solver::new(problem, [32, 32], Settings::default()).unwrap().solve(Load::MeanPressure(0.02));
+            let reading = step.reading();
+            let snapshot = Snapshot::new("", step, reading);
+            let line = SurfaceLine { origin: [-0.5, 0.1], direction: [1.0, 0.0], span: [0.0, 1.0], points: 21 };
+            let field = StressField::new(snapshot.step.finest(), MeanStress::Confined);
+            let depths = section_depths(field.half_space(), 0.5);
+            let canvas = section(&snapshot, &[field.section(&line, &depths)]);
+            let text = |mark: &Mark| if let Mark::Text { text, .. } = mark { Some(text.clone()) } else { None };
+            canvas.marks.iter().filter_map(text).collect::<Vec<_>>().join(" ")
+        };
+        let (thin, thick) = (words(0.02), words(0.2));
+        for own in [
+            "(c) σₛ in the coating",
+            "(d) τ₁ in the coating",
+            "(c), (d): the coating of (a), (b)",
+            "stretched by a factor of 6",
+        ] {
+            assert!(thin.contains(own), "no {own}: {thin}");
+            assert!(!thick.contains(own), "{own}: {thick}");
         }
     }
 }

@@ -23,23 +23,20 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
         let (label, colour) = (label.to_owned(), Ink::from(colour));
         Curve { label, points, errors: Vec::new(), style, colour }
     };
-    let mut curves = Vec::new();
+    let (mut curves, mut marks) = (Vec::new(), Vec::new());
     if let Some((surface, density)) = random.and_then(|own| Some((own, own.density(topography.cell()).ok()?))) {
         let ends = [surface.longest, surface.shortest].map(|length| TAU / length);
         let at = |k: u32| ends[0] * (ends[1] / ends[0]).powf(f64::from(k) / 200.0);
         let prescribed = (0..=200).map(|k| [at(k), density(at(k))]).collect();
-        curves.push(curve("prescribed", prescribed, Style::Line, 2));
-        let cuts =
-            [("longest and shortest wave", &[surface.longest, surface.shortest][..]), ("roll-off", &[surface.rolloff])];
-        for ((name, lengths), style) in cuts.into_iter().zip([Style::Dotted, Style::Dashed]) {
-            let line = |length: &f64| [[TAU / length, 0.3 * least], [TAU / length, 3.0 * most], [f64::NAN; 2]];
-            curves.push(curve(name, lengths.iter().flat_map(line).collect(), style, 0));
-        }
+        curves.push(curve("prescribed", prescribed, Style::Dashed, 2));
+        let words =
+            [("longest wave", surface.longest), ("roll-off", surface.rolloff), ("shortest wave", surface.shortest)];
+        marks.extend(words.map(|(word, length)| (TAU / length, word.to_owned())));
     }
     curves.push(curve("surface on the grid", rings, Style::Markers, 1));
     let chart = Chart {
         title: String::new(),
-        x: Axis::log(in_lengths("wavenumber q", units, |unit| format!("1/{unit}"))),
+        x: Axis { marks, ..Axis::log(in_lengths("wavenumber q", units, |unit| format!("1/{unit}"))) },
         y: Axis::log(in_lengths("spectral density C, ∫\u{a0}C\u{a0}d²q\u{a0}=\u{a0}⟨h²⟩", units, |unit| {
             format!("{unit}⁴")
         }))

@@ -4,17 +4,18 @@ use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Ink, Style};
+use super::error_bars::MOST_MARKERS;
 use super::number::short;
 use super::snapshot::caption;
 use crate::load::LoadQuantity;
 use crate::problem::Problem;
 use crate::reading::{Criterion, Utilisation};
-use crate::run::{Limits, StepRecord};
+use crate::run::{At, Limit, Limits, StepRecord};
 use crate::units::Units;
 
 /// Text of captions on the error bars of curves.
-pub(super) const BARS: &str = "Bars: estimated errors of the grid; open: the error exceeds half of the value; where a curve \
-                               would fall by less than its errors it is interrupted.";
+pub(super) const BARS: &str = "Bars and bands: estimated errors of the grid; open: the error exceeds half of the value; no line leads \
+                               through points that differ by less than their errors.";
 /// Number of colours of numbered lines.
 const COLOURS: usize = 6;
 
@@ -25,12 +26,26 @@ pub fn utilisations(title: &str, problem: &Problem, units: &Units, limits: &Limi
     if least == most {
         return None;
     }
-    let curves = utilisation_curves(&limits.steps, limits.quantity, limits.limits.iter().map(|limit| limit.criterion));
+    let criteria: Vec<Criterion> = limits.limits.iter().map(|limit| limit.criterion).collect();
+    let mut curves = utilisation_curves(&limits.steps, limits.quantity, criteria.iter().copied());
+    for (index, limit) in limits.limits.iter().enumerate() {
+        curves.extend(limit_marks(limit, drawn(limit.criterion, index, &criteria).1, most));
+    }
     let x = Axis::log(units.load_of("")).from_to(least / 1.1, most * 1.1);
     let chart = Chart { title: String::new(), x, y: utilisation_axis(&limits.steps), curves };
     let [n1, n2] = limits.steps[0].points;
     let more = [limits.in_words(|load| units.load().with_unit(load, short)), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
-    Some(plots(&format!("{} {BARS}", caption(title, problem, units, &more)), &[chart]))
+    let marks = "On the line of failure: the limit loads and the loads between which they lie by their errors.";
+    Some(plots(&format!("{} {BARS} {marks}", caption(title, problem, units, &more)), &[chart]))
+}
+
+/// A limit load on the line of failure, with the loads between which it lies by its error, at most up to `most`.
+fn limit_marks(limit: &Limit, colour: Ink, most: f64) -> Vec<Curve> {
+    let At::Load { load, interval: [from, to], .. } = limit.at else { return Vec::new() };
+    let curve =
+        |points: Vec<[f64; 2]>, style: Style| Curve { label: String::new(), points, errors: Vec::new(), style, colour };
+    let from = if from > 0.0 { from } else { 1e-3 * load };
+    vec![curve(vec![[from, 1.0], [to.min(1.1 * most), 1.0]], Style::Line), curve(vec![[load, 1.0]], Style::Markers)]
 }
 
 /// Axis of utilisations, from a hundredth on at least, since smaller ones do not matter. Error bars extend it up to ten times the
@@ -62,6 +77,9 @@ pub(super) fn utilisation_curves(
     let own = criteria.iter().enumerate().map(|(index, &criterion)| {
         let (style, colour) = drawn(criterion, index, &criteria);
         let (points, errors) = curve(criterion);
+        // Markers show the steps of short paths.
+        let is_short = style == Style::Line && steps.len() <= MOST_MARKERS;
+        let style = if is_short { Style::LineMarkers } else { style };
         Curve { label: criterion.to_string(), points, errors, style, colour }
     });
     let loads = steps.iter().map(|step| step.reading.load(quantity)).filter(|load| *load > 0.0);
@@ -95,7 +113,7 @@ fn drawn(criterion: Criterion, index: usize, all: &[Criterion]) -> (Style, Ink) 
     }
     let style = match criterion {
         Criterion::Yield(_) => Style::Line,
-        Criterion::Cracking(_) | Criterion::Crossland(_) => Style::Dashed,
+        Criterion::Cracking(_) | Criterion::Crossland(_) => Style::Thin,
         Criterion::Delamination(_) | Criterion::DangVan(_) => Style::Dotted,
     };
     let deepest = all.iter().map(depth).max().unwrap_or(1);

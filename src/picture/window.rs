@@ -6,8 +6,6 @@ use crate::lattice::Cell;
 /// A rectangle of the surface, [first, last] along x and along y; lengths.
 pub type Window = [[f64; 2]; 2];
 
-/// Least and largest height over width of a plot: beyond, one axis is stretched. The label fits along the lowest plot.
-const ASPECT: [f64; 2] = [0.45, 1.6];
 /// Largest number of rows of cells of a slender cell.
 const ROWS: f64 = 12.0;
 
@@ -21,6 +19,9 @@ pub struct View {
 }
 
 impl View {
+    /// Least and largest height over width of a plot: beyond, one axis is stretched. The label fits along the lowest plot.
+    pub const ASPECT: [f64; 2] = [0.45, 1.6];
+
     /// A window of at least two by two cells around the middle of the unit cell, less for slender cells; the window of an isolated
     /// contact.
     pub fn cells(cell: Cell) -> Self {
@@ -63,9 +64,15 @@ impl View {
         Self { window: around(cell, [long.min(most); 2]), is_part: long > 2.0 * most }
     }
 
+    /// Its width or height over that of a whole, the larger one.
+    pub fn part_of(&self, whole: &Self) -> f64 {
+        let length = |view: &Self, k: usize| view.window[k][1] - view.window[k][0];
+        (length(self, 0) / length(whole, 0)).max(length(self, 1) / length(whole, 1))
+    }
+
     /// Height over width of its plot.
     pub fn aspect(&self) -> f64 {
-        self.true_aspect().clamp(ASPECT[0], ASPECT[1])
+        self.true_aspect().clamp(Self::ASPECT[0], Self::ASPECT[1])
     }
 
     /// Ratio of the scales of y and x in the plot.

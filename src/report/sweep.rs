@@ -15,7 +15,9 @@ use crate::output::UnitNames;
 use crate::output::table::{Table, percent_with_error};
 use crate::output::with_error;
 use crate::reading::Verdict;
-use crate::sweep::{Description, Kind, LimitValue, Row, Scalar, Status, SweepResult, SweptKey, scalars_with};
+use crate::sweep::{
+    Description, Kind, LimitValue, Row, Scalar, Status, SweepResult, SweptKey, best_and_worst, scalars_with,
+};
 use serde_json::json;
 use std::collections::BTreeMap;
 
@@ -44,6 +46,7 @@ pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError
         with("p", &[("class", class)], done(description)),
         sentences(rows, keys, &units).into(),
         reasons(rows),
+        best_and_worst(rows, &units).map_or(Markup::default(), |own| table(&sentence(&own.words), &own.table)),
         ranges(rows, keys, &units),
         table("Keys of the case and their values", &given),
     ];
@@ -74,6 +77,12 @@ fn done(description: &Description) -> String {
         more(failed, "failed"),
         more(of.saturating_sub(combinations), "not among them: a part of the sweep")
     )
+}
+
+/// Words that begin with a capital letter.
+fn sentence(words: &str) -> String {
+    let (first, rest) = words.split_at(words.chars().next().map_or(0, char::len_utf8));
+    format!("{}{rest}", first.to_uppercase())
 }
 
 /// Why combinations are not solved, with their numbers; empty where all are.

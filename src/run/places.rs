@@ -6,6 +6,14 @@ use serde::Serialize;
 
 /// Number of intervals in depth and of points along the line of a section.
 pub(crate) const SECTION: [usize; 2] = [200, 401];
+/// Number of further intervals in a thin coating and a little below it.
+const COATING: usize = 60;
+/// Number of rows of a section, interfaces left out, at most.
+pub(crate) const MOST_ROWS: usize = SECTION[0] + COATING;
+/// Part of the depth of a section below which a coating is thin.
+pub(crate) const THIN: f64 = 1.0 / 12.0;
+/// Depth down to which a thin coating is shown on its own, in thicknesses of all layers.
+pub(crate) const BELOW_COATING: f64 = 2.5;
 
 /// A request for stresses.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -58,6 +66,42 @@ impl StressRequest {
 impl Cut {
     /// Depths of its rows on a half-space; a depth on an interface appears twice, once for each side.
     pub fn depths(&self, half_space: &HalfSpace) -> Vec<Depth> {
-        half_space.rows(self.depth, SECTION[0])
+        section_depths(half_space, self.depth)
+    }
+}
+
+/// Depths of the rows of a section on a half-space, down to `depth`, a length, or to a rigid base above it: equal intervals, and more of
+/// them in a coating that is thin, or that would be in a section twice as high. Both sides of each interface are among them.
+pub(crate) fn section_depths(half_space: &HalfSpace, depth: f64) -> Vec<Depth> {
+    let mut rows = half_space.rows(depth, SECTION[0]);
+    let coating = half_space.interface_depths().last().copied().unwrap_or(f64::INFINITY);
+    if coating < 2.0 * THIN * depth {
+        rows.extend(half_space.rows(BELOW_COATING * coating, COATING));
+        rows.sort_by(|a, b| a.z.total_cmp(&b.z).then(a.material.cmp(&b.material)));
+        rows.dedup_by(|a, b| a.material == b.material && (a.z - b.z).abs() < 1e-9 * coating);
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{Interface, Layer, Material};
+
+    #[test]
+    fn a_thin_coating_has_rows_of_its_own_and_both_sides_of_each_interface_once() {
+        let material = Material::from_shear(1.0, 0.3).unwrap();
+        let rows = |thickness: f64| {
+            let layer = Layer::new(material, thickness, Interface::Bonded).unwrap();
+            let rows = section_depths(&HalfSpace::new(vec![layer], material), 60.0);
+            let sides: Vec<usize> = rows.iter().filter(|row| row.z == thickness).map(|row| row.material).collect();
+            assert_eq!(sides, [1, 2], "{thickness}");
+            assert!(rows.windows(2).all(|pair| pair[0].z < pair[1].z || pair[0].material < pair[1].material));
+            assert!(rows.len() <= MOST_ROWS + 4, "{}", rows.len());
+            rows.iter().filter(|row| row.material == 1).count()
+        };
+        // 60/2.5 intervals, and those of 0.3 of the whole.
+        assert!(rows(3.0) >= 24 && rows(0.1) >= 24, "{} {}", rows(3.0), rows(0.1));
+        assert_eq!(rows(30.0), 101);
     }
 }

@@ -8,6 +8,7 @@
 //! case has the fingerprint of a row are not solved again. A line of the log that is not as it was written is no row.
 
 mod axis;
+mod best;
 mod checked;
 mod combinations;
 #[cfg(test)]
@@ -27,11 +28,12 @@ mod task;
 mod workers;
 
 pub use axis::{Axis, AxisError};
+pub use best::best_and_worst;
 pub use combinations::{Combination, Combinations, CombinationsError, Group, column};
 pub use known::Known;
 pub use log::{Damage, Log, Logged, read};
 pub use parts::{Part, PartError, UNFINISHED, join};
-pub use result::{Foremost, Kind, LimitValue, SCALARS, Scalar, SweepResult, scalars_with};
+pub use result::{Foremost, Kind, LimitValue, Measured, SCALARS, Scalar, SweepResult, scalars_with};
 pub use row::{Row, Status};
 pub use study::{Study, StudyError};
 pub use table::{Description, FILES, SweptKey, columns, table, write};

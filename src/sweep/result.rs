@@ -165,6 +165,12 @@ impl SweepResult {
         }
     }
 
+    /// The largest utilisation of a load step and its error; `None` of one without strengths, and of limits.
+    pub fn largest_utilisation(&self) -> Option<Measured> {
+        let finite = self.step()?.strength.iter().filter(|own| own.value.is_finite());
+        finite.max_by(|a, b| a.value.total_cmp(&b.value)).map(|own| (own.value, own.error))
+    }
+
     /// The criterion that comes first; `None` of a load step without strengths.
     pub fn foremost(&self) -> Option<Foremost> {
         match self {
@@ -239,6 +245,13 @@ impl fmt::Display for Foremost {
             Self::Undecided => f.write_str("undecided"),
             Self::Nothing => f.write_str("nothing fails"),
         }
+    }
+}
+
+impl LimitValue {
+    /// The limit and its error; `None` of a bound.
+    pub fn measured(self) -> Option<Measured> {
+        if let Self::At(load, error) = self { Some((load, error)) } else { None }
     }
 }
 

@@ -4,7 +4,7 @@ use super::combinations::Combinations;
 use super::log::Log;
 use super::row::{Row, Status};
 use super::task::Task;
-use crate::case::{Case, Source};
+use crate::case::{Case, NamedKey, Source};
 use crate::output::columns::{csv, names};
 use crate::output::{OutputError, SWEEP_LOG, checksum, digest, write_text};
 use serde::{Deserialize, Serialize};
@@ -147,6 +147,20 @@ impl Description {
         let set = |row: &Row| row.settings.iter().map(|(key, value)| format!("{key}={value}")).collect::<Vec<_>>();
         let own = first.and_then(|row| Case::read(&source, &set(row)).ok());
         own.or_else(|| Case::read(&source, &[]).ok())
+    }
+
+    /// The keys that change, in words: with the names of the materials of the common case as these rows have it, unless they change.
+    pub fn named_keys(&self, rows: &[Row], folder: &Path) -> Vec<NamedKey> {
+        let case = self.first_case(rows, folder);
+        let keys: Vec<&str> =
+            rows.first().map_or(Vec::new(), |row| row.settings.iter().map(|(key, _)| &key[..]).collect());
+        let material = |section: &str| {
+            let index: usize = section.strip_prefix("layers.")?.parse().ok()?;
+            let changes = ["name", "material"].iter().any(|own| keys.contains(&format!("{section}.{own}").as_str()));
+            let layer = case.as_ref()?.layers.get(index).filter(|_| !changes)?;
+            layer.name.clone().or_else(|| layer.material.clone())
+        };
+        keys.iter().map(|key| NamedKey::new(key, material)).collect()
     }
 
     /// The content of `sweep.json`.

@@ -79,8 +79,21 @@ fn every_combination_and_step_is_a_row_with_what_solve_finds() {
     }
     // Whatever the number of threads.
     let again = ["--set", "layers.0.thickness=0.1,0.3", "--set", "layers.0.poisson=0.2,0.4,0.5", "--threads", "3"];
-    assert_eq!(sweep(&desk, "again", &again).code, 0);
+    let again = sweep(&desk, "again", &[&again[..], &["-q"]].concat());
+    assert_eq!((again.code, &again.out[..]), (0, ""));
     assert_eq!(Folder(desk.path("again")).text("sweep.csv"), text);
+    // The best has the least peak pressure, the worst the largest, by the last load steps.
+    let peaks: Vec<f64> =
+        column(&table, "max_pressure").iter().skip(1).step_by(2).map(|cell| cell.parse().unwrap()).collect();
+    assert!(answer.out.contains("best and worst of 6 combinations, last load steps"), "{}", answer.out);
+    for (word, end) in [("best", f64::total_cmp as fn(&f64, &f64) -> _), ("worst", |a, b| b.total_cmp(a))] {
+        let at = (0..6).min_by(|a, b| end(&peaks[*a], &peaks[*b])).unwrap();
+        let [thickness, poisson] =
+            ["thickness", "poisson"].map(|key| column(&table, &format!("set_layers_0_{key}"))[2 * at]);
+        let settings = format!("{}: thickness = {thickness}, poisson = {poisson}", at + 1);
+        let is_it = |line: &str| line.split_whitespace().any(|own| own == word) && line.ends_with(&settings);
+        assert!(answer.out.lines().any(is_it), "no {word} with {settings}: {}", answer.out);
+    }
 }
 
 #[test]

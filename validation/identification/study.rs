@@ -11,7 +11,7 @@ use crate::identification::{
     Identification, IdentificationError, MOST_UNCERTAIN, Measurement, Model, Parameter, Quantity,
 };
 use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
+use crate::picture::{Axis, Chart, Curve, Figure, Style};
 use crate::problem::Problem;
 use crate::spectral::Settings;
 
@@ -230,15 +230,16 @@ fn figure(derivatives: &Data, measured: &Data) -> Figure {
     let over = |of: fn(&[f64]) -> f64| measured.rows.iter().map(move |row| [row[0], 1e3 * (of(row) - row[1])]);
     let curves = vec![
         curve("measured", Style::Markers, 1, over(|row| row[2])),
-        curve("fitted", Style::Line, 2, over(|row| row[3])),
-        curve("", Style::Dashed, 2, over(|row| row[3] - row[4])),
-        curve("", Style::Dashed, 2, over(|row| row[3] + row[4])),
+        Curve {
+            errors: measured.rows.iter().map(|row| 1e3 * row[4]).collect(),
+            ..curve("fitted", Style::Line, 2, over(|row| row[3]))
+        },
     ];
     let chart = |title: &str, x: Axis, y: Axis, curves| Chart { title: title.to_owned(), x, y, curves };
     let panels = vec![
         chart("Sensitivities", Axis::log("force (mN)"), Axis::linear("−∂ln δ/∂ln θ"), slopes),
         chart("Noisy curve", Axis::log("force (mN)"), Axis::linear("δ less the exact one (nm)"), curves),
     ];
-    let caption = "Left: lines from the integral equation, markers solved. Right: moduli and thickness fitted; dashed: a standard error.";
+    let caption = "Left: lines from the integral equation, markers solved. Right: moduli and thickness fitted; band: a standard error.";
     draw::figure(panels, caption)
 }

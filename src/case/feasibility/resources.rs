@@ -13,7 +13,7 @@ use crate::localized::Setup;
 use crate::machine::{Capacity, Threads, bytes};
 use crate::numeric::fourier::fast_points;
 use crate::reading::Criterion;
-use crate::run::places::SECTION;
+use crate::run::places::{MOST_ROWS, SECTION};
 use crate::run::{EVENTS, Sampling};
 use crate::spectral::Memory;
 use crate::stress::FarTables;
@@ -232,7 +232,7 @@ fn of_limits(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pic
     let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
     let elastic = case.problem().bodies().each().count() as u64;
     let series = of_series(case, samples);
-    let own = elastic * (STRESS * series + STATE * (SECTION[0] * SECTION[1]) as u64);
+    let own = elastic * (STRESS * series + STATE * (MOST_ROWS * SECTION[1]) as u64);
     // The steps that are shown stay in memory while those at higher limits are solved.
     let shown = Criterion::all(case.problem().bodies()).len().clamp(1, EVENTS) as u64 - 1;
     let stress = own + SEARCH * series + of_shells(case, series) + shown * SHOWN * samples;
@@ -266,7 +266,7 @@ fn of_identifying(node: u64, pictures: bool) -> Needs {
 fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u64, u64, u64) {
     let sides = |z: &f64| half_space.depths(*z).len() as u64;
     let planes: u64 = stress.planes.iter().map(sides).sum();
-    let section = if stress.section.is_some() { (SECTION[0] * SECTION[1]) as u64 } else { 0 };
+    let section = if stress.section.is_some() { (MOST_ROWS * SECTION[1]) as u64 } else { 0 };
     let volume = stress.volume.map_or(0, |volume| {
         let layer = (volume.points as u64 + 1) * (volume.points as u64 + 1);
         (volume.rows as u64 + 1 + half_space.layers().len() as u64) * layer

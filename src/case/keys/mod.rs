@@ -6,6 +6,7 @@
 
 mod explanation;
 mod key;
+mod named;
 mod page;
 mod range;
 mod schema;
@@ -16,6 +17,7 @@ mod unit;
 mod wording;
 
 pub use explanation::{Explanation, UnknownKey, explain};
+pub use named::NamedKey;
 pub use page::overview;
 pub use schema::schema;
 pub use table::table;

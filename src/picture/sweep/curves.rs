@@ -3,6 +3,8 @@
 use super::super::axis::Axis;
 use super::super::chart::Chart;
 use super::super::curve::{Curve, Ink, Style};
+use super::super::error_bars::MOST_MARKERS;
+use super::super::label::Label;
 use super::keys::{Keys, number, scale};
 use super::numbers::Number;
 use crate::run::StepRecord;
@@ -20,7 +22,8 @@ struct SweepCurve {
     label: String,
     /// The load of all its points with its unit, where it is one within the digits shown.
     load: Option<String>,
-    points: Vec<[f64; 2]>,
+    /// Points (x, y) and the error of y.
+    points: Vec<([f64; 2], f64)>,
 }
 
 impl Keys {
@@ -31,8 +34,12 @@ impl Keys {
         let mut curves: BTreeMap<usize, SweepCurve> = BTreeMap::new();
         let mut order: HashMap<String, usize> = HashMap::new();
         for row in rows {
-            let others = row.settings.iter().enumerate().filter(|(at, _)| at != index);
-            let label = others.map(|(_, (key, value))| format!("{} {value}", last(key))).collect::<Vec<_>>().join(", ");
+            let others = row.settings.iter().zip(&self.names).enumerate().filter(|(at, _)| at != index);
+            let setting = |(_, ((_, value), name)): (usize, (&(String, String), &Label))| match value.parse() {
+                Ok(number) => name.equals(number),
+                Err(_) => format!("{}\u{a0}=\u{a0}{value}", name.text()),
+            };
+            let label = others.map(setting).collect::<Vec<_>>().join(", ");
             let next = order.len();
             let at = *order.entry(label.clone()).or_insert(next);
             let Some(x) = number(row, *index) else { continue };
@@ -47,7 +54,8 @@ impl Keys {
                 let curve = curves.entry(own).or_insert_with(begun);
                 // A step whose load differs between rows is labelled by its number.
                 curve.load.take_if(|own| Some(&*own) != load.as_ref());
-                curve.points.push([x, shown.value(result).unwrap_or(f64::NAN)]);
+                let (y, error) = shown.measured(result).unwrap_or((f64::NAN, None));
+                curve.points.push(([x, y], error.unwrap_or(f64::NAN)));
             }
         }
         let all = curves.len();
@@ -59,11 +67,12 @@ impl Keys {
         };
         let curves = drawn.into_iter().enumerate().map(|(index, (_, SweepCurve { label, load, mut points }))| {
             let label = load.unwrap_or(label);
-            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
-            Curve { label, points, errors: Vec::new(), style, colour: colour(index) }
+            points.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]));
+            let style = if points.len() <= MOST_MARKERS { Style::LineMarkers } else { Style::Line };
+            let (points, errors) = points.into_iter().unzip();
+            Curve { label, points, errors, style, colour: colour(index) }
         });
-        let x = Axis { scale: scale(values), ..Axis::linear(&self.names[*index][..]) };
+        let x = Axis { scale: scale(values), ..Axis::linear(self.names[*index].clone()) };
         let label = shown.quantity.clone();
         let y = if shown.is_passes() { Axis::log(label) } else { Axis::linear(label) };
         (Chart { title: String::new(), x, y, curves: curves.collect() }, all)
@@ -73,9 +82,4 @@ impl Keys {
 /// Step of the curves that are drawn, so that at most [`CURVES`] are.
 pub fn one_in(curves: usize) -> usize {
     curves.div_ceil(CURVES).max(1)
-}
-
-/// The last part of a key.
-fn last(key: &str) -> &str {
-    key.rsplit('.').next().unwrap_or(key)
 }

@@ -1,6 +1,7 @@
 //! The keys of a sweep that a picture has as axes.
 
 use super::super::axis::log_spaced;
+use super::super::label::Label;
 use super::super::scale::Scale;
 use crate::sweep::Row;
 
@@ -13,12 +14,14 @@ pub struct Keys {
     pub along: (usize, Vec<f64>),
     /// Index and values of a second one, where only these two keys change and every pair occurs.
     pub pair: Option<(usize, Vec<f64>)>,
-    pub names: Vec<String>,
+    /// The names of all keys.
+    pub names: Vec<Label>,
 }
 
 impl Keys {
-    pub fn of(rows: &[Row]) -> Option<Self> {
-        let names: Vec<String> = rows.first()?.settings.iter().map(|(key, _)| key.clone()).collect();
+    /// The keys of the rows with their `names`, one each.
+    pub fn of(rows: &[Row], names: Vec<Label>) -> Option<Self> {
+        let count = rows.first()?.settings.len().min(names.len());
         let numbers = |index: usize| -> Vec<f64> {
             let values = rows.iter().map(|row| number(row, index)).collect::<Option<Vec<f64>>>();
             let mut values = values.unwrap_or_default();
@@ -26,7 +29,7 @@ impl Keys {
             values.dedup();
             values
         };
-        let mut all: Vec<(usize, Vec<f64>)> = (0..names.len()).map(|index| (index, numbers(index))).collect();
+        let mut all: Vec<(usize, Vec<f64>)> = (0..count).map(|index| (index, numbers(index))).collect();
         let is_pair = all.len() == 2 && all.iter().all(|(_, values)| values.len() >= SIDE);
         let is_full = is_pair && all.iter().map(|(_, values)| values.len()).product::<usize>() == rows.len();
         all.retain(|(_, values)| values.len() > 1);

@@ -4,6 +4,7 @@ use super::super::axis::Axis;
 use super::super::bar::Bar;
 use super::super::canvas::Canvas;
 use super::super::colour::Colour;
+use super::super::label::Label;
 use super::super::map::{Fill, Map, Over};
 use super::super::scale::Scale;
 use super::super::sheet::{Panel, sheet};
@@ -116,7 +117,7 @@ fn bar(shown: &Number, values: &[f64]) -> Bar {
 /// The cells over two keys.
 struct Plane<'a> {
     axes: [AxisCells; 2],
-    names: [&'a str; 2],
+    names: [&'a Label; 2],
 }
 
 impl<'a> Plane<'a> {
@@ -124,7 +125,7 @@ impl<'a> Plane<'a> {
         let both = [&keys.along, keys.pair.as_ref()?];
         Some(Self {
             axes: both.map(|(_, values)| AxisCells::new(values)),
-            names: both.map(|(index, _)| keys.names[*index].as_str()),
+            names: both.map(|(index, _)| &keys.names[*index]),
         })
     }
 
@@ -143,7 +144,7 @@ impl<'a> Plane<'a> {
             Some(Over::Word { word: word.to_owned(), at, colour })
         };
         let over = signs.into_iter().enumerate().filter_map(word).collect();
-        Map { title, x: x.axis(along), y: y.axis(up), aspect: 0.8, fill, over }
+        Map { title, x: x.axis(along.clone()), y: y.axis(up.clone()), aspect: 0.8, fill, over }
     }
 }
 
@@ -176,7 +177,7 @@ impl AxisCells {
         self.borders[1..].partition_point(|border| *border < place).min(self.borders.len() - 2)
     }
 
-    fn axis(&self, label: &str) -> Axis {
+    fn axis(&self, label: impl Into<Label>) -> Axis {
         let range = Some([self.borders[0], self.borders[self.borders.len() - 1]]);
         Axis { range, scale: self.scale, ..Axis::linear(label) }
     }

@@ -8,6 +8,9 @@ mod numbers;
 
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
+use super::curve::Curve;
+use super::utilisations::BARS;
+use crate::case::NamedKey;
 use crate::sweep::{Foremost, Row, SweepResult};
 use crate::units::Units;
 use curves::one_in;
@@ -17,9 +20,9 @@ use numbers::{Bound, Number, numbers};
 /// Quantities that a picture shows, at most.
 const QUANTITIES: usize = 12;
 
-/// The picture; `None` where no key has several numbers, or nothing came out.
-pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
-    let keys = Keys::of(rows)?;
+/// The picture; `None` where no key has several numbers, or nothing came out. `keys`: the names of the keys of the rows.
+pub fn sweep(title: &str, units: &Units, keys: &[NamedKey], rows: &[Row]) -> Option<Canvas> {
+    let keys = Keys::of(rows, keys.iter().map(|key| units.key_of(key)).collect())?;
     let mut numbers = numbers(units, rows);
     if numbers.is_empty() {
         return None;
@@ -54,7 +57,9 @@ pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
         words.push(format!("of {curves} curves one in {} is drawn, the table has all", one_in(curves)));
     }
     words.extend(left_out);
-    Some(plots(&(words.join("; ") + "."), &charts))
+    let has_errors = charts.iter().flat_map(|chart| &chart.curves).any(Curve::has_errors);
+    let bars = if has_errors { format!(" {BARS}") } else { String::new() };
+    Some(plots(&format!("{}.{bars}", words.join("; ")), &charts))
 }
 
 /// In how many combinations the errors leave something open; empty where they do nowhere.
@@ -104,6 +109,19 @@ mod tests {
     const CRACKS: Criterion = Criterion::cracking_of(1);
     const PARTS: Criterion = Criterion::delamination_of(1);
 
+    /// The names of the keys of rows.
+    fn named(rows: &[Row]) -> Vec<NamedKey> {
+        rows[0].settings.iter().map(|(key, _)| NamedKey::new(key, |_| None)).collect()
+    }
+
+    fn keys_of(rows: &[Row]) -> Option<Keys> {
+        Keys::of(rows, named(rows).iter().map(|key| Units::unknown().key_of(key)).collect())
+    }
+
+    fn picture(title: &str, rows: &[Row]) -> Option<Canvas> {
+        sweep(title, &Units::unknown(), &named(rows), rows)
+    }
+
     /// All text of a picture, in a line.
     fn words(picture: Option<Canvas>) -> String {
         let marks = picture.unwrap().marks.into_iter();
@@ -120,7 +138,7 @@ mod tests {
         let values = [0.1, 0.2, 0.3];
         let one: Vec<Row> =
             (1..).zip(values).map(|(n, x)| row(n, &[("layers.0.thickness", x.to_string())], vec![step(x)])).collect();
-        let keys = Keys::of(&one).unwrap();
+        let keys = keys_of(&one).unwrap();
         assert!(keys.pair.is_none());
         assert_eq!(
             keys.chart(&one, &numbers(&Units::unknown(), &one)[0], &Units::unknown()).0.curves[0].points,
@@ -131,12 +149,44 @@ mod tests {
             .zip(pairs)
             .map(|(n, [x, y])| row(n, &[("a", x.to_string()), ("b", y.to_string())], vec![step(x + y)]))
             .collect();
-        assert!(Keys::of(&two).unwrap().pair.is_some());
-        assert!(Keys::of(&two[1..]).unwrap().pair.is_none(), "a pair is missing");
-        let text = words(sweep("A title", &Units::unknown(), &two));
+        assert!(keys_of(&two).unwrap().pair.is_some());
+        assert!(keys_of(&two[1..]).unwrap().pair.is_none(), "a pair is missing");
+        let text = words(picture("A title", &two));
         assert!(text.contains("peak pressure") && text.contains("9 combinations"));
         let texts = [row(1, &[("a", "bonded".into())], vec![step(1.0)]), row(2, &[("a", "x".into())], vec![step(2.0)])];
-        assert!(sweep("", &Units::unknown(), &texts).is_none());
+        assert!(picture("", &texts).is_none());
+    }
+
+    #[test]
+    fn axes_and_legends_have_the_words_and_units_of_keys() {
+        let units = Units::unknown().named(Some("µm"), Some("GPa"));
+        let set = |n: usize| {
+            [("layers.0.thickness", (1 + n / 3).to_string()), ("friction.coefficient", format!("0.{}", n % 3))]
+        };
+        let text = |count: usize| {
+            let rows: Vec<Row> = (0..count).map(|n| row(n + 1, &set(n), vec![step(n as f64)])).collect();
+            words(sweep("", &units, &named(&rows), &rows)).replace('\u{a0}', " ")
+        };
+        // A map, and curves where a pair is missing.
+        for (text, axis) in [(text(9), "coefficient of friction μ"), (text(8), "coefficient of friction μ")] {
+            assert!(text.contains(axis) && text.contains("thickness of layer 1"), "{text}");
+            assert!(text.contains("µm") && !text.contains("layers.0"), "{text}");
+        }
+        assert!(text(9).contains("thickness of layer 1 (µm)"), "{}", text(9));
+        assert!(text(8).contains("= 2 µm") || text(8).contains("μ = 0.1"), "{}", text(8));
+    }
+
+    #[test]
+    fn curves_have_the_errors_of_their_numbers() {
+        let rows: Vec<Row> = (1..=3)
+            .map(|n| {
+                let step = examples::step(n as f64, Some(0.1 * n as f64), 0.5);
+                row(n, &[("x", n.to_string())], vec![SweepResult::Step(Box::new(step))])
+            })
+            .collect();
+        let (chart, _) = keys_of(&rows).unwrap().chart(&rows, &numbers(&Units::unknown(), &rows)[0], &Units::unknown());
+        assert_eq!(chart.curves[0].errors, [1.0, 2.0, 3.0].map(|n| 0.1 * n));
+        assert!(words(picture("", &rows)).contains("Bars and bands: estimated errors"));
     }
 
     #[test]
@@ -152,7 +202,7 @@ mod tests {
         let numbers = numbers(&units, &rows);
         let names: Vec<&str> = numbers.iter().map(|own| own.quantity.text()).collect();
         assert_eq!(names, ["peak pressure p", "penetration δ", "area of contact A"]);
-        let (chart, _) = Keys::of(&rows).unwrap().chart(&rows, &numbers[2], &units);
+        let (chart, _) = keys_of(&rows).unwrap().chart(&rows, &numbers[2], &units);
         let labels: Vec<String> = chart.curves.iter().map(|curve| curve.label.replace('\u{a0}', " ")).collect();
         assert_eq!(labels, ["P = 1 mN", "P = 5 mN"]);
         assert!(chart.curves[1].points.iter().all(|[_, area]| (area - 2.5).abs() < 1e-12));
@@ -167,10 +217,10 @@ mod tests {
             })
             .collect();
         rows[2].results.clear();
-        let keys = Keys::of(&rows).unwrap();
+        let keys = keys_of(&rows).unwrap();
         let (chart, _) = keys.chart(&rows, &numbers(&Units::unknown(), &rows)[0], &Units::unknown());
         let labels: Vec<&str> = chart.curves.iter().map(|curve| &curve.label[..]).collect();
-        assert_eq!(labels, ["kind soft", "kind hard"]);
+        assert_eq!(labels, ["kind\u{a0}=\u{a0}soft", "kind\u{a0}=\u{a0}hard"]);
         assert_eq!(chart.curves[0].points, [[0.0, 0.0], [2.0, 4.0], [3.0, 6.0]]);
     }
 
@@ -188,7 +238,7 @@ mod tests {
             let set = |n: usize| [("a", (n % 3).to_string()), ("b", (n / 3).to_string())];
             (0..9).map(|n| row(n + 1, &set(n), vec![limits(n)])).collect()
         };
-        let said = words(sweep("", &Units::unknown(), &rows(&limits)));
+        let said = words(picture("", &rows(&limits)));
         for own in
             ["yield of material 2 (7)", "delamination of interface 1 (1)", "nothing fails (1)", " < ", " > ", "grey:"]
         {
@@ -196,7 +246,7 @@ mod tests {
         }
         // From 0.008 to 0.512.
         assert!(said.contains("10⁻²") && said.contains("10⁻¹"), "{said}");
-        let said = words(sweep("", &Units::unknown(), &rows(&|n| step(1.0 + n as f64))));
+        let said = words(picture("", &rows(&|n| step(1.0 + n as f64))));
         assert!(!["what comes first", " < ", " > ", "grey"].iter().any(|own| said.contains(own)), "{said}");
     }
 
@@ -214,7 +264,7 @@ mod tests {
         let told = |result: &dyn Fn(usize) -> SweepResult| {
             let set = |n: usize| [("a", (n % 3).to_string()), ("b", (n / 3).to_string())];
             let rows: Vec<Row> = (0..9).map(|n| row(n + 1, &set(n), vec![result(n)])).collect();
-            let told = words(sweep("", &Units::unknown(), &rows));
+            let told = words(picture("", &rows));
             (told.split_whitespace().filter(|word| *word == "?").count(), told)
         };
         // In 0, 4 and 8, on the map of what comes first and on that of the first limit.
@@ -234,10 +284,10 @@ mod tests {
         };
         for (kinds, drawn) in [(2, 2), (7, 7), (12, 12), (13, 7), (40, 10)] {
             let rows = rows(kinds);
-            let keys = Keys::of(&rows).unwrap();
+            let keys = keys_of(&rows).unwrap();
             let (chart, all) = keys.chart(&rows, &numbers(&Units::unknown(), &rows)[0], &Units::unknown());
             assert_eq!((chart.curves.len(), all), (drawn, kinds));
-            let text = words(sweep("", &Units::unknown(), &rows));
+            let text = words(picture("", &rows));
             assert!(text.contains("the last load step of each"));
             assert_eq!(text.contains(&format!("of {kinds} curves one in")), drawn < kinds, "{kinds}");
         }
@@ -253,7 +303,7 @@ mod tests {
             let pairs = (0..9).map(|n| (n, [("a", (n / 3).to_string()), ("b", (n % 3).to_string())]));
             pairs.map(|(n, set)| row(n + 1, &set, vec![result(n)])).collect()
         };
-        let maps = |limits: usize| words(sweep("", &Units::unknown(), &rows(limits)));
+        let maps = |limits: usize| words(picture("", &rows(limits)));
         assert!(maps(7).contains("yield of material 7, mean pressure") && !maps(7).contains("quantities"));
         assert!(maps(20).contains("the first 12 of 21 quantities"));
     }

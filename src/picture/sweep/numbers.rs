@@ -2,7 +2,7 @@
 
 use super::super::label::Label;
 use crate::reading::{Criterion, Verdict};
-use crate::sweep::{Kind, LimitValue, Row, SCALARS, Scalar, SweepResult};
+use crate::sweep::{Kind, LimitValue, Measured, Row, SCALARS, Scalar, SweepResult};
 use crate::units::Units;
 
 /// A number of a result.
@@ -41,16 +41,15 @@ impl Number {
 
     /// Its value; `None` where the result does not have it, or it is infinite.
     pub fn value(&self, result: &SweepResult) -> Option<f64> {
+        self.measured(result).map(|(value, _)| value)
+    }
+
+    /// Its value and error; `None` where the result does not have it, or it is infinite.
+    pub fn measured(&self, result: &SweepResult) -> Option<Measured> {
         match self.of {
-            Of::Scalar(scalar) => (scalar.of)(result.step()?).map(|(value, _)| value),
-            Of::Utilisation => {
-                let values = result.step()?.strength.iter().map(|own| own.value);
-                values.filter(|value| value.is_finite()).reduce(f64::max)
-            }
-            Of::Limit(of) => match result.limit_value(of)? {
-                LimitValue::At(load, _) => Some(load),
-                LimitValue::Below(_) | LimitValue::Above(_) | LimitValue::Undecided => None,
-            },
+            Of::Scalar(scalar) => (scalar.of)(result.step()?),
+            Of::Utilisation => result.largest_utilisation(),
+            Of::Limit(of) => result.limit_value(of)?.measured(),
         }
     }
 

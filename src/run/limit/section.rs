@@ -3,7 +3,7 @@
 use super::LimitStep;
 use crate::body::HalfSpace;
 use crate::run::Run;
-use crate::run::places::SECTION;
+use crate::run::places::{SECTION, section_depths};
 use crate::stress::{StressFields, SurfaceLine, VerticalSection};
 use std::f64::consts::PI;
 
@@ -27,12 +27,12 @@ impl LimitStep {
         let radius = (reading.contact_area / (PI * reading.contact_spots.max(1) as f64)).sqrt();
         let reach = (HALF_LENGTH * radius).min(0.5 * cell.reduced().longer_side());
         let coating = bodies.each().flat_map(HalfSpace::interface_depths).fold(0.0, f64::max);
-        let [rows, points] = SECTION;
+        let [_, points] = SECTION;
         let span = cell.clipped([x, y], direction, [-reach, reach]);
         let line = SurfaceLine { origin: [x, y], direction, span, points };
         let depth = (LEAST_DEPTH * radius).max(1.5 * z).max(1.25 * coating.min(DEEPEST_COATING * radius));
         let mean = run.mean_stress().unwrap_or_default();
         let fields = StressFields::new(step.finest(), mean);
-        Some(fields.each().map(|field| field.section(&line, &field.half_space().rows(depth, rows))).collect())
+        Some(fields.each().map(|field| field.section(&line, &section_depths(field.half_space(), depth))).collect())
     }
 }
