@@ -1,5 +1,8 @@
 """Pictures of results, on the axes of Matplotlib: ``pip install "percoat[plot]"``.
 
+Lines mean what they mean in the pictures of the command line: dashed is what results are compared with, interfaces are thin and
+solid, bars and bands are estimated errors, and no line leads through points that differ by less than their errors.
+
 Every function draws on ``ax``, or on a new figure, and returns the axes; further arguments go to Matplotlib's
 artist.
 
@@ -16,6 +19,7 @@ from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 from numpy.typing import NDArray
 
+from percoat import _core
 from percoat._identify import Identification
 from percoat._limit import criterion_name
 from percoat._solve import COMPONENTS, Array, Plane, Result, Section, Step
@@ -68,8 +72,9 @@ def pressure(
     ax
         Where to draw; a new figure if it is not said.
     window
-        x₀, x₁, y₀, y₁, lengths: the rectangle that is shown, filled with copies of the cell; about two
-        periods around the origin if it is not said. Of an isolated contact its own window is shown, without copies.
+        x₀, x₁, y₀, y₁, lengths: the rectangle that is shown, filled with copies of the cell; that of the
+        pictures of ``percoat solve`` if it is not said: at least two by two cells around the middle of the unit cell, one
+        cell of a topography, and of an isolated contact the rectangle around it, without copies.
     artist
         For :meth:`matplotlib.axes.Axes.pcolormesh`: ``cmap``, ``norm``, ``vmin``, ….
 
@@ -162,7 +167,7 @@ def section(
 ) -> Axes:
     """Draw a vertical cut, z downward; interfaces are lines, across which a field may jump.
 
-    Both axes have one scale; ``ax.set_aspect("auto")`` stretches a cut that is long and shallow.
+    Both axes have one scale; ``ax.set(aspect="auto", ylim=(7.5, 0.0))`` stretches the cut and shows a thin coating alone.
 
     Parameters
     ----------
@@ -208,8 +213,8 @@ def curve(
 ) -> Axes:
     """Draw one number of every load step over another; steps that have not converged are crossed out.
 
-    Bars are the estimated errors of ``y``, where the steps have any. A line is interrupted where it would fall by less
-    than the errors of both of its ends.
+    Bars are the estimated errors of ``y``, where the steps have any. No line leads through points that differ by less
+    than their errors.
 
     Parameters
     ----------
@@ -341,10 +346,27 @@ def _errors(result: Result, name: str, shape: tuple[int, ...]) -> Array:
 
 
 def _interrupted(across: Array, up: Array, errors: Array) -> tuple[Array, Array]:
-    """Points with a gap where the line would fall by less than the errors of both of its ends."""
+    """Points with gaps where a line would lead through noise, as in the charts of the command line.
+
+    A stretch on which the values rise, or fall, has a line only if they do so by more than its largest error. A constant is no
+    noise, and errors too small to see are none.
+    """
     known = np.nan_to_num(errors)
-    falls = up[:-1] - up[1:]
-    gaps = np.flatnonzero((falls > 0.0) & (falls <= known[:-1] + known[1:])) + 1
+    reach = np.concatenate([up - known, up + known, [np.nan]])
+    span = 0.0 if np.isnan(reach).all() else float(np.nanmax(reach) - np.nanmin(reach))
+    seen = known > 0.006 * span
+    gaps: list[int] = []
+    first = 0
+    while first < len(up) - 1:
+        last = first + 1
+        way = up[last] - up[first]
+        while last < len(up) - 1 and (up[last + 1] - up[last]) * way >= 0.0:
+            way = way or up[last + 1] - up[last]
+            last += 1
+        change = abs(up[last] - up[first])
+        if 0.0 < change <= known[first : last + 1].max():
+            gaps += [after for after in range(first + 1, last + 1) if seen[after] or seen[after - 1]]
+        first = last
     return np.insert(across, gaps, np.nan), np.insert(up, gaps, np.nan)
 
 
@@ -405,7 +427,7 @@ def _map(
 ) -> Axes:
     """Fill the window with copies of the cell; a sample (i, j) is the middle of a parallelogram.
 
-    An isolated contact is drawn once, in its own window.
+    The window is that of the pictures of the command line if it is not said. An isolated contact is drawn once.
     """
     ax = _axes(ax)
     n = np.array(values.shape)
@@ -413,9 +435,9 @@ def _map(
     spacings = [(c[1, 0] - c[0, 0], c[0, 1] - c[0, 0]) for c in (places.x, places.y)]
     cell = n * np.array(spacings)  # its columns are a₁, a₂
     if window is None:
-        periods = 0.0 if places.isolated else 2.0
-        widths = np.maximum(periods * np.hypot(*cell).min(), np.abs(cell).sum(axis=1))  # at least the cell
-        window = (-widths[0] / 2, widths[0] / 2, -widths[1] / 2, widths[1] / 2)
+        has_levels = not isinstance(places, Step) or bool(places.owner.any())
+        seen = ~np.ma.getmaskarray(values) & np.ma.isMaskedArray(values)
+        window = _core.window(cell.T.tolist(), places.isolated, has_levels, seen)
     x0, x1, y0, y1 = window
     # A large grid is thinned to DRAWN. Samples are left out, never averaged: the edge of a contact stays
     # sharp, and is off by less than one of the parallelograms drawn.

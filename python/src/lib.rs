@@ -22,6 +22,7 @@ mod step;
 mod sweep;
 mod tables;
 mod value;
+mod window;
 mod work;
 
 #[pyo3::pymodule]
@@ -58,6 +59,8 @@ mod _core {
     use super::sweep::{Sweep, columns};
     #[pymodule_export]
     use super::tables::{life_tables, limit_tables, outcome_tables};
+    #[pymodule_export]
+    use super::window::window;
 
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {

@@ -90,6 +90,35 @@ def test_windows_of_other_cells_are_filled(name: str) -> None:
         assert (shown is np.ma.masked) if pressure == 0.0 else (shown == pressure)
 
 
+def test_windows_are_those_of_the_pictures_of_the_command_line() -> None:
+    root = np.sqrt(3.0)
+    hexagonal = percoat.solve("fig2", set={"grid.points": 96})[0]
+    square = percoat.solve("dlc-on-steel", set={"grid.points": 48, "load.mean_pressure": [0.3]})[0]
+    # Two by two cells around the middle of the unit cell, of contacts and of stresses alike.
+    for step, middle, half in (
+        (hexagonal, (0.75 * root, 0.75), (root, 1.5)),
+        (square, (10.0, 10.0), (20.0, 20.0)),
+    ):
+        expected = [middle[0] - half[0], middle[0] + half[0], middle[1] - half[1], middle[1] + half[1]]
+        for ax in (plot.pressure(step), plot.contact(step), plot.plane(step.plane(0.5, points=24))):
+            assert [*ax.get_xlim(), *ax.get_ylim()] == pytest.approx(expected, abs=1e-9)
+    # One cell of a topography.
+    topography = percoat.solve(wave(load={"mean_pressure": 0.005}))[0]
+    ax = plot.pressure(topography)
+    assert ax.get_xlim()[0] == ax.get_ylim()[0] == 0.0
+    assert ax.get_xlim()[1] == pytest.approx(topography.x.shape[0] * (topography.x[1, 0] - topography.x[0, 0]))
+
+
+def test_an_isolated_contact_fills_its_window() -> None:
+    step = percoat.solve("scratch", set={"grid.points": 64, "load.force": [2000.0]})[0]
+    radius = step.levels[0].contact_radius
+    for ax in (plot.pressure(step), plot.contact(step)):
+        (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
+        assert 2.0 * radius < x1 - x0 < 4.0 * radius < 120.0 and y1 - y0 == pytest.approx(x1 - x0, rel=0.2)
+    # Stresses reach further than the contact.
+    assert plot.plane(step.plane(5.0, points=24)).get_xlim() == (-60.0, 60.0)
+
+
 def test_no_pixel_of_the_window_is_blank(oblique: percoat.Result) -> None:
     # The background is a colour that the map has not.
     figure, ax = plt.subplots(figsize=(4, 3), dpi=100)
@@ -223,7 +252,7 @@ def test_a_curve_has_a_line_for_each_level(three_levels: percoat.Result) -> None
     assert both.lines[2].get_xdata().tolist() == [step.levels[2].contact_radius for step in three_levels]
 
 
-def test_a_curve_has_error_bars_and_does_not_fall_by_less_than_its_errors() -> None:
+def test_a_curve_has_error_bars_and_no_line_through_noise() -> None:
     settings = {"grid.points": 48, "load.mean_pressure": [0.05, 0.1, 0.2]}
     result = percoat.solve("dlc-on-steel", set=settings)
     ax = plot.curve(result, "mean_pressure", "strength.utilisation")
@@ -235,8 +264,13 @@ def test_a_curve_has_error_bars_and_does_not_fall_by_less_than_its_errors() -> N
     across, up = plot._interrupted(
         np.arange(5.0), np.array([1.0, 2.0, 1.5, 1.9, 1.0]), np.array([0.2, 0.3, 0.3, 0.1, np.nan])
     )
-    # Down by 0.5 with 0.6 of errors is no fall, by 0.9 with 0.1 it is.
-    assert np.isnan(up).tolist() == [False, False, True, False, False, False] == np.isnan(across).tolist()
+    # Up by 1, down by 0.5 and up by 0.4 with less of errors, and down by 0.9.
+    assert not np.isnan(up).any() and not np.isnan(across).any()
+    across, up = plot._interrupted(np.arange(5.0), np.array([1.0, 2.0, 1.5, 1.9, 1.0]), np.array([0.2, 0.3, 0.6, 0.1, np.nan]))
+    # Down by 0.5 and up by 0.4 with 0.6 is a zigzag within the errors.
+    assert np.isnan(up).tolist() == [False, False, True, False, True, False, False] == np.isnan(across).tolist()
+    # A rise that several points make together is none.
+    assert not np.isnan(plot._interrupted(np.arange(4.0), np.array([1.0, 1.1, 1.2, 1.3]), np.full(4, 0.2))[1]).any()
 
 
 def test_a_curve_crosses_out_what_has_not_converged() -> None:
