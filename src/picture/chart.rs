@@ -115,8 +115,8 @@ impl<'a> Plot<'a> {
     }
 }
 
-/// Ends of error bars that extend the vertical axis: on a linear one those of errors up to the largest value, on a logarithmic one those
-/// of errors up to half of their own.
+/// Ends of error bars that extend the vertical axis, up to zero where they have another sign than their value: on a linear axis those of
+/// errors up to the largest value, on a logarithmic one those of errors up to half of their own.
 fn shown_ends(curves: &[Curve], scale: Scale) -> impl Iterator<Item = f64> {
     let points = || curves.iter().flat_map(|curve| (0..curve.points.len()).map(move |index| (curve, index)));
     let value = |(curve, index): (&Curve, usize)| curve.points[index][1].abs();
@@ -125,7 +125,11 @@ fn shown_ends(curves: &[Curve], scale: Scale) -> impl Iterator<Item = f64> {
         let most = if scale == Scale::Log { 0.5 * value(*own) } else { largest };
         own.0.error(own.1) <= most
     };
-    points().filter(is_shown).filter_map(|(curve, index)| curve.bar(index)).flatten().collect::<Vec<f64>>().into_iter()
+    let ends = |(curve, index): (&Curve, usize)| {
+        let [low, high] = curve.bar(index)?;
+        Some(if curve.points[index][1] < 0.0 { [low, high.min(0.0)] } else { [low.max(0.0), high] })
+    };
+    points().filter(is_shown).filter_map(ends).flatten().collect::<Vec<f64>>().into_iter()
 }
 
 /// Upper and lower end of the error of a point. One that reaches zero on a logarithmic axis ends below the plot.

@@ -177,7 +177,7 @@ impl Frame {
 
     /// Draws the marks of the horizontal axis with their words above the plot; the words of marks near each other are joined.
     pub fn draw_marks(&self, canvas: &mut Canvas, axis: &Axis, origin: [f64; 2]) {
-        let [[_, top], [_, bottom]] = self.bounds(origin);
+        let [[left, top], [right, bottom]] = self.bounds(origin);
         let mut words: Vec<([f64; 2], String)> = Vec::new();
         for (x, word) in self.marks(axis) {
             canvas.dashed(&[[origin[0] + x, top], [origin[0] + x, bottom]], 0.7, Dash::Dotted, Colour::GREY);
@@ -191,7 +191,9 @@ impl Frame {
             }
         }
         for ([first, last], word) in words {
-            let at = [origin[0] + 0.5 * (first + last), top - 2.5];
+            // Not beyond the plot.
+            let half = (0.5 * text::width(&word, NUMBERS)).min(0.49 * (right - left));
+            let at = [(origin[0] + 0.5 * (first + last)).clamp(left + half, right - half), top - 2.5];
             canvas.text(&word, at, Anchor::Centre, NUMBERS, Colour::GREY);
         }
     }

@@ -112,7 +112,11 @@ fn label(words: &str, symbol: &str, unit: &Unit, unknown: &str) -> Label {
         Unit::Relative(to) => format!("{symbol}/{to}"),
         Unit::Named(_) | Unit::Si { .. } => symbol.to_owned(),
     };
-    let text = if words.is_empty() { symbol } else { format!("{words} {symbol}") };
+    let text = match (words.is_empty(), symbol.is_empty()) {
+        (true, _) => symbol,
+        (false, true) => words.to_owned(),
+        (false, false) => format!("{words} {symbol}"),
+    };
     Label { text, unit: unit.clone() }
 }
 

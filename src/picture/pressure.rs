@@ -39,7 +39,7 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     let maps = match close {
         None => vec![map("", view, None)],
         Some(part) => {
-            vec![map("(a) whole cells", view, Some(zoom::outline(&part))), map("(b) one contact", part, None)]
+            vec![map("(a) all contacts", view, Some(zoom::outline(&part))), map("(b) one contact", part, None)]
         }
     };
     let what = match snapshot.levels() {

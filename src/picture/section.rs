@@ -157,7 +157,7 @@ impl<'a> SectionPicture<'a> {
             "; bars on top: contacts"
         };
         format!(
-            "Section along {} from the x axis{}{bodies}; level lines: interfaces; curved line in (a): \
+            "Section along {} from the x axis{}{bodies}; level lines: interfaces; curved lines: \
              {}{apart}.{to_scale}{residual} Crosses: the largest values here, {}.{}",
             degrees(direction),
             sliding_words(problem.friction(), direction),
@@ -359,7 +359,7 @@ mod tests {
             "(c) σₛ in the coating",
             "(d) τ₁ in the coating",
             "(c), (d): the coating of (a), (b)",
-            "stretched by a factor of 6",
+            "stretched by a factor of 9",
         ] {
             assert!(thin.contains(own), "no {own}: {thin}");
             assert!(!thick.contains(own), "{own}: {thick}");

@@ -6,8 +6,8 @@ use crate::stress::VerticalSection;
 
 /// Height over width of a section that is not shown to scale, least and largest.
 const ASPECT: [f64; 2] = [0.4, 1.1];
-/// Height over width of a coating on its own, least and largest.
-const COATING_ASPECT: [f64; 2] = [0.3, 0.6];
+/// Height over width of a coating on its own, least and largest; the label fits along the lowest panel.
+const COATING_ASPECT: [f64; 2] = [0.45, 0.8];
 
 /// Depths that a panel shows; z < 0 in the counterbody.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,6 +103,6 @@ mod tests {
         let whole = ShownDepths::whole(&[section(100.0, 60.0, Some(2.0))]);
         assert_eq!((whole.aspect, whole.words(" Depth")), (0.6, String::new()));
         let coating = ShownDepths::coating(&[section(100.0, 60.0, Some(2.0))]).unwrap();
-        assert_eq!((coating.aspect, &coating.words(" depth")[..]), (0.3, " depth is stretched by a factor of 6."));
+        assert_eq!((coating.aspect, &coating.words(" depth")[..]), (0.45, " depth is stretched by a factor of 9."));
     }
 }

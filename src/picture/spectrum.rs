@@ -29,8 +29,7 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
         let at = |k: u32| ends[0] * (ends[1] / ends[0]).powf(f64::from(k) / 200.0);
         let prescribed = (0..=200).map(|k| [at(k), density(at(k))]).collect();
         curves.push(curve("prescribed", prescribed, Style::Dashed, 2));
-        let words =
-            [("longest wave", surface.longest), ("roll-off", surface.rolloff), ("shortest wave", surface.shortest)];
+        let words = [("longest", surface.longest), ("roll-off", surface.rolloff), ("shortest", surface.shortest)];
         marks.extend(words.map(|(word, length)| (TAU / length, word.to_owned())));
     }
     curves.push(curve("surface on the grid", rings, Style::Markers, 1));
@@ -47,10 +46,11 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
     let [n1, n2] = topography.points();
     let caption = format!(
         "{}{}, rms slope {}; {n1}\u{a0}×\u{a0}{n2} samples. C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the mean \
-         square ⟨h²⟩ of the heights; SurfaceTopography's C is 4π² times this one.",
+         square ⟨h²⟩ of the heights; SurfaceTopography's C is 4π² times this one.{}",
         if title.is_empty() { String::new() } else { format!("{title}. ") },
         units.length().with_unit(statistics.rms_height, |x| format!("Rms height {}", short(x))),
-        short(own.rms_slope())
+        short(own.rms_slope()),
+        if random.is_some() { " Dotted: the longest and the shortest wave, and the roll-off." } else { "" }
     );
     Some(plots(&caption, &[chart]))
 }

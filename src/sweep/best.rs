@@ -55,10 +55,11 @@ pub fn best_and_worst(rows: &[Row], units: &Units) -> Option<Worded> {
     let done: Vec<&Row> = rows.iter().filter(|row| row.status == Status::Done).collect();
     let ranked = merits(units).into_iter().filter_map(|merit| Some((ends(&done, &merit)?, merit)));
     let lines = ranked.take(MOST).flat_map(|([best, worst], merit)| {
-        let line = |name: &str, word: &str, (measured, row): Ranked<'_>| {
-            vec![name.to_owned(), word.to_owned(), text(&merit, measured), settings(row)]
+        let line = |name: &str, word: &str, (measured, row): Ranked<'_>, open: &str| {
+            vec![name.to_owned(), word.to_owned(), text(&merit, measured) + open, settings(row)]
         };
-        [line(&merit.name, "best", best), line("", "worst", worst)]
+        let open = if is_open(best.0, worst.0) { ", within the errors" } else { "" };
+        [line(&merit.name, "best", best, ""), line("", "worst", worst, open)]
     });
     let lines: Vec<Vec<String>> = lines.collect();
     let head = ["result", "", "value", "combination"];
@@ -87,6 +88,11 @@ fn ends<'a>(rows: &[&'a Row], merit: &Merit) -> Option<[Ranked<'a>; 2]> {
         [best, .., worst] => Some([best, worst]),
         _ => None,
     }
+}
+
+/// Whether two values differ by less than their errors, so that either may be the better one.
+fn is_open(best: Measured, worst: Measured) -> bool {
+    (best.0 - worst.0).abs() < best.1.unwrap_or(0.0) + worst.1.unwrap_or(0.0)
 }
 
 fn text(merit: &Merit, (value, error): Measured) -> String {
@@ -165,6 +171,17 @@ mod tests {
         let lines = lines(&[one(1), one(2)]);
         assert_eq!(lines[1], "largest utilisation best 0.10 ± 0.01 1: a = 1");
         assert!(lines.len() <= 2 * MOST + 1, "{lines:?}");
+    }
+
+    #[test]
+    fn a_difference_within_the_errors_is_said_to_be_one() {
+        let yields = Criterion::yield_of(1);
+        let limits = [reached(yields, 0.5, 0.3), reached(yields, 0.7, 0.2)];
+        let rows: Vec<Row> = (1..)
+            .zip(limits)
+            .map(|(n, limit)| row(n, &[("a", n.to_string())], vec![SweepResult::Limits(vec![limit])]))
+            .collect();
+        assert_eq!(lines(&rows)[2], "worst 0.5 ± 0.3 GPa, within the errors 1: a = 1");
     }
 
     #[test]

@@ -64,7 +64,7 @@ fn found(path: &str, material: impl Fn(&str) -> Option<String>) -> Option<NamedK
             let index: usize = parts.next()?.parse().ok()?;
             walked = format!("{walked}.{index}");
             let number = format!("{} {}", part.trim_end_matches('s'), index + 1);
-            place.insert(0, material(&walked).map_or(number.clone(), |name| format!("{name} ({number})")));
+            place.insert(0, material(&walked).map_or(number.clone(), |name| format!("{name}, {number}")));
         } else if ["substrate", "counterbody"].contains(&part) {
             place.insert(0, format!("the {part}"));
         }
@@ -106,8 +106,8 @@ mod tests {
         };
         for (path, words, unit) in [
             ("layers.0.thickness", "thickness of layer 1", "µm"),
-            ("layers[1].thickness", "thickness of CrN (layer 2)", "µm"),
-            ("layers.1.young", "Young's modulus of CrN (layer 2)", "GPa"),
+            ("layers[1].thickness", "thickness of CrN, layer 2", "µm"),
+            ("layers.1.young", "Young's modulus of CrN, layer 2", "GPa"),
             ("layers.0.interface", "interface below layer 1", ""),
             (
                 "layers.0.interface.tangential_stiffness",
