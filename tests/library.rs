@@ -17,6 +17,8 @@ mod given_load;
 mod hardness;
 #[path = "library/identification.rs"]
 mod identification;
+#[path = "library/instruments.rs"]
+mod instruments;
 #[path = "library/invariance.rs"]
 mod invariance;
 #[path = "library/isolated.rs"]

@@ -13,7 +13,7 @@ use super::source::Source;
 use super::surface;
 use super::value::ValueAt;
 use crate::counterbody::{CounterbodyError, GivenPressure, LoadedDisc};
-use crate::heights::{HeightsUnit, Stored};
+use crate::heights::{Fault, HeightsUnit, Stored};
 use crate::lattice::Cell;
 use crate::notation::number;
 use crate::numeric::array::field;
@@ -127,8 +127,14 @@ pub(super) fn read(
         }
         GivenSection::File(name) => {
             let path = source.path(&name).unwrap_or_else(|| PathBuf::from(&name));
-            let stored = surface::stored(source, &path, &value, "pressures at equally spaced samples of the cell")?;
-            let stored = stored.map_err(|fault| surface::refused(&value, &path, fault))?;
+            let stored =
+                surface::stored(source, &path, &value, None, "pressures at equally spaced samples of the cell")?;
+            let complete = stored.and_then(|stored| match stored.holes() {
+                0 => Ok(stored),
+                holes => Err(Fault::new(format!("has no number at {holes} places"), "a pressure is missing")
+                    .help("a pressure is needed everywhere: 0 where nothing presses")),
+            });
+            let stored = complete.map_err(|fault| surface::refused(&value, &path, fault))?;
             doubts = doubts_of(&stored, &value.path, cell, length);
             GivenPressure::field(cell, field(stored.heights.points, stored.heights.values))
                 .map_err(|error| refuse(error, None))
@@ -177,7 +183,7 @@ mod tests {
         let stored = |sides: [f64; 2], unit: Option<HeightsUnit>| {
             let array = ndarray::Array2::from_elem([4, 4], 1.0).into_dyn();
             let side = |value: f64| Length { value, unit: Some("mm".to_owned()) };
-            Stored { sides: Some(sides.map(side)), unit, ..Stored::of(&array).unwrap() }
+            Stored { sides: Some(sides.map(side)), unit, ..Stored::of(&array, None).unwrap() }
         };
         let doubts = |own: &Stored| doubts_of(own, "load.pressure", cell, Some("µm"));
         assert_eq!(doubts(&stored([0.01, 0.005], None)), Vec::<String>::new());

@@ -82,8 +82,8 @@ pub use materials::{
 };
 pub use model::Case;
 pub use named_pipes::Pipes;
-pub use source::Source;
+pub use source::{PhysicalSizes, Source};
 pub use stress::{CutSection, Origin, StressSection, Toward};
-pub use surface::{ORIENTATION, RandomSection, Sides, SurfaceSection, Taper};
+pub use surface::{ORIENTATION, RandomSection, Sides, Stage, SurfaceSection, Taper, Treated, WantedChannel};
 pub use units::UnitsSection;
 pub(crate) use writer::written;

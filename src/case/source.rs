@@ -15,6 +15,15 @@ use super::node::Table;
 use super::overrides;
 use super::span::Span;
 
+/// Sizes of an array of heights in memory.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PhysicalSizes {
+    /// Sides along a₁ and a₂, lengths in `unit`.
+    pub sides: [f64; 2],
+    /// Unit of the sides and heights; none for that of the case.
+    pub unit: Option<String>,
+}
+
 /// Text of a case with its name and its files.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Source {
@@ -32,6 +41,8 @@ pub struct Source {
     pub files: BTreeMap<String, Arc<[u8]>>,
     /// Arrays of heights in memory, axis 0 along a₁, by their names in the case.
     pub arrays: BTreeMap<String, Arc<ArrayD<f64>>>,
+    /// Sizes of those arrays that have them.
+    pub sizes: BTreeMap<String, PhysicalSizes>,
     /// Content of pipes among its files, which can be read only once.
     pub pipes: Pipes,
 }

@@ -39,7 +39,8 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
     };
     let random = "hurst = 0.8, shortest = 0.25, longest = 1, rolloff = 0.5, seed = 1";
     let surfaces = [
-        "heights = \"surface.npy\", scale = 2, period = 1, level = true, window = true".to_owned(),
+        "heights = \"surface.npy\", channel = 1, scale = 2, period = 1, level = true, form = \"plane\", cutoff = 1, window = true"
+            .to_owned(),
         "heights = \"surface.npy\", pixel = 0.5".to_owned(),
         format!("period = 1, random = {{ {random}, rms_slope = 0.1 }}"),
         format!("period = 1, random = {{ {random}, rms_height = 0.1 }}"),

@@ -12,7 +12,7 @@ pub const MOST: usize = 32_768;
 pub struct Heights {
     /// Samples along a₁ and a₂.
     pub points: [usize; 2],
-    /// Protrusion upward at each sample, n₁ × n₂ values, a₂ fastest.
+    /// Protrusion upward at each sample, n₁ × n₂ values, a₂ fastest; NaN where there is no measurement.
     pub values: Vec<f64>,
 }
 
@@ -46,20 +46,24 @@ impl Fault {
 }
 
 impl Heights {
-    /// Heights of n₁ × n₂ samples; a fault for a number of samples out of range, and for heights that are not finite or beyond 1e60.
+    /// Heights of n₁ × n₂ samples, NaN where there is no measurement; a fault for a number of samples out of range, for heights that
+    /// are infinite or beyond 1e60, and without any measurement.
     pub fn new(points: [usize; 2], values: Vec<f64>) -> Result<Self, Fault> {
         let [n1, n2] = points;
         if points.iter().any(|n| !(2..=MOST).contains(n)) {
             let what = format!("holds {n1} × {n2} heights; there must be between 2 and {MOST} along either direction");
             return Err(Fault::new(what, format!("{n1} × {n2} heights")));
         }
-        match values.iter().position(|height| height.is_nan() || height.abs() > *CARRIED.end()) {
+        match values.iter().position(|height| height.abs() > *CARRIED.end()) {
+            None if values.iter().all(|height| height.is_nan()) => {
+                Err(Fault::new("holds no measurement at any place", "no heights"))
+            }
             None => Ok(Self { points, values }),
             Some(k) => Err(Fault::new(
                 format!("holds {} at [{}, {}]", plain::float(values[k]), k / n2, k % n2),
-                "every height must be finite and at most 1e60",
+                "every height must be at most 1e60",
             )
-            .help("fill what was not measured before, as from its neighbours")),
+            .help("write nan where there is no measurement")),
         }
     }
 }

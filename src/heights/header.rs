@@ -37,6 +37,13 @@ pub enum HeightsUnit {
     Other,
 }
 
+impl HeightsUnit {
+    /// The unit of a name.
+    pub fn of(name: &str) -> Self {
+        if unit::is_known(name) { Self::Known(name.to_owned()) } else { Self::Other }
+    }
+}
+
 /// Values of the known keys.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Header {

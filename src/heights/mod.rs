@@ -1,19 +1,29 @@
-//! File formats of heights: NumPy arrays, matrices and points as text, with units and sides from their headers.
+//! File formats of heights: NumPy arrays, matrices and points as text, instruments' files, with units and sides from their headers.
 //!
-//! One module a format (`npy`, `text` with its `lines`, `header` and `decimal_commas`, `xyz`); [`Stored`] is the content of a file, and
-//! a [`Fault`] the reason of its refusal. `suspicious_values` refuses values that are not heights, or warns of them.
+//! One module a format (`npy`, `text` with its `lines`, `header` and `decimal_commas`, `xyz`, `x3p`, `sdf`, `sur`, `gwy`, `asc`; `binary` and
+//! `channel` serve several of them); [`Stored`] is the content of a file, and a [`Fault`] the reason of its refusal.
+//! `suspicious_values` refuses values that are not heights, or warns of them.
 
+mod asc;
+mod binary;
+mod channel;
 mod decimal_commas;
 mod fault;
+mod gwy;
 mod header;
 mod lines;
+mod measured;
 mod npy;
+mod sdf;
 mod stored;
+mod sur;
 mod suspicious_values;
 mod text;
 pub mod unit;
+mod x3p;
 mod xyz;
 
+pub use channel::WantedChannel;
 pub use fault::{Fault, Heights, fits};
 pub use header::{HeightsUnit, Length};
 pub use stored::{FORMATS, HeightsFormat, Stored};

@@ -4,15 +4,18 @@ use ndarray::ArrayD;
 use std::io::BufRead;
 use std::path::Path;
 
-use super::fault::{Fault, Heights, fits};
+use super::binary::{Image, whole};
+use super::channel::{Channel, WantedChannel, choose};
+use super::fault::{Fault, Heights};
 use super::header::{Header, HeightsUnit, Length};
+use super::measured::Measured;
 use super::text::NumberTable;
 use super::xyz::PointGrid;
-use super::{npy, suspicious_values, text, xyz};
+use super::{asc, gwy, npy, sdf, sur, suspicious_values, text, x3p, xyz};
 
 /// The formats, for error messages.
-pub const FORMATS: &str =
-    "`.npy` (NumPy), `.csv`, `.txt` or `.dat` (a matrix of numbers), `.xyz` (x y z, one point a line)";
+pub const FORMATS: &str = "`.npy` (NumPy), `.csv`, `.txt` or `.dat` (a matrix of numbers), `.xyz` (x y z, one point a line), `.x3p` (ISO 25178-72), \
+     `.sdf` (ISO 25178-71), `.sur` or `.pro` (Digital Surf), `.gwy` (Gwyddion), `.asc` (Esri's grid)";
 
 /// A format of heights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,6 +26,16 @@ pub enum HeightsFormat {
     Text,
     /// Points x y z, one a line.
     Xyz,
+    /// ISO 25178-72.
+    X3p,
+    /// ISO 25178-71.
+    Sdf,
+    /// Digital Surf.
+    Sur,
+    /// Gwyddion.
+    Gwy,
+    /// Esri's grid.
+    Asc,
 }
 
 impl HeightsFormat {
@@ -32,8 +45,31 @@ impl HeightsFormat {
             "npy" => Some(Self::Npy),
             "csv" | "txt" | "dat" => Some(Self::Text),
             "xyz" => Some(Self::Xyz),
+            "x3p" => Some(Self::X3p),
+            "sdf" => Some(Self::Sdf),
+            "sur" | "pro" => Some(Self::Sur),
+            "gwy" => Some(Self::Gwy),
+            "asc" => Some(Self::Asc),
             _ => None,
         }
+    }
+
+    /// The format of the first bytes of a file; by default a text.
+    fn of_start(bytes: &[u8]) -> Self {
+        let begins = |magic: &[u8]| bytes.starts_with(magic);
+        match bytes {
+            _ if begins(b"\x93NUMPY") => Self::Npy,
+            _ if begins(x3p::MAGIC) => Self::X3p,
+            _ if sdf::MAGICS.into_iter().any(begins) => Self::Sdf,
+            _ if sur::MAGICS.into_iter().any(begins) => Self::Sur,
+            _ if begins(gwy::MAGIC) => Self::Gwy,
+            _ => Self::Text,
+        }
+    }
+
+    /// Whether files of the format begin with a mark of it.
+    fn has_mark(self) -> bool {
+        matches!(self, Self::X3p | Self::Sdf | Self::Sur | Self::Gwy)
     }
 }
 
@@ -53,24 +89,62 @@ pub struct Stored {
 }
 
 impl Stored {
-    /// Reads a file of `bytes` bytes; without a `format`, as for a pipe, the first bytes determine it, by default a text.
-    pub fn read(mut reader: impl BufRead, bytes: u64, format: Option<HeightsFormat>) -> Result<Self, Fault> {
-        let format = match format {
-            Some(format) => format,
-            None if reader.fill_buf().is_ok_and(|bytes| bytes.starts_with(b"\x93NUMPY")) => HeightsFormat::Npy,
-            None => HeightsFormat::Text,
-        };
+    /// Reads the channel that is `wanted`, or the only one of heights, of a file of `bytes` bytes; without a `format`, as for a pipe, the
+    /// first bytes determine it, by default a text.
+    pub fn read(
+        mut reader: impl BufRead,
+        bytes: u64,
+        format: Option<HeightsFormat>,
+        wanted: Option<&WantedChannel>,
+    ) -> Result<Self, Fault> {
+        let start = reader.fill_buf().map_or(HeightsFormat::Text, HeightsFormat::of_start);
+        let format = format.unwrap_or(start);
+        if format.has_mark() && start != format {
+            return Err(Fault::new("does not begin as a file of its format", "another format?").help(
+                "its ending says which format it is in: rename it, or export it again from the program of the instrument",
+            ));
+        }
         let stored = match format {
             HeightsFormat::Npy => npy::read(reader, bytes).and_then(of_array),
             HeightsFormat::Xyz => xyz::read(reader, bytes).map(|(points, header)| Self::points(points, &header)),
             HeightsFormat::Text => text::read(reader, bytes).and_then(of_table),
+            HeightsFormat::X3p => return x3p::read(&whole(reader, bytes)?, wanted).and_then(Self::measured),
+            HeightsFormat::Sdf => return sdf::read(&whole(reader, bytes)?, wanted).and_then(Self::measured),
+            HeightsFormat::Sur => return sur::read(&whole(reader, bytes)?, wanted).and_then(Self::measured),
+            HeightsFormat::Gwy => return gwy::read(&whole(reader, bytes)?, wanted).and_then(Self::measured),
+            HeightsFormat::Asc => return asc::read(&whole(reader, bytes)?, wanted).and_then(Self::measured),
         }?;
-        stored.checked()
+        stored.only(wanted)?.checked()
+    }
+
+    fn measured(Measured { heights, sides, unit, doubts }: Measured) -> Result<Self, Fault> {
+        Self { heights, sides: Some(sides), unit, lines_along_a1: false, doubts }.checked()
     }
 
     /// Heights of an array in memory.
-    pub fn of(array: &ArrayD<f64>) -> Result<Self, Fault> {
-        npy::of_array(array).and_then(of_array)?.checked()
+    pub fn of(array: &ArrayD<f64>, wanted: Option<&WantedChannel>) -> Result<Self, Fault> {
+        npy::of_array(array).and_then(of_array)?.only(wanted)?.checked()
+    }
+
+    /// It with sides along a₁ and a₂ in a unit, which is that of the heights too.
+    pub fn sized(self, sides: [f64; 2], unit: Option<&str>) -> Result<Self, Fault> {
+        if sides.iter().any(|side| !side.is_finite() || *side <= 0.0) {
+            let what = format!("says that it is {} × {} large", sides[0], sides[1]);
+            return Err(Fault::new(what, "no sizes").help("physical sizes must be greater than 0"));
+        }
+        let side = |value: f64| Length { value, unit: unit.map(str::to_owned) };
+        Ok(Self { sides: Some(sides.map(side)), unit: unit.map(HeightsUnit::of), ..self })
+    }
+
+    /// Refuses another channel than the only one.
+    fn only(self, wanted: Option<&WantedChannel>) -> Result<Self, Fault> {
+        choose(&[Channel { name: String::new(), unit: self.unit.clone() }], wanted)?;
+        Ok(self)
+    }
+
+    /// Number of samples without a measurement.
+    pub fn holes(&self) -> usize {
+        self.heights.values.iter().filter(|height| height.is_nan()).count()
     }
 
     /// Refuses values that are not heights, and adds warnings about implausible ones.
@@ -109,15 +183,8 @@ fn of_table(table: NumberTable) -> Result<Stored, Fault> {
     let Heights { values, .. } = Heights::new([lines, numbers], values)?;
     let sides = header.sides([numbers, lines])?;
     let heights = match header.is_image() {
-        true => upright([numbers, lines], &values)?,
+        true => Image { width: numbers, height: lines, top_first: true }.heights(|k| values[k])?,
         false => Heights { points: [lines, numbers], values },
     };
     Ok(Stored { heights, sides, unit: header.heights().cloned(), lines_along_a1: !header.is_image(), doubts })
-}
-
-/// Heights of an image of n₁ numbers a line and n₂ lines, the first one on top, with x along a₁ and y along a₂: `image[::-1].T`.
-fn upright([n1, n2]: [usize; 2], values: &[f64]) -> Result<Heights, Fault> {
-    fits(8 * values.len() as u64)?;
-    let at = |k: usize| values[(n2 - 1 - k % n2) * n1 + k / n2];
-    Ok(Heights { points: [n1, n2], values: (0..n1 * n2).map(at).collect() })
 }

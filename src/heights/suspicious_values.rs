@@ -1,9 +1,9 @@
 //! Values that are probably not heights: coordinates, marks of missing data, digits behind decimal commas.
 //!
-//! [`no_data`] refuses values that no surface has; [`doubts`] returns warnings about implausible ones, which are used nevertheless.
+//! [`no_data`] refuses values that no surface has; [`doubts`] returns warnings about implausible ones, which are used nevertheless. Samples
+//! without a measurement are not a number, and left out of both.
 
 use super::fault::{Fault, Heights};
-use crate::numeric::sums;
 
 /// Values that instruments and programs write for missing data.
 const NO_DATA: [f64; 20] = [
@@ -61,7 +61,8 @@ pub fn no_data(heights: &Heights) -> Result<(), Fault> {
                 first / n2,
                 first % n2
             );
-            return Err(Fault::new(what, "no data").help("fill what was not measured before, as from its neighbours"));
+            return Err(Fault::new(what, "no data")
+                .help("write nan there: it is filled from what surrounds it, with a warning"));
         }
     }
     Ok(())
@@ -152,7 +153,7 @@ fn alone(heights: &Heights) -> Option<String> {
             let n2 = heights.points[1];
             format!(
                 "surface.heights: the same height occurs at {count} of {} places, the first at [{}, {}], far from all others: does it \
-                 mark places without a measurement? Fill them before",
+                 mark places without a measurement? Write nan there",
                 values.len(),
                 first / n2,
                 first % n2
@@ -163,6 +164,7 @@ fn alone(heights: &Heights) -> Option<String> {
 
 /// Mean and standard deviation.
 fn deviation(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
+    let values = values.filter(|x| !x.is_nan());
     let (count, sum) = values.clone().fold((0.0, 0.0), |(count, sum), x| (count + 1.0, sum + x));
     let mean: f64 = sum / count;
     [mean, (values.map(|x| (x - mean).powi(2)).sum::<f64>() / count).sqrt()]
@@ -171,8 +173,9 @@ fn deviation(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
 /// A warning about a height far outside the distribution of the others.
 fn outside(heights: &Heights) -> Option<String> {
     let values = &heights.values;
-    let mean = sums::mean(values);
-    let (farthest, _) = values.iter().enumerate().max_by(|a, b| (a.1 - mean).abs().total_cmp(&(b.1 - mean).abs()))?;
+    let [mean, _] = deviation(values.iter().copied());
+    let measured = values.iter().enumerate().filter(|(_, x)| !x.is_nan());
+    let (farthest, _) = measured.max_by(|a, b| (a.1 - mean).abs().total_cmp(&(b.1 - mean).abs()))?;
     let others = values.iter().enumerate().filter(|(k, _)| *k != farthest).map(|(_, x)| *x);
     let [mean, rest] = deviation(others);
     let away = (values[farthest] - mean).abs();
@@ -182,7 +185,7 @@ fn outside(heights: &Heights) -> Option<String> {
         let n2 = heights.points[1];
         format!(
             "surface.heights: the height at [{}, {}] lies {times:.0} standard deviations from the mean of the others, a peak or a pit \
-             that hardly any surface has: a fault of the measurement? Fill it before",
+             that hardly any surface has: a fault of the measurement? Write nan there, and it is filled",
             farthest / n2,
             farthest % n2
         )
@@ -195,7 +198,8 @@ fn three(heights: &Heights) -> Option<String> {
     let column = |k: usize| line(heights, 0, k);
     let alike = |a: usize, b: usize| {
         let [[mean_a, own_a], [mean_b, own_b]] = [a, b].map(|k| deviation(column(k)));
-        let both: f64 = column(a).zip(column(b)).map(|(x, y)| (x - mean_a) * (y - mean_b)).sum();
+        let products = column(a).zip(column(b)).map(|(x, y)| (x - mean_a) * (y - mean_b));
+        let both: f64 = products.filter(|product| !product.is_nan()).sum();
         both >= 0.5 * own_a * own_b * lines as f64
     };
     (lines >= 16 && !alike(0, 1) && !alike(1, 2)).then(|| {
@@ -287,6 +291,14 @@ mod tests {
                 "the same height occurs at",
             ),
             (surface([64, 3], |i, j| hash(3 * i + j)), "64 lines of three numbers"),
+            (
+                surface([40, 40], |i, j| match (i, j) {
+                    (7, 9) => 300.0,
+                    (8, 9) => f64::NAN,
+                    _ => rough(i, j),
+                }),
+                "[7, 9] lies",
+            ),
         ] {
             let told = doubts(&heights).join("\n");
             assert!(told.contains(words), "\"{words}\" does not stand in {told:?}");

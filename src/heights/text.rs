@@ -133,7 +133,7 @@ fn no_number(line: usize, column: usize, part: &str, is_first: bool) -> Fault {
     match is_first && !part.is_empty() {
         true => Fault::new(what, format!("line {line}: a header?")).help("remove a header, or begin its lines with #"),
         false => Fault::new(what, format!("line {line}"))
-            .help("every height must be a number, none left out: fill what was not measured before"),
+            .help("every height must be a number, none left out: write nan for what was not measured"),
     }
 }
 
@@ -190,7 +190,8 @@ mod tests {
             ("1;2\n3;;4\n", ["line 2 holds nothing as number 2", "none left out"]),
             ("1 2\n3 ---\n", ["line 2 holds what is no number as number 2", ""]),
             ("1.234,5;2\n1;2\n", ["line 1 holds a number with a comma and a point", ""]),
-            ("1 2\n3 nan\n", ["holds nan at [1, 1]", "finite"]),
+            ("1 2\n3 inf\n", ["holds inf at [1, 1]", "at most 1e60"]),
+            ("nan nan\nnan nan\n", ["no measurement", "no heights"]),
             ("1 2 3\n", ["1 × 3 heights", ""]),
             ("", ["0 × 0 heights", ""]),
             ("\u{1}\u{0}", ["line 1", ""]),

@@ -70,12 +70,14 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<(PointGrid, Header), Fau
             fits(PER_POINT * (bytes / (text.len() as u64 + 1) + 1))?;
         }
         let parts = text.split(|c: char| c.is_whitespace() || c == ',' || c == ';').filter(|part| !part.is_empty());
-        let numbers: Vec<Option<f64>> = parts.map(|part| part.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+        let number =
+            |(k, part): (usize, &str)| part.parse().ok().filter(|x: &f64| x.is_finite() || k == 2 && x.is_nan());
+        let numbers: Vec<Option<f64>> = parts.enumerate().map(number).collect();
         let [Some(x), Some(y), Some(height)] = numbers[..] else {
             let what = format!("line {line} does not hold three finite numbers x y z");
             let help = match numbers.len() {
                 6 if !text.contains('.') => "if its commas are decimal ones, write points instead",
-                _ => "remove a header, or begin its lines with #; fill what was not measured before",
+                _ => "remove a header, or begin its lines with #; write nan for a height that was not measured",
             };
             return Err(Fault::new(what, format!("line {line}")).help(help));
         };
@@ -162,7 +164,9 @@ fn on_grid(points: &[Point]) -> Result<PointGrid, Fault> {
         let [x, y] = [axes[0].at(place / counts[1]), axes[1].at(place % counts[1])];
         let missing = values.len() - points.len();
         let what = format!("{missing} of {} × {} points are missing, the first at ({x}, {y})", counts[0], counts[1]);
-        return Err(Fault::new(what, "points are missing").help("fill what was not measured before"));
+        return Err(
+            Fault::new(what, "points are missing").help("write them with the height nan where they were not measured")
+        );
     }
     Ok(PointGrid { heights: Heights::new(counts, values)?, period: axes.map(|axis| axis.count as f64 * axis.step) })
 }
@@ -197,6 +201,12 @@ mod tests {
     }
 
     #[test]
+    fn a_height_without_a_measurement_is_nan() {
+        let (heights, _) = of(&lines().join("\n").replace(" 11", " nan")).unwrap();
+        assert!(heights.values.iter().enumerate().all(|(k, height)| height.is_nan() == (k == 3)), "{heights:?}");
+    }
+
+    #[test]
     fn what_is_no_regular_grid_is_refused_with_its_line() {
         let with = |change: &dyn Fn(&mut Vec<String>)| {
             let mut lines = lines();
@@ -212,7 +222,7 @@ mod tests {
         assert!(told.contains("line 4: its point is off the grid"), "{told}");
         let told = with(&|lines| lines[2] = "1 2".to_owned());
         assert!(told.contains("line 3 does not hold three"), "{told}");
-        let told = with(&|lines| lines[0] = "-1 5 nan".to_owned());
+        let told = with(&|lines| lines[0] = "-1 nan 5".to_owned());
         assert!(told.contains("line 1"), "{told}");
         assert!(with(&|lines| lines.truncate(2)).contains("too few"));
         // A line of points, and points at random.

@@ -3,7 +3,9 @@
 use super::described;
 use super::number::number;
 use crate::case::resources::{Job, Needs, needs};
-use crate::case::{Case, ORIENTATION, RandomSection, SurfaceSection, foreseen, plausibility, sublayer_error};
+use crate::case::{
+    Case, ORIENTATION, RandomSection, Stage, SurfaceSection, Treated, foreseen, plausibility, sublayer_error,
+};
 use crate::counterbody::roughness::{Spectrum, Statistics};
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::load::LoadQuantity;
@@ -82,6 +84,8 @@ pub struct Roughness {
     pub from_file: bool,
     /// Whether a window tapers its border.
     pub has_window: bool,
+    /// What was done to the heights of its file before, in this order; empty where nothing was.
+    pub stages: Vec<Stage>,
 }
 
 /// Why a case cannot be solved.
@@ -199,6 +203,7 @@ impl Roughness {
             rms_slope: spectrum.rms_slope(),
             spacing: [0, 1].map(|axis| sides[axis] / points[axis] as f64),
             has_window: topography.run_out().is_some(),
+            stages: case.surface.as_ref().map(|surface| surface.stages.clone()).unwrap_or_default(),
             from_file: case.surface.as_ref().and_then(SurfaceSection::random).map(RandomSection::surface).is_none(),
         }))
     }
@@ -207,7 +212,7 @@ impl Roughness {
         let Statistics { rms_height, range, skewness, kurtosis, .. } = self.statistics;
         json!({
             "points": self.points, "rms_height": rms_height, "rms_slope": self.rms_slope, "range": range,
-            "skewness": skewness, "kurtosis": kurtosis,
+            "skewness": skewness, "kurtosis": kurtosis, "stages": self.stages,
         })
     }
 }
@@ -303,12 +308,36 @@ fn write_sublayers(f: &mut fmt::Formatter<'_>, sublayers: &[usize], error: f64) 
     writeln!(f, "surface compliance: error by the sublayers about {error:.1e}\n")
 }
 
+/// Writes what was done to the heights of a file, with their rms values before and after.
+fn write_stages(f: &mut fmt::Formatter<'_>, stages: &[Stage], units: &Units) -> fmt::Result {
+    if !stages.is_empty() {
+        writeln!(f, "heights of the file, rms height and rms slope of neighbours:")?;
+    }
+    for Stage { treated, rms } in stages {
+        let what = match *treated {
+            Treated::AsRead => "as read".to_owned(),
+            Treated::WithoutForm { form, radius: None } => format!("without its {}", form.name()),
+            Treated::WithoutForm { form, radius: Some(radius) } => {
+                format!("without its {} of radius {}", form.name(), described::length(units, radius))
+            }
+            Treated::Filled { share } => format!("{} % of the places filled", number(100.0 * share)),
+            Treated::Smoothed { cutoff, is_periodic } => {
+                let beyond = if is_periodic { "periodic" } else { "up to its border" };
+                format!("without waves below {}, {beyond}", described::length(units, cutoff))
+            }
+        };
+        writeln!(f, "  {what}: {}, {}", described::length(units, rms.height), number(rms.slope))?;
+    }
+    Ok(())
+}
+
 impl Roughness {
     fn write(&self, f: &mut fmt::Formatter<'_>, units: &Units) -> fmt::Result {
         let ([n1, n2], slope) = (self.points, number(self.rms_slope));
         let [d1, d2] = self.spacing.map(|spacing| described::length(units, spacing));
         let Statistics { rms_height, range, skewness, kurtosis, .. } = self.statistics;
         let [rms_height, range] = [rms_height, range].map(|height| described::length(units, height));
+        write_stages(f, &self.stages, units)?;
         writeln!(f, "surface on {n1} × {n2} samples, {d1} apart along a₁ and {d2} along a₂:")?;
         writeln!(f, "  rms height {rms_height}, rms slope {slope}, range {range}")?;
         writeln!(f, "  skewness {skewness:.3}, kurtosis {kurtosis:.3} (a Gaussian has 0 and 3)")?;

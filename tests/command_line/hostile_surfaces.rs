@@ -167,7 +167,13 @@ fn files_that_hold_something_else_are_refused_or_told() {
         ("1.70141E+38", "a.dat", with(&|i, _| (i == 4).then_some("1.70141E+38")), Refused(&["16 of 256"])),
         ("-3.4028235e38", "a.dat", with(&|i, j| (i == 4 && j > 7).then_some("-3.4028235e38")), Refused(&["8 of 256"])),
         ("1e10", "a.dat", with(&|i, j| (i == 4 && j == 7).then_some("1e10")), Refused(&["[4, 7]"])),
-        ("NaN", "a.txt", with(&|i, j| (i == 4 && j == 7).then_some("NaN")), Refused(&["nan at [4, 7]"])),
+        (
+            "NaN",
+            "a.txt",
+            with(&|i, j| (i == 4 && j == 7).then_some("NaN")),
+            Told(&["1 of 256 places (0.39062 %) have no measurement"]),
+        ),
+        ("infinity", "a.txt", with(&|i, j| (i == 4 && j == 7).then_some("inf")), Refused(&["inf at [4, 7]"])),
         (
             "BAD",
             "a.txt",

@@ -193,3 +193,48 @@ fn the_border_of_a_window_carries_nothing_and_load_on_tapered_heights_is_told() 
     let plain = desk.percoat(&["solve", "waves.toml", "-o", "plain", "--no-pictures", "--set", set]);
     assert!(!plain.err.contains("surface.window: up to"), "{}", plain.err);
 }
+
+/// What is done to a measured ball with noise and a hole stands in the check with its rms values, and in its JSON of Python too.
+#[test]
+fn check_says_what_was_done_to_the_heights_of_a_file() {
+    let desk = Desk::new();
+    // splitmix64, between −½ and ½.
+    let noise = |i: usize, j: usize| {
+        let state = ((64 * i + j + 1) as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (mixed ^ (mixed >> 31)) as f64 / u64::MAX as f64 - 0.5
+    };
+    let height = |i: usize, j: usize| {
+        let (x, y) = (i as f64 - 31.5, j as f64 - 31.5);
+        if (i, j) == (20, 30) { f64::NAN } else { (4e6 - x * x - y * y).sqrt() - 2000.0 + 0.01 * noise(i, j) }
+    };
+    let text: String =
+        (0..64).map(|i| (0..64).map(|j| format!("{:.6}", height(i, j))).collect::<Vec<_>>().join(" ") + "\n").collect();
+    desk.write("ball.txt", text);
+    let case = |more: &str| {
+        format!(
+            "[units]\nlength = \"µm\"\n[surface]\nheights = \"ball.txt\"\npixel = 1\n{more}\n[substrate]\nyoung = 1\npoisson = 0.3\n[load]\n\
+             mean_pressure = 1e-3\n"
+        )
+    };
+    desk.write("case.toml", case("form = \"sphere\"\nwindow = true"));
+    let answer = desk.percoat(&["check", "case.toml"]);
+    let out = answer.out.replace('\u{a0}', " ");
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    assert!(
+        out.contains("heights of the file, rms height and rms slope of neighbours:\n  as read: 0.1")
+            && out.contains("  without its sphere of radius "),
+        "{out}"
+    );
+    assert!(out.contains("  0.024414 % of the places filled: "), "{out}");
+    assert!(
+        answer.err.contains("1 of 4096 places") && answer.err.contains("look like noise of the instrument"),
+        "{}",
+        answer.err
+    );
+    desk.write("case.toml", case("form = \"sphere\"\ncutoff = 8\nwindow = true"));
+    let answer = desk.percoat(&["check", "case.toml"]);
+    assert!(answer.out.contains("  without waves below 8.0000\u{a0}µm, up to its border: "), "{}", answer.out);
+    assert!(!answer.err.contains("noise"), "{}", answer.err);
+}

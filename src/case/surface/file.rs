@@ -1,15 +1,15 @@
-//! `[surface]` from a file: its heights in the unit of the case, made periodic.
+//! `[surface]` from a file: its heights in the unit of the case.
 
 use std::path::{Path, PathBuf};
 
 use super::super::error::Refusal;
 use super::super::reader::TableAt;
-use super::super::source::Source;
+use super::super::source::{PhysicalSizes, Source};
 use super::super::value::ValueAt;
 use super::section::{SurfaceSection, Taper};
-use crate::counterbody::roughness::{MAX_BORDER_JUMP, RunOut, Window, border_jumps, levelled, tapered};
+use crate::counterbody::roughness::{MAX_BORDER_JUMP, SurfaceForm, Window, border_jumps};
 use crate::heights::unit::{self, KNOWN};
-use crate::heights::{FORMATS, Fault, Heights, HeightsFormat, HeightsUnit, Length, Stored};
+use crate::heights::{FORMATS, Fault, Heights, HeightsFormat, HeightsUnit, Length, Stored, WantedChannel};
 use crate::notation::number;
 use crate::numeric::array::field;
 use ndarray::Array2;
@@ -25,8 +25,10 @@ pub(super) struct Treatment {
     pub own_scale: Option<f64>,
     /// Unit of the section, or of the file.
     pub name: Option<String>,
-    /// Whether the mean plane is subtracted.
-    pub level: bool,
+    /// Form that is subtracted.
+    pub form: SurfaceForm,
+    /// Cut-off of short waves, a length, if any.
+    pub cutoff: Option<f64>,
     /// Taper, if any.
     pub window: Option<Window>,
 }
@@ -34,10 +36,8 @@ pub(super) struct Treatment {
 /// A surface from a file.
 #[derive(Debug)]
 pub(super) struct FromFile {
-    /// Heights, lengths of the case, axis 0 along a₁, axis 1 along a₂.
+    /// Heights, lengths of the case, axis 0 along a₁, axis 1 along a₂; NaN where there is no measurement.
     pub heights: Array2<f64>,
-    /// Taper of its border, if any.
-    pub run_out: Option<RunOut>,
     /// Its own period along a₁ and a₂, lengths of the case; none where the file has none.
     pub period: Option<[f64; 2]>,
     /// Conversion of its heights.
@@ -57,7 +57,8 @@ impl Treatment {
             unit,
             own_scale: own.scale,
             name: own.unit.clone(),
-            level: own.level.unwrap_or(false),
+            form: own.form.unwrap_or(if own.level == Some(true) { SurfaceForm::Plane } else { SurfaceForm::None }),
+            cutoff: own.cutoff,
             window: own.window.and_then(|Taper(window)| window),
         })
     }
@@ -121,10 +122,11 @@ fn unit_of(value: &ValueAt<'_>, length: Option<&str>) -> Result<f64, Refusal> {
     })
 }
 
-/// Reads the file of `source` with the name `written`; `length` is the unit of the case, if any.
+/// Reads the `wanted` channel of the file of `source` with the name `written`; `length` is the unit of the case, if any.
 pub(super) fn read(
     source: &Source,
     written: &ValueAt<'_>,
+    wanted: Option<&WantedChannel>,
     treatment: Treatment,
     length: Option<&str>,
 ) -> Result<FromFile, Refusal> {
@@ -132,21 +134,12 @@ pub(super) fn read(
     let path = source.path(name).unwrap_or_else(|| PathBuf::from(name));
     let refuse = |fault: Fault| refused(written, &path, fault);
     let Stored { heights: Heights { points, mut values }, sides, unit, lines_along_a1, doubts } =
-        stored(source, &path, written, "one period of heights")?.map_err(refuse)?;
+        stored(source, &path, written, wanted, "one period of heights")?.map_err(refuse)?;
     let treatment = treatment.of_file(unit.as_ref(), length).map_err(refuse)?;
     values.iter_mut().for_each(|height| *height *= treatment.scale);
     let Heights { values, .. } = Heights::new(points, values).map_err(refuse)?;
-    let heights = field(points, values);
-    let (heights, run_out) = match treatment {
-        Treatment { window: Some(window), level, .. } => {
-            let (heights, run_out) = tapered(heights, window, level);
-            (heights, Some(run_out))
-        }
-        Treatment { level: true, .. } => (levelled(heights), None),
-        _ => (heights, None),
-    };
     let period = sides.and_then(|sides| treatment.sides(sides, length));
-    Ok(FromFile { heights, run_out, period, treatment, lines_along_a1, doubts })
+    Ok(FromFile { heights: field(points, values), period, treatment, lines_along_a1, doubts })
 }
 
 /// The refusal of the file at a path for its fault.
@@ -156,17 +149,22 @@ pub(in crate::case) fn refused(written: &ValueAt<'_>, path: &Path, fault: Fault)
     fault.help.into_iter().fold(refusal, Refusal::help)
 }
 
-/// The numbers in a file of heights, or of what is `needed` in their place; a refusal where there is no such file, or its format is
-/// not known.
+/// The numbers in the `wanted` channel of a file of heights, or of what is `needed` in their place; a refusal where there is no such
+/// file, or its format is not known.
 pub(in crate::case) fn stored(
     source: &Source,
     path: &Path,
     written: &ValueAt<'_>,
+    wanted: Option<&WantedChannel>,
     needed: &str,
 ) -> Result<Result<Stored, Fault>, Refusal> {
     let shown = path.display();
     if let Some(array) = source.arrays.get(written.text()?) {
-        return Ok(Stored::of(array));
+        let sized = |stored: Stored| match source.sizes.get(written.text().unwrap_or_default()) {
+            Some(PhysicalSizes { sides, unit }) => stored.sized(*sides, unit.as_deref()),
+            None => Ok(stored),
+        };
+        return Ok(Stored::of(array, wanted).and_then(sized));
     }
     let format = HeightsFormat::of(path);
     if format.is_none() && !source.is_pipe(written.text()?) {
@@ -179,7 +177,7 @@ pub(in crate::case) fn stored(
             "needed: {needed}, float64 in a `.npy` file for example; a path is relative to the case file"
         ))
     })?;
-    Ok(Stored::read(reader, bytes, format))
+    Ok(Stored::read(reader, bytes, format, wanted))
 }
 
 /// A warning where the surface jumps between two periods.
@@ -188,13 +186,11 @@ pub(super) fn not_periodic(heights: &Array2<f64>, treatment: &Treatment) -> Opti
     let (axis, jump) = if jumps[0] >= jumps[1] { ("a₁", jumps[0]) } else { ("a₂", jumps[1]) };
     let advice = match treatment {
         Treatment { window: Some(_), .. } => "the window is too narrow for it",
-        Treatment { level: false, .. } => {
+        Treatment { form: SurfaceForm::None, .. } => {
             "it is pressed as if it were periodic; surface.level = true takes its plane away, surface.window = true tapers \
              its border"
         }
-        Treatment { level: true, .. } => {
-            "it is pressed as if it were periodic; surface.window = true tapers its border"
-        }
+        _ => "it is pressed as if it were periodic; surface.window = true tapers its border",
     };
     (jump > MAX_BORDER_JUMP).then(|| {
         format!(

@@ -1,11 +1,14 @@
 //! `[surface]`: one period of any topography, from a file or a seed.
 //!
-//! `file` converts heights of any format ([`crate::heights`]) to the unit of the case, `random` has the keys of a generated surface.
+//! `file` converts heights of any format ([`crate::heights`]) to the unit of the case, `preparation` frees them of their form, of holes and
+//! short waves and tapers them, `random` has the keys of a generated surface.
 //! [`ORIENTATION`] draws the directions of the indices.
 
 mod file;
+mod preparation;
 mod random;
 mod section;
+mod stage;
 
 use super::error::Refusal;
 use super::grid;
@@ -14,7 +17,7 @@ use super::reader::TableAt;
 use super::source::Source;
 use super::value::ValueAt;
 use crate::counterbody::Topography;
-use crate::counterbody::roughness::Spectrum;
+use crate::counterbody::roughness::{Spectrum, SurfaceForm};
 use crate::heights::fits;
 use crate::lattice::Cell;
 use crate::notation::number;
@@ -22,9 +25,12 @@ use crate::run::Sampling;
 use crate::units::CARRIED;
 use file::{FromFile, Treatment};
 use ndarray::Array2;
+use preparation::{Prepared, prepared};
 
+pub use crate::heights::WantedChannel;
 pub use random::RandomSection;
 pub use section::{Sides, SurfaceSection, Taper};
+pub use stage::{Stage, Treated};
 
 pub(super) use file::{refused, stored};
 pub(super) use section::SURFACE;
@@ -73,10 +79,12 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     let own_section = SurfaceSection::read_table(section)?;
     let length = around.length.as_deref();
     let treatment = Treatment::of(&own_section, section, length)?;
-    let FromFile { heights: stored, run_out, period: own, treatment, lines_along_a1, doubts } =
-        file::read(around.source, heights, treatment, length)?;
+    let FromFile { heights: stored, period: own, treatment, lines_along_a1, doubts } =
+        file::read(around.source, heights, own_section.channel.as_ref(), treatment, length)?;
     let points: [usize; 2] = stored.dim().into();
     let (lattice, cell) = cell(&own_section, section, around, points, own)?;
+    let Prepared { heights: stored, run_out, stages, doubts: of_preparation } =
+        prepared(section, heights, cell, stored, &treatment)?;
     let across = across(points, cell);
     let jump = if cell.is_isolated() { None } else { file::not_periodic(&stored, &treatment) };
     let sampling = grid::read(&around.grid, Some(points))?;
@@ -89,24 +97,35 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     let path = around.source.path(name).map_or(name.to_owned(), |path| path.to_string_lossy().into_owned());
     let topography = topography(section, own_section.radius, cell, on_grid)?;
     let topography = run_out.into_iter().fold(topography, Topography::with_run_out);
-    let Treatment { own_scale, name: unit, level, window, .. } = treatment;
+    let Treatment { own_scale, name: unit, form, cutoff, window, .. } = treatment;
     Ok(Read {
         section: SurfaceSection {
             heights: Some(path),
+            channel: own_section.channel,
             scale: Some(own_scale.unwrap_or(1.0)),
             unit,
             period: None,
             pixel: None,
-            level: Some(level),
+            level: Some(form == SurfaceForm::Plane),
+            form: Some(form),
+            cutoff,
             window: window.map(|window| Taper(Some(window))),
             radius: own_section.radius,
             random: None,
             lines_along_a1,
+            stages,
         },
         lattice,
         topography,
         sampling,
-        doubts: doubts.into_iter().chain(jump).chain(across).chain(lost).chain(squeezed).collect(),
+        doubts: doubts
+            .into_iter()
+            .chain(of_preparation)
+            .chain(jump)
+            .chain(across)
+            .chain(lost)
+            .chain(squeezed)
+            .collect(),
     })
 }
 
@@ -140,7 +159,10 @@ fn squeezed(own: [f64; 2], cell: Cell) -> Option<String> {
 }
 
 fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
-    if let Some(value) = ["scale", "unit", "pixel", "level", "window"].iter().find_map(|key| section.optional(key)) {
+    if let Some(value) = ["channel", "scale", "unit", "pixel", "level", "form", "cutoff", "window"]
+        .iter()
+        .find_map(|key| section.optional(key))
+    {
         let message = format!("`{}` has no place beside `surface.random`: it belongs to a file's heights", value.path);
         return Err(Refusal::new(value.node.span, message, "not used here").help("remove it"));
     }

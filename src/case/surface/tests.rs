@@ -205,8 +205,10 @@ fn files_of_other_contents_are_refused_with_what_they_hold() {
     assert!(fault().contains("shape (4)"), "{}", fault());
     write(folder.path(), &[1, 4], Order::C, &[0.0; 4]);
     assert!(fault().contains("shape (1, 4)"), "{}", fault());
-    write(folder.path(), &[2, 2], Order::C, &[0.0, 1.0, f64::NAN, 3.0]);
-    assert!(fault().contains("holds nan at [1, 0]"), "{}", fault());
+    write(folder.path(), &[2, 2], Order::C, &[0.0, 1.0, f64::INFINITY, 3.0]);
+    assert!(fault().contains("holds inf at [1, 0]"), "{}", fault());
+    write(folder.path(), &[2, 2], Order::C, &[f64::NAN; 4]);
+    assert!(fault().contains("no measurement at any place"), "{}", fault());
     write(folder.path(), &[20, 20], Order::C, &[0.0; 400]);
     let whole = std::fs::read(folder.path().join("surface.npy")).unwrap();
     std::fs::write(folder.path().join("surface.npy"), &whole[..whole.len() - 9]).unwrap();

@@ -1,4 +1,4 @@
-//! Rough surfaces: made periodic, resampled, measured and generated.
+//! Rough surfaces: freed of their form, of holes and of short waves, made periodic, resampled, measured and generated.
 //!
 //! Heights h are given at N₁ × N₂ samples of a cell, axis 0 along **a**₁, axis 1 along **a**₂. Between the samples the surface is
 //! the sum of the shortest waves through them, h(**x**) = h̄ + Σ ĥ_**q** e^{i**q**·**x**} over the first Brillouin zone of the
@@ -7,8 +7,14 @@
 mod apex;
 mod band;
 mod border;
+mod form;
+mod gaussian;
+mod holes;
 mod jet;
+mod noise;
 mod plane;
+mod polynomial;
+mod round;
 mod self_affine;
 mod spectrum;
 mod statistics;
@@ -16,8 +22,11 @@ mod window;
 
 pub(crate) use apex::apex;
 pub use border::{MAX_BORDER_JUMP, border_jumps};
-pub use plane::levelled;
+pub use form::{FormError, SurfaceForm, without_form};
+pub use gaussian::smoothed;
+pub use holes::filled;
+pub use noise::{Noise, short_wave_noise};
 pub use self_affine::{Rms, SelfAffine, SelfAffineError};
 pub use spectrum::{Radial, Spectrum};
-pub use statistics::Statistics;
+pub use statistics::{MeasuredRms, Statistics};
 pub use window::{RunOut, Window, tapered};

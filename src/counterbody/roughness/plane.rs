@@ -1,9 +1,9 @@
-//! The mean plane of a surface, by weighted least squares.
+//! The mean plane of a surface under a window, by weighted least squares.
 //!
 //! Σ w₁(i) w₂(j) (h_ij − c − c₁ s_i − c₂ t_j)² is least, s and t measured from the middle over the length. With weights that are
 //! even about the middle 1, s and t are orthogonal: c = Σwh/Σw, c₁ = Σwsh/Σws², c₂ = Σwth/Σwt².
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::ArrayView2;
 
 /// Mean plane of the heights at some samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,39 +49,5 @@ impl MeanPlane {
     pub fn at(&self, [i, j]: [usize; 2]) -> f64 {
         let [n1, n2] = self.points;
         self.mean + self.slopes[0] * place(i, n1) + self.slopes[1] * place(j, n2)
-    }
-}
-
-/// Heights minus their mean plane, lengths.
-pub fn levelled(mut heights: Array2<f64>) -> Array2<f64> {
-    let (n1, n2) = heights.dim();
-    let plane = MeanPlane::fit(heights.view(), &[vec![1.0; n1], vec![1.0; n2]]);
-    for ((i, j), height) in heights.indexed_iter_mut() {
-        *height -= plane.at([i, j]);
-    }
-    heights
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::numeric::least_squares;
-
-    #[test]
-    fn the_plane_is_that_of_the_normal_equations() {
-        let height = |i: usize, j: usize| 2.0 + 0.3 * i as f64 - 0.7 * j as f64 + ((i * i + 3 * j) % 7) as f64;
-        let heights = Array2::from_shape_fn((9, 6), |(i, j)| height(i, j));
-        let rows = (0..54).map(|k| (vec![1.0, (k / 6) as f64, (k % 6) as f64], height(k / 6, k % 6)));
-        let c = least_squares::fit(3, rows).unwrap();
-        for ((i, j), rest) in levelled(heights).indexed_iter() {
-            let expected = height(i, j) - c[0] - c[1] * i as f64 - c[2] * j as f64;
-            assert!((rest - expected).abs() < 1e-12);
-        }
-    }
-
-    #[test]
-    fn a_plane_is_flat_afterwards() {
-        let plane = Array2::from_shape_fn((5, 8), |(i, j)| 3.0 + 0.1 * i as f64 - 2.0 * j as f64);
-        assert!(levelled(plane).iter().all(|height| height.abs() < 1e-14));
     }
 }

@@ -128,7 +128,7 @@ impl Spectrum {
     }
 
     /// Wavenumber, Σ |ĥ|² over the waves of the component and its conjugate, and their number, for every component but the mean.
-    fn squares(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+    pub(super) fn squares(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
         let [_, n2] = self.grid.points();
         self.components.indexed_iter().skip(1).map(move |((k1, k2), value)| {
             let own = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { 2.0 };

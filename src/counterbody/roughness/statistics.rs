@@ -2,9 +2,11 @@
 //!
 //! m_n = ⟨(h − h̄)ⁿ⟩; h_rms = √m₂, skewness m₃/m₂^{3/2}, kurtosis m₄/m₂²: 0 and 3 for heights of a Gaussian distribution.
 
+use crate::lattice::Cell;
 use crate::numeric::sums;
 use ndarray::ArrayView2;
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// Mean, rms value, range, skewness and kurtosis of heights.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -45,10 +47,56 @@ impl Statistics {
     }
 }
 
+/// Rms height and slope of a surface over the samples with a measurement.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MeasuredRms {
+    /// Rms height: root mean square of the heights from their mean, a length.
+    pub height: f64,
+    /// Rms slope √⟨|∇h|²⟩ by the differences of neighbours, where both are measured; waves of few samples count less than in a spectrum.
+    pub slope: f64,
+}
+
+impl MeasuredRms {
+    /// Rms values of heights on a cell, lengths; NaN where there is no measurement.
+    pub fn of(cell: Cell, heights: ArrayView2<'_, f64>) -> Self {
+        let (n1, n2) = heights.dim();
+        let measured = || heights.iter().filter(|height| !height.is_nan());
+        let (sum, count) = measured().fold((0.0, 0.0), |(sum, count), height| (sum + height, count + 1.0));
+        let mean: f64 = sum / count;
+        let square = measured().map(|height| (height - mean).powi(2)).sum::<f64>() / count;
+        let reciprocal = cell.reciprocal().map(|b| b.map(|c| c / TAU));
+        let mut slopes = (0.0, 0.0);
+        for (i, j) in (1..n1).flat_map(|i| (1..n2).map(move |j| (i, j))) {
+            // Derivatives by the fractions of a₁ and a₂.
+            let rise = [
+                (heights[[i, j]] - heights[[i - 1, j]]) * n1 as f64,
+                (heights[[i, j]] - heights[[i, j - 1]]) * n2 as f64,
+            ];
+            let [x, y] = [0, 1].map(|c| rise[0] * reciprocal[0][c] + rise[1] * reciprocal[1][c]);
+            if !x.is_nan() && !y.is_nan() {
+                slopes = (slopes.0 + x * x + y * y, slopes.1 + 1.0);
+            }
+        }
+        Self { height: square.sqrt(), slope: (slopes.0 / f64::max(slopes.1, 1.0)).sqrt() }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ndarray::arr2;
+    use ndarray::{Array2, arr2};
+
+    #[test]
+    fn rms_values_of_what_is_measured_are_those_of_a_plane() {
+        let cell = Cell::new([3.0, 0.0], [1.0, 2.0]).unwrap();
+        let plane = Array2::from_shape_fn((6, 8), |(i, j)| {
+            let [x, y] = cell.vector([i as f64 / 6.0, j as f64 / 8.0]);
+            if (i, j) == (2, 2) { f64::NAN } else { 0.3 * x - 0.4 * y }
+        });
+        assert!((MeasuredRms::of(cell, plane.view()).slope - 0.5).abs() < 1e-14);
+        let two = arr2(&[[1.0, f64::NAN], [f64::NAN, 3.0]]);
+        assert_eq!(MeasuredRms::of(cell, two.view()), MeasuredRms { height: 1.0, slope: 0.0 });
+    }
 
     #[test]
     fn moments_are_those_of_two_heights_and_of_none() {

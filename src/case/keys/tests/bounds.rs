@@ -83,7 +83,7 @@ fn probes(form: &Form) -> Vec<Probe> {
             let known = words.iter().map(|word| probe(format!("\"{word}\""), true));
             known.chain([probe("\"otherwise\"", false), probe("3.5", false)]).collect()
         }
-        Form::Text(_) => vec![probe("7", false), probe("{ a = 1 }", false)],
+        Form::Text(_) => vec![probe("7.5", false), probe("{ a = 1 }", false)],
         Form::Name(_, most) => vec![
             probe(format!("\"{}\"", "µ".repeat(*most)), true),
             probe(format!("\"{}\"", "µ".repeat(most + 1)), false),

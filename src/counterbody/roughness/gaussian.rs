@@ -1,0 +1,115 @@
+//! The Gaussian filter of short waves, with the cut-off λ_s (ISO 16610-21, -61).
+//!
+//! h̃(**x**) = ∫ s(**x** − **x**′) h(**x**′) d²x′ with the weight s = exp(−π|**x**|²/(αλ_s)²)/(αλ_s)², α = √(ln 2/π); a wave of length λ is
+//! transmitted with the factor
+//!
+//! ŝ(λ) = exp(−π(αλ_s/λ)²) = 2^{−(λ_s/λ)²}, one half at λ = λ_s.
+//!
+//! A periodic surface goes on beyond its border. One that is not has nothing there: h̃ = (s ∗ h)/(s ∗ 1), both over the samples of the surface,
+//! so that a constant height stays constant up to the border. Both convolutions are products with ŝ on a cell that is longer by the
+//! reach of the weight.
+
+use crate::lattice::{Cell, Grid, LatticeError};
+use crate::numeric::fourier::field;
+use ndarray::{Array2, ArrayView2};
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// Distance at which the weight is below 1e-16 of that in the middle, over the cut-off: α √(ln 1e16/π).
+const REACH: f64 = 1.61;
+
+/// Heights without the waves shorter than about the `cutoff`, lengths, on a cell of which they are a period if `is_periodic`.
+///
+/// # Errors
+/// [`LatticeError`] without samples.
+pub fn smoothed(
+    cell: Cell,
+    heights: ArrayView2<'_, f64>,
+    cutoff: f64,
+    is_periodic: bool,
+) -> Result<Array2<f64>, LatticeError> {
+    if is_periodic {
+        return transmitted(cell, heights, cutoff);
+    }
+    let [n1, n2]: [usize; 2] = heights.dim().into();
+    let [a1, a2] = cell.vectors();
+    // Distances of the lines of samples, in whose direction the weight has to end.
+    let [l1, l2] = [a1, a2].map(|[x, y]| x.hypot(y));
+    let spacings = [cell.area() / (l2 * n1 as f64), cell.area() / (l1 * n2 as f64)];
+    let longer = [0, 1].map(|axis| [n1, n2][axis] + (REACH * cutoff / spacings[axis]).ceil() as usize);
+    let stretched = |a: [f64; 2], axis: usize| a.map(|c| c * longer[axis] as f64 / [n1, n2][axis] as f64);
+    let wider = Cell::new(stretched(a1, 0), stretched(a2, 1))?;
+    let mean = heights.mean().unwrap_or(0.0);
+    let extended = |value: &dyn Fn([usize; 2]) -> f64| {
+        Array2::from_shape_fn(longer, |(i, j)| if i < n1 && j < n2 { value([i, j]) } else { 0.0 })
+    };
+    let weighted = transmitted(wider, extended(&|at| heights[at] - mean).view(), cutoff)?;
+    let weights = transmitted(wider, extended(&|_| 1.0).view(), cutoff)?;
+    Ok(Array2::from_shape_fn([n1, n2], |at| mean + weighted[at] / weights[at]))
+}
+
+/// A period of a surface times ŝ.
+fn transmitted(cell: Cell, heights: ArrayView2<'_, f64>, cutoff: f64) -> Result<Array2<f64>, LatticeError> {
+    let grid = Grid::new(cell, heights.dim().into())?;
+    let [_, n2] = grid.points();
+    let mut components = field::components(heights);
+    let half = components.ncols();
+    let rows = components.as_slice_mut().expect("made row by row").par_chunks_mut(half).enumerate();
+    rows.for_each(|(k1, row)| {
+        for (k2, value) in row.iter_mut().enumerate() {
+            let ratio = cutoff * grid.wavenumber([k1, k2]) / TAU;
+            *value *= f64::exp2(-ratio * ratio);
+        }
+    });
+    Ok(field::field(components, n2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{LN_2, PI};
+
+    fn largest(a: &Array2<f64>, b: &Array2<f64>) -> f64 {
+        a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()))
+    }
+
+    #[test]
+    fn a_wave_as_long_as_the_cutoff_is_halved_in_any_direction() {
+        let cell = Cell::new([2.0, 0.0], [0.6, 1.5]).unwrap();
+        for wave in [[3.0, 0.0], [0.0, 2.0], [2.0, -3.0]] {
+            let surface = Array2::from_shape_fn((32, 24), |(i, j)| {
+                5.0 + (TAU * (wave[0] * i as f64 / 32.0 + wave[1] * j as f64 / 24.0) + 0.3).cos()
+            });
+            let [b1, b2] = cell.reciprocal();
+            let [x, y] = [0, 1].map(|c| wave[0] * b1[c] + wave[1] * b2[c]);
+            for (cutoff, factor) in [(1.0, 0.5), (2.0, 0.0625), (0.5, 0.5f64.powf(0.25))] {
+                let found = smoothed(cell, surface.view(), cutoff * TAU / x.hypot(y), true).unwrap();
+                let expected = surface.mapv(|height| 5.0 + factor * (height - 5.0));
+                assert!(largest(&found, &expected) < 1e-13, "{wave:?} {cutoff}");
+            }
+        }
+    }
+
+    /// The sums of ISO 16610 over the samples that are there, one by one. The sampled weight has ŝ of the shortest wave, 2d, twice, by its
+    /// alias: 2^{−(λ_s/2d)²}, 1e-13 of thirteen samples a cut-off.
+    #[test]
+    fn a_surface_with_borders_is_the_sum_over_its_samples() {
+        for cell in [Cell::window([3.0, 2.0]).unwrap(), Cell::new([3.0, 0.0], [0.8, 2.0]).unwrap()] {
+            let (points, cutoff) = ([30, 25], 1.3);
+            let surface =
+                Array2::from_shape_fn(points, |(i, j)| 7.0 + 0.1 * i as f64 + ((3 * i + 5 * j * j) % 7) as f64);
+            let found = smoothed(cell, surface.view(), cutoff, false).unwrap();
+            let weight = |[x, y]: [f64; 2]| (-PI * (x * x + y * y) / (LN_2 / PI * cutoff * cutoff)).exp();
+            let expected = Array2::from_shape_fn(points, |(i, j)| {
+                let (sum, weights) = surface.indexed_iter().fold((0.0, 0.0), |(sum, weights), ((k, l), height)| {
+                    let own = weight(cell.vector([(k as f64 - i as f64) / 30.0, (l as f64 - j as f64) / 25.0]));
+                    (sum + own * height, weights + own)
+                });
+                sum / weights
+            });
+            assert!(largest(&found, &expected) < 1e-11, "{cell}: {:e}", largest(&found, &expected));
+            let flat = smoothed(cell, Array2::from_elem(points, 3.0).view(), cutoff, false).unwrap();
+            assert!(flat.iter().all(|height| (height - 3.0).abs() < 1e-14));
+        }
+    }
+}

@@ -1,0 +1,337 @@
+//! Surfaces from instruments' files: those that the libraries of others wrote (`tests/surfaces`), and broken ones.
+
+#![cfg(feature = "cli")]
+
+use miniz_oxide::deflate::compress_to_vec;
+use percoat::case::{Case, Source, Treated, plausibility};
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+const POINTS: [usize; 2] = [24, 15];
+const HOLES: [[usize; 2]; 4] = [[3, 2], [3, 3], [17, 11], [0, 14]];
+const REST: &str = "[units]\nlength = \"nm\"\n[substrate]\nyoung = 1\npoisson = 0.3\n[load]\nmean_pressure = 1e-3\n";
+
+/// Height of `tests/surfaces/make.py`, nm; y upward.
+fn height(i: usize, j: usize) -> f64 {
+    20.0 * i as f64 - 35.0 * j as f64 + ((7 * i + 11 * j * j) % 13 * 8) as f64
+}
+
+fn stored(name: &str) -> Vec<u8> {
+    fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/surfaces").join(name)).unwrap()
+}
+
+/// A case on a file of this name and content, with further lines of `[surface]`.
+fn read(name: &str, content: Vec<u8>, surface: &str) -> Result<Case, String> {
+    let text = format!("[surface]\nheights = \"{name}\"\n{surface}\n{REST}");
+    let files = [(name.to_owned(), Arc::from(content))].into();
+    let source = Source { name: "case".to_owned(), text, files, ..Source::default() };
+    let case = Case::read(&source, &[]).map_err(|error| error.to_string())?;
+    let again = Source { text: case.to_toml(), ..source };
+    assert_eq!(Case::read(&again, &[]).as_ref(), Ok(&case), "{}", case.to_toml());
+    Ok(case)
+}
+
+/// Largest difference of the heights of a case from the formula times `factor`, nm, but at the holes; both from the first sample on.
+fn error(case: &Case, factor: f64) -> f64 {
+    let heights = case.counterbody().topography().unwrap().heights();
+    assert_eq!(heights.dim(), (POINTS[0], POINTS[1]));
+    let expected = |i: usize, j: usize| factor * (height(i, j) - height(0, 0));
+    let differences = heights.indexed_iter().filter(|((i, j), _)| !HOLES.contains(&[*i, *j]));
+    differences.fold(0.0, |most, ((i, j), own)| f64::max(most, (own - heights[[0, 0]] - expected(i, j)).abs()))
+}
+
+fn doubts(case: &Case) -> String {
+    plausibility::of_case(case).join("\n")
+}
+
+/// Errors: of doubles some units in the last place of 500 nm; of a text its ten digits; of points of 32 bits that of the spacing, a
+/// number of single precision; of single precision half a unit in its last place.
+const FILES: [(&str, &str, f64, usize); 13] = [
+    ("one_height.gwy", "", 1e-12, 4),
+    ("two_heights.gwy", "channel = \"Height\"", 1e-12, 4),
+    ("two_heights.gwy", "channel = 2", 1e-12, 4),
+    ("doubles.x3p", "", 1e-12, 4),
+    ("shorts.x3p", "", 1e-12, 4),
+    ("layers.x3p", "channel = 1", 1e-12, 4),
+    ("other.x3p", "", 1e-4, 0),
+    ("binary.sdf", "", 1e-11, 4),
+    ("text.sdf", "", 1e-8, 4),
+    ("plain.sur", "", 1e-4, 4),
+    ("compressed.sur", "", 1e-4, 4),
+    ("hyperspy.sur", "", 1e-4, 4),
+    ("grid.asc", "unit = \"µm\"", 1e-11, 4),
+];
+
+#[test]
+fn the_files_of_other_libraries_are_the_surface_that_they_were_made_of() {
+    for (name, surface, tolerance, holes) in FILES {
+        let case = read(name, stored(name), surface).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!(error(&case, 1.0) < tolerance, "{name}: {:e}", error(&case, 1.0));
+        let [[x, _], [_, y]] = case.counterbody().cell().vectors();
+        // A spacing of single precision in .sur.
+        assert!((x / 12e3 - 1.0).abs() < 1e-7 && (y / 12e3 - 1.0).abs() < 1e-7, "{name}: {x} × {y}");
+        let told = format!("{holes} of 360 places (1.1111 %) have no measurement");
+        assert_eq!(doubts(&case).contains(&told), holes > 0, "{name}: {}", doubts(&case));
+        let section = case.surface.as_ref().unwrap();
+        assert_eq!(section.stages.iter().any(|stage| matches!(stage.treated, Treated::Filled { .. })), holes > 0);
+        // What is filled lies between the heights of its surroundings.
+        let heights = case.counterbody().topography().unwrap().heights();
+        let level =
+            |[i, j]: [usize; 2]| heights[[i, j]] - heights[[0, 0]] + height(0, 0) - 20.0 * i as f64 + 35.0 * j as f64;
+        assert!(HOLES.iter().all(|at| (-1.0..=97.0).contains(&level(*at))), "{name}");
+    }
+    let compressed = "hyperspy_compressed.sur";
+    assert!(error(&read(compressed, stored(compressed), "").unwrap(), 1.0) < 1e-4);
+}
+
+#[test]
+fn channels_are_named_and_heights_turned_over_by_their_scale() {
+    let of = |name: &str, surface: &str| read(name, stored(name), surface);
+    assert!(error(&of("two_heights.gwy", "channel = \"Height, backward\"").unwrap(), -1.0) < 1e-12);
+    assert!(error(&of("layers.x3p", "channel = \"layer 2\"").unwrap(), -1.0) < 1e-12);
+    assert!(error(&of("one_height.gwy", "unit = \"m\"\nscale = -2").unwrap(), -2.0) < 1e-11);
+    // Degrees are no heights without a factor.
+    assert!(of("one_height.gwy", "channel = 1").unwrap_err().contains("no unit of length"));
+    assert!(error(&of("one_height.gwy", "channel = 1\nscale = 1").unwrap(), 1.0) < 1e-11);
+    for (name, surface, words) in [
+        ("two_heights.gwy", "", "several channels of heights"),
+        ("two_heights.gwy", "", "1 \"Phase\", no length; 2 \"Height\" in m; 3 \"Height, backward\" in m"),
+        ("two_heights.gwy", "channel = \"height\"", "no channel of the name"),
+        ("two_heights.gwy", "channel = 4", "has no channel 4"),
+        ("layers.x3p", "", "1 \"layer 1\" in m; 2 \"layer 2\" in m"),
+        ("binary.sdf", "channel = 2", "has no channel 2"),
+        ("grid.asc", "channel = \"Height\"", "no channel of the name"),
+        ("doubles.x3p", "unit = \"µm\"", "says that its heights are in m"),
+        ("doubles.x3p", "channel = 0", "`surface.channel`"),
+    ] {
+        let told = of(name, surface).unwrap_err();
+        assert!(told.contains(words), "{name} {surface}: {told}");
+    }
+    assert!(of("grid.asc", "channel = 1\nunit = \"µm\"").is_ok());
+}
+
+/// The unit of the case is needed for files in metres, as for any file that names a unit.
+#[test]
+fn a_file_in_metres_needs_the_unit_of_the_case() {
+    let text = format!("[surface]\nheights = \"a.x3p\"\n{}", REST.replace("[units]\nlength = \"nm\"\n", ""));
+    let files = [("a.x3p".to_owned(), Arc::from(stored("doubles.x3p")))].into();
+    let source = Source { name: "case".to_owned(), text, files, ..Source::default() };
+    assert!(Case::read(&source, &[]).unwrap_err().to_string().contains("says that its heights are in m"));
+}
+
+#[test]
+fn truncated_files_are_refused_wherever_they_end() {
+    for (name, surface, ..) in FILES {
+        let whole = stored(name);
+        for end in (0..whole.len()).step_by(37) {
+            let Ok(case) = read(name, whole[..end].to_vec(), surface) else { continue };
+            // A text may end within its last number, or after it.
+            assert!(
+                name == "text.sdf" && end > whole.len() - 60 || name == "grid.asc" && end > whole.len() - 30,
+                "{name} to {end}"
+            );
+            assert_eq!(case.counterbody().topography().unwrap().points(), POINTS);
+        }
+    }
+}
+
+/// A byte is set to its complement, here and there: another surface or an error, never a panic.
+#[test]
+fn a_changed_byte_is_another_surface_or_an_error() {
+    for (name, surface, ..) in FILES {
+        let whole = stored(name);
+        // The heads are where the sizes stand.
+        for at in (0..whole.len().min(700)).step_by(3).chain((700..whole.len()).step_by(211)) {
+            let mut other = whole.clone();
+            other[at] = !other[at];
+            let _ = read(name, other, surface);
+        }
+    }
+}
+
+fn put(mut content: Vec<u8>, at: usize, bytes: &[u8]) -> Vec<u8> {
+    content[at..at + bytes.len()].copy_from_slice(bytes);
+    content
+}
+
+#[test]
+fn sizes_that_the_file_does_not_hold_are_refused() {
+    let sdf = |at: usize, bytes: &[u8]| read("a.sdf", put(stored("binary.sdf"), at, bytes), "");
+    let sur = |at: usize, bytes: &[u8]| read("a.sur", put(stored("plain.sur"), at, bytes), "");
+    let packed = |at: usize, bytes: &[u8]| read("a.sur", put(stored("compressed.sur"), at, bytes), "");
+    let gwy = |field: &[u8], bytes: &[u8]| {
+        let content = stored("one_height.gwy");
+        let starts = content.windows(field.len()).enumerate().filter(|(_, own)| *own == field).map(|(at, _)| at);
+        // Of the second channel, the one of heights.
+        let at = starts.skip(1).next().unwrap() + field.len();
+        read("a.gwy", put(content, at, bytes), "")
+    };
+    let asc = |from: &str, to: &str| {
+        let text = String::from_utf8(stored("grid.asc")).unwrap().replacen(from, to, 1);
+        read("a.asc", text.into_bytes(), "unit = \"µm\"")
+    };
+    let text = |from: &str, to: &str| {
+        let text = String::from_utf8(stored("text.sdf")).unwrap().replacen(from, to, 1);
+        read("a.sdf", text.into_bytes(), "")
+    };
+    for (told, words) in [
+        (sdf(42, &[0xff, 0x7f, 0xff, 0x7f]), "ends before the data"),
+        (sdf(42, &[0xff, 0xff]), "between 2 and 32768"),
+        (sdf(44, &[1, 0]), "a profile is no surface"),
+        (sdf(46, &(-1.0f64).to_le_bytes()), "a distance is negative"),
+        (sdf(62, &f64::NAN.to_le_bytes()), "no number other than 0"),
+        (sdf(78, &[1]), "is compressed"),
+        (sdf(79, &[9]), "of a type that the format does not have"),
+        (sur(108, &(-24i32).to_le_bytes()), "between 2 and 32768"),
+        (sur(108, &i32::MAX.to_le_bytes()), "ends before the data"),
+        (sur(98, &[8]), "neither 16 nor 32 bits"),
+        (sur(120, &f32::NAN.to_le_bytes()), "no length greater than 0"),
+        (sur(14, &[9]), "ends before the data"),
+        (sur(12, &[1, 1]), "old Macintosh"),
+        (sur(18, &[12]), "holds a picture"),
+        (packed(108, &30_000i32.to_le_bytes()), "not as many as its header states"),
+        (packed(512, &u32::MAX.to_le_bytes()), "ends before the data"),
+        (packed(516, &u32::MAX.to_le_bytes()), "not as many as its header states"),
+        (packed(520, &u32::MAX.to_le_bytes()), "ends before the data"),
+        (gwy(b"xres\0i", &(-5i32).to_le_bytes()), "between 2 and 32768"),
+        (gwy(b"xres\0i", &30_000i32.to_le_bytes()), "an image of 30000 × 15 has 360 numbers"),
+        (gwy(b"data\0D", &u32::MAX.to_le_bytes()), "ends before the data"),
+        (gwy(b"xreal\0d", &0f64.to_le_bytes()), "no length greater than 0"),
+        (asc("ncols        24", "ncols 30000"), "ends before the data"),
+        (asc("ncols        24", "ncols -24"), "between 2 and 32768"),
+        (asc("nrows        15", "nrows 14"), "more heights than its header states"),
+        (asc("dx ", "dz "), "no CELLSIZE"),
+        (asc("-9999.0 ", "-9999.0 X"), "no number"),
+        (text("NumPoints = 24", "NumPoints = 32000"), "ends before the data"),
+        (text("NumProfiles", "Profiles"), "lacks a size"),
+        (text("BAD", "bed"), "no number"),
+    ] {
+        let told = told.map(|_| ()).unwrap_err();
+        assert!(told.contains(words), "{words}: {told}");
+    }
+}
+
+/// A zip of files, each with its content, and the sizes that are stated of it where they are not those that it has.
+fn zip(files: &[(&str, &[u8], Option<u32>)]) -> Vec<u8> {
+    let (mut content, mut directory) = (Vec::new(), Vec::new());
+    for (name, own, stated) in files {
+        let packed = compress_to_vec(own, 6);
+        let [short, long] =
+            [|n: usize| (n as u16).to_le_bytes().to_vec(), |n: usize| (n as u32).to_le_bytes().to_vec()];
+        let size = stated.map_or(own.len(), |size| size as usize);
+        // Version, flags, method 8, time and date; no checksum.
+        let common =
+            [vec![20, 0, 0, 0, 8, 0, 0, 0, 0, 0, 0, 0, 0, 0], long(packed.len()), long(size), short(name.len())]
+                .concat();
+        let start = content.len();
+        content.extend([&b"PK\x03\x04"[..], &common, &[0, 0], name.as_bytes(), &packed].concat());
+        let rest = [vec![0; 10], long(start)].concat();
+        directory.extend([&b"PK\x01\x02\x14\0"[..], &common, &[0, 0], &rest, name.as_bytes()].concat());
+    }
+    let (start, length, count) = (content.len() as u32, directory.len() as u32, files.len() as u16);
+    content.extend(directory);
+    content.extend([&b"PK\x05\x06\0\0\0\0"[..], &count.to_le_bytes(), &count.to_le_bytes()].concat());
+    content.extend([&length.to_le_bytes()[..], &start.to_le_bytes(), &[0, 0]].concat());
+    content
+}
+
+fn main_xml(size: [&str; 3], kind: &str) -> String {
+    let axis = |name: &str, of: &str| {
+        format!("<{name}><AxisType>{of}</AxisType><DataType>{kind}</DataType><Increment>1e-6</Increment></{name}>")
+    };
+    let axes = [axis("CX", "I"), axis("CY", "I"), axis("CZ", "A")].concat();
+    let [x, y, z] = size;
+    format!(
+        "<?xml version=\"1.0\"?><p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\"><Record1><Axes>{axes}</Axes></Record1>\
+         <Record3><MatrixDimension><SizeX>{x}</SizeX><SizeY>{y}</SizeY><SizeZ>{z}</SizeZ></MatrixDimension>\
+         <DataLink><PointDataLink>bindata/data.bin</PointDataLink></DataLink></Record3></p:ISO5436_2>"
+    )
+}
+
+#[test]
+fn zips_that_unpack_without_end_are_refused() {
+    let data: Vec<u8> = (0..12u8).flat_map(|k| i16::from(k).to_le_bytes()).collect();
+    let main = main_xml(["4", "3", "1"], "I");
+    let of = |main: &str, data: &[u8], stated: Option<u32>| {
+        read("a.x3p", zip(&[("main.xml", main.as_bytes(), None), ("bindata/data.bin", data, stated)]), "")
+    };
+    assert!(of(&main, &data, None).is_ok());
+    let zeros = vec![0; 64 << 20];
+    let blanks = format!("{main}{}", " ".repeat(8 << 20));
+    let nested = format!("{}{}", "<a>".repeat(100_000), "</a>".repeat(100_000));
+    let laughs = format!(
+        "<!DOCTYPE a [<!ENTITY b \"cccc\"><!ENTITY d \"&b;&b;\">]>{}",
+        main.trim_start_matches("<?xml version=\"1.0\"?>")
+    );
+    let huge = main_xml(["32768", "32768", "1"], "D");
+    for (told, words) in [
+        // Sixty-four mebibytes, stated and not.
+        (of(&main, &zeros, None), "at most 24 belong there"),
+        (of(&main, &zeros, Some(24)), "does not unpack to the size"),
+        (of(&main, &data, Some(u32::MAX)), "at most 24 belong there"),
+        (of(&main, &data[..20], None), "a file of its zip has 20 bytes"),
+        (of(&main, &data[..20], Some(24)), "a file of its zip has 20 bytes"),
+        (of(&huge, &data, None), "a file of its zip has 24 bytes"),
+        (of(&huge, &zeros, Some(u32::MAX)), "a file of its zip says"),
+        (of(&blanks, &data, None), "at most 1048576 belong there"),
+        (of(&nested, &data, None), "lacks an axis"),
+        (of(&laughs, &data, None), "no XML"),
+        (of("<a", &data, None), "no XML"),
+        (of(&main_xml(["4", "3", "1000000"], "I"), &data, None), "too many"),
+        (of(&main_xml(["4", "-3", "1"], "I"), &data, None), "between 2 and 32768"),
+        (of(&main_xml(["4", "1", "1"], "I"), &data, None), "a profile is no surface"),
+        (of(&main_xml(["4", "3", "1"], "X"), &data, None), "of a type"),
+        (of(&main.replacen(">I<", ">A<", 1), &data, None), "coordinates of their own"),
+        (of(&main.replace("1e-6", "0"), &data, None), "no length greater than 0"),
+        (read("a.x3p", zip(&[("main.xml", main.as_bytes(), None)]), ""), "is missing"),
+        (read("a.x3p", zip(&[("readme", b"a", None)]), ""), "without a main.xml"),
+        (read("a.x3p", b"PK\x03\x04".to_vec(), ""), "no whole zip"),
+        (read("a.gwy", stored("binary.sdf"), ""), "does not begin as a file of its format"),
+    ] {
+        let told = told.map(|_| ()).unwrap_err();
+        assert!(told.contains(words), "{words}: {told}");
+    }
+}
+
+#[test]
+fn form_holes_and_short_waves_are_treated_in_their_order() {
+    let of = |surface: &str| {
+        let case = read("doubles.x3p", stored("doubles.x3p"), surface).unwrap_or_else(|error| panic!("{error}"));
+        let stages = case.surface.as_ref().unwrap().stages.clone();
+        (case, stages)
+    };
+    let (case, stages) = of("form = \"second order\"\ncutoff = 2000\nwindow = true");
+    assert!(matches!(
+        stages.iter().map(|stage| stage.treated).collect::<Vec<_>>()[..],
+        [
+            Treated::AsRead,
+            Treated::WithoutForm { radius: None, .. },
+            Treated::Filled { .. },
+            Treated::Smoothed { is_periodic: false, .. }
+        ]
+    ));
+    let heights: Vec<f64> = stages.iter().map(|stage| stage.rms.height).collect();
+    assert!(heights[0] > 150.0 && heights[1] < 40.0 && heights[3] < 0.8 * heights[2], "{heights:?}");
+    assert!(stages[3].rms.slope < 0.5 * stages[2].rms.slope);
+    assert!(case.to_toml().contains("form = \"second order\"") && case.to_toml().contains("cutoff = 2000"));
+    let (_, stages) = of("form = \"plane\"\ncutoff = 2000");
+    assert!(matches!(stages[3].treated, Treated::Smoothed { is_periodic: true, .. }));
+    // Two names of one form.
+    let heights = |surface: &str| of(surface).0.counterbody().topography().unwrap().heights().to_owned();
+    assert_eq!(heights("level = true"), heights("form = \"plane\""));
+    let refused = |surface: &str| read("doubles.x3p", stored("doubles.x3p"), surface).unwrap_err();
+    for (surface, words) in [
+        ("level = true\nform = \"sphere\"", "`surface.level` subtracts the mean plane"),
+        ("level = false\nform = \"plane\"", "`surface.level` keeps the mean plane"),
+        ("form = \"ball\"", "\"sphere\""),
+        ("cutoff = 1500", "from two samples, 1600.0, to its shorter side, 12000"),
+        ("cutoff = 13000", "to its shorter side"),
+        ("cutoff = -1", "`surface.cutoff`"),
+    ] {
+        assert!(refused(surface).contains(words), "{surface}: {}", refused(surface));
+    }
+    let half: String = (0..20).map(|k| if k % 5 < 3 { "nan 1 nan 2\n" } else { "nan nan 4 nan\n" }).collect();
+    let told = read("a.txt", half.into_bytes(), "period = 1").unwrap_err();
+    assert!(told.contains("have no measurement; at most half of them"), "{told}");
+}
