@@ -9,7 +9,11 @@ from percoat import _core, _html
 from percoat._record import Record
 
 CaseLike = Union[str, "PathLike[str]", Mapping[str, Any], _core.Case]
-"""A path, the name of an embedded case, a dict of the same shape as the TOML, or what :func:`case` gave."""
+"""A path, the name of an embedded case, a dict of the same shape as the TOML, or what :func:`case` gave.
+
+In a dict ``surface.heights`` may be an array ``heights[i, j]``, i along a₁ and j along a₂, NaN or masked where there is no measurement, or
+a topography with ``heights()``, ``physical_sizes`` and perhaps ``unit``, as those of SurfaceTopography: then its sizes are the period
+and its unit is that of the sizes and heights."""
 
 Settings = Union[None, Mapping[str, Any], List[str]]
 """``{"layers.0.thickness": 0.2}``, or ``["layers.0.thickness=0.2"]`` as the command line has it."""

@@ -7,7 +7,7 @@ use crate::work;
 use ndarray::ArrayD;
 use numpy::{PyArrayDyn, PyArrayLikeDyn};
 use percoat::case::resources::{Job, refusal};
-use percoat::case::{self, Source, embedded};
+use percoat::case::{self, PhysicalSizes, Source, embedded};
 use percoat::machine::{Capacity, available_memory, bytes};
 use percoat::output::{self, Check};
 use pyo3::exceptions::{PyMemoryError, PyTypeError};
@@ -181,7 +181,8 @@ pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
             "a case is a path, the name of an embedded case or a dict of the same shape as the file, not a {kind}"
         )));
     };
-    let (sections, surface, mut arrays) = (PyDict::new(case.py()), PyDict::new(case.py()), BTreeMap::new());
+    let (sections, surface) = (PyDict::new(case.py()), PyDict::new(case.py()));
+    let (mut arrays, mut sizes) = (BTreeMap::new(), BTreeMap::new());
     sections.update(mapping)?;
     if let Some(section) = sections.get_item("surface")?
         && let Ok(section) = section.cast::<PyMapping>()
@@ -189,23 +190,39 @@ pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
         surface.update(section)?;
         let is_array = |heights: &Bound<'_, PyAny>| !heights.is_none() && heights.extract::<PathBuf>().is_err();
         if let Some(heights) = surface.get_item("heights")?.filter(is_array) {
+            let heights = match physical_sizes(&heights)? {
+                Some(own) => {
+                    sizes.insert(HEIGHTS.to_owned(), own);
+                    heights.call_method0("heights")?
+                }
+                None => heights,
+            };
             arrays.insert(HEIGHTS.to_owned(), array(&heights)?);
             surface.set_item("heights", HEIGHTS)?;
             sections.set_item("surface", surface)?;
         }
     }
     let values = Some(table(sections.as_mapping(), "")?);
-    Ok((Source { name: "dict".to_owned(), values, arrays, ..Source::default() }, "dict".to_owned()))
+    Ok((Source { name: "dict".to_owned(), values, arrays, sizes, ..Source::default() }, "dict".to_owned()))
 }
 
-/// Heights as an array of the case, copied.
-fn array(heights: &Bound<'_, PyAny>) -> PyResult<Arc<ArrayD<f64>>> {
-    let masked = heights.py().import("numpy.ma")?.getattr("MaskedArray")?;
-    if heights.is_instance(&masked)? {
-        return Err(refused(
-            "`surface.heights` is masked: a surface has a height everywhere; fill what was not measured",
-        ));
+/// Sizes of a topography of another library, which has `heights()` along x and y, `physical_sizes` and perhaps a `unit` of both.
+fn physical_sizes(heights: &Bound<'_, PyAny>) -> PyResult<Option<PhysicalSizes>> {
+    if !heights.hasattr("physical_sizes")? || !heights.hasattr("heights")? {
+        return Ok(None);
     }
+    let own = heights.getattr("physical_sizes")?;
+    let sides: [f64; 2] = own.extract().map_err(|_| {
+        PyTypeError::new_err(format!(
+            "`surface.heights` has the physical sizes {own}: a surface has two, along x and y"
+        ))
+    })?;
+    let unit = if heights.hasattr("unit")? { heights.getattr("unit")?.extract().ok() } else { None };
+    Ok(Some(PhysicalSizes { sides, unit }))
+}
+
+/// Heights as an array of the case, copied; NaN where they are masked.
+fn array(heights: &Bound<'_, PyAny>) -> PyResult<Arc<ArrayD<f64>>> {
     if heights.hasattr("dtype")? && heights.getattr("dtype")?.getattr("kind")?.eq("c")? {
         return Err(PyTypeError::new_err("`surface.heights` is complex: heights are real numbers"));
     }
@@ -213,9 +230,14 @@ fn array(heights: &Bound<'_, PyAny>) -> PyResult<Arc<ArrayD<f64>>> {
     let py = heights.py();
     // A table of another library, as a sequence, is that of its columns.
     let is_table = heights.hasattr("__array__")?;
+    let is_masked = heights.is_instance(&py.import("numpy.ma")?.getattr("MaskedArray")?)?;
     // Arrays out of the memory of a message may begin at any byte.
     let aligned = || py.import("numpy")?.call_method1("require", (heights, py.None(), "A"));
-    let heights = if is_table { aligned()? } else { heights.clone() };
+    let heights = match (is_masked, is_table) {
+        (true, _) => heights.call_method1("astype", ("f8",))?.call_method1("filled", (f64::NAN,))?,
+        (_, true) => aligned()?,
+        _ => heights.clone(),
+    };
     let heights: PyArrayLikeDyn<'_, f64, numpy::AllowTypeChange> = heights.extract().map_err(|error: PyErr| {
         if error.is_instance_of::<PyMemoryError>(py) {
             return error;

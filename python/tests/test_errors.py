@@ -518,12 +518,6 @@ def test_heights_that_are_no_numbers(heights: Any) -> None:
         percoat.solve(wave(surface={"heights": heights, "period": [2.0, 0.5]}))
 
 
-def test_heights_that_were_not_measured_everywhere() -> None:
-    heights = wave()["surface"]["heights"]
-    holes = np.ma.masked_greater(heights, 0.009)
-    assert "masked" in refusal(lambda: percoat.solve(wave(surface={"heights": holes, "period": [2.0, 0.5]})))
-
-
 def test_heights_in_a_file_that_is_not_there(tmp_path: Path) -> None:
     surface = {"heights": tmp_path / "none.npy", "period": [2.0, 0.5]}
     assert f"`surface.heights`: cannot read {tmp_path / 'none.npy'}" in refusal(
