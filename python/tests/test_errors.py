@@ -501,7 +501,7 @@ def test_a_comparison_needs_levels() -> None:
         (np.zeros((2, 3, 4)), "heights"),
         (np.zeros(12), "heights"),
         (np.zeros((0, 4)), "heights"),
-        (np.full((8, 8), np.nan), "finite"),
+        (np.full((8, 8), np.nan), "no measurement at any place"),
         (3.0, "heights"),
     ],
     ids=["three axes", "one axis", "empty", "not a number", "a number"],

@@ -138,14 +138,15 @@ fn noise(cell: Cell, heights: &Array2<f64>, run_out: Option<&RunOut>) -> Option<
     fits(32 * heights.len() as u64).ok()?;
     let own = run_out.map_or(Cow::Borrowed(heights), |run_out| Cow::Owned(run_out.undone(heights.clone())));
     let found = short_wave_noise(&Spectrum::of(cell, own.view()).ok()?)?;
-    let from = TAU / found.from;
+    // Adding 0 takes the sign of a rounded zero away.
+    let (from, exponent) = (TAU / found.from, (10.0 * found.exponent).round() / 10.0 + 0.0);
     Some(format!(
         "surface.heights: its shortest waves look like noise of the instrument: from the wavelength {} down to {} the power spectrum goes \
          as q^{:.1}, and that of rough surfaces at least as q^−2 downward; these waves have {:.0} % of the mean square slope, to \
          which contact areas and pressures answer; surface.cutoff = {} leaves them out",
         number(from),
         number(0.5 * from),
-        found.exponent,
+        exponent,
         100.0 * found.share,
         number(from)
     ))
