@@ -40,9 +40,8 @@ pub(super) fn apply(text: &str, source: usize, root: &mut Table, keys: &'static 
         Err(_) if is_bare_word(value) => Node { value: Value::Text(value.to_owned()), span },
         parsed => parsed.map_err(|refusal| match value {
             value if is_decimal_comma(value) => refusal.help(WITH_A_POINT),
-            value if is_list_of_numbers(value) => {
-                refusal.help(format!("a list has brackets: '{key}=[{value}]'; percoat sweep takes several values without"))
-            }
+            value if is_list_of_numbers(value) => refusal
+                .help(format!("a list has brackets: '{key}=[{value}]'; percoat sweep takes several values without")),
             _ => refusal,
         })?,
     };
