@@ -162,9 +162,9 @@ fn sizes_that_the_file_does_not_hold_are_refused() {
     let packed = |at: usize, bytes: &[u8]| read("a.sur", put(stored("compressed.sur"), at, bytes), "");
     let gwy = |field: &[u8], bytes: &[u8]| {
         let content = stored("one_height.gwy");
-        let starts = content.windows(field.len()).enumerate().filter(|(_, own)| *own == field).map(|(at, _)| at);
+        let mut starts = content.windows(field.len()).enumerate().filter(|(_, own)| *own == field).map(|(at, _)| at);
         // Of the second channel, the one of heights.
-        let at = starts.skip(1).next().unwrap() + field.len();
+        let at = starts.nth(1).unwrap() + field.len();
         read("a.gwy", put(content, at, bytes), "")
     };
     let asc = |from: &str, to: &str| {
