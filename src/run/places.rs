@@ -9,7 +9,7 @@ pub(crate) const SECTION: [usize; 2] = [200, 401];
 /// Number of further intervals in a thin coating and a little below it.
 const COATING: usize = 60;
 /// Number of rows of a section, interfaces left out, at most.
-#[cfg(feature = "cli")]
+#[cfg(any(feature = "cli", test))]
 pub(crate) const MOST_ROWS: usize = SECTION[0] + COATING;
 /// Part of the depth of a section below which a coating is thin.
 pub(crate) const THIN: f64 = 1.0 / 12.0;
