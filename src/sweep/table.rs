@@ -180,7 +180,7 @@ pub fn write(folder: &Path, rows: &[Row], description: &Description) -> Result<(
     write_text(&folder.join("sweep.json"), &description.to_json())
 }
 
-/// Names of the files that [`write`] writes.
+/// Names of the files that [`write()`] writes.
 pub const FILES: [&str; 3] = ["sweep.csv", "sweep.json", SWEEP_LOG];
 
 /// Each text once, in the order of first occurrence.
