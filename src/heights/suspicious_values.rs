@@ -185,7 +185,7 @@ fn outside(heights: &Heights) -> Option<String> {
         let n2 = heights.points[1];
         format!(
             "surface.heights: the height at [{}, {}] lies {times:.0} standard deviations from the mean of the others, a peak or a pit \
-             that hardly any surface has: a fault of the measurement? Write nan there, and it is filled",
+             that hardly any surface has: a fault of the measurement? Marked as not measured it is filled",
             farthest / n2,
             farthest % n2
         )
