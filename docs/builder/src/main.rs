@@ -109,9 +109,14 @@ fn make_parent(file: &Path) -> Result<()> {
     Ok(file.parent().map_or(Ok(()), fs::create_dir_all)?)
 }
 
+/// Builds the book into a folder, in the place of an earlier book alone.
 fn build(root: &Path, output: &Path) -> Result<()> {
     let mut book = MDBook::load(root)?;
     if output.exists() {
+        let is_book = output.join(".nojekyll").is_file() && output.join("index.html").is_file();
+        if !is_book && fs::read_dir(output)?.next().is_some() {
+            bail!("{} holds something else than a book: name another folder", output.display());
+        }
         fs::remove_dir_all(output)?;
     }
     fs::create_dir_all(output)?;
