@@ -6,6 +6,8 @@
 # `pip install pandas openpyxl`.
 
 # %%
+from io import BytesIO
+
 import pandas as pd
 
 import percoat
@@ -19,7 +21,8 @@ assert all(table["status"] == "done")
 # ## The workbook
 #
 # A sweep has more than a hundred columns; a few of them are enough for a reader. A column of numbers stays one
-# of numbers, and a cell without a value is empty.
+# of numbers, and a cell without a value is empty. Here it stays in memory: give `ExcelWriter` the path `"fig2.xlsx"`
+# instead of it for a file.
 
 # %%
 wanted = ["status", "mean_pressure", "penetration", "contact_fraction", "max_pressure"]
@@ -27,15 +30,16 @@ frame = pd.DataFrame(table)
 frame = frame[[name for name in frame if name.startswith("set_")] + wanted]
 settings = pd.Series({"case": "fig2", **setting, "percoat": percoat.__version__}, name="value").astype(str)
 
-with pd.ExcelWriter("fig2.xlsx") as book:
+workbook = BytesIO()
+with pd.ExcelWriter(workbook, engine="openpyxl") as book:
     frame.to_excel(book, sheet_name="sweep", index=False)
     settings.to_excel(book, sheet_name="settings")
 
 # %% [markdown]
-# Read back, it is what was written: the file keeps double precision, whatever a spreadsheet shows of it.
+# Read back, it is what was written: the workbook keeps double precision, whatever a spreadsheet shows of it.
 
 # %%
-again = pd.read_excel("fig2.xlsx", sheet_name="sweep")
+again = pd.read_excel(workbook, sheet_name="sweep")
 assert list(again) == list(frame) and len(again) == 8
 for name in wanted[1:]:
     assert (again[name] - frame[name]).abs().max() <= 1e-15 * frame[name].abs().max(), name

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, as_completed
-from typing import Any, Callable, Optional
+from concurrent.futures import CancelledError, Executor, Future
+from queue import SimpleQueue
+from typing import Callable, Optional
 
 from percoat import _core
 
@@ -22,20 +23,34 @@ def solve_on(
     prints = sweep.check()
     rows: list[_core.Row] = []
     tasks: dict[Future[_core.Row], int] = {}
+    # A task that is cancelled calls back, but does not wake as_completed.
+    ended: SimpleQueue[Future[_core.Row]] = SimpleQueue()
 
     def add(row: _core.Row) -> None:
         rows.append(row)
         done(row)
 
+    def take() -> None:
+        task = ended.get()
+        index = tasks.pop(task)
+        add(_row(task, sweep, index, prints[index], raises=not rows))
+
     try:
         for index, fingerprint in enumerate(prints):
+            part = sweep.part(index)
             try:
-                tasks[executor.submit(solve_part, sweep.part(index), threads or 1)] = index
-            except BrokenExecutor as broken:
-                add(sweep.failed(index, fingerprint, _reason(broken)))
-        for task in as_completed(tasks):
-            index = tasks.pop(task)
-            add(_row(task, sweep, index, prints[index]))
+                task = executor.submit(solve_part, part, threads or 1)
+            except Exception as refusal:
+                if not tasks and not rows:
+                    raise
+                add(sweep.failed(index, fingerprint, _reason("the executor did not take its task", refusal)))
+                continue
+            tasks[task] = index
+            task.add_done_callback(ended.put)
+            while not ended.empty():
+                take()
+        while tasks:
+            take()
     except BaseException:
         for task in tasks:
             task.cancel()
@@ -48,22 +63,25 @@ def solve_part(part: _core.Sweep, threads: int) -> _core.Row:
     return part.solve_first(threads)
 
 
-def _row(task: Future[_core.Row], sweep: _core.Sweep, index: int, fingerprint: str) -> _core.Row:
-    """The row of a task that has ended, however it did."""
+def _row(
+    task: Future[_core.Row], sweep: _core.Sweep, index: int, fingerprint: str, raises: bool
+) -> _core.Row:
+    """The row of a task that has ended, however it did; one that is refused, as for too many threads, ``raises`` instead."""
     try:
         error = task.exception()
     except CancelledError as cancelled:
         error = cancelled
+    if raises and isinstance(error, _core.CaseError):
+        raise error
     if error is not None:
-        return sweep.failed(index, fingerprint, _reason(error))
+        return sweep.failed(index, fingerprint, _reason("its task ended without a result", error))
     row = task.result()
     if row.status != "failed" and row.fingerprint != fingerprint:
         return sweep.failed(index, fingerprint, OTHER)
     return row
 
 
-def _reason(error: BaseException) -> str:
-    """The error of a task, on one line."""
-    told = " ".join(str(error).split())
-    kind = type(error).__name__
-    return f"its task ended without a result: {kind}: {told}" if told else f"its task ended without a result: {kind}"
+def _reason(what: str, error: BaseException) -> str:
+    """What happened by an error, on one line."""
+    message = " ".join(str(error).split())
+    return ": ".join(filter(None, [what, type(error).__name__, message]))

@@ -610,7 +610,9 @@ class Result:
 
         As on the command line only files are replaced that percoat wrote there as a finished result, and only by a complete
         one. ``percoat report folder`` makes a page of it, and ``percoat solve folder/case.toml`` solves it again; heights that
-        are an array of the case become ``heights.npy`` beside it.
+        are an array of the case become ``heights.npy`` beside it, and those of a file that was pickled with the result
+        ``heights`` with the ending of the file; a file of ``load.pressure`` becomes ``pressure``. Other files are named
+        by their absolute paths.
 
         Raises
         ------
@@ -628,13 +630,13 @@ class Result:
         ...     sorted(name for name in os.listdir(folder) if not name.startswith("."))
         ['case.toml', 'contact.npz', 'curve.csv', 'summary.json']
         """
-        heights, case = None, self._common.case
+        array, case = None, self._common.case
         own = case.as_dict().get("surface", {}).get("heights")
         if isinstance(own, np.ndarray):
             file = io.BytesIO()
             np.save(file, own)
-            heights = file.getvalue()
-        aside(_core.save_result(case, self.to_dict(), [step._core for step in self.steps], folder, heights))
+            array = file.getvalue()
+        aside(_core.save_result(case, self.to_dict(), [step._core for step in self.steps], folder, array))
 
     def __reduce__(self) -> tuple[Any, ...]:
         kept = [(step._index, step.to_dict(), step._bytes()) for step in self.steps]

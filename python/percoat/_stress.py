@@ -37,7 +37,7 @@ def tau1(stress: ArrayLike) -> Array:
 
 
 def mises(stress: ArrayLike) -> Array:
-    """The stress of von Mises (…) of stresses (…, 6).
+    """The von Mises stress (…) of stresses (…, 6).
 
     >>> import percoat
     >>> float(percoat.mises([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]))

@@ -29,8 +29,8 @@ Row = Dict[str, Any]
 """A row of the table as it is done: names with their cells, ``None`` where there is no value."""
 
 
-Solved = Tuple[_core.Sweep, List[_core.Row], float]
-"""The combinations of a table, their rows, and the wall time of the sweep in seconds."""
+Solved = Tuple[Dict[str, Any], List[_core.Row], float]
+"""The description of a sweep, with its case as it was solved, its rows, and its wall time in seconds."""
 
 
 class Columns(Dict[str, NDArray[Any]]):
@@ -44,7 +44,7 @@ class Columns(Dict[str, NDArray[Any]]):
     def save(self, folder: Union[str, PathLike[str]]) -> None:
         """Write the output folder of ``percoat sweep --no-pictures``: ``sweep.csv``, ``sweep.json`` and ``sweep.jsonl``.
 
-        What was solved is written, whatever columns have been added or changed since. As on the command line only files are
+        What was solved is written, whatever has become of the columns and of the files of the case since. As on the command line only files are
         replaced that percoat wrote there as a finished result. ``percoat report folder`` makes a page of it.
 
         Raises
@@ -59,8 +59,8 @@ class Columns(Dict[str, NDArray[Any]]):
         solved: Optional[Solved] = self.__dict__.get("_solved")
         if solved is None:
             raise TypeError("these columns are not those that a sweep returned: write them with pandas.DataFrame(columns)")
-        sweep, rows, wall = solved
-        aside(_core.save_sweep(sweep, rows, wall, folder))
+        description, rows, wall = solved
+        aside(_core.save_sweep(description, rows, wall, folder))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _columns, (dict(self), self.__dict__.get("_solved"))
@@ -106,9 +106,10 @@ def sweep(
         As for :func:`percoat.solve`: called after each combination.
     executor
         Any :class:`concurrent.futures.Executor`: each combination is one task of it. The table is that of a sweep without
-        one, bit for bit. A task that raises, or whose worker dies, becomes a row with the status ``failed`` and the reason.
-        Files that the case names are read by the workers, under the same paths; arrays travel with the task. The executor
-        is not shut down.
+        one, bit for bit where the workers have the same kind of processor. A task that raises, that is cancelled, whose
+        worker dies, or that the executor does not take becomes a row with the status ``failed`` and the reason. Files that
+        the case names are read by the workers, under the same paths; each task carries the arrays of the sweep. The
+        executor is not shut down.
     on_row
         Called in this process with each row of the table as soon as its combination is done, whatever the order: a dict of
         names and cells, ``None`` where there is no value.
@@ -123,10 +124,13 @@ def sweep(
     Raises
     ------
     CaseError
-        Every combination is refused, or memory does not suffice for all rows.
+        Every combination is refused, memory does not suffice for all rows, or ``threads`` are more than a worker may have.
+    RuntimeError
+        An executor that is shut down or broken takes no task at all.
     KeyboardInterrupt
-        On Ctrl-C. Without an executor solutions end between two iterations; with one no further task begins, and those that
-        have begun end.
+        On Ctrl-C. Without an executor solutions end between two iterations; with one its waiting tasks are cancelled, and
+        those that have begun end, with :class:`~concurrent.futures.ProcessPoolExecutor` also the few that are queued for its
+        processes.
 
     Warns
     -----
@@ -169,6 +173,7 @@ def sweep(
             f"executor is a concurrent.futures.Executor, not a {kind}; a Dask client gives one by client.get_executor()"
         )
     own = _core.Sweep(case, dict(set), zip, limit)
+    description = own.describe()
     done = _Done(own, listener(progress), on_row)
     rows = own.solve(threads, done.heard()) if executor is None else solve_on(executor, own, threads, done)
     rows.sort(key=lambda row: row.combination)
@@ -177,7 +182,7 @@ def sweep(
     unsettled = (f"{row.name}: not converged: {row.reason}" for row in rows if row.status == "not_converged")
     warn(unsettled, NotConverged)
     wall = monotonic() - done.began
-    return _columns({name: _column(name, cells) for name, cells in _core.columns(rows)}, (own, rows, wall))
+    return _columns({name: _column(name, cells) for name, cells in _core.columns(rows)}, (description, rows, wall))
 
 
 class _Done:
@@ -206,7 +211,7 @@ class _Done:
 
 
 def _columns(own: Dict[str, NDArray[Any]], solved: Optional[Solved]) -> Columns:
-    """The columns of a table with the sweep of which they are, its rows and its wall time."""
+    """The columns of a table with the sweep that was solved."""
     columns = Columns(own)
     if solved is not None:
         columns.__dict__["_solved"] = solved

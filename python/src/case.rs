@@ -7,7 +7,7 @@ use crate::work;
 use ndarray::ArrayD;
 use numpy::{PyArrayDyn, PyArrayLikeDyn};
 use percoat::case::resources::{Job, refusal};
-use percoat::case::{self, PhysicalSizes, Source, embedded};
+use percoat::case::{self, GivenSection, PhysicalSizes, Source, embedded};
 use percoat::machine::{Capacity, available_memory, bytes};
 use percoat::output::{self, Check};
 use pyo3::exceptions::{PyMemoryError, PyTypeError};
@@ -76,21 +76,15 @@ impl Case {
         let (py, case) = (slf.py(), slf.get());
         let own = case.clone();
         let source = work::run(py, None, None, move |_| own.portable())??;
-        let (files, arrays) = in_memory(py, &source)?;
-        let state = (to_python(py, &source.values)?, files, arrays, &case.name).into_pyobject(py)?;
+        let state = (to_python(py, &source.values)?, in_memory(py, &source)?, &case.name).into_pyobject(py)?;
         Ok((slf.get_type().getattr("_restore")?, state))
     }
 
     #[staticmethod]
-    fn _restore(
-        values: &Bound<'_, PyDict>,
-        files: &Bound<'_, PyDict>,
-        arrays: &Bound<'_, PyDict>,
-        name: String,
-    ) -> PyResult<Self> {
-        let values = Some(table(values.as_mapping(), "")?);
-        let source = with_memory(Source { name: name.clone(), values, ..Source::default() }, files, arrays)?;
-        Self::read(files.py(), source, Vec::new(), name)
+    fn _restore(values: &Bound<'_, PyDict>, memory: Memory<'_>, name: String) -> PyResult<Self> {
+        let table = Some(table(values.as_mapping(), "")?);
+        let source = with_memory(Source { name: name.clone(), values: table, ..Source::default() }, memory)?;
+        Self::read(values.py(), source, Vec::new(), name)
     }
 }
 
@@ -117,18 +111,20 @@ impl Case {
             values: Some(values(&self.own)),
             files: self.source.files.clone(),
             arrays: self.source.arrays.clone(),
+            sizes: self.source.sizes.clone(),
             ..Source::default()
         };
-        if let Some(heights) = self.own.surface.as_ref().and_then(|surface| surface.heights.as_ref())
-            && !source.files.contains_key(heights)
-            && !source.arrays.contains_key(heights)
+        let mut own = case::Case::clone(&self.own);
+        if let Some((_, name)) = file(&mut own)
+            && !source.files.contains_key(name)
+            && !source.arrays.contains_key(name)
         {
-            let bytes = std::fs::read(heights).map_err(|error| unreadable(Path::new(heights), &error))?;
-            source.files.insert(heights.clone(), bytes.into());
+            let bytes = std::fs::read(&*name).map_err(|error| unreadable(Path::new(name), &error))?;
+            source.files.insert(name.clone(), bytes.into());
             let again = case::Case::read(&source, &[]).map_err(refused)?;
             if output::fingerprint(&again, "") != output::fingerprint(&self.own, "") {
                 return Err(refused(format!(
-                    "{heights} has changed since it was read: what was solved cannot be kept without it"
+                    "{name} has changed since it was read: what was solved cannot be kept without it"
                 )));
             }
         }
@@ -136,8 +132,22 @@ impl Case {
     }
 }
 
-/// The files of a source that are in memory, and its arrays, by their names.
-pub fn in_memory<'py>(py: Python<'py>, source: &Source) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>)> {
+/// What the file of a case has, heights or pressures, and its name in the case; `None` of a case without one.
+pub fn file(case: &mut case::Case) -> Option<(&'static str, &mut String)> {
+    if let Some(heights) = case.surface.as_mut().and_then(|surface| surface.heights.as_mut()) {
+        return Some(("heights", heights));
+    }
+    match &mut case.load.pressure {
+        Some(GivenSection::File(name)) => Some(("pressure", name)),
+        _ => None,
+    }
+}
+
+/// Files, arrays, and sizes of the arrays of a source in memory, by their names.
+pub type Memory<'py> = (Bound<'py, PyDict>, Bound<'py, PyDict>, BTreeMap<String, ([f64; 2], Option<String>)>);
+
+/// What a source has in memory, as it is pickled.
+pub fn in_memory<'py>(py: Python<'py>, source: &Source) -> PyResult<Memory<'py>> {
     let (files, arrays) = (PyDict::new(py), PyDict::new(py));
     for (name, bytes) in &source.files {
         files.set_item(name, PyBytes::new(py, bytes))?;
@@ -145,18 +155,20 @@ pub fn in_memory<'py>(py: Python<'py>, source: &Source) -> PyResult<(Bound<'py, 
     for (name, heights) in &source.arrays {
         arrays.set_item(name, PyArrayDyn::from_array(py, heights))?;
     }
-    Ok((files, arrays))
+    let sizes = source.sizes.iter().map(|(name, own)| (name.clone(), (own.sides, own.unit.clone())));
+    Ok((files, arrays, sizes.collect()))
 }
 
-/// The source with these files and arrays [in memory](in_memory).
-pub fn with_memory(source: Source, files: &Bound<'_, PyDict>, arrays: &Bound<'_, PyDict>) -> PyResult<Source> {
+/// The source with what is [in memory](in_memory).
+pub fn with_memory(source: Source, (files, arrays, sizes): Memory<'_>) -> PyResult<Source> {
     let file = |(name, bytes): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<(String, Arc<[u8]>)> {
         Ok((name.extract()?, Arc::from(bytes.cast::<PyBytes>()?.as_bytes())))
     };
     let heights = |(name, own): (Bound<'_, PyAny>, Bound<'_, PyAny>)| Ok((name.extract()?, array(&own)?));
     let files = files.iter().map(file).collect::<PyResult<_>>()?;
     let arrays = arrays.iter().map(heights).collect::<PyResult<_>>()?;
-    Ok(Source { files, arrays, ..source })
+    let sizes = sizes.into_iter().map(|(name, (sides, unit))| (name, PhysicalSizes { sides, unit })).collect();
+    Ok(Source { files, arrays, sizes, ..source })
 }
 
 /// A case as the values of its keys.

@@ -1,12 +1,12 @@
 //! `Result.save` and `Columns.save`: the output folders of the command line.
 
-use crate::case::Case;
+use crate::case::{Case, file};
 use crate::errors::{no_folder, refused};
 use crate::record::from_python;
 use crate::row::Row;
 use crate::step::{Kept, Step};
-use crate::sweep::Sweep;
 use crate::work;
+use percoat::case::Source;
 use percoat::output::{
     Clock, FolderError, OutputError, Plan, Recording, RunFolder, Summary, Timing, Writer, solved_plan, write_file,
     write_scalars,
@@ -17,9 +17,6 @@ use pyo3::prelude::*;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// Name of the file of heights that are an array of the case.
-const HEIGHTS: &str = "heights.npy";
 
 /// Why a result cannot be saved.
 #[derive(Debug, thiserror::Error)]
@@ -45,27 +42,41 @@ impl From<SaveError> for PyErr {
     }
 }
 
-/// Writes a result into the folder of `percoat solve --no-pictures`, with the content of `heights.npy` where the heights of the case
-/// are an array. Returns where files are now that stood in the way.
+/// Writes a result into the folder of `percoat solve --no-pictures`. Returns where files are now that stood in the way.
+///
+/// What the case has in memory becomes a file beside `case.toml`: `array`, the content of `heights.npy`, where its heights are an array,
+/// and the file of heights or pressures that was pickled with it.
 #[pyfunction]
-#[pyo3(signature = (case, summary, steps, folder, heights = None))]
+#[pyo3(signature = (case, summary, steps, folder, array = None))]
 pub fn save_result(
     py: Python<'_>,
     case: &Bound<'_, Case>,
     summary: &Bound<'_, PyAny>,
     steps: Vec<PyRef<'_, Step>>,
     folder: PathBuf,
-    heights: Option<&[u8]>,
+    array: Option<&[u8]>,
 ) -> PyResult<Option<String>> {
     let summary: Summary = from_python(summary)?;
     let mut own = case::Case::clone(&case.get().own);
-    if let (Some(surface), true) = (&mut own.surface, heights.is_some()) {
-        surface.heights = Some(HEIGHTS.to_owned());
-    }
-    let heights = heights.map(<[u8]>::to_vec);
+    let beside = beside(&mut own, &case.get().source, array);
     let kept: Vec<Arc<Kept>> = steps.iter().map(|step| step.kept()).collect();
-    let saved = work::run(py, None, None, move |_| save_solved(&own, summary, &kept, &folder, heights.as_deref()))?;
+    let saved = work::run(py, None, None, move |_| save_solved(&own, summary, &kept, &folder, beside))?;
     Ok(saved?)
+}
+
+/// A file beside `case.toml`: its name and content.
+type Beside = (String, Arc<[u8]>);
+
+/// The heights or pressures that the source of a case has in memory, under the name that the case has for them then.
+fn beside(case: &mut case::Case, source: &Source, array: Option<&[u8]>) -> Option<Beside> {
+    let (what, name) = file(case)?;
+    let (ending, content) = match (source.files.get(name), array) {
+        (Some(bytes), _) => (Path::new(name).extension()?.to_string_lossy().into_owned(), Arc::clone(bytes)),
+        (None, Some(array)) => ("npy".to_owned(), Arc::from(array)),
+        (None, None) => return None,
+    };
+    *name = format!("{what}.{ending}");
+    Some((name.clone(), content))
 }
 
 fn save_solved(
@@ -73,11 +84,11 @@ fn save_solved(
     summary: Summary,
     kept: &[Arc<Kept>],
     folder: &Path,
-    heights: Option<&[u8]>,
+    beside: Option<Beside>,
 ) -> Result<Option<String>, SaveError> {
     let (clock, run) = (Clock::start(), case.run());
     let mut plan = solved_plan(case, run.loads.len(), true);
-    plan.names.extend(heights.map(|_| HEIGHTS.to_owned()));
+    plan.names.extend(beside.iter().map(|(name, _)| name.clone()));
     let claim = RunFolder::claim(folder, plan)?;
     let aside = shown(claim.set_aside());
     let mut recording = Recording::new(&claim, &run, case.to_toml(), clock);
@@ -93,8 +104,8 @@ fn save_solved(
         recording.step(&own.step, record, fields.as_ref())?;
     }
     let (_, clock) = recording.finish()?;
-    if let Some(heights) = heights {
-        write_file(&claim.staging().join(HEIGHTS), |writer| writer.write_all(heights))?;
+    if let Some((name, content)) = beside {
+        write_file(&claim.staging().join(name), |writer| writer.write_all(&content))?;
     }
     let outcome = Outcome { steps, last: None, points, change: accuracy, end: None, warnings: Vec::new() };
     let solved = timing.unwrap_or(Timing { setup: 0.0, solve: 0.0, stress: 0.0, output: 0.0 });
@@ -117,23 +128,23 @@ fn shown(path: Option<&Path>) -> Option<String> {
     path.map(plain::path)
 }
 
-/// Writes a sweep that took `wall` seconds into the folder of `percoat sweep --no-pictures`. Returns where files are now that stood in
-/// the way.
+/// Writes a sweep with a description that took `wall` seconds into the folder of `percoat sweep --no-pictures`. Returns where files are
+/// now that stood in the way.
 #[pyfunction]
 pub fn save_sweep(
     py: Python<'_>,
-    sweep: &Bound<'_, Sweep>,
+    description: &Bound<'_, PyAny>,
     rows: Vec<PyRef<'_, Row>>,
     wall: f64,
     folder: PathBuf,
 ) -> PyResult<Option<String>> {
-    let own = sweep.get().clone();
+    let description: sweep::Description = from_python(description)?;
     let rows: Vec<sweep::Row> = rows.iter().map(|row| row.own().clone()).collect();
     let saved = work::run(py, None, None, move |_| -> Result<_, SaveError> {
         let names = sweep::FILES.map(str::to_owned).to_vec();
         let claim = RunFolder::claim(&folder, Plan { names, ..Plan::new(Writer::Sweep) })?;
         let aside = shown(claim.set_aside());
-        sweep::write(&claim.staging(), &rows, &own.description().after(&rows, wall))?;
+        sweep::write(&claim.staging(), &rows, &description.after(&rows, wall))?;
         let later = claim.publish()?;
         Ok(shown(later.as_deref()).or(aside))
     })?;

@@ -1,6 +1,6 @@
 //! `percoat.sweep`: a case, solved for many settings of its keys.
 
-use crate::case::{self, in_memory, with_memory};
+use crate::case::{self, Memory, in_memory, with_memory};
 use crate::errors::refused;
 use crate::progress::Progress;
 use crate::record::to_python;
@@ -30,9 +30,8 @@ pub struct Sweep {
     task: Task,
 }
 
-/// Name, text, values, folder, and settings of a source; its files and arrays in memory.
-type Sourced<'py> =
-    (String, String, Option<String>, OsString, Vec<(String, String)>, (Bound<'py, PyDict>, Bound<'py, PyDict>));
+/// Name, text, values, folder, and settings of a source, and what it has in memory.
+type Sourced<'py> = (String, String, Option<String>, OsString, Vec<(String, String)>, Memory<'py>);
 
 /// Settings, keys, and numbers with values of some combinations, and whether their limit loads are searched.
 type Combined = (Vec<String>, Vec<String>, Vec<(usize, Vec<String>)>, bool);
@@ -85,6 +84,20 @@ impl Sweep {
             study.map(|study| study.fingerprints()).map_err(|error| error.to_string())
         })?;
         checked.map_err(refused)
+    }
+
+    /// The description of the sweep before it is solved, a dict with the keys of `sweep.json`. It has the case as its files are now.
+    fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let Self { source, fixed, combinations, task } = self.clone();
+        let description = work::run(py, None, None, move |_| {
+            let mut source = Source::clone(&source);
+            // The text stands for a case that is refused without the keys that vary.
+            if let Some(values) = &source.values {
+                source.text = toml::to_string(values).map_err(|error| error.to_string())?;
+            }
+            Ok::<_, String>(Description::of(&source, &fixed, &combinations, task))
+        })?;
+        to_python(py, &description.map_err(refused)?)
     }
 
     /// One combination alone, by its place among all of them, from 0.
@@ -140,13 +153,13 @@ impl Sweep {
 
     #[staticmethod]
     fn _restore(sourced: Sourced<'_>, combined: Combined) -> PyResult<Self> {
-        let (name, text, values, folder, set, (files, arrays)) = sourced;
+        let (name, text, values, folder, set, memory) = sourced;
         let (fixed, keys, all, limit) = combined;
         let parsed = |text: String| text.parse::<Table>().map_err(refused);
         let set = set.into_iter().map(|(key, text)| Ok((key, parsed(text)?.remove(VALUE).ok_or_else(lost)?)));
         let set = set.collect::<PyResult<Vec<_>>>()?;
         let (values, folder) = (values.map(parsed).transpose()?, PathBuf::from(folder));
-        let source = with_memory(Source { name, text, values, set, folder, ..Source::default() }, &files, &arrays)?;
+        let source = with_memory(Source { name, text, values, set, folder, ..Source::default() }, memory)?;
         let all = all.into_iter().map(|(number, values)| Combination { number, values }).collect();
         let task = if limit { Task::Limit } else { Task::Solve };
         Ok(Self { source: Arc::new(source), fixed, combinations: Arc::new(Combinations { keys, all }), task })
@@ -166,11 +179,6 @@ fn room() -> Capacity {
 }
 
 impl Sweep {
-    /// The description of the sweep, which has not begun.
-    pub fn description(&self) -> Description {
-        Description::of(&self.source, &self.fixed, &self.combinations, self.task)
-    }
-
     /// Its source, from which any process that finds the same files under the same paths reads the same cases.
     fn sourced<'py>(&self, py: Python<'py>) -> PyResult<Sourced<'py>> {
         let Source { name, text, values, set, folder, .. } = &*self.source;

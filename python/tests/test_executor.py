@@ -7,7 +7,7 @@ import os
 import pickle
 import signal
 import threading
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Callable, Iterator
@@ -18,6 +18,8 @@ import pytest
 import percoat
 from conftest import wave
 from percoat import _executor
+from test_topographies import SIZES, Topography, heights
+from test_topographies import case as topography
 
 SETTINGS: dict[str, Any] = {
     "grid.points": [32, 48],
@@ -110,6 +112,13 @@ def test_files_are_found_from_another_folder(tmp_path: Path, monkeypatch: pytest
     assert pickle.loads(kept).solve_first(1).fingerprint != row.fingerprint
 
 
+def test_topographies_with_sizes_reach_processes() -> None:
+    case, values = topography(Topography(heights(), SIZES, "µm"), cutoff=2e3), {"substrate.poisson": [0.2, 0.3]}
+    serial = percoat.sweep(case, values)
+    with processes("spawn")() as executor:
+        equal(serial, percoat.sweep(case, values, executor=executor))
+
+
 def test_rows_and_combinations_pickle_bit_for_bit() -> None:
     sweep = percoat._core.Sweep("fig2", SETTINGS)
     for index in range(len(sweep)):
@@ -160,15 +169,63 @@ def test_combinations_of_a_worker_that_is_killed_are_rows(monkeypatch: pytest.Mo
     with processes("spawn")() as executor:
         with pytest.warns(percoat.PercoatWarning, match="failed: .*BrokenProcessPool"):
             table = percoat.sweep("fig2", {"grid.points": [32, 48, 64]}, executor=executor)
-        # So are those that the broken executor does not take any more.
-        with pytest.warns(percoat.PercoatWarning, match="failed: .*BrokenProcessPool"):
-            again = percoat.sweep("fig2", {"grid.points": [32, 48, 64]}, executor=executor)
-    assert set(table["status"]) == set(again["status"]) == {"failed"}
-    assert table["combination"].tolist() == again["combination"].tolist() == [1, 2, 3]
+        # An executor that takes nothing at all is an error.
+        with pytest.raises(BrokenExecutor):
+            percoat.sweep("fig2", {"grid.points": [32, 48, 64]}, executor=executor)
+    assert set(table["status"]) == {"failed"} and table["combination"].tolist() == [1, 2, 3]
 
 
 def killed(part: Any, threads: int) -> None:
     os.kill(os.getpid(), signal.SIGKILL)
+
+
+MANY: "dict[str, Any]" = {"grid.points": 32, "layers.0.thickness": "0.1:0.5:20"}
+
+
+@pytest.mark.parametrize("where", ["on_row", "another thread"])
+def test_tasks_that_a_shutdown_cancels_are_rows(where: str) -> None:
+    def stop(row: dict[str, Any]) -> None:
+        shut = lambda: executor.shutdown(wait=False, cancel_futures=True)  # noqa: E731
+        if row["status"] == "done" and where == "on_row":
+            shut()
+        elif row["status"] == "done":
+            threading.Thread(target=shut).start()
+
+    with ThreadPoolExecutor(1) as executor:
+        with pytest.warns(percoat.PercoatWarning, match="failed"):
+            table = percoat.sweep("fig2", MANY, executor=executor, on_row=stop)
+    assert table["combination"].tolist() == list(range(1, 21))
+    failed = table["status"] == "failed"
+    assert table["status"][0] == "done" and failed[-1] and set(table["status"]) == {"done", "failed"}
+    for reason in table["reason"][failed]:
+        assert "CancelledError" in reason or "the executor did not take its task: RuntimeError" in reason, reason
+
+
+def test_rows_are_there_before_all_tasks_are_and_stay_when_the_executor_ends() -> None:
+    class Ending(Broken):
+        def submit(self, *given: Any, **named: Any) -> "Future[Any]":
+            order.append("task")
+            if len(self.ends) == 1:
+                raise RuntimeError("cannot schedule new futures after shutdown")
+            return super().submit(*given, **named)
+
+    order: list[str] = []
+    values = {"grid.points": 32, "layers.0.thickness": [0.1, 0.2, 0.4]}
+    with pytest.warns(percoat.PercoatWarning, match="failed: the executor did not take its task: RuntimeError"):
+        table = percoat.sweep("fig2", values, executor=Ending([None] * 3), on_row=lambda row: order.append("row"))
+    assert order == ["task", "row"] * 3
+    assert table["status"].tolist() == ["done", "done", "failed"]
+    with ThreadPoolExecutor(1) as executor:
+        pass
+    with pytest.raises(RuntimeError, match="after shutdown"):
+        percoat.sweep("fig2", values, executor=executor)
+
+
+@pytest.mark.parametrize("where", ["here", "there"])
+def test_more_threads_than_there_may_be_are_an_error(where: str) -> None:
+    with ThreadPoolExecutor(2) as executor:
+        with pytest.raises(percoat.CaseError, match="threads must be between 1 and"):
+            percoat.sweep("fig2", MANY, threads=100_000, executor=executor if where == "there" else None)
 
 
 def test_a_combination_that_is_refused_is_a_row_and_all_are_an_error() -> None:
@@ -206,7 +263,8 @@ def test_an_error_of_the_callable_ends_the_sweep(where: str) -> None:
             percoat.sweep("fig2", values, on_row=stop, executor=executor if where == "there" else None)
     assert len(begun) == 1
     # Without cancelling, the executor would have ended all of its tasks.
-    assert where == "here" or sum(task.cancelled() for task in tasks) > 20
+    # With rows taken between submissions, fewer may have been submitted at all.
+    assert where == "here" or sum(task.done() and not task.cancelled() for task in tasks) < 20
 
 
 def test_rows_arrive_one_by_one_and_in_this_thread(tmp_path: Path) -> None:

@@ -58,5 +58,5 @@ def test_what_follows_without_a_solution_has_not_converged() -> None:
 
 
 def test_a_case_that_lasts_for_ever_is_refused() -> None:
-    with pytest.raises(percoat.CaseError, match="nothing tires or wears"):
+    with pytest.raises(percoat.CaseError, match="neither a fatigue law nor wear is given"):
         percoat.life("fig2")

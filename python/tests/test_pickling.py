@@ -13,6 +13,8 @@ import pytest
 import percoat
 from conftest import Program, wave
 from test_command_line import INCOMPRESSIBLE, OBLIQUE
+from test_topographies import SIZES, Topography, heights
+from test_topographies import case as topography
 
 CASES: dict[str, Callable[[], percoat.Result]] = {
     "three levels": lambda: percoat.solve(
@@ -26,6 +28,7 @@ CASES: dict[str, Callable[[], percoat.Result]] = {
         "rough", set={"grid.points": 64, "surface.random.shortest": 5.0, "load.mean_pressure": [0.1]}
     ),
     "a surface from an array": lambda: percoat.solve(wave()),
+    "a surface with sizes of its own": lambda: percoat.solve(topography(Topography(heights(), SIZES, "µm"), cutoff=2e3)),
     "a ring": lambda: percoat.solve("ring", set={"grid.points": 64}),
 }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -56,6 +57,72 @@ def test_heights_of_an_array_are_saved_and_solved_again(
         assert own.pressure.tobytes() == other.pressure.tobytes()
     program("report", tmp_path / "out")
     assert "A wave pressed flat" in (tmp_path / "out" / "report.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize("file", ["h.npy", "h.CSV"])
+def test_heights_of_a_file_that_is_gone_are_saved_and_solved_again(tmp_path: Path, file: str) -> None:
+    case, heights = wave(), tmp_path / file
+    if file == "h.npy":
+        np.save(heights, case["surface"]["heights"])
+    else:
+        np.savetxt(heights, case["surface"]["heights"], delimiter=",")
+    case["surface"]["heights"] = str(heights)
+    result = percoat.solve(case)
+    kept, bytes = pickle.dumps(result), heights.read_bytes()
+    heights.unlink()
+    again, name = pickle.loads(kept), f"heights{heights.suffix}"
+    again.save(tmp_path / "out")
+    assert (tmp_path / "out" / name).read_bytes() == bytes
+    solved = percoat.solve(tmp_path / "out" / "case.toml")
+    assert [own.pressure.tobytes() for own in solved] == [own.pressure.tobytes() for own in result]
+    # Of a user's file of that name nothing is lost.
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / name).write_text("mine", "utf-8")
+    with pytest.raises(percoat.CaseError, match=name):
+        again.save(tmp_path / "other")
+    assert (tmp_path / "other" / name).read_text("utf-8") == "mine"
+
+
+def test_pressures_of_a_file_that_is_gone_are_saved_and_solved_again(tmp_path: Path) -> None:
+    np.save(tmp_path / "p.npy", np.where(np.arange(1024).reshape(32, 32) % 32 < 8, 0.01, 0.0))
+    case = {
+        "lattice": {"kind": "square", "period": 1.0},
+        "substrate": {"young": 1.0, "poisson": 0.3},
+        "load": {"pressure": str(tmp_path / "p.npy")},
+        "grid": {"points": 32},
+    }
+    result = percoat.solve(case)
+    kept = pickle.dumps(result)
+    (tmp_path / "p.npy").unlink()
+    again = pickle.loads(kept)
+    assert again[0].pressure.tobytes() == result[0].pressure.tobytes()
+    again.save(tmp_path / "out")
+    solved = percoat.solve(tmp_path / "out" / "case.toml")
+    assert solved[0].pressure.tobytes() == result[0].pressure.tobytes()
+
+
+def test_a_saved_sweep_has_the_case_that_was_solved(tmp_path: Path) -> None:
+    def description(name: str) -> Any:
+        return json.loads((tmp_path / name / "sweep.json").read_text("utf-8"))
+
+    values = {"substrate.poisson": [0.2, 0.3]}
+    heights, case = tmp_path / "h.npy", wave()
+    np.save(heights, case["surface"]["heights"])
+    case["surface"]["heights"] = str(heights)
+    table = percoat.sweep(case, values)
+    table.save(tmp_path / "before")
+    np.save(heights, np.zeros((4, 4)))
+    table.save(tmp_path / "changed")
+    heights.unlink()
+    table.save(tmp_path / "gone")
+    pickle.loads(pickle.dumps(table)).save(tmp_path / "pickled")
+    assert "h.npy" in description("before")["case"]
+    for name in ("changed", "gone", "pickled"):
+        assert description(name) == description("before"), name
+    # Without the keys that vary this case is refused, and stands as it was given.
+    case = wave()
+    percoat.sweep(case, {"load": [case.pop("load")]}).save(tmp_path / "load")
+    assert "poisson = 0.3" in description("load")["case"]
 
 
 def test_a_saved_sweep_is_the_folder_of_the_command_line(tmp_path: Path, program: Program) -> None:
