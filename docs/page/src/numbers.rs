@@ -1,6 +1,7 @@
 //! The numbers of a step that are shown first.
 
 use crate::answer::CaseNumber;
+use percoat::output::table::in_unit;
 use percoat::output::with_error;
 use percoat::run::StepRecord;
 use percoat::stress::Peak;
@@ -11,9 +12,7 @@ pub fn of(step: &StepRecord, units: &Units) -> Vec<CaseNumber> {
     let reading = &step.reading;
     let shown = |name: &str, unit: &Unit, value: f64, error: Option<f64>| {
         let suited = unit.suited([value]);
-        let factor = 10f64.powi(suited.exponent);
-        let text = with_error(factor * value, error.map(|error| factor * error));
-        let text = if suited.name.is_empty() { text } else { format!("{text}\u{a0}{}", suited.name) };
+        let text = suited.behind(&in_unit(&suited, value, error));
         CaseNumber { name: name.to_owned(), text, value: Some(value).filter(|x| x.is_finite()), error }
     };
     let (length, pressure) = (units.length(), units.pressure());

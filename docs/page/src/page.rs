@@ -12,7 +12,7 @@ use percoat::output::summary;
 use percoat::output::table::{self, Assumptions};
 use percoat::picture::{self, Canvas, Format, Snapshot};
 use percoat::run::{Cut, Recorder, StepRecord};
-use percoat::{Step, StressField, StressFields, VerticalSection};
+use percoat::{Depth, Step, StressField, StressFields, SurfaceLine, VerticalSection};
 use serde_json::{Value, json};
 use std::convert::Infallible;
 use std::path::Path;
@@ -44,8 +44,8 @@ impl Page {
     fn perform(&mut self, request: Request) -> Result<Vec<u8>, String> {
         match request {
             Request::Materials => Ok(json!({ "materials": library() }).to_string().into_bytes()),
-            Request::Solve { case, pictures } => {
-                self.solve(case, pictures).map(|answer| json!(answer).to_string().into_bytes())
+            Request::Solve { case, pictures, coarse } => {
+                self.solve(case, pictures, coarse).map(|answer| json!(answer).to_string().into_bytes())
             }
             Request::Limit { case } => limit(case).map(|answer| json!(answer).to_string().into_bytes()),
             Request::Picture { name } => {
@@ -64,12 +64,12 @@ impl Page {
         self.kept.as_ref().ok_or_else(|| "nothing is solved yet".to_owned())
     }
 
-    fn solve(&mut self, case: Value, pictures: bool) -> Result<Answer, String> {
+    fn solve(&mut self, case: Value, pictures: bool, coarse: bool) -> Result<Answer, String> {
         let case = read(case)?;
         let (run, room) = (case.run(), Capacity::on_this_machine(Path::new("")));
-        let cut = run.stress.as_ref().and_then(|stress| stress.cut.clone());
+        let cut = run.stress.as_ref().and_then(|stress| stress.cut.clone()).filter(|_| pictures);
         let allowed = Allowed::within(&case, room, Job::Keep)?;
-        let mut recording = Recording { allowed, cut: cut.filter(|_| pictures), sections: Vec::new() };
+        let mut recording = Recording { allowed, cut, coarse, sections: Vec::new() };
         let outcome = run.solve(&mut recording).map_err(|error| error.to_string())?;
         let record = outcome.steps.last().ok_or("a case has a load at least")?;
         let units = case.units();
@@ -136,7 +136,18 @@ fn assumptions(case: &Case) -> Vec<String> {
 struct Recording<'a> {
     allowed: Allowed<'a>,
     cut: Option<Cut>,
+    coarse: bool,
     sections: Vec<VerticalSection>,
+}
+
+/// A line of half as many intervals, and every other depth; interfaces and the last depth stay.
+fn halved(line: SurfaceLine, depths: &[Depth]) -> (SurfaceLine, Vec<Depth>) {
+    let stays = |i: usize| {
+        let is_on_interface = |j: usize| depths.get(j).is_some_and(|other| other.z == depths[i].z);
+        i.is_multiple_of(2) || i + 1 == depths.len() || is_on_interface(i - 1) || is_on_interface(i + 1)
+    };
+    let rows = (0..depths.len()).filter(|&i| stays(i)).map(|i| depths[i]).collect();
+    (SurfaceLine { points: line.points.div_ceil(2), ..line }, rows)
 }
 
 impl Recorder for Recording<'_> {
@@ -148,7 +159,11 @@ impl Recorder for Recording<'_> {
 
     fn step(&mut self, _step: &Step, _record: &StepRecord, fields: Option<&StressFields>) -> Result<(), Infallible> {
         if let (Some(cut), Some(fields)) = (&self.cut, fields) {
-            let section = |field: &StressField| field.section(&cut.line, &cut.depths(field.half_space()));
+            let section = |field: &StressField| {
+                let depths = cut.depths(field.half_space());
+                let (line, depths) = if self.coarse { halved(cut.line, &depths) } else { (cut.line, depths) };
+                field.section(&line, &depths)
+            };
             self.sections = fields.each().map(section).collect();
         }
         Ok(())

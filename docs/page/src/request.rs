@@ -15,6 +15,9 @@ pub enum Request {
         case: Value,
         /// Whether pictures are drawn, and the step is kept for [`Request::Picture`] and [`Request::Table`].
         pictures: bool,
+        /// Whether the section has half of its points each way, for a first answer.
+        #[serde(default)]
+        coarse: bool,
     },
     /// The loads at which the criteria of a case are reached.
     Limit {

@@ -3,6 +3,7 @@
 Environment: PERCOAT_PAGE, the built page; PERCOAT, the program whose numbers it must have; PERCOAT_SHOTS, a folder for pictures of the screen.
 """
 
+import base64
 import json
 import os
 import re
@@ -209,6 +210,48 @@ def test_what_is_refused_is_said(browser):
     wait(browser, lambda: not error.is_displayed(), "the error stays")
 
 
+def test_what_is_no_number_is_refused_and_other_values_of_an_address_are_not_taken(browser):
+    opened(browser)
+    done(browser)
+    typed(browser, "[name=force]", "five")
+    error = browser.find_element(By.ID, "error")
+    wait(browser, error.is_displayed, "no error")
+    assert '"five" is not a number' in error.text
+    assert not browser.find_element(By.ID, "actions").is_displayed()
+    text = json.dumps({"layers": [None, {"thickness": "2"}], "samples": 7, "force": "much", "body": "cube", "substrate": 3})
+    browser.get("about:blank")
+    browser.get(PAGE.as_uri() + "#" + base64.b64encode(text.encode()).decode())
+    wait(browser, lambda: "layers[0]" in browser.find_element(By.ID, "error").text, "no error")
+    state = browser.execute_script("return state")
+    assert (state["samples"], state["force"], state["body"], state["layers"]) == (192, 5, "ball", [{}, {}])
+
+
+def test_a_failure_of_the_module_is_not_the_last_word(browser):
+    opened(browser)
+    done(browser)
+    # The next request fails as it does where the module ends itself.
+    fails_once = "const send = worker.send; worker.send = () => { worker.send = send; return Promise.resolve({ failure: 'unreachable' }); };"
+    browser.execute_script(fails_once)
+    typed(browser, "[name=force]", "2")
+    error = browser.find_element(By.ID, "error")
+    wait(browser, error.is_displayed, "no error")
+    assert "unreachable" in error.text
+    typed(browser, "[name=force]", "3")
+    done(browser)
+    assert "3 N" in saved(browser, "case").read_text()
+
+
+def test_numbers_of_a_change_under_way_cannot_be_saved(browser):
+    opened(browser)
+    done(browser)
+    typed(browser, "[name=force]", "4")
+    assert browser.execute_script("return document.getElementById('result').classList.contains('outdated')")
+    done(browser)
+    assert not browser.execute_script("return document.getElementById('result').classList.contains('outdated')")
+    # Of the limits it is said on which grid they were searched.
+    assert "96 × 96 samples" in browser.find_element(By.ID, "verdict").text
+
+
 def test_a_telephone(browser):
     opened(browser, size="phone")
     done(browser)
@@ -222,6 +265,7 @@ def test_nothing_is_uploaded(browser):
     done(browser)
     asked = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
     sent = [own["params"]["request"]["url"] for own in asked if own["method"] == "Network.requestWillBeSent"]
+    assert sent
     assert all(url.startswith(("file:", "blob:", "data:", "about:")) for url in sent), sent
     severe = [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
     assert not severe, severe

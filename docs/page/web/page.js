@@ -9,14 +9,16 @@ let shown = {}; // What is on the page: the case and its answers.
 // The worker. A new change ends a calculation that is under way: the worker is replaced.
 const worker = {
   module: null, own: null, busy: false, waiting: new Map(), count: 0,
-  start() {
-    const source = new Blob([WORKER], { type: "text/javascript" });
-    this.own = new Worker(URL.createObjectURL(source));
+  source: URL.createObjectURL(new Blob([WORKER], { type: "text/javascript" })),
+  async start() {
+    this.own = new Worker(this.source);
     this.own.onmessage = ({ data }) => {
       this.waiting.get(data.number)?.(data);
       this.waiting.delete(data.number);
     };
-    return this.send({ module: this.module });
+    this.own.onerror = ({ message }) => this.end(message || "the worker does not start");
+    const { failure } = await this.send({ module: this.module });
+    if (failure) throw new Error(failure);
   },
   send(message) {
     const number = ++this.count;
@@ -25,17 +27,26 @@ const worker = {
       this.own.postMessage({ ...message, number });
     });
   },
+  // What is under way has no answer but this failure.
+  end(failure) {
+    for (const resolve of this.waiting.values()) resolve({ failure });
+    this.waiting.clear();
+  },
   async restart() {
     this.own.terminate();
-    this.waiting.clear();
+    this.end(REPLACED);
     await this.start();
   },
 };
 
+const REPLACED = "a later change has ended it";
+
 async function ask(request) {
   const { bytes, seconds, failure } = await worker.send({ request });
-  if (failure) throw new Error(`the calculation has ended: ${failure}`);
-  return { bytes, seconds };
+  if (!failure) return { bytes, seconds };
+  // A module that has failed once computes nothing more.
+  if (failure !== REPLACED) await worker.restart();
+  throw new Error(`the calculation has ended: ${failure}`);
 }
 
 // A picture or table of the step that is kept.
@@ -116,6 +127,7 @@ function numberOf(part, key, name, isNeeded) {
     const value = Number(input.value.replace(",", "."));
     const empty = input.value.trim() === "";
     input.classList.toggle("wrong", Number.isNaN(value) || (empty && isNeeded));
+    if (Number.isNaN(value)) return refused(name, input.value);
     if (empty) delete part[key];
     else part[key] = value;
     changed();
@@ -153,6 +165,7 @@ function entered({ target }) {
   if (NUMBERS.includes(name) || name === "friction" || name === "samples") {
     value = Number(value.replace(",", "."));
     target.classList.toggle("wrong", !(value > 0) && name !== "friction");
+    if (Number.isNaN(value)) return refused(name, target.value);
   }
   if (Object.is(state[name], value)) return;
   state[name] = value;
@@ -175,10 +188,22 @@ let pause = 0;
 let round = 0; // Counts the changes: what an earlier one has asked for is dropped.
 
 function changed() {
-  round += 1;
+  outdated();
   history.replaceState(null, "", "#" + encode(state));
-  clearTimeout(pause);
   pause = setTimeout(calculate, 150);
+}
+
+// What is shown is no longer that of the form.
+function outdated() {
+  round += 1;
+  clearTimeout(pause);
+  at("result").classList.add("outdated");
+  at("error").hidden = true;
+}
+
+function refused(name, text) {
+  outdated();
+  showError(`${name}: "${text}" is not a number`);
 }
 
 const samples = (points) => `${points} × ${points} samples`;
@@ -200,22 +225,27 @@ async function calculate() {
 // One grid after another: the coated body, the bare one, then the loads at which something fails.
 async function stages(own) {
   const has = state.layers.length > 0;
+  const failures = []; // Of what stands beside the coated body.
+  const beside = (what, request) => answerOf(request).catch((error) => {
+    failures.push(`${what}: ${error.message}`);
+    return null;
+  });
   let radius;
   for (let points = FIRST; points <= state.samples; points *= 2) {
     at("status").textContent = `computing on ${samples(points)} …`;
-    const coated = await answerOf({ task: "solve", case: caseOf(state, library, { points, radius }), pictures: true });
+    const coated = await answerOf({ task: "solve", case: caseOf(state, library, { points, radius }), pictures: true, coarse: points < state.samples });
     if (own !== round) return;
-    shown = { coated, points, bare: null, limit: shown.round === own ? shown.limit : null, round: own };
+    shown = { coated, points, bare: null, limit: shown.round === own ? shown.limit : null, failures, round: own };
     show();
     if (has) {
-      shown.bare = await answerOf({ task: "solve", case: caseOf(state, library, { points, bare: true }), pictures: false });
+      shown.bare = await beside("Bare substrate", { task: "solve", case: caseOf(state, library, { points, bare: true }), pictures: false });
       if (own !== round) return;
       show();
     }
     radius = coated.step.levels[0]?.contact_radius ?? undefined;
     if (points === FIRST && coated.step.strength?.length) {
       at("status").textContent = "searching the loads at which something fails …";
-      shown.limit = await answerOf({ task: "limit", case: caseOf(state, library, { points, radius }) });
+      shown.limit = await beside("Search of limits", { task: "limit", case: caseOf(state, library, { points, radius }) });
       if (own !== round) return;
       show();
     }
@@ -233,6 +263,7 @@ function write(id, text) {
 }
 
 function showError(message) {
+  at("result").classList.remove("outdated");
   at("error").hidden = false;
   at("error").textContent = message;
   at("status").textContent = "";
@@ -241,17 +272,22 @@ function showError(message) {
 }
 
 function show() {
-  const { coated, bare, limit, points } = shown;
+  const { coated, bare, limit, failures, points } = shown;
+  at("result").classList.remove("outdated");
   at("error").hidden = true;
   at("status").textContent = `${samples(points)}: ${coated.seconds.toFixed(2)} s`;
-  write("verdict", limit?.verdict ?? coated.verdict);
+  // The search is made on the first grid alone.
+  const searched = points === FIRST ? "" : `, on ${samples(FIRST)}`;
+  write("verdict", limit ? limit.verdict + searched : coated.verdict);
   write("here", limit ? coated.verdict : null);
   const unknown = withoutStrength(state, library);
   write("unknown", unknown.length ? `No strength is known of ${unknown.join(" and ")}: give it under “moduli and strengths”.` : null);
   showNumbers(coated, bare);
-  at("warnings").replaceChildren(...coated.warnings.map((text) => element("li", { textContent: text })));
+  const warnings = [...coated.warnings, ...(bare?.warnings ?? []).map((text) => `Bare substrate: ${text}`), ...failures];
+  at("warnings").replaceChildren(...warnings.map((text) => element("li", { textContent: text })));
   showPictures(coated);
-  const tables = [...coated.tables, ...(limit?.tables ?? [])].map(tableOf);
+  const limits = (limit?.tables ?? []).map((table) => ({ ...table, name: table.name + searched }));
+  const tables = [...coated.tables, ...limits].map(tableOf);
   const notes = [...coated.assumptions, ...(limit?.warnings ?? []).map((text) => `Search of limits, ${samples(FIRST)}: ${text}`)].map((text) => element("p", { textContent: text }));
   const details = element("details", { open: at("more").querySelector("details")?.open ?? false },
     element("summary", { textContent: "all tables" }), ...tables, ...notes);
@@ -281,7 +317,7 @@ function showPictures({ pictures }) {
     const image = element("img", { alt: CAPTIONS[name], src: URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })) });
     const button = element("button", { type: "button", textContent: "PNG" });
     button.dataset.picture = name;
-    button.onclick = async () => save(`${name}.png`, await bytesOf({ task: "picture", name }), "image/png");
+    button.onclick = () => saveAnswer(`${name}.png`, { task: "picture", name }, "image/png");
     const figure = element("figure", {}, element("figcaption", {}, `${CAPTIONS[name]} `, button), image);
     figure.dataset.name = name;
     return figure;
@@ -306,23 +342,32 @@ function save(name, content, type) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+async function saveAnswer(name, request, type) {
+  try {
+    save(name, await bytesOf(request), type);
+  } catch (error) {
+    at("status").textContent = `${name} is not saved: ${error.message}`;
+  }
+}
+
 for (const button of document.querySelectorAll("[data-save]")) {
-  button.onclick = async () => {
+  button.onclick = () => {
     const name = button.dataset.save;
     if (name === "case") save("case.toml", shown.coated.case, "application/toml");
-    else save(`${name}.csv`, await bytesOf({ task: "table", name }), "text/csv");
+    else saveAnswer(`${name}.csv`, { task: "table", name }, "text/csv");
   };
 }
 
 at("copy").onclick = async () => {
-  await navigator.clipboard.writeText(location.href);
-  at("copy").textContent = "copied";
+  // Without https there is no clipboard.
+  const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
+  at("copy").textContent = copied ? "copied" : "copy it from the address bar";
   setTimeout(() => (at("copy").textContent = "copy the address"), 1500);
 };
 
 addEventListener("hashchange", () => {
   state = decode(location.hash.slice(1));
-  round += 1;
+  outdated();
   drawForm();
   calculate();
 });

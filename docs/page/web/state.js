@@ -8,6 +8,9 @@ const DEFAULT = {
   substrate: { material: "D2" },
 };
 
+// Values of the fields that are lists.
+const CHOICES = { body: ["ball", "asperities"], lattice: ["square", "hexagonal"], load: ["pressure", "cell"], samples: [96, 192, 384] };
+
 // Keys of a material that the form can set, with their names and units; the last three are those of layers.
 const PROPERTIES = [
   ["young", "Young's modulus", "GPa"],
@@ -28,15 +31,32 @@ function encode(state) {
   return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-// The state of an address; the default one where it is none.
+// The state of an address: what is usable of it, and the default one for the rest.
 function decode(text) {
+  const state = structuredClone(DEFAULT);
+  let given;
   try {
     const bytes = Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
-    const state = JSON.parse(new TextDecoder().decode(bytes));
-    return Array.isArray(state.layers) ? { ...structuredClone(DEFAULT), ...state } : structuredClone(DEFAULT);
+    given = JSON.parse(new TextDecoder().decode(bytes));
   } catch {
-    return structuredClone(DEFAULT);
+    return state;
   }
+  const isUsable = (key, value) => CHOICES[key]?.includes(value) ?? (typeof value === typeof DEFAULT[key] && !Number.isNaN(value));
+  for (const key of Object.keys(DEFAULT)) {
+    if (key !== "layers" && key !== "substrate" && isUsable(key, given?.[key])) state[key] = given[key];
+  }
+  if (Array.isArray(given?.layers)) state.layers = given.layers.map(usablePart);
+  if (given?.substrate) state.substrate = usablePart(given.substrate);
+  return state;
+}
+
+// What is usable of a layer or the substrate.
+function usablePart(given) {
+  const part = typeof given?.material === "string" ? { material: given.material } : {};
+  for (const key of ["thickness", ...PROPERTIES.map(([key]) => key)]) {
+    if (Number.isFinite(given?.[key])) part[key] = given[key];
+  }
+  return part;
 }
 
 function rounded(x, digits) {

@@ -14,12 +14,13 @@ function unused(module) {
   return imports;
 }
 
+// Addresses above 2 GiB arrive as negative numbers.
 function ask(request) {
   const text = new TextEncoder().encode(JSON.stringify(request));
-  const at = exports.allocate(text.length);
+  const at = exports.allocate(text.length) >>> 0;
   new Uint8Array(exports.memory.buffer, at, text.length).set(text);
   exports.compute();
-  return new Uint8Array(exports.memory.buffer, exports.address(), exports.length()).slice();
+  return new Uint8Array(exports.memory.buffer, exports.address() >>> 0, exports.length()).slice();
 }
 
 onmessage = async ({ data: { module, number, request } }) => {
