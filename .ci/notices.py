@@ -1,4 +1,7 @@
-"""Licences of all that the program is linked from: names, then each text once. Needs the target: x86_64-unknown-linux-musl."""
+"""Licences of all that a package of the workspace is linked from: names, then each text once.
+
+Needs the target and the package: x86_64-unknown-linux-musl percoat.
+"""
 
 import json
 import subprocess
@@ -8,13 +11,14 @@ from pathlib import Path
 LICENCE_FILES = ("LICENSE*", "LICENCE*", "license*", "COPYING*", "COPYRIGHT*", "NOTICE*", "UNLICENSE*")
 
 
-def linked(target):
-    """Packages that percoat is linked from on a target, by name: no procedural macros, nothing that only builds or tests need."""
+def linked(target, package):
+    """Packages that a package is linked from on a target, by name: no procedural macros, nothing that only builds or tests need."""
     command = ["cargo", "metadata", "--format-version", "1", "--locked", "--filter-platform", target]
     graph = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
     packages = {package["id"]: package for package in graph["packages"]}
     nodes = {node["id"]: node for node in graph["resolve"]["nodes"]}
-    found, left = set(), [graph["resolve"]["root"]]
+    root = next(own["id"] for own in graph["packages"] if own["name"] == package and own["source"] is None)
+    found, left = set(), [root]
     while left:
         own = left.pop()
         is_macro = any("proc-macro" in part["kind"] for part in packages[own]["targets"])
@@ -24,7 +28,7 @@ def linked(target):
         for edge in nodes[own]["deps"]:
             if any(kind["kind"] is None for kind in edge["dep_kinds"]):
                 left.append(edge["pkg"])
-    found.remove(graph["resolve"]["root"])
+    found.remove(root)
     return sorted((packages[own] for own in found), key=lambda package: (package["name"], package["version"]))
 
 
@@ -34,9 +38,11 @@ def texts(folder):
     return [file.read_text(encoding="utf-8", errors="replace").strip() for file in sorted(files)]
 
 
-packages = linked(sys.argv[1])
+target, package = sys.argv[1:]
+packages = [own for own in linked(target, package) if own["name"] != "percoat"]
 owners = {}
-print("The program percoat is linked from these packages, from the Rust standard library (MIT OR Apache-2.0) and from musl (MIT);")
+libraries = "the Rust standard library (MIT OR Apache-2.0)" + (" and musl (MIT)" if target.endswith("-musl") else "")
+print(f"percoat is linked from these packages and from {libraries};")
 print("its pictures have letters of DejaVu Sans. Each text of a licence stands below once.\n")
 for package in packages:
     name = f"{package['name']} {package['version']}"

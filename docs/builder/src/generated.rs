@@ -3,7 +3,6 @@
 use crate::run::Tools;
 use anyhow::{Result, bail};
 use std::fmt::Write;
-use std::path::Path;
 
 /// The page with its generated parts.
 pub fn filled(text: &str, tools: &Tools) -> Result<String> {
@@ -12,7 +11,7 @@ pub fn filled(text: &str, tools: &Tools) -> Result<String> {
         let name = line.trim().strip_prefix("<!-- percoat: ").and_then(|rest| rest.strip_suffix(" -->"));
         match name {
             None => filled += line,
-            Some("keys") => filled += &tools.shell("percoat explain --markdown", Path::new("."))?,
+            Some("keys") => filled += &tools.printed("percoat explain --markdown")?,
             Some("cases") => filled += &cases(tools)?,
             Some("exit codes") => filled += &exit_codes(tools)?,
             Some("commands") => filled += &commands(tools)?,
@@ -24,12 +23,12 @@ pub fn filled(text: &str, tools: &Tools) -> Result<String> {
 
 /// The embedded cases with their titles, as a list.
 fn cases(tools: &Tools) -> Result<String> {
-    Ok(format!("```text\n{}```\n", tools.shell("percoat cases", Path::new("."))?))
+    Ok(format!("```text\n{}```\n", tools.printed("percoat cases")?))
 }
 
 /// The exit codes, a row each, from the end of the help.
 fn exit_codes(tools: &Tools) -> Result<String> {
-    let help = tools.shell("percoat --help", Path::new("."))?;
+    let help = tools.printed("percoat --help")?;
     let Some((_, codes)) = help.split_once("Exit codes: ") else { bail!("percoat --help lists no exit codes") };
     let codes = codes.split_whitespace().collect::<Vec<_>>().join(" ");
     let row = |code: &str| {
@@ -41,7 +40,7 @@ fn exit_codes(tools: &Tools) -> Result<String> {
 
 /// The help of each command under its name.
 fn commands(tools: &Tools) -> Result<String> {
-    let help = |command: &str| tools.shell(&format!("percoat {command} --help"), Path::new("."));
+    let help = |command: &str| tools.printed(&format!("percoat {command} --help"));
     let whole = help("")?;
     let list = whole.split_once("Commands:\n").map_or("", |(_, rest)| rest);
     let names = list.lines().take_while(|line| !line.trim().is_empty()).filter_map(|line| {

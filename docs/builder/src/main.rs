@@ -1,5 +1,5 @@
-//! Builds the book of percoat and the page that computes: runs every command of its pages and compares what they print, typesets the
-//! equations, and checks every link.
+//! Builds the book of percoat and the page that computes: runs the blocks `console` and `python` of its pages and compares what they
+//! print, typesets the equations, and checks every link. Blocks `sh` are not run: they install, take minutes, or need a cluster.
 //!
 //! `cargo run -p percoat-book -- --percoat target/release/percoat target/book`
 
@@ -37,7 +37,7 @@ struct Arguments {
     /// Write what the commands print into the sources, where it differs
     #[arg(long)]
     write: bool,
-    /// Build only the pages whose path contains this text
+    /// Run only the pages whose path contains this text; links are then not checked
     #[arg(long)]
     only: Option<String>,
 }
@@ -45,6 +45,9 @@ struct Arguments {
 fn main() -> Result<()> {
     let arguments = Arguments::parse();
     let tools = run::Tools::new(&arguments.percoat, arguments.python.as_deref())?;
+    if arguments.python.is_none() {
+        eprintln!("the Python of the pages is not run: --python names a Python with the package");
+    }
     let place = tempfile::tempdir()?;
     let sources = place.path().join("src");
     let mut differences = Vec::new();
@@ -72,7 +75,10 @@ fn main() -> Result<()> {
     if let Some(wasm) = &arguments.wasm {
         page::bundle(&arguments.docs.join("page/web"), wasm, &arguments.output.join("page/index.html"))?;
     }
-    differences.extend(links::broken(&arguments.output, arguments.wasm.is_some())?);
+    // Pages that were not run lack their pictures.
+    if arguments.only.is_none() {
+        differences.extend(links::broken(&arguments.output, arguments.wasm.is_some())?);
+    }
     for difference in &differences {
         eprintln!("{difference}\n");
     }
@@ -83,7 +89,8 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Runs the cells of the page of the file `from`, if it is wanted; what differs from what they print, unless that is written into the file.
+/// Runs the cells of the page of the file `from`, if it is wanted; what differs from what they print, unless that could be written into
+/// the file.
 fn ran(
     page: &mut cells::Page,
     from: &Path,
@@ -95,13 +102,13 @@ fn ran(
         return Ok(Vec::new());
     }
     let name = from.display().to_string();
-    let differences = tools.run(page, to).with_context(|| name.clone())?;
-    if arguments.write && !differences.is_empty() {
+    let mut differences = tools.run(page, to).with_context(|| name.clone())?;
+    if arguments.write && differences.iter().any(|own| own.is_taken) {
         fs::write(from, page.source())?;
         println!("written: {name}");
-        return Ok(Vec::new());
+        differences.retain(|own| !own.is_taken);
     }
-    Ok(differences.into_iter().map(|text| format!("{name}: {text}")).collect())
+    Ok(differences.into_iter().map(|own| format!("{name}: {}", own.text)).collect())
 }
 
 /// Makes the folder of a file.
@@ -109,17 +116,20 @@ fn make_parent(file: &Path) -> Result<()> {
     Ok(file.parent().map_or(Ok(()), fs::create_dir_all)?)
 }
 
+/// A file in the folder of a book, without which the folder is not replaced.
+const MARK: &str = ".percoat-book";
+
 /// Builds the book into a folder, in the place of an earlier book alone.
 fn build(root: &Path, output: &Path) -> Result<()> {
     let mut book = MDBook::load(root)?;
     if output.exists() {
-        let is_book = output.join(".nojekyll").is_file() && output.join("index.html").is_file();
-        if !is_book && fs::read_dir(output)?.next().is_some() {
-            bail!("{} holds something else than a book: name another folder", output.display());
+        if !output.join(MARK).is_file() && fs::read_dir(output)?.next().is_some() {
+            bail!("{} holds something else than this book: name another folder, or clear it", output.display());
         }
         fs::remove_dir_all(output)?;
     }
     fs::create_dir_all(output)?;
     book.config.build.build_dir = output.canonicalize()?;
-    book.build()
+    book.build()?;
+    Ok(fs::write(output.join(MARK), "Built from docs/: replaced as a whole by the next build.\n")?)
 }

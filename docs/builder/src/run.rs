@@ -21,6 +21,20 @@ pub struct Tools {
 /// Separates what the cells of Python print.
 const MARK: char = '\u{1}';
 
+/// Exit code of a program in Rust that panics.
+const PANIC: i32 = 101;
+/// First exit code by which a shell names the signal that has ended a command.
+const KILLED: i32 = 128;
+
+/// What a cell shows and what it prints, where they differ.
+#[derive(Debug)]
+pub struct Difference {
+    /// Both, in words.
+    pub text: String,
+    /// Whether what it prints has taken the place of what the page has; "…" stands for lines that only a person can choose.
+    pub is_taken: bool,
+}
+
 impl Tools {
     /// Tools with the program at a path, and a Python if there is one.
     pub fn new(percoat: &Path, python: Option<&Path>) -> Result<Self> {
@@ -35,20 +49,34 @@ impl Tools {
         Ok(Self { programs, python, time, progress })
     }
 
-    /// The shell in a folder, as a user has it.
-    pub fn shell(&self, line: &str, folder: &Path) -> Result<String> {
+    /// What a line prints in the shell in a folder, as a user has it, and its exit code; a command that is killed or panics is an error.
+    pub fn shell(&self, line: &str, folder: &Path) -> Result<(String, i32)> {
         let path = format!("{}:{}", self.programs.path().display(), std::env::var("PATH").unwrap_or_default());
         let mut command = Command::new("sh");
         command.args(["-c", &format!("exec 2>&1\n{line}")]).current_dir(folder).stdin(Stdio::null());
         command.env("PATH", path).env("COLUMNS", "80").env_remove("RAYON_NUM_THREADS");
         let output = command.output().with_context(|| line.to_owned())?;
         let printed = String::from_utf8(output.stdout)?;
-        Ok(self.progress.replace_all(&printed, "").into_owned())
+        match output.status.code() {
+            Some(code) if code != PANIC && code < KILLED => {
+                Ok((self.progress.replace_all(&printed, "").into_owned(), code))
+            }
+            _ => bail!("{line}\n{}\n{printed}", output.status),
+        }
     }
 
-    /// Runs the cells of a page, whose pictures are copied beside its file `to`. What a cell prints takes the place of what the page
-    /// has, where they differ; returns a text for each difference.
-    pub fn run(&self, page: &mut Page, to: &Path) -> Result<Vec<String>> {
+    /// What a command prints that must not fail.
+    pub fn printed(&self, line: &str) -> Result<String> {
+        match self.shell(line, Path::new("."))? {
+            (printed, 0) => Ok(printed),
+            (printed, code) => bail!("{line}: exit code {code}\n{printed}"),
+        }
+    }
+
+    /// Runs the cells of a page: its commands and files in their order, then its Python, as one program. The pictures that they make are
+    /// copied beside its file `to`. What a cell prints takes the place of what the page has, where they differ; returns the
+    /// differences.
+    pub fn run(&self, page: &mut Page, to: &Path) -> Result<Vec<Difference>> {
         let folder = tempfile::tempdir()?;
         let mut differences = Vec::new();
         for cell in &mut page.cells {
@@ -57,7 +85,7 @@ impl Tools {
                 Cell::File { name, content, .. } => fs::write(folder.path().join(name), content)?,
                 Cell::Console(commands) => {
                     for command in commands {
-                        let found = self.shell(&command.line, folder.path())?;
+                        let (found, _) = self.shell(&command.line, folder.path())?;
                         differences.extend(self.take(&command.line, &mut command.prints, found));
                     }
                 }
@@ -68,7 +96,7 @@ impl Tools {
         Ok(differences)
     }
 
-    fn run_python(&self, page: &mut Page, folder: &Path) -> Result<Vec<String>> {
+    fn run_python(&self, page: &mut Page, folder: &Path) -> Result<Vec<Difference>> {
         let Some(python) = &self.python else { return Ok(Vec::new()) };
         let codes = page.cells.iter().filter_map(|cell| match cell {
             Cell::Python { code, .. } => Some(format!("{code}\nprint('\\x01', end='')\n")),
@@ -100,8 +128,8 @@ impl Tools {
         Ok(differences)
     }
 
-    /// Takes over what was found where it differs from what is shown; the difference as a text.
-    fn take(&self, what: &str, shown: &mut String, mut found: String) -> Option<String> {
+    /// Takes over what was found where it differs from what is shown.
+    fn take(&self, what: &str, shown: &mut String, mut found: String) -> Option<Difference> {
         if !found.is_empty() && !found.ends_with('\n') {
             found.push('\n');
         }
@@ -109,10 +137,11 @@ impl Tools {
             return None;
         }
         let text = format!("{what}\nshows\n{shown}\nbut prints\n{found}");
-        if !shown.lines().any(|line| line == "…") {
+        let is_taken = !shown.lines().any(|line| line == "…");
+        if is_taken {
             *shown = found;
         }
-        Some(text)
+        Some(Difference { text, is_taken })
     }
 
     /// Whether a shown text is what was found, but for times and the lines that "…" leaves out.
