@@ -1,12 +1,13 @@
 //! The best and the worst combination of a sweep, for each result by which a designer ranks them.
 //!
-//! Best is the highest limit load and the most passes until damage, and the least utilisation, tension and pressure. Combinations that
-//! failed or did not converge are not ranked, and counted; of several load steps the last one counts.
+//! Best is the highest limit load and the most passes until damage, and the least utilisation, tension and pressure. A combination
+//! that reaches no limit is better than one that does, if it was loaded at least as far. Combinations that failed or did not converge
+//! are not ranked, and counted; of several load steps the last one counts.
 
-use super::result::{Measured, SCALARS, SweepResult};
+use super::result::{LimitValue, Measured, SCALARS, SweepResult};
 use super::row::{Row, Status};
-use crate::output::table::{Table, Worded};
-use crate::output::{number, with_error};
+use crate::output::number;
+use crate::output::table::{Table, Worded, in_unit};
 use crate::units::{Unit, Units};
 use std::collections::BTreeSet;
 
@@ -19,19 +20,30 @@ struct Merit {
     /// Whether more of it is better.
     more: bool,
     unit: Unit,
-    of: fn(&SweepResult) -> Option<Measured>,
+    of: fn(&SweepResult) -> Option<LimitValue>,
 }
 
 /// A value of a merit with its row.
-type Ranked<'a> = (Measured, &'a Row);
+type Ranked<'a> = (LimitValue, &'a Row);
+
+/// The combinations at both ends of a ranking.
+struct Ends<'a> {
+    best: Ranked<'a>,
+    worst: Ranked<'a>,
+    /// Number of others that reach no limit up to a load below that of the best: one of them may be better.
+    unlimited: usize,
+}
 
 /// The results in the order of their weight: what fails, then what strains.
 fn merits(units: &Units) -> [Merit; 6] {
-    fn scalar(result: &SweepResult, name: &str) -> Option<Measured> {
-        let scalar = SCALARS.iter().find(|scalar| scalar.name == name)?;
-        (scalar.of)(result.step()?)
+    fn known((value, error): Measured) -> LimitValue {
+        LimitValue::At(value, error)
     }
-    let merit = |name: &str, more: bool, unit: Unit, of: fn(&SweepResult) -> Option<Measured>| Merit {
+    fn scalar(result: &SweepResult, name: &str) -> Option<LimitValue> {
+        let scalar = SCALARS.iter().find(|scalar| scalar.name == name)?;
+        (scalar.of)(result.step()?).map(known)
+    }
+    let merit = |name: &str, more: bool, unit: Unit, of: fn(&SweepResult) -> Option<LimitValue>| Merit {
         name: name.to_owned(),
         more,
         unit,
@@ -40,9 +52,9 @@ fn merits(units: &Units) -> [Merit; 6] {
     let pressure = || units.pressure().clone();
     let first = format!("first limit, {}", units.quantity().name());
     [
-        merit(&first, true, units.load(), |own| own.limit_value(None)?.measured()),
+        merit(&first, true, units.load(), |own| own.limit_value(None)),
         merit("passes to damage", true, Unit::None, |own| scalar(own, "passes to damage")),
-        merit("largest utilisation", false, Unit::None, SweepResult::largest_utilisation),
+        merit("largest utilisation", false, Unit::None, |own| own.largest_utilisation().map(known)),
         merit("largest tension", false, pressure(), |own| scalar(own, "largest tension")),
         merit("peak pressure", false, pressure(), |own| scalar(own, "peak pressure")),
         merit("largest von Mises", false, pressure(), |own| scalar(own, "largest von Mises")),
@@ -54,12 +66,17 @@ fn merits(units: &Units) -> [Merit; 6] {
 pub fn best_and_worst(rows: &[Row], units: &Units) -> Option<Worded> {
     let done: Vec<&Row> = rows.iter().filter(|row| row.status == Status::Done).collect();
     let ranked = merits(units).into_iter().filter_map(|merit| Some((ends(&done, &merit)?, merit)));
-    let lines = ranked.take(MOST).flat_map(|([best, worst], merit)| {
-        let line = |name: &str, word: &str, (measured, row): Ranked<'_>, open: &str| {
-            vec![name.to_owned(), word.to_owned(), text(&merit, measured) + open, settings(row)]
+    let lines = ranked.take(MOST).flat_map(|(Ends { best, worst, unlimited }, merit)| {
+        let line = |name: &str, word: &str, (value, row): Ranked<'_>, open: &str| {
+            vec![name.to_owned(), word.to_owned(), text(&merit, value) + open, settings(row)]
+        };
+        let or_another = match unlimited {
+            0 => String::new(),
+            1 => ", or another that reaches no limit".to_owned(),
+            count => format!(", or one of {count} that reach no limit"),
         };
         let open = if is_open(best.0, worst.0) { ", within the errors" } else { "" };
-        [line(&merit.name, "best", best, ""), line("", "worst", worst, open)]
+        [line(&merit.name, "best", best, &or_another), line("", "worst", worst, open)]
     });
     let lines: Vec<Vec<String>> = lines.collect();
     let head = ["result", "", "value", "combination"];
@@ -79,25 +96,48 @@ fn words(rows: &[Row], done: usize) -> String {
     format!("best and worst of {done} combinations{steps}{left_out}")
 }
 
-/// The best and the worst of the rows; `None` for less than two.
-fn ends<'a>(rows: &[&'a Row], merit: &Merit) -> Option<[Ranked<'a>; 2]> {
+/// The best and the worst of the rows; `None` for less than two that can be told apart.
+fn ends<'a>(rows: &[&'a Row], merit: &Merit) -> Option<Ends<'a>> {
     let values = rows.iter().filter_map(|row| Some(((merit.of)(row.results.last()?)?, *row)));
-    let mut values: Vec<Ranked<'_>> = values.filter(|((value, _), _)| value.is_finite()).collect();
-    values.sort_by(|(a, _), (b, _)| if merit.more { b.0.total_cmp(&a.0) } else { a.0.total_cmp(&b.0) });
-    match values[..] {
-        [best, .., worst] => Some([best, worst]),
-        _ => None,
+    let mut values: Vec<Ranked<'_>> = values.filter(|(value, _)| load(*value).is_some_and(f64::is_finite)).collect();
+    values.sort_by(|(a, _), (b, _)| {
+        let order = load(*a).unwrap_or(0.0).total_cmp(&load(*b).unwrap_or(0.0));
+        if merit.more { order.reverse() } else { order }
+    });
+    let is_unlimited = |own: &Ranked<'_>| matches!(own.0, LimitValue::Above(_));
+    // Loads of one size: what reaches no limit up to there bears more.
+    let mut best = *values.iter().find(|own| !matches!(own.0, LimitValue::Below(_)))?;
+    if let Some(own) = values.iter().find(|own| is_unlimited(own) && load(own.0) >= load(best.0)) {
+        best = *own;
+    }
+    let worst = *values.iter().rfind(|own| !is_unlimited(own))?;
+    let unlimited = values.iter().filter(|own| is_unlimited(own) && own.1.combination != best.1.combination).count();
+    (best.1.combination != worst.1.combination).then_some(Ends { best, worst, unlimited })
+}
+
+/// The value, or the bound of one that is not known.
+fn load(value: LimitValue) -> Option<f64> {
+    match value {
+        LimitValue::At(load, _) | LimitValue::Below(load) | LimitValue::Above(load) => Some(load),
+        LimitValue::Undecided => None,
     }
 }
 
 /// Whether two values differ by less than their errors, so that either may be the better one.
-fn is_open(best: Measured, worst: Measured) -> bool {
-    (best.0 - worst.0).abs() < best.1.unwrap_or(0.0) + worst.1.unwrap_or(0.0)
+fn is_open(best: LimitValue, worst: LimitValue) -> bool {
+    let (Some((best, up)), Some((worst, down))) = (best.measured(), worst.measured()) else { return false };
+    (best - worst).abs() < up.unwrap_or(0.0) + down.unwrap_or(0.0)
 }
 
-fn text(merit: &Merit, (value, error): Measured) -> String {
-    let unit = merit.unit.prefixed(value);
-    unit.behind(&with_error(unit.shown(value), error.map(|error| unit.shown(error))))
+fn text(merit: &Merit, value: LimitValue) -> String {
+    let unit = merit.unit.prefixed(load(value).unwrap_or_default());
+    let bound = |sign: &str, load: f64| unit.behind(&format!("{sign} {}", number(unit.shown(load))));
+    match value {
+        LimitValue::At(load, error) => unit.behind(&in_unit(&unit, load, error)),
+        LimitValue::Below(load) => bound("<", load),
+        LimitValue::Above(load) => bound(">", load),
+        LimitValue::Undecided => String::new(),
+    }
 }
 
 /// Number and settings of a row: of long numbers five digits, of keys the last part where no two have the same.
@@ -116,9 +156,10 @@ fn settings(row: &Row) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::examples::{below, reached, row, step, strained};
+    use super::super::examples::{below, never, reached, row, step, strained};
     use super::*;
     use crate::reading::{Criterion, Utilisation};
+    use crate::run::Limit;
 
     fn lines(rows: &[Row]) -> Vec<String> {
         let units = Units::unknown().named(Some("µm"), Some("GPa"));
@@ -149,17 +190,34 @@ mod tests {
         assert!(best_and_worst(&rows[..1], &Units::unknown()).is_none());
     }
 
+    fn limits(limits: &[Limit]) -> Vec<Row> {
+        let result = |limit: &Limit| vec![SweepResult::Limits(vec![*limit])];
+        (1..).zip(limits).map(|(n, limit)| row(n, &[("a", format!("{n}.000000001"))], result(limit))).collect()
+    }
+
     #[test]
-    fn the_best_limit_is_the_highest_and_a_bound_is_not_ranked() {
+    fn the_best_limit_is_the_highest_and_one_below_the_grid_the_worst() {
         let yields = Criterion::yield_of(1);
-        let limits = [reached(yields, 0.2, 0.01), reached(yields, 0.7, 0.01), below(yields, 0.1)];
-        let rows: Vec<Row> = (1..)
-            .zip(limits)
-            .map(|(n, limit)| row(n, &[("a", format!("{n}.000000001"))], vec![SweepResult::Limits(vec![limit])]))
-            .collect();
-        let lines = lines(&rows);
+        let own = [reached(yields, 0.2, 0.01), reached(yields, 0.7, 0.01), below(yields, 0.1)];
+        let lines = lines(&limits(&own));
         assert_eq!(lines[1], "first limit, mean pressure best 0.70 ± 0.01 GPa 2: a = 2.0000");
-        assert_eq!(lines[2], "worst 0.20 ± 0.01 GPa 1: a = 1.0000");
+        assert_eq!(lines[2], "worst < 0.10000 GPa 3: a = 3.0000");
+    }
+
+    #[test]
+    fn what_reaches_no_limit_is_the_best_where_it_was_loaded_as_far() {
+        let yields = Criterion::yield_of(1);
+        let [least, most] = [reached(yields, 0.2, 0.01), reached(yields, 0.7, 0.01)];
+        let best = |own: &[Limit]| lines(&limits(own))[1].clone();
+        assert_eq!(
+            best(&[least, most, never(yields, 2.0)]),
+            "first limit, mean pressure best > 2.0000 GPa 3: a = 3.0000"
+        );
+        let open = "first limit, mean pressure best 0.70 ± 0.01 GPa, or another that reaches no limit 2: a = 2.0000";
+        assert_eq!(best(&[least, most, never(yields, 0.5)]), open);
+        // Nothing can be said of these two.
+        let rows = limits(&[most, never(yields, 0.5)]);
+        assert!(best_and_worst(&rows, &Units::unknown()).is_none());
     }
 
     #[test]
