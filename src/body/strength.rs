@@ -1,6 +1,6 @@
 //! Strengths of materials and interfaces: what they bear before something fails.
 //!
-//! A material yields where the stress of von Mises reaches its yield strength, and cracks where the largest principal stress
+//! A material yields where the von Mises stress reaches its yield strength, and cracks where the largest principal stress
 //! reaches its tensile strength. An interface comes off where its tension ⟨σ_zz⟩ and shear τ reach
 //! (⟨σ_zz⟩/σ_c)² + (τ/τ_c)² = 1. A strength that is not given has no limit.
 
@@ -9,7 +9,7 @@ use super::MaterialError;
 /// Strengths of a material, pressures.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Strength {
-    /// Yield strength, which the stress of von Mises must not reach.
+    /// Yield strength, which the von Mises stress must not reach.
     pub yielding: Option<f64>,
     /// Tensile strength, which the largest principal stress must not reach.
     pub tensile: Option<f64>,

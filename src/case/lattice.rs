@@ -55,7 +55,7 @@ section! {
         pub size: Option<Sides> = Key::new(&[Form::Number(Range::Size), Form::Tuple("two of them, [w1, w2]", &[Form::Number(Range::Size); 2])], "2.0")
             .unit(Unit::Length)
             .of(&["isolated"])
-            .rule("contact must stay inside; nothing depends on it otherwise"),
+            .rule("contact must stay inside; at the same spacing of the samples nothing else depends on it"),
     }
 }
 

@@ -57,7 +57,7 @@ pub enum Command {
         #[command(flatten)]
         common: Common,
     },
-    /// Find the limit loads: the mean pressures at which materials and interfaces fail (without CASE: a DLC coating on steel)
+    /// Find the limit loads: the mean pressures or forces at which materials and interfaces fail (without CASE: a DLC coating on steel)
     #[command(after_help = help::LIMIT)]
     Limit {
         /// Case file with strengths, the name of an embedded case, or - for standard input
@@ -86,7 +86,7 @@ pub enum Command {
         data: PathBuf,
         /// Case file of one indenter alone, or the name of an embedded case
         case: PathBuf,
-        /// Keys to be found, as layers.0.young,substrate.young; `offset`: a zero that was missed; `frame_compliance`: that of the frame
+        /// Keys to be found, as layers.0.young,substrate.young; `offset`: the error of the zero of penetration; `frame_compliance`: that of the instrument's frame
         #[arg(long, required = true, value_name = "KEY,…", value_delimiter = ',')]
         free: Vec<String>,
         #[command(flatten)]
@@ -121,7 +121,7 @@ pub enum Command {
         #[command(flatten)]
         saying: Saying,
     },
-    /// Make one HTML page of a finished run, sweep or limit, for screen, phone and print, without network
+    /// Make one HTML page of a finished run, sweep, limit or life, for screen, phone and print, without network
     #[command(after_help = help::REPORT)]
     Report {
         /// Output folder of the run

@@ -32,7 +32,7 @@ help!(
 help!(
     LIFE,
     "0 done; 2 refused, nothing written; 3 not converged, everything\ncomputed is written and marked; 4 input or output failed; 130 interrupted",
-    "life" => "a TiN coating on steel whose interface tires",
+    "life" => "a TiN coating on steel whose interface fails by fatigue",
     "life mine.toml --set life.passes=1e7 --resume"
 );
 help!(

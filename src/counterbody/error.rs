@@ -33,7 +33,7 @@ pub enum CounterbodyError {
     Disc(usize),
     /// A loaded disc without room in its window.
     #[error(
-        "disc {disc} must lie within {} and {} of the middle of the window, seven eighths of it: enlarge the window, on which nothing else depends", .room[0], .room[1]
+        "disc {disc} must lie within {} and {} of the middle of the window, seven eighths of it: enlarge the window", .room[0], .room[1]
     )]
     OutsideWindow {
         /// Number of the disc, from 1.

@@ -179,7 +179,7 @@ impl LoadPath<'_> {
         };
         let tau1 = self.units.pressure_of("largest principal shear stress", "τ₁");
         let tension = self.units.pressure_of("largest tension", "σ₁");
-        let mises = self.units.pressure_of("largest stress of von Mises", "σᵥ");
+        let mises = self.units.pressure_of("largest von Mises stress", "σᵥ");
         vec![
             self.chart("principal shear stress", self.axis(tau1), curves(|extremes| extremes.tau1)),
             self.chart("tension", Axis::linear(tension), curves(|extremes| extremes.tension)),

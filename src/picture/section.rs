@@ -205,7 +205,7 @@ fn named(measure: SectionMeasure) -> [&'static str; 2] {
     match measure {
         SectionMeasure::Along => ["stress along the section", "σₛ"],
         SectionMeasure::Tau1 => ["principal shear stress", "τ₁"],
-        SectionMeasure::Mises => ["stress of von Mises", "σᵥ"],
+        SectionMeasure::Mises => ["von Mises stress", "σᵥ"],
         SectionMeasure::Tension => ["largest principal stress", "σ₁"],
         SectionMeasure::Shear => ["shear of horizontal planes", "τ"],
         SectionMeasure::Opening => ["normal stress of horizontal planes", "σₙ"],

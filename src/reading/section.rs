@@ -12,7 +12,7 @@ pub(crate) enum SectionMeasure {
     Along,
     /// Principal shear stress τ₁.
     Tau1,
-    /// Stress of von Mises.
+    /// Von Mises stress.
     Mises,
     /// Largest principal stress σ₁.
     Tension,

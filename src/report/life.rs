@@ -40,7 +40,7 @@ pub(super) fn part(results: &Results, file: &LifeFile) -> Result<Part, ReportErr
             answer(&lives.words),
             table("Passes until damage 1; ± is the estimated error of the grid", &lives.table),
         ]),
-        None => found.push(answer("nothing tires")),
+        None => found.push(answer("no fatigue law is given")),
     }
     found.push(assumed(case, false));
     let left =

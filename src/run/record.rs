@@ -184,13 +184,13 @@ impl StepRecord {
         self.strength.iter().find(|own| own.criterion == criterion)
     }
 
-    /// The governing criterion in words, numbers and errors formatted by `format`: "yield of material 2 takes up 0.93 ± 0.02, or
+    /// The governing criterion in words, numbers and errors formatted by `format`: "yield of material 2 has the utilisation 0.93 ± 0.02, or
     /// cracking of material 1 within the errors"; `None` without contact or strengths.
     pub fn governing_in_words(&self, format: impl Fn(f64, Option<f64>) -> String) -> Option<String> {
         let Governing { criterion, rivals, .. } = self.governing.as_ref()?;
         let Utilisation { value, error, .. } = *self.utilisation(*criterion)?;
-        let taken = if value.is_infinite() { "infinitely much".to_owned() } else { format(value, error) };
-        Some(format!("{criterion} takes up {taken}{}", within_the_errors(rivals)))
+        let taken = if value.is_infinite() { "∞".to_owned() } else { format(value, error) };
+        Some(format!("{criterion} has the utilisation {taken}{}", within_the_errors(rivals)))
     }
 
     /// Whether the solution meets the tolerance, or as far as double precision carries, and every number of it is finite.

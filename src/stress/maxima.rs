@@ -1,4 +1,4 @@
-//! Largest stresses of coating and substrate: principal shear stress τ₁, tension σ₁ and stress of von Mises in each material and
+//! Largest stresses of coating and substrate: principal shear stress τ₁, tension σ₁ and von Mises stress in each material and
 //! on each of its faces, tension and shear on each interface.
 //!
 //! Maxima are searched plane by plane and refined; on the surface itself, where the series converges slowly, the largest
@@ -26,7 +26,7 @@ pub struct Extremes {
     /// Largest principal stress σ₁; negative where all of it is in compression.
     #[serde(rename = "max_tension")]
     pub tension: Peak,
-    /// Largest stress of von Mises.
+    /// Largest von Mises stress.
     #[serde(rename = "max_mises")]
     pub mises: Peak,
 }

@@ -15,7 +15,7 @@ pub(super) enum StressMeasure {
     Tau1,
     /// Largest principal stress σ₁.
     Tension,
-    /// Stress of von Mises.
+    /// Von Mises stress.
     Mises,
     /// Opening stress σ_zz on an interface.
     Opening,

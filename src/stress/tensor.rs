@@ -102,7 +102,7 @@ impl StressState {
         self.principal()[0]
     }
 
-    /// Principal shear stress τ₁, stress of von Mises and largest principal stress σ₁.
+    /// Principal shear stress τ₁, von Mises stress and largest principal stress σ₁.
     pub fn derived(&self) -> [f64; 3] {
         let [first, _, last] = self.principal();
         [0.5 * (first - last), self.mises(), first]

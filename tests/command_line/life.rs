@@ -62,7 +62,8 @@ fn the_passes_are_those_of_a_solved_case() {
 #[test]
 fn what_cannot_be_followed_is_refused() {
     let desk = Desk::new();
-    desk.percoat(&["life", "fig2"]).complains(2, &["nothing tires or wears", "interface_fatigue", "life.passes"]);
+    desk.percoat(&["life", "fig2"])
+        .complains(2, &["neither a fatigue law nor wear is given", "interface_fatigue", "life.passes"]);
     desk.percoat(&["life", "tin-fatigue", "--set", "load.mean_pressure=[0.01, 0.02]"])
         .complains(2, &["one load in all passes", "--set load.mean_pressure="]);
     assert!(desk.names().is_empty());

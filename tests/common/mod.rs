@@ -96,7 +96,7 @@ pub fn coated(chi: f64, thickness: f64, poisson: [f64; 2], interface: Interface)
     HalfSpace::new(vec![Layer::new(coating, thickness, interface).unwrap()], substrate)
 }
 
-/// The largest stress of von Mises under a bare sphere that slides, over the peak pressure, by the closed form (Hamilton 1983): at
+/// The largest von Mises stress under a bare sphere that slides, over the peak pressure, by the closed form (Hamilton 1983): at
 /// the trailing edge, or inside on a hundred by forty places of the plane of symmetry.
 #[cfg(feature = "validate")]
 pub fn largest_mises_of_a_sliding_sphere(nu: f64, friction: f64) -> f64 {

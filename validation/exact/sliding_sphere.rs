@@ -70,7 +70,7 @@ pub fn turned([xx, yy, zz, xy, xz, yz]: Stress, angle: f64) -> Stress {
     ]
 }
 
-/// The stress of von Mises.
+/// The von Mises stress.
 pub fn mises([xx, yy, zz, xy, xz, yz]: Stress) -> f64 {
     let apart = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
     (0.5 * apart + 3.0 * (xy * xy + xz * xz + yz * yz)).sqrt()

@@ -124,7 +124,7 @@ pub fn life(case: &Case, file: &LifeFile, width: usize) -> String {
     let (mut text, units) = (heading(case), case.units());
     match lives(&file.steps, &units) {
         Some(lives) => text += &format!("\n{}\n", lives.fitted(width)),
-        None => text += "\nnothing tires\n",
+        None => text += "\nno fatigue law is given\n",
     }
     if let Some(events) = events(&file.events, &units).filter(|_| file.end.is_some()) {
         text += &format!("\n{}\n", events.fitted(width));
@@ -278,8 +278,8 @@ fn finite(unit: &Prefixed, x: Option<f64>, error: Option<f64>) -> String {
     x.map_or("singular".to_owned(), |x| in_unit(unit, x, error))
 }
 
-/// A number with its error, both in the unit of their column.
-fn in_unit(unit: &Prefixed, x: f64, error: Option<f64>) -> String {
+/// A number with its error, both in the unit of their column, which is not named.
+pub fn in_unit(unit: &Prefixed, x: f64, error: Option<f64>) -> String {
     with_error(unit.shown(x), error.map(|error| unit.shown(error)))
 }
 

@@ -97,7 +97,11 @@ pub fn limits(limits: &Limits, units: &Units) -> Worded {
     let place = |position: [f64; 3]| place(&length, position);
     let most = |utilisation: f64, error: Option<f64>, at: f64| {
         let utilisation = with_error(utilisation, error);
-        format!("takes up {utilisation} at {} = {}", limits.quantity.symbol(), units.load().with_unit(at, number))
+        format!(
+            "has the utilisation {utilisation} at {} = {}",
+            limits.quantity.symbol(),
+            units.load().with_unit(at, number)
+        )
     };
     let row = |limit: &&Limit| {
         let (load, place) = match limit.at {
