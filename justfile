@@ -20,12 +20,13 @@ dist *architectures:
 solve *arguments:
     cargo run --release --locked -- solve {{arguments}}
 
-# The book and the page that computes, in target/book; with arguments such as `--write` or `--only limit`.
+# The book and the page that computes, in target/book; with arguments such as `--write` or `--only limit`. After `just python` with all pages run.
 book *arguments:
     rustup target add wasm32-unknown-unknown
     cargo build --release --locked --bin percoat
     cargo build --profile page --locked --target wasm32-unknown-unknown -p percoat-page
-    cargo run --locked -p percoat-book -- --wasm target/wasm32-unknown-unknown/page/percoat_page.wasm {{arguments}} target/book
+    cargo run --locked -p percoat-book -- --wasm target/wasm32-unknown-unknown/page/percoat_page.wasm \
+        {{ if path_exists("target/venv/bin/python") == "true" { "--python target/venv/bin/python" } else { "" } }} {{arguments}} target/book
 
 # Every study afresh: report and figures in validation/, to be committed with what changed them.
 validate:

@@ -8,6 +8,7 @@ mod generated;
 mod links;
 mod math;
 mod page;
+mod python;
 mod run;
 mod source;
 
@@ -28,7 +29,7 @@ struct Arguments {
     /// The program whose commands the pages show
     #[arg(long, default_value = "target/release/percoat")]
     percoat: PathBuf,
-    /// A Python with the package percoat, which runs the Python of the pages; without it they are not run
+    /// A Python with the package percoat; without it pages with Python are not run
     #[arg(long)]
     python: Option<PathBuf>,
     /// The module of the page that computes; without it there is no such page
@@ -37,7 +38,7 @@ struct Arguments {
     /// Write what the commands print into the sources, where it differs
     #[arg(long)]
     write: bool,
-    /// Run only the pages whose path contains this text; links are then not checked
+    /// Run only the pages whose path contains this text; links are checked only where all pages are run
     #[arg(long)]
     only: Option<String>,
 }
@@ -45,9 +46,6 @@ struct Arguments {
 fn main() -> Result<()> {
     let arguments = Arguments::parse();
     let tools = run::Tools::new(&arguments.percoat, arguments.python.as_deref())?;
-    if arguments.python.is_none() {
-        eprintln!("the Python of the pages is not run: --python names a Python with the package");
-    }
     let place = tempfile::tempdir()?;
     let sources = place.path().join("src");
     let mut differences = Vec::new();
@@ -75,8 +73,8 @@ fn main() -> Result<()> {
     if let Some(wasm) = &arguments.wasm {
         page::bundle(&arguments.docs.join("page/web"), wasm, &arguments.output.join("page/index.html"))?;
     }
-    // Pages that were not run lack their pictures.
-    if arguments.only.is_none() {
+    // Pages that are not run lack their pictures.
+    if arguments.only.is_none() && arguments.python.is_some() {
         differences.extend(links::broken(&arguments.output, arguments.wasm.is_some())?);
     }
     for difference in &differences {
@@ -102,6 +100,10 @@ fn ran(
         return Ok(Vec::new());
     }
     let name = from.display().to_string();
+    if !tools.can_run(page) {
+        eprintln!("{name} is not run: --python names a Python with the package");
+        return Ok(Vec::new());
+    }
     let mut differences = tools.run(page, to).with_context(|| name.clone())?;
     if arguments.write && differences.iter().any(|own| own.is_taken) {
         fs::write(from, page.source())?;

@@ -1,6 +1,7 @@
 //! Runs the cells of a page in an empty folder and compares what they print.
 
 use crate::cells::{Cell, Page};
+use crate::python::Session;
 use anyhow::{Context, Result, bail};
 use regex::Regex;
 use std::fs;
@@ -17,9 +18,6 @@ pub struct Tools {
     time: Regex,
     progress: Regex,
 }
-
-/// Separates what the cells of Python print.
-const MARK: char = '\u{1}';
 
 /// Exit code of a program in Rust that panics.
 const PANIC: i32 = 101;
@@ -73,15 +71,20 @@ impl Tools {
         }
     }
 
-    /// Runs the cells of a page: its commands and files in their order, then its Python, as one program. The pictures that they make are
-    /// copied beside its file `to`. What a cell prints takes the place of what the page has, where they differ; returns the
-    /// differences.
+    /// Whether a page can be run: Python is needed where it has any.
+    pub fn can_run(&self, page: &Page) -> bool {
+        self.python.is_some() || !page.cells.iter().any(|cell| matches!(cell, Cell::Python { .. }))
+    }
+
+    /// Runs the cells of a page in their order, all Python as one program. The pictures that they make are copied beside its file `to`.
+    /// What a cell prints takes the place of what the page has, where they differ; returns the differences.
     pub fn run(&self, page: &mut Page, to: &Path) -> Result<Vec<Difference>> {
         let folder = tempfile::tempdir()?;
         let mut differences = Vec::new();
+        let mut session = None;
         for cell in &mut page.cells {
             match cell {
-                Cell::Text(_) | Cell::Python { .. } => {}
+                Cell::Text(_) => {}
                 Cell::File { name, content, .. } => fs::write(folder.path().join(name), content)?,
                 Cell::Console(commands) => {
                     for command in commands {
@@ -89,42 +92,23 @@ impl Tools {
                         differences.extend(self.take(&command.line, &mut command.prints, found));
                     }
                 }
-            }
-        }
-        differences.extend(self.run_python(page, folder.path())?);
-        copy_made(&page.source(), folder.path(), to)?;
-        Ok(differences)
-    }
-
-    fn run_python(&self, page: &mut Page, folder: &Path) -> Result<Vec<Difference>> {
-        let Some(python) = &self.python else { return Ok(Vec::new()) };
-        let codes = page.cells.iter().filter_map(|cell| match cell {
-            Cell::Python { code, .. } => Some(format!("{code}\nprint('\\x01', end='')\n")),
-            _ => None,
-        });
-        let program: String = codes.collect();
-        if program.is_empty() {
-            return Ok(Vec::new());
-        }
-        let mut command = Command::new(python);
-        command.args(["-c", &program]).current_dir(folder).env("MPLBACKEND", "Agg").env("COLUMNS", "80");
-        let output = command.output()?;
-        if !output.status.success() {
-            bail!("{}", String::from_utf8_lossy(&output.stderr));
-        }
-        let prints = String::from_utf8(output.stdout)?;
-        let mut prints = prints.split(MARK).map(str::to_owned);
-        let mut differences = Vec::new();
-        for cell in &mut page.cells {
-            if let Cell::Python { code, prints: shown } = cell {
-                let found = prints.next().unwrap_or_default();
-                match shown {
-                    Some(shown) => differences.extend(self.take(code, shown, found)),
-                    None if found.is_empty() => {}
-                    None => bail!("a block prints what no block `text` behind it shows:\n{code}{found}"),
+                Cell::Python { code, prints } => {
+                    let Some(python) = &self.python else { bail!("there is no Python for\n{code}") };
+                    let session = match &mut session {
+                        Some(begun) => begun,
+                        none => none.insert(Session::begin(python, folder.path())?),
+                    };
+                    let found = session.run(code)?;
+                    match prints {
+                        Some(shown) => differences.extend(self.take(code, shown, found)),
+                        None if found.is_empty() => {}
+                        None => bail!("a block prints what no block `text` behind it shows:\n{code}{found}"),
+                    }
                 }
             }
         }
+        drop(session);
+        copy_made(&page.source(), folder.path(), to)?;
         Ok(differences)
     }
 
