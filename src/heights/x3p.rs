@@ -10,8 +10,9 @@
 //! ```
 //!
 //! Heights are numbers × Increment of CZ; NaN and infinite ones have no measurement. y grows from line to line (ISO 25178-72: the
-//! first number is at the lower left; under ISO 5436-2 many programs had it on top). What a zip unpacks to is limited by what `main.xml`
-//! states, `main.xml` itself to a mebibyte.
+//! first number is at the lower left; under ISO 5436-2 many programs had it on top). A `Rotation` of the axes (r11 … r33) other than the
+//! identity is refused. What a zip unpacks to is limited by what `main.xml` states, and compared with its checksum. `main.xml` itself is
+//! limited in its length and its namespaces, with whose number the time to parse it rises steeply.
 
 use super::binary::{Image, Number, broken, text};
 use super::channel::{Channel, WantedChannel, choose};
@@ -25,8 +26,12 @@ use zip::{CompressionMethod, ZipArchive};
 
 /// First bytes of a zip.
 pub const MAGIC: &[u8] = b"PK\x03\x04";
-/// Most bytes of `main.xml`.
-const LONGEST: u64 = 1 << 20;
+/// Most bytes of `main.xml`, of which real ones have 2000 to 10000.
+const LONGEST: u64 = 1 << 16;
+/// Most declarations of namespaces in `main.xml`, of which real ones have two or three.
+const MOST_NAMESPACES: usize = 16;
+/// Largest difference of a rotation from the identity, by rounding.
+const ROTATED: f64 = 1e-6;
 /// Most layers of a matrix.
 const MOST_LAYERS: f64 = 1000.0;
 /// Largest factor by which deflate compresses.
@@ -48,8 +53,8 @@ struct Matrix {
 /// Reads the layer that is `wanted`.
 pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, Fault> {
     let mut archive = Archive::open(content)?;
-    let main = text(&archive.entry("main.xml", LONGEST)?);
-    let matrix = Matrix::read(main.trim_start_matches('\u{feff}'))?;
+    let main = archive.entry("main.xml", LONGEST)?;
+    let matrix = Matrix::read(text(&main).trim_start_matches('\u{feff}'))?;
     let unit = || HeightsUnit::Known("m".to_owned());
     let layer = |number: usize| Channel { name: format!("layer {number}"), unit: Some(unit()) };
     let index = choose(&(1..=matrix.layers).map(layer).collect::<Vec<_>>(), wanted)?;
@@ -97,20 +102,31 @@ impl<'a> Archive<'a> {
             self.zip.index_for_name(&name).ok_or_else(|| broken("a file that its main.xml names is missing"))?;
         let mut entry = self.zip.by_index_raw(index).map_err(|_| broken("a file of its zip cannot be found"))?;
         let (size, packed, method) = (entry.size(), entry.compressed_size(), entry.compression());
+        let checksum = entry.crc32();
         // The sizes may both be false: what is unpacked is limited, and what is packed by the length of the zip.
         if size > most || size > packed.saturating_mul(RATIO) {
             return Err(broken(format_args!(
                 "a file of its zip says that it has {size} bytes, at most {most} belong there"
             )));
         }
+        if method == CompressionMethod::STORE && packed != size {
+            return Err(broken("a file of its zip is stored with another size than it states"));
+        }
         fits(size.saturating_add(packed))?;
         let mut bytes = Vec::new();
         entry.by_ref().take(packed).read_to_end(&mut bytes).map_err(|_| broken("a file of its zip is cut off"))?;
-        match method {
-            CompressionMethod::STORE => Ok(bytes),
+        let content = match method {
+            CompressionMethod::STORE => bytes,
             CompressionMethod::DEFLATE => decompress_to_vec_with_limit(&bytes, size as usize)
-                .map_err(|_| broken("a file of its zip does not unpack to the size that it states")),
-            _ => Err(Fault::new("is packed by another method than X3P files are", "this file").help("export it again")),
+                .map_err(|_| broken("a file of its zip does not unpack to the size that it states"))?,
+            _ => {
+                let fault = Fault::new("is packed by another method than X3P files are", "this file");
+                return Err(fault.help("export it again"));
+            }
+        };
+        match crc32fast::hash(&content) == checksum {
+            true => Ok(content),
+            false => Err(broken("a file of its zip has another checksum than the zip states")),
         }
     }
 
@@ -126,6 +142,9 @@ impl<'a> Archive<'a> {
 
 impl Matrix {
     fn read(main: &str) -> Result<Self, Fault> {
+        if main.matches("xmlns").nth(MOST_NAMESPACES).is_some() {
+            return Err(broken(format_args!("its main.xml declares more than {MOST_NAMESPACES} namespaces")));
+        }
         let document = Document::parse(main).map_err(|_| broken("its main.xml is no XML"))?;
         let root = document.root_element();
         let axis =
@@ -139,12 +158,19 @@ impl Matrix {
                 Fault::new(what, "no regular grid").help("export it as a surface, or put it on a regular grid before")
             );
         }
-        let mut increments = [1.0_f64; 3];
+        if at(root, &["Record1", "Axes", "Rotation"]).is_some_and(is_rotated) {
+            let what = "has axes that are rotated or mirrored by its main.xml";
+            return Err(Fault::new(what, "rotated axes")
+                .help("turn the surface in the program that wrote it, so that the matrix Rotation is the identity"));
+        }
+        // Heights without an increment are in metres; a spacing has no default.
+        let mut increments = [f64::NAN, f64::NAN, 1.0];
         for (own, axis) in increments.iter_mut().zip(axes) {
-            if let Some(written) =
-                at(axis, &["Increment"]).and_then(|own| own.text()).map(str::trim).filter(|own| !own.is_empty())
-            {
+            let written = at(axis, &["Increment"]).and_then(|own| own.text()).map_or("", str::trim);
+            if !written.is_empty() {
                 *own = written.parse().map_err(|_| broken("an increment of an axis is no number"))?;
+            } else if own.is_nan() {
+                return Err(broken("its main.xml lacks the increment of x or y"));
             }
         }
         let [x, y, z] = increments;
@@ -176,6 +202,16 @@ impl Matrix {
         })?;
         Ok(Self { image, layers: layers as usize, increments, kind, data, valid: link("ValidPointsLink") })
     }
+}
+
+/// Whether a rotation is not the identity; elements that it lacks are those of the identity.
+fn is_rotated(rotation: Node<'_, '_>) -> bool {
+    (1..=9).any(|k| {
+        let (row, column) = ((k + 2) / 3, (k + 2) % 3 + 1);
+        let written = at(rotation, &[&format!("r{row}{column}")]).and_then(|own| own.text());
+        let identity = f64::from(u8::from(row == column));
+        written.is_some_and(|own| !own.trim().parse().is_ok_and(|own: f64| (own - identity).abs() <= ROTATED))
+    })
 }
 
 /// The element at a path of names below another one, whatever their namespaces.

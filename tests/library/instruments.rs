@@ -214,16 +214,26 @@ fn sizes_that_the_file_does_not_hold_are_refused() {
 
 /// A zip of files, each with its content, and the sizes that are stated of it where they are not those that it has.
 fn zip(files: &[(&str, &[u8], Option<u32>)]) -> Vec<u8> {
+    packed_by(8, files)
+}
+
+/// A zip of files that are packed by a method: 0 as they are, 8 deflated.
+fn packed_by(method: u8, files: &[(&str, &[u8], Option<u32>)]) -> Vec<u8> {
     let (mut content, mut directory) = (Vec::new(), Vec::new());
     for (name, own, stated) in files {
-        let packed = compress_to_vec(own, 6);
+        let packed = if method == 0 { own.to_vec() } else { compress_to_vec(own, 6) };
         let [short, long] =
             [|n: usize| (n as u16).to_le_bytes().to_vec(), |n: usize| (n as u32).to_le_bytes().to_vec()];
         let size = stated.map_or(own.len(), |size| size as usize);
-        // Version, flags, method 8, time and date; no checksum.
-        let common =
-            [vec![20, 0, 0, 0, 8, 0, 0, 0, 0, 0, 0, 0, 0, 0], long(packed.len()), long(size), short(name.len())]
-                .concat();
+        // Version, flags, method, time and date.
+        let common = [
+            vec![20, 0, 0, 0, method, 0, 0, 0, 0, 0],
+            crc32fast::hash(own).to_le_bytes().to_vec(),
+            long(packed.len()),
+            long(size),
+            short(name.len()),
+        ]
+        .concat();
         let start = content.len();
         content.extend([&b"PK\x03\x04"[..], &common, &[0, 0], name.as_bytes(), &packed].concat());
         let rest = [vec![0; 10], long(start)].concat();
@@ -257,9 +267,17 @@ fn zips_that_unpack_without_end_are_refused() {
         read("a.x3p", zip(&[("main.xml", main.as_bytes(), None), ("bindata/data.bin", data, stated)]), "")
     };
     assert!(of(&main, &data, None).is_ok());
+    let turned = |r22: &str| {
+        let rotation = format!("<Rotation><r11>1</r11><r12>0.0</r12><r22>{r22}</r22></Rotation></Axes>");
+        main.replace("</Axes>", &rotation)
+    };
+    assert!(of(&turned("1.000e+00"), &data, None).is_ok());
     let zeros = vec![0; 64 << 20];
     let blanks = format!("{main}{}", " ".repeat(8 << 20));
-    let nested = format!("{}{}", "<a>".repeat(100_000), "</a>".repeat(100_000));
+    let nested = format!("{}{}", "<a>".repeat(9000), "</a>".repeat(9000));
+    // Each names every namespace above it: n³ comparisons.
+    let namespaces: String = (0..3000).map(|k| format!("<a xmlns:n{k}=\"c\">")).collect();
+    let attributes: String = (0..130_000).map(|k| format!(" a{k}=''")).collect();
     let laughs = format!(
         "<!DOCTYPE a [<!ENTITY b \"cccc\"><!ENTITY d \"&b;&b;\">]>{}",
         main.trim_start_matches("<?xml version=\"1.0\"?>")
@@ -274,7 +292,9 @@ fn zips_that_unpack_without_end_are_refused() {
         (of(&main, &data[..20], Some(24)), "a file of its zip has 20 bytes"),
         (of(&huge, &data, None), "a file of its zip has 24 bytes"),
         (of(&huge, &zeros, Some(u32::MAX)), "a file of its zip says"),
-        (of(&blanks, &data, None), "at most 1048576 belong there"),
+        (of(&blanks, &data, None), "at most 65536 belong there"),
+        (of(&namespaces, &data, None), "more than 16 namespaces"),
+        (of(&format!("<a{attributes}/>"), &data, None), "at most 65536 belong there"),
         (of(&nested, &data, None), "lacks an axis"),
         (of(&laughs, &data, None), "no XML"),
         (of("<a", &data, None), "no XML"),
@@ -284,6 +304,9 @@ fn zips_that_unpack_without_end_are_refused() {
         (of(&main_xml(["4", "3", "1"], "X"), &data, None), "of a type"),
         (of(&main.replacen(">I<", ">A<", 1), &data, None), "coordinates of their own"),
         (of(&main.replace("1e-6", "0"), &data, None), "no length greater than 0"),
+        (of(&main.replacen("<Increment>1e-6</Increment>", "", 1), &data, None), "lacks the increment of x or y"),
+        (of(&turned("-1"), &data, None), "rotated or mirrored"),
+        (of(&turned("one"), &data, None), "rotated or mirrored"),
         (read("a.x3p", zip(&[("main.xml", main.as_bytes(), None)]), ""), "is missing"),
         (read("a.x3p", zip(&[("readme", b"a", None)]), ""), "without a main.xml"),
         (read("a.x3p", b"PK\x03\x04".to_vec(), ""), "no whole zip"),
@@ -291,6 +314,27 @@ fn zips_that_unpack_without_end_are_refused() {
     ] {
         let told = told.map(|_| ()).unwrap_err();
         assert!(told.contains(words), "{words}: {told}");
+    }
+}
+
+#[test]
+fn a_zip_is_read_as_it_was_packed_or_refused() {
+    let data: Vec<u8> = (0..12u8).flat_map(|k| i16::from(k).to_le_bytes()).collect();
+    let main = main_xml(["4", "3", "1"], "I");
+    let of = |method: u8, data: &[u8], stated: Option<u32>| {
+        packed_by(method, &[("main.xml", main.as_bytes(), None), ("bindata/data.bin", data, stated)])
+    };
+    assert!(read("a.x3p", of(0, &data, None), "").is_ok());
+    // A stored file is not longer than it says.
+    let told = read("a.x3p", of(0, &vec![0; 8 << 20], Some(24)), "").unwrap_err();
+    assert!(told.contains("stored with another size"), "{told}");
+    for method in [0, 8] {
+        let mut changed = of(method, &data, None);
+        // The data ends where the directory begins.
+        let directory = changed.windows(4).position(|own| own == b"PK\x01\x02").unwrap();
+        changed[directory - 5] ^= 1;
+        let told = read("a.x3p", changed, "").unwrap_err();
+        assert!(told.contains("another checksum") || method == 8 && told.contains("is damaged"), "{told}");
     }
 }
 
