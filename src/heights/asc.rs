@@ -12,7 +12,7 @@
 //!
 //! (Esri, "Esri ASCII raster format".) The format has no units: lengths are in that of `surface.unit`, or of the case.
 
-use super::binary::{Image, broken, ended, text};
+use super::binary::{Image, broken, ended, whole_text};
 use super::channel::{Channel, WantedChannel, choose};
 use super::fault::{Fault, fits};
 use super::header::Length;
@@ -28,7 +28,7 @@ const KEYS: [&str; 10] =
 /// Reads the only channel; refused where another one is `wanted`.
 pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, Fault> {
     choose(&[Channel { name: String::new(), unit: None }], wanted)?;
-    let content = text(content);
+    let content = whole_text(content)?;
     let mut words = content.split_whitespace().peekable();
     let mut found = [None; KEYS.len()];
     while let Some(index) = words.peek().and_then(|word| KEYS.iter().position(|key| word.eq_ignore_ascii_case(key))) {

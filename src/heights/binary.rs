@@ -4,6 +4,7 @@
 //! size was compared with the bytes that are there.
 
 use super::fault::{Fault, Heights, MOST, fits};
+use std::borrow::Cow;
 use std::io::Read;
 
 /// Reads a whole file of `bytes` bytes.
@@ -56,7 +57,7 @@ impl<'a> Bytes<'a> {
     }
 
     /// The next text, which ends with a NUL.
-    pub fn text(&mut self) -> Result<String, Fault> {
+    pub fn text(&mut self) -> Result<Cow<'a, str>, Fault> {
         let end = self.rest.iter().position(|byte| *byte == 0).ok_or_else(ended)?;
         let own = text(self.take(end)?);
         self.take(1)?;
@@ -72,11 +73,19 @@ impl<'a> Bytes<'a> {
 }
 
 /// A text in UTF-8, or else in Latin-1.
-pub fn text(bytes: &[u8]) -> String {
+pub fn text(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
+        Ok(text) => Cow::Borrowed(text),
         Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
     }
+}
+
+/// The text of a whole file; one in Latin-1 is copied to at most twice its length, while a list grows to twice of that.
+pub fn whole_text(content: &[u8]) -> Result<Cow<'_, str>, Fault> {
+    if std::str::from_utf8(content).is_err() {
+        fits(4 * content.len() as u64)?;
+    }
+    Ok(text(content))
 }
 
 /// Type of a number in a file, little-endian.
@@ -170,10 +179,17 @@ mod tests {
     fn numbers_and_texts_are_read_within_their_bounds() {
         let mut bytes = Bytes::new(b"\xfe\xff\x01\0\0\0ab\0\xb5m\0\0\0x");
         assert_eq!((bytes.number(Number::I16), bytes.size()), (Ok(-2.0), Ok(1)));
-        assert_eq!((bytes.text(), bytes.field(5)), (Ok("ab".to_owned()), Ok("µm".to_owned())));
+        assert_eq!((bytes.text(), bytes.field(5)), (Ok("ab".into()), Ok("µm".to_owned())));
         assert_eq!((bytes.text(), bytes.take(2), bytes.take(1)), (Err(ended()), Err(ended()), Ok(&b"x"[..])));
         assert_eq!(Number::F64.at(&[[0; 8], 2.5f64.to_le_bytes()].concat(), 1), 2.5);
         assert_eq!(Number::U8.at(&[7, 200], 1), 200.0);
+    }
+
+    /// A file of half the memory has no room for a copy.
+    #[test]
+    fn a_text_in_utf_8_is_not_copied() {
+        assert!(matches!(whole_text("1 2 µm".as_bytes()), Ok(Cow::Borrowed("1 2 µm"))));
+        assert_eq!(whole_text(b"1 2 \xb5m").as_deref(), Ok("1 2 µm"));
     }
 
     #[test]

@@ -68,6 +68,15 @@ impl Heights {
     }
 }
 
+/// Adds to a list; refused where it is full and a list of twice its length exceeds the available memory.
+pub fn push<T>(list: &mut Vec<T>, item: T) -> Result<(), Fault> {
+    if list.len() == list.capacity() {
+        fits(2 * size_of_val(&list[..]) as u64)?;
+    }
+    list.push(item);
+    Ok(())
+}
+
 /// Refuses `needed` bytes that exceed the available memory.
 pub fn fits(needed: u64) -> Result<(), Fault> {
     let room = available_memory();

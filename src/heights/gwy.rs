@@ -20,6 +20,7 @@ use super::channel::{Channel, WantedChannel, choose};
 use super::fault::Fault;
 use super::header::{HeightsUnit, Length};
 use super::measured::Measured;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// First bytes of a file.
@@ -59,7 +60,7 @@ pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, 
         }
     }
     let described = |(field, own): &(DataField<'_>, &Parts<'_>)| Channel {
-        name: own.title.map(text).unwrap_or_default(),
+        name: own.title.map(text).unwrap_or_default().into_owned(),
         unit: field.heights_unit(),
     };
     let all: Vec<Channel> = fields.iter().map(described).collect();
@@ -82,7 +83,7 @@ fn object<'a>(bytes: &mut Bytes<'a>, name: &str) -> Result<Bytes<'a>, Fault> {
 }
 
 /// The next component with its name.
-fn component<'a>(bytes: &mut Bytes<'a>) -> Result<(String, Component<'a>), Fault> {
+fn component<'a>(bytes: &mut Bytes<'a>) -> Result<(Cow<'a, str>, Component<'a>), Fault> {
     let name = bytes.text()?;
     let kind = bytes.take(1)?[0];
     Ok((name, (kind, value(bytes, kind)?)))
@@ -195,7 +196,7 @@ fn unit_of(bytes: &[u8]) -> Result<Option<String>, Fault> {
         if let (name, (b's', value)) = component(&mut components)?
             && name == "unitstr"
         {
-            return Ok(Some(text(value)).filter(|unit| !unit.trim().is_empty()));
+            return Ok(Some(text(value).into_owned()).filter(|unit| !unit.trim().is_empty()));
         }
     }
     Ok(None)

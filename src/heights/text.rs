@@ -4,7 +4,7 @@
 //! commas. Lines that begin with # or % are comments, some of which [`Header`] reads; empty lines are skipped.
 
 use super::decimal_commas::Commas;
-use super::fault::{Fault, Heights, MOST, fits};
+use super::fault::{Fault, Heights, MOST, fits, push};
 use super::header::Header;
 use super::lines::{Line, Lines};
 use std::io::BufRead;
@@ -80,13 +80,14 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<NumberTable, Fault> {
         if rows == 0 {
             columns = parts.len();
             let expected = bytes / (text.len() as u64 + 1) + 1;
-            // The list of values grows by doubling.
+            // Before much is read, if the other lines are as long; the list of values grows by doubling.
             fits(16 * expected * columns as u64)?;
         } else if is_apart {
             blocks.push(0);
         }
         for (column, part) in parts.iter().enumerate() {
-            values.push(own.number(part).ok_or_else(|| no_number(number, column, part, rows == 0))?);
+            let value = own.number(part).ok_or_else(|| no_number(number, column, part, rows == 0))?;
+            push(&mut values, value)?;
             if own == Separator::Mark(',') {
                 commas.note(column, part);
             } else {

@@ -4,7 +4,7 @@
 //! more than half of their largest rise. Every point must lie within a tenth of a spacing of a grid point, and every grid point
 //! must have one point.
 
-use super::fault::{Fault, Heights, MOST, fits};
+use super::fault::{Fault, Heights, MOST, fits, push};
 use super::header::Header;
 use super::lines::{Line, Lines};
 use super::text::FEW;
@@ -12,6 +12,8 @@ use std::io::BufRead;
 
 /// Largest distance of a point from its grid point, in spacings.
 const NEAR: f64 = 0.1;
+/// Memory per point for a sorted coordinate, and for two grid points with a height and a line, bytes.
+const PER_GRID_POINT: u64 = 40;
 /// Memory per point, bytes: the point, its line, its grid point, a sorted coordinate, and the list while it grows.
 const PER_POINT: u64 = 72;
 
@@ -67,6 +69,7 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<(PointGrid, Header), Fau
     let mut points = Vec::new();
     while let Some(Line { number: line, text, .. }) = lines.next_line()? {
         if points.is_empty() {
+            // Before much is read, if the other lines are as long.
             fits(PER_POINT * (bytes / (text.len() as u64 + 1) + 1))?;
         }
         let parts = text.split(|c: char| c.is_whitespace() || c == ',' || c == ';').filter(|part| !part.is_empty());
@@ -81,7 +84,7 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<(PointGrid, Header), Fau
             };
             return Err(Fault::new(what, format!("line {line}")).help(help));
         };
-        points.push(Point { at: [x, y], height, line });
+        push(&mut points, Point { at: [x, y], height, line })?;
     }
     Ok((on_grid(&points)?, lines.header))
 }
@@ -136,6 +139,7 @@ fn on_grid(points: &[Point]) -> Result<PointGrid, Fault> {
     if points.len() < 4 {
         return Err(Fault::new(format!("holds {} points, too few for a surface", points.len()), "too few points"));
     }
+    fits(PER_GRID_POINT * points.len() as u64)?;
     let axes = axes(points);
     let counts = axes.map(|axis| axis.count);
     let mut values = vec![f64::NAN; 0];
