@@ -32,8 +32,10 @@ type Component<'a> = (u8, &'a [u8]);
 /// A field of numbers.
 #[derive(Debug)]
 struct DataField<'a> {
-    image: Image,
-    sides: [f64; 2],
+    /// Its numbers of a line and lines, or why it is no surface.
+    image: Result<Image, Fault>,
+    /// Sides, none where it has the length 1 a number.
+    sides: [Option<f64>; 2],
     unit: Option<String>,
     lateral: Option<String>,
     /// Numbers, f64.
@@ -53,7 +55,7 @@ pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, 
     let mut bytes = Bytes::new(content);
     bytes.take(MAGIC.len())?;
     let parts = channels(object(&mut bytes, "GwyContainer")?)?;
-    let mut fields = Vec::new();
+    let mut fields: Vec<(DataField<'_>, &Parts<'_>)> = Vec::new();
     for own in parts.values() {
         if let Some(data) = own.data {
             fields.push((DataField::read(data)?, own));
@@ -68,9 +70,9 @@ pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, 
         return Err(Fault::new("holds no channel with an image", "no heights"));
     }
     let index = choose(&all, wanted)?;
-    let (field, own) = &fields[index];
+    let (field, own) = fields.swap_remove(index);
     let mask = own.mask.map(DataField::read).transpose()?;
-    field.stored(mask.as_ref(), all[index].unit.clone())
+    field.stored(mask)
 }
 
 /// The components of the next object, which must have this name.
@@ -149,43 +151,50 @@ impl<'a> DataField<'a> {
                 _ => {}
             }
         }
-        let ([Some(width), Some(height), x, y], Some(data)) = (numbers, data) else {
+        let [width, height, sides @ ..] = numbers;
+        let (image, [lateral, unit]) = (Self::image(width.zip(height), data), units);
+        Ok(Self { image, sides, unit, lateral, data: data.unwrap_or_default() })
+    }
+
+    /// The image of these sizes, of which there must be as many numbers.
+    fn image(sizes: Option<(f64, f64)>, data: Option<&[u8]>) -> Result<Image, Fault> {
+        let (Some((width, height)), Some(data)) = (sizes, data) else {
             return Err(broken("an image has no size or no data"));
         };
         let image = Image::new([width, height], true)?;
         if data.len() != 8 * image.len() {
-            let what = format!("an image of {width} × {height} has {} numbers", data.len() / 8);
-            return Err(broken(what));
+            return Err(broken(format_args!("an image of {width} × {height} has {} numbers", data.len() / 8)));
         }
-        let [lateral, unit] = units;
-        // Without sides a pixel has the length 1.
-        Ok(Self { image, sides: [x.unwrap_or(width), y.unwrap_or(height)], unit, lateral, data })
+        Ok(image)
     }
 
     fn heights_unit(&self) -> Option<HeightsUnit> {
         self.unit.as_deref().map(HeightsUnit::of)
     }
 
-    fn stored(&self, mask: Option<&Self>, unit: Option<HeightsUnit>) -> Result<Measured, Fault> {
-        let at = |field: &Self, k: usize| Number::F64.at(field.data, k);
-        if mask.is_some_and(|mask| mask.image != self.image) {
+    fn stored(self, mask: Option<Self>) -> Result<Measured, Fault> {
+        let unit = self.heights_unit();
+        let image = self.image?;
+        if mask.as_ref().is_some_and(|mask| mask.image != Ok(image)) {
             return Err(broken("the mask of the channel has another size"));
         }
-        if !self.sides.iter().all(|side| side.is_finite() && *side > 0.0) {
+        let [x, y] = self.sides;
+        let sides = [x.unwrap_or(image.width as f64), y.unwrap_or(image.height as f64)];
+        if !sides.iter().all(|side| side.is_finite() && *side > 0.0) {
             return Err(broken("a side of the image is no length greater than 0"));
         }
-        let is_masked = |k: usize| mask.is_some_and(|mask| at(mask, k) >= 0.5);
-        let heights = self.image.heights(|k| if is_masked(k) { f64::NAN } else { at(self, k) })?;
-        let masked = (0..self.image.len()).filter(|k| is_masked(*k)).count();
+        let is_masked = |k: usize| mask.as_ref().is_some_and(|mask| Number::F64.at(mask.data, k) >= 0.5);
+        let heights = image.heights(|k| if is_masked(k) { f64::NAN } else { Number::F64.at(self.data, k) })?;
+        let masked = (0..image.len()).filter(|k| is_masked(*k)).count();
         let doubt = (masked > 0).then(|| {
             format!(
                 "surface.heights: the mask of the channel marks {masked} of {} samples, which count as not measured; remove \
                  the mask in Gwyddion where it marks something else, as grains",
-                self.image.len()
+                image.len()
             )
         });
         let side = |value: f64| Length { value, unit: self.lateral.clone() };
-        Ok(Measured { heights, sides: self.sides.map(side), unit, doubts: doubt.into_iter().collect() })
+        Ok(Measured { heights, sides: sides.map(side), unit, doubts: doubt.into_iter().collect() })
     }
 }
 

@@ -212,6 +212,16 @@ fn sizes_that_the_file_does_not_hold_are_refused() {
     }
 }
 
+/// The first channel is a profile, and the second one wanted.
+#[test]
+fn a_channel_is_read_beside_another_that_is_no_surface() {
+    let content = stored("one_height.gwy");
+    let at = content.windows(6).position(|own| own == b"xres\0i").unwrap() + 6;
+    let profile = |surface: &str| read("a.gwy", put(content.clone(), at, &1i32.to_le_bytes()), surface);
+    assert!(error(&profile("channel = 2").unwrap(), 1.0) < 1e-12);
+    assert!(profile("channel = 1\nscale = 1").unwrap_err().contains("a profile is no surface"));
+}
+
 /// A zip of files, each with its content, and the sizes that are stated of it where they are not those that it has.
 fn zip(files: &[(&str, &[u8], Option<u32>)]) -> Vec<u8> {
     packed_by(8, files)
