@@ -1,6 +1,6 @@
 //! Surface data files, `.sdf` (ISO 25178-71): a header and one matrix of heights, all in metres.
 //!
-//! Binary, "bISO-1.0", little-endian without gaps:
+//! Binary, "bISO-1.0" ("bBCR-1.0" in the format before the standard), little-endian without gaps:
 //!
 //! ```text
 //!  0  version, 8 characters      44  NumProfiles, u16                           70  Zresolution, f64
@@ -10,18 +10,19 @@
 //! 42  NumPoints, u16                                                            81  heights, profile by profile
 //! ```
 //!
-//! As text, "aISO-1.0": lines `Name = value` with the same names, a line `*`, the heights, a line `*`. Data types: 0 u8, 1 u16, 2 u32,
-//! 3 f32, 4 i8, 5 i16, 6 i32, 7 f64. A point without a measurement is BAD in a text, else NaN, the least number of a signed type of 16 bits
-//! or more, or the largest of an unsigned one. The first profile counts as the top one, as the first line of an image.
+//! As text, "aISO-1.0" ("aBCR-1.0"): lines `Name = value ; comment` with the same names, a line `*`, the heights, a line `*`. A text may
+//! follow the heights, also binary ones. Data types: 0 u8, 1 u16, 2 u32, 3 f32, 4 i8, 5 i16, 6 i32, 7 f64. A point without a measurement is
+//! BAD in a text, else NaN, the least number of a signed type of 16 bits or more, or the largest of an unsigned one. The first profile counts
+//! as the top one, as the first line of an image.
 
-use super::binary::{Bytes, Image, Number, broken, ended, text};
+use super::binary::{Bytes, Image, Number, broken, ended, whole_text};
 use super::channel::{Channel, WantedChannel, choose};
-use super::fault::Fault;
+use super::fault::{Fault, fits};
 use super::header::{HeightsUnit, Length};
 use super::measured::Measured;
 
-/// First bytes of a binary file and of a text.
-pub const MAGICS: [&[u8]; 2] = [b"bISO-1.0", b"aISO-1.0"];
+/// First bytes of binary files and of texts, by the standard and by the format before it.
+pub const MAGICS: [&[u8]; 4] = [b"bISO-1.0", b"bBCR-1.0", b"aISO-1.0", b"aBCR-1.0"];
 
 /// The numbers of a header.
 #[derive(Debug)]
@@ -75,14 +76,18 @@ impl Header {
         Ok((Self::new([points, profiles, x, y, z, compression, kind])?, bytes.rest))
     }
 
-    /// The header of a text and the words after it.
-    fn text(text: &str) -> Result<(Self, impl Iterator<Item = &str>), Fault> {
-        let (header, data) = text.split_once('*').ok_or_else(ended)?;
+    /// The header of a text and its heights.
+    fn text(text: &str) -> Result<(Self, &str), Fault> {
+        let lines = text.split_inclusive('\n').take_while(|line| !line.trim_start().starts_with('*'));
+        let (header, rest) = text.split_at(lines.map(str::len).sum());
+        let data = rest.trim_start().strip_prefix('*').ok_or_else(ended)?;
         const NAMES: [&str; 7] = ["numpoints", "numprofiles", "xscale", "yscale", "zscale", "compression", "datatype"];
         let mut found = [None; 7];
         // The first line is the version.
         for line in header.lines().skip(1) {
-            let Some((name, value)) = line.split_once('=') else { continue };
+            let line = line.split_once(';').map_or(line, |(line, _)| line).trim();
+            let parts = line.split_once('=').or_else(|| line.split_once(char::is_whitespace));
+            let Some((name, value)) = parts else { continue };
             let name = name.trim().to_lowercase();
             if let Some(index) = NAMES.iter().position(|own| *own == name) {
                 let value = value.trim().parse().map_err(|_| broken("a number of its header is none"))?;
@@ -94,7 +99,7 @@ impl Header {
             return Err(broken("its header lacks a size, a scale or the type of its heights"));
         };
         let header = Self::new([points, profiles, x, y, z, compression, kind])?;
-        Ok((header, data.split_once('*').map_or(data, |(data, _)| data).split_whitespace()))
+        Ok((header, data.split_once('*').map_or(data, |(data, _)| data)))
     }
 
     fn stored(&self, value: impl Fn(usize) -> f64) -> Result<Measured, Fault> {
@@ -112,26 +117,42 @@ impl Header {
 /// Reads the only channel; refused where another one is `wanted`.
 pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, Fault> {
     choose(&[Channel { name: String::new(), unit: Some(HeightsUnit::Known("m".to_owned())) }], wanted)?;
-    if content.starts_with(MAGICS[0]) {
+    if content.starts_with(b"b") {
         let (header, data) = Header::binary(content)?;
-        if data.len() < header.kind.size() * header.image.len() {
-            return Err(ended());
+        let size = header.kind.size();
+        let trailer = data.get(size * header.image.len()..).ok_or_else(ended)?;
+        let is_text = trailer.iter().all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace() || *byte == 0);
+        if trailer.len() >= size * header.image.width && !is_text {
+            return Err(more());
         }
         return header.stored(|k| {
             let value = header.kind.at(data, k);
             if header.bad == Some(value) { f64::NAN } else { value }
         });
     }
-    let content = text(content);
-    let (header, words) = Header::text(&content)?;
-    let mut values = Vec::new();
-    // Not more than the text has; its length bounds their number.
-    for word in words.take(header.image.len()) {
+    let content = whole_text(content)?;
+    let (header, data) = Header::text(&content)?;
+    let count = header.image.len();
+    // Each height has a character and a blank at least.
+    if data.len() < 2 * count - 1 {
+        return Err(ended());
+    }
+    fits(8 * count as u64)?;
+    let mut values = Vec::with_capacity(count);
+    for word in data.split_whitespace() {
+        if values.len() == count {
+            return Err(more());
+        }
         let value: Option<f64> = if word.eq_ignore_ascii_case("BAD") { Some(f64::NAN) } else { word.parse().ok() };
         values.push(value.ok_or_else(|| broken("one of its heights is no number"))?);
     }
-    if values.len() < header.image.len() {
+    if values.len() < count {
         return Err(ended());
     }
     header.stored(|k| values[k])
+}
+
+/// The fault of a file with a false size, by which its lines would be shifted.
+fn more() -> Fault {
+    broken("it holds more heights than its header states")
 }

@@ -206,10 +206,32 @@ fn sizes_that_the_file_does_not_hold_are_refused() {
         (text("NumPoints = 24", "NumPoints = 32000"), "ends before the data"),
         (text("NumProfiles", "Profiles"), "lacks a size"),
         (text("BAD", "bed"), "no number"),
+        (text("BAD", "1 BAD"), "more heights than its header states"),
+        (text("NumPoints = 24", "NumPoints = 23"), "more heights than its header states"),
+        (sdf(44, &[14, 0]), "more heights than its header states"),
     ] {
         let told = told.map(|_| ()).unwrap_err();
         assert!(told.contains(words), "{words}: {told}");
     }
+}
+
+/// A text of the format before the standard, with comments, other lines and a star in a value; and what may follow binary heights.
+#[test]
+fn sdf_files_of_other_writers_are_read() {
+    let text = String::from_utf8(stored("text.sdf")).unwrap();
+    let own = [
+        ("NumPoints = 24", "NumPoints   24 ; points of a line"),
+        ("Zresolution", "; a comment\nManufacID = A*B\nZresolution"),
+    ];
+    let other = own.iter().fold(text.replacen("aISO-1.0", "aBCR-1.0", 1), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replacen(from, to, 1)
+    });
+    let case = read("a.sdf", format!("{other}\nmeasured by A").into_bytes(), "").unwrap();
+    assert!(error(&case, 1.0) < 1e-8);
+    let mut binary = put(stored("binary.sdf"), 0, b"bBCR-1.0");
+    binary.extend([b' '; 500]);
+    assert!(error(&read("a.sdf", binary, "").unwrap(), 1.0) < 1e-11);
 }
 
 /// The first channel is a profile, and the second one wanted.
