@@ -13,12 +13,14 @@
 //!  90  (gauge resolution, f32), 94 points    132  name of x, 16 characters
 //!      of a spectrum, i32                    148  name of y, 16
 //!  98  bits of a point, 16 or 32, i16        164  name of z, 16
-//! 100  least and 104 largest point, i32
+//! 100  least and 104 largest point, i32     228  unit of lengths along x, 244 along y, 260 along z, 16 characters each
+//!                                           276  quotient of both units along x, 280 along y, 284 along z, f32
 //! ```
 //!
 //! Points are signed numbers, line by line; height = point × spacing along z, but for a constant. The number least − 2 marks a point
 //! that was not measured. Compressed points: the number of streams, u32; for each its length before and after compression, u32 twice; the
-//! streams (zlib). The first line counts as the top one, as in an image.
+//! streams (zlib). The first line counts as the top one, as in an image. A spacing without a unit of its own has that of the lengths,
+//! where their quotient is 1.
 
 use super::binary::{Bytes, Image, Number, broken, ended};
 use super::channel::{Channel, WantedChannel, choose};
@@ -33,6 +35,8 @@ pub const MAGICS: [&[u8]; 2] = [b"DIGITAL SURF", b"DSCOMPRESSED"];
 
 /// Length of a header.
 const HEADER: usize = 512;
+/// Kinds of objects with a spectrum at each point.
+const SPECTRA: [f64; 2] = [20.0, 21.0];
 /// Most objects of a file: a series of images has more than anybody chooses from.
 const MOST_OBJECTS: usize = 1000;
 /// Largest factor by which zlib compresses.
@@ -95,11 +99,21 @@ impl<'a> Object<'a> {
             _ => return Err(broken("its points have neither 16 nor 32 bits")),
         };
         let sizes = [at(108, Number::I32)?, at(112, Number::I32)?];
-        if at(94, Number::I32)? > 1.0 {
+        let of = at(18, Number::I16)?;
+        // Only spectra have a number of points each; in older files these bytes are reserved.
+        if SPECTRA.contains(&of) && at(94, Number::I32)? > 1.0 {
             return Err(Fault::new("holds a spectrum at each point", "no surface").help("export the surface alone"));
         }
         let name = [field(20, 30)?, field(164, 16)?].join(" ");
-        let (spacings, units) = ([120, 124, 128], [180, 196, 212]);
+        let spacings = [120, 124, 128];
+        let unit = |axis: usize| -> Result<String, Fault> {
+            let [own, of_lengths] = [field(180 + 16 * axis, 16)?, field(228 + 16 * axis, 16)?];
+            match own.is_empty() && !of_lengths.is_empty() {
+                true if at(276 + 4 * axis, Number::F32)? == 1.0 => Ok(of_lengths),
+                true => Err(broken("a spacing of its header has no unit")),
+                false => Ok(own),
+            }
+        };
         let bad = (at(86, Number::I16)? == 1.0).then_some(at(100, Number::I32)? - 2.0);
         for offset in [332, 334] {
             bytes.take(at(offset, Number::U16)? as usize)?;
@@ -116,9 +130,9 @@ impl<'a> Object<'a> {
             image: Image::new(sizes, true),
             kind,
             spacings: [at(spacings[0], Number::F32)?, at(spacings[1], Number::F32)?, at(spacings[2], Number::F32)?],
-            units: [field(units[0], 16)?, field(units[1], 16)?, field(units[2], 16)?],
+            units: [unit(0)?, unit(1)?, unit(2)?],
             bad,
-            of: at(18, Number::I16)?,
+            of,
             points,
         };
         Ok((object, at(14, Number::I16)?.max(1.0) as usize))
@@ -156,13 +170,15 @@ impl<'a> Object<'a> {
 impl<'a> Points<'a> {
     fn streams(bytes: &mut Bytes<'a>) -> Result<Self, Fault> {
         let count = bytes.size()?;
-        // A false number of streams ends with the file.
-        let mut lengths = Vec::new();
+        // A false number of streams is larger than the file.
+        let mut lengths = Bytes::new(bytes.take(count.checked_mul(8).ok_or_else(ended)?)?);
+        fits((count * size_of::<(usize, &[u8])>()) as u64)?;
+        let mut streams = Vec::with_capacity(count);
         for _ in 0..count {
-            lengths.push([bytes.size()?, bytes.size()?]);
+            let (before, after) = (lengths.size()?, lengths.size()?);
+            streams.push((before, bytes.take(after)?));
         }
-        let streams = lengths.into_iter().map(|[before, after]| Ok((before, bytes.take(after)?)));
-        streams.collect::<Result<_, Fault>>().map(Self::Compressed)
+        Ok(Self::Compressed(streams))
     }
 
     /// The points as `length` bytes.

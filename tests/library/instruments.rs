@@ -175,6 +175,7 @@ fn sizes_that_the_file_does_not_hold_are_refused() {
         let text = String::from_utf8(stored("text.sdf")).unwrap().replacen(from, to, 1);
         read("a.sdf", text.into_bytes(), "")
     };
+    let unequal = put(put(stored("plain.sur"), 196, &[b' '; 16]), 280, &1e3f32.to_le_bytes());
     for (told, words) in [
         (sdf(42, &[0xff, 0x7f, 0xff, 0x7f]), "ends before the data"),
         (sdf(42, &[0xff, 0xff]), "between 2 and 32768"),
@@ -209,6 +210,7 @@ fn sizes_that_the_file_does_not_hold_are_refused() {
         (text("BAD", "1 BAD"), "more heights than its header states"),
         (text("NumPoints = 24", "NumPoints = 23"), "more heights than its header states"),
         (sdf(44, &[14, 0]), "more heights than its header states"),
+        (read("a.sur", unequal, ""), "a spacing of its header has no unit"),
     ] {
         let told = told.map(|_| ()).unwrap_err();
         assert!(told.contains(words), "{words}: {told}");
@@ -242,6 +244,21 @@ fn a_channel_is_read_beside_another_that_is_no_surface() {
     let profile = |surface: &str| read("a.gwy", put(content.clone(), at, &1i32.to_le_bytes()), surface);
     assert!(error(&profile("channel = 2").unwrap(), 1.0) < 1e-12);
     assert!(profile("channel = 1\nscale = 1").unwrap_err().contains("a profile is no surface"));
+}
+
+/// Reserved bytes of old files are no spectrum; a spacing without a unit has that of the lengths, if both are the same.
+#[test]
+fn headers_of_older_sur_files_are_read() {
+    let other = put(stored("plain.sur"), 94, &123_456i32.to_le_bytes());
+    assert!(error(&read("a.sur", other.clone(), "").unwrap(), 1.0) < 1e-4);
+    assert!(read("a.sur", put(other, 18, &[21]), "").unwrap_err().contains("a spectrum at each point"));
+    let mut blank = stored("plain.sur");
+    for axis in 0..3 {
+        let unit = blank[180 + 16 * axis..][..16].to_vec();
+        blank = put(blank, 228 + 16 * axis, &unit);
+        blank = put(put(blank, 180 + 16 * axis, &[0; 16]), 276 + 4 * axis, &1f32.to_le_bytes());
+    }
+    assert!(error(&read("a.sur", blank, "").unwrap(), 1.0) < 1e-4);
 }
 
 /// A zip of files, each with its content, and the sizes that are stated of it where they are not those that it has.
