@@ -11,7 +11,8 @@ use super::super::value::ValueAt;
 use super::file::Treatment;
 use super::stage::{Stage, Treated};
 use crate::counterbody::roughness::{
-    MeasuredRms, RunOut, Spectrum, SurfaceForm, filled, short_wave_noise, smoothed, tapered, without_form,
+    FILLING_MEMORY, MeasuredRms, RunOut, Spectrum, SurfaceForm, filled, short_wave_noise, smoothed, tapered,
+    without_form,
 };
 use crate::heights::fits;
 use crate::lattice::Cell;
@@ -46,9 +47,12 @@ pub(super) fn prepared(
 ) -> Result<Prepared, Refusal> {
     let Treatment { form, cutoff, window, .. } = *treatment;
     let at = |key: &str| section.optional(key).map_or(written.node.span, |value| value.node.span);
-    fits(32 * heights.len() as u64).map_err(|fault| {
-        Refusal::new(written.node.span, format!("`{}`: it {}", written.path, fault.what), fault.label())
-    })?;
+    let room = |needed: u64| {
+        fits(needed).map_err(|fault| {
+            Refusal::new(written.node.span, format!("`{}`: it {}", written.path, fault.what), fault.label())
+        })
+    };
+    room(32 * heights.len() as u64)?;
     let mut stages = Vec::new();
     let mut add = |treated: Treated, heights: &Array2<f64>| {
         stages.push(Stage { treated, rms: MeasuredRms::of(cell, heights.view()) });
@@ -59,11 +63,12 @@ pub(super) fn prepared(
     if form != SurfaceForm::None {
         add(Treated::WithoutForm { form, radius }, &heights);
     }
-    let share = share_of_holes(written, &heights)?;
     let mut doubts = Vec::new();
-    if share > 0.0 {
-        let (whole, holes) = filled(cell, heights);
-        heights = whole;
+    let holes = holes(written, &heights)?;
+    if holes > 0 {
+        let share = holes as f64 / heights.len() as f64;
+        room(FILLING_MEMORY[0] * heights.len() as u64 + FILLING_MEMORY[1] * holes as u64)?;
+        (heights, _) = filled(cell, heights);
         add(Treated::Filled { share }, &heights);
         doubts.push(format!(
             "surface.heights: {holes} of {} places ({} %) have no measurement, and are filled smoothly from what surrounds them",
@@ -90,12 +95,11 @@ pub(super) fn prepared(
     Ok(Prepared { heights, run_out, stages, doubts })
 }
 
-/// Part of the places without a measurement; refused where it is too large.
-fn share_of_holes(written: &ValueAt<'_>, heights: &Array2<f64>) -> Result<f64, Refusal> {
+/// Number of places without a measurement; refused where there are too many.
+fn holes(written: &ValueAt<'_>, heights: &Array2<f64>) -> Result<usize, Refusal> {
     let holes = heights.iter().filter(|height| height.is_nan()).count();
-    let share = holes as f64 / heights.len() as f64;
-    if share <= MOST_HOLES {
-        return Ok(share);
+    if holes as f64 <= MOST_HOLES * heights.len() as f64 {
+        return Ok(holes);
     }
     let message = format!(
         "`{}`: {holes} of its {} places have no measurement; at most half of them can be filled, beyond it the surface would be \
