@@ -11,8 +11,8 @@ use super::super::value::ValueAt;
 use super::file::Treatment;
 use super::stage::{Stage, Treated};
 use crate::counterbody::roughness::{
-    FILLING_MEMORY, MeasuredRms, RunOut, Spectrum, SurfaceForm, filled, short_wave_noise, smoothed, tapered,
-    without_form,
+    FILLING_MEMORY, MeasuredRms, RunOut, SMOOTHING_MEMORY, Spectrum, SurfaceForm, filled, short_wave_noise, smoothed,
+    tapered, without_form,
 };
 use crate::heights::fits;
 use crate::lattice::Cell;
@@ -131,9 +131,8 @@ fn without_short_waves(
         );
         return Err(refuse(what, "no such wave").help("leave it out to keep all waves"));
     }
-    // With the reach of the weight at both ends each side grows by 2.6 at most.
-    let needed = if is_periodic { 24 } else { 24 * 7 + 16 };
-    fits(needed * heights.len() as u64).map_err(|fault| refuse(format!("the filter {}", fault.what), "too large"))?;
+    fits(SMOOTHING_MEMORY[usize::from(!is_periodic)] * heights.len() as u64)
+        .map_err(|fault| refuse(format!("the filter {}", fault.what), "too large"))?;
     smoothed(cell, heights.view(), cutoff, is_periodic).map_err(|error| refuse(error.to_string(), "no filter"))
 }
 

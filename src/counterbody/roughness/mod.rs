@@ -23,7 +23,7 @@ mod window;
 pub(crate) use apex::apex;
 pub use border::{MAX_BORDER_JUMP, border_jumps};
 pub use form::{FormError, SurfaceForm, without_form};
-pub use gaussian::smoothed;
+pub use gaussian::{MEMORY as SMOOTHING_MEMORY, smoothed};
 pub use holes::{MEMORY as FILLING_MEMORY, filled};
 pub use noise::{Noise, short_wave_noise};
 pub use self_affine::{Rms, SelfAffine, SelfAffineError};
