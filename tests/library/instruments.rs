@@ -261,6 +261,22 @@ fn headers_of_older_sur_files_are_read() {
     assert!(error(&read("a.sur", blank, "").unwrap(), 1.0) < 1e-4);
 }
 
+/// A ball on a floor has a best sphere that is not the ball's.
+#[test]
+fn a_sphere_that_leaves_most_of_the_heights_is_doubted() {
+    let told = |square: i32, floor: &str| {
+        let height = |i: i32, j: i32| match square - (2 * i - 31).pow(2) - (2 * j - 31).pow(2) {
+            left if left > 36 => format!("{}", f64::from(left).sqrt()),
+            _ => floor.to_owned(),
+        };
+        let line = |i: i32| (0..32).map(|j| height(i, j)).collect::<Vec<_>>().join(" ") + "\n";
+        let text: String = (0..32).map(line).collect();
+        doubts(&read("a.txt", text.into_bytes(), "pixel = 2\nform = \"sphere\"").unwrap())
+    };
+    assert!(told(576, "0").contains("the surface has 63 % of its rms height left"), "{}", told(576, "0"));
+    assert!(!told(900, "nan").contains("rms height left"), "{}", told(900, "nan"));
+}
+
 /// A zip of files, each with its content, and the sizes that are stated of it where they are not those that it has.
 fn zip(files: &[(&str, &[u8], Option<u32>)]) -> Vec<u8> {
     packed_by(8, files)

@@ -24,6 +24,9 @@ use std::f64::consts::TAU;
 /// Largest part of places without a measurement: beyond it most heights, and the rms values, would be those of the filling.
 const MOST_HOLES: f64 = 0.5;
 
+/// Largest part of the rms height that a sphere or cylinder leaves of a surface that it describes.
+const MOST_REST: f64 = 0.5;
+
 /// Heights as they are pressed.
 #[derive(Debug)]
 pub(super) struct Prepared {
@@ -81,6 +84,7 @@ pub(super) fn prepared(
         heights = without_short_waves(section, cell, &heights, cutoff, is_periodic)?;
         add(Treated::Smoothed { cutoff, is_periodic }, &heights);
     }
+    doubts.extend(rest(form, &stages));
     if stages.len() == 1 {
         stages.clear();
     }
@@ -93,6 +97,20 @@ pub(super) fn prepared(
     };
     doubts.extend(noise(cell, &heights, run_out.as_ref()));
     Ok(Prepared { heights, run_out, stages, doubts })
+}
+
+/// A warning where a sphere or cylinder leaves most of the heights.
+fn rest(form: SurfaceForm, stages: &[Stage]) -> Option<String> {
+    let [before, after, ..] = stages else { return None };
+    let is_round = matches!(form, SurfaceForm::Sphere | SurfaceForm::Cylinder);
+    let share = after.rms.height / before.rms.height;
+    (is_round && share > MOST_REST).then(|| {
+        format!(
+            "surface.form: without its {} the surface has {:.0} % of its rms height left: it is no {0}, or hardly curved",
+            form.name(),
+            100.0 * share
+        )
+    })
 }
 
 /// Number of places without a measurement; refused where there are too many.

@@ -4,9 +4,9 @@
 //!
 //! - plane: f = c + gₓx + g_y y;
 //! - second order: f = c + gₓx + g_y y + ½Hₓₓx² + Hₓ_y xy + ½H_yy y²;
-//! - sphere and cylinder ([`Round`]): f is the root of κ(|**p**|² − (**p**·**t**)²) = 2 **p**·**n** that vanishes with **p**·**n**,
-//!   **p** = (x, y, f − c), for the curvature κ = ±1/R, the normal **n** ∝ (−gₓ, −g_y, 1) in the middle and the axis **t** ⊥ **n** of a
-//!   cylinder, 0 of a sphere. Both are planes for κ = 0: a flat surface needs no other case.
+//! - sphere and cylinder ([`Round`]): f − c is the root of κ(|**p**|² − (**p**·**t**)²) = 2 **p**·**n** that is 0 at the origin, the side of
+//!   the surface nearer to the tangent plane, **p** = (x, y, f − c), for the curvature κ = ±1/R, the normal **n** ∝ (−gₓ, −g_y, 1) in the
+//!   middle and the axis **t** ⊥ **n** of a cylinder, 0 of a sphere. Both are planes for κ = 0: a flat surface needs no other case.
 
 use super::polynomial::{Polynomial, Samples};
 use super::round::Round;
@@ -55,7 +55,7 @@ pub enum FormError {
     /// Too few samples have a measurement, or they lie on a line.
     #[error("the samples with a measurement do not determine a {}", .0.name())]
     Undetermined(SurfaceForm),
-    /// The iteration does not end.
+    /// The iteration does not end, or ends with the equator at a sample.
     #[error("no {} fits the heights: do they rise beyond its equator?", .0.name())]
     NotFound(SurfaceForm),
 }
@@ -194,6 +194,25 @@ mod tests {
         for ((i, j), rest) in rest.indexed_iter() {
             let expected = height(i, j) - c[0] - c[1] * i as f64 - c[2] * j as f64;
             assert!((rest - expected).abs() < 1e-12);
+        }
+    }
+
+    /// A ball on a floor: the smallest sphere that reaches all samples is not its sphere. Without the floor its sphere is found.
+    #[test]
+    fn samples_beyond_the_equator_are_refused() {
+        let ball = |radius: f64, floor: f64| {
+            let height = move |(i, j): (usize, usize)| {
+                let (x, y): (f64, f64) = (i as f64 - 31.5, j as f64 - 31.5);
+                let left = radius * radius - x * x - y * y;
+                if left > 0.04 * radius * radius { left.sqrt() } else { floor }
+            };
+            let heights = Array2::from_shape_fn((64, 64), height);
+            without_form(Cell::square(64.0).unwrap(), heights, SurfaceForm::Sphere).map(|(_, radius)| radius)
+        };
+        for radius in [40.6, 43.0] {
+            assert_eq!(ball(radius, 0.0), Err(FormError::NotFound(SurfaceForm::Sphere)), "{radius}");
+            let found = ball(radius, f64::NAN).unwrap().unwrap();
+            assert!((found / radius - 1.0).abs() < 1e-6, "{radius}: {found}");
         }
     }
 

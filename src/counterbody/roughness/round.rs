@@ -18,6 +18,9 @@ const MOST: usize = 200;
 const STEP: f64 = 1e-5;
 /// Relative change of Σr² at which the iteration ends.
 const SETTLED: f64 = 1e-13;
+/// Least (b² − aC)/b² of a fit at a sample, 0 at the equator: where samples lie beyond it, the iteration creeps to the smallest form that still
+/// reaches the farthest of them.
+const EQUATOR: f64 = 1e-3;
 /// Σr² per sample that is round-off, relative to the squared heights.
 const ROUND_OFF: f64 = 1e-29;
 
@@ -30,8 +33,15 @@ pub(super) struct Round {
 }
 
 impl Round {
-    /// The best sphere or cylinder, from the polynomial of second order; `None` where the iteration finds none.
+    /// The best sphere or cylinder, from the polynomial of second order; `None` where the iteration finds none, or one whose equator is at a
+    /// sample.
     pub fn fit(samples: &Samples<'_>, start: Polynomial, is_cylinder: bool) -> Option<Self> {
+        let own = Self::iterated(samples, start, is_cylinder)?;
+        let margin = |k: usize| if samples.height(k).is_nan() { 1.0 } else { own.margin(samples.place(k)) };
+        (sums::least(samples.len(), margin) > EQUATOR).then_some(own)
+    }
+
+    fn iterated(samples: &Samples<'_>, start: Polynomial, is_cylinder: bool) -> Option<Self> {
         let mut own = Self::osculating(start, is_cylinder);
         let mut normal = own.normal(samples);
         // A start with curvature may not reach all samples.
@@ -54,7 +64,7 @@ impl Round {
                     return Some(own);
                 }
             } else if damping > 1e12 {
-                // No step lessens the squares any more: they are least within rounding.
+                // No step lessens the squares any more: they are least within rounding, or a sample is at the equator.
                 return Some(own);
             } else {
                 damping *= 7.0;
@@ -77,8 +87,20 @@ impl Round {
     }
 
     /// Height at a place, in units; `None` beyond the equator.
-    pub fn at(&self, [x, y]: [f64; 2]) -> Option<f64> {
-        let [c, gx, gy, curvature, azimuth] = self.parameters;
+    pub fn at(&self, place: [f64; 2]) -> Option<f64> {
+        let [linear, constant, root] = self.quadratic(place);
+        (root >= 0.0 && linear > 0.0).then(|| self.parameters[0] + constant / (linear + root.sqrt()))
+    }
+
+    /// (b² − aC)/b² at a place: 1 in the middle, 0 at the equator.
+    fn margin(&self, place: [f64; 2]) -> f64 {
+        let [linear, _, root] = self.quadratic(place);
+        root / (linear * linear)
+    }
+
+    /// b, C and b² − aC at a place, in units.
+    fn quadratic(&self, [x, y]: [f64; 2]) -> [f64; 3] {
+        let [_, gx, gy, curvature, azimuth] = self.parameters;
         let (sine, cosine) = azimuth.sin_cos();
         let size = (1.0 + gx * gx + gy * gy).sqrt();
         let (a, n_z) = (-(gx * x + gy * y) / size, 1.0 / size);
@@ -88,8 +110,7 @@ impl Round {
         let quadratic = curvature * (1.0 - t_z * t_z);
         let linear = n_z + curvature * b * t_z;
         let constant = curvature * (x * x + y * y - b * b) - 2.0 * a;
-        let root = linear * linear - quadratic * constant;
-        (root >= 0.0 && linear > 0.0).then(|| c + constant / (linear + root.sqrt()))
+        [linear, constant, linear * linear - quadratic * constant]
     }
 
     /// Radius, in units; `None` of a plane.
