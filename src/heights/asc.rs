@@ -3,7 +3,7 @@
 //! ```text
 //! NCOLS 480              numbers of a line
 //! NROWS 450              lines
-//! XLLCORNER 378922       or XLLCENTER: the place of the lower left sample
+//! XLLCORNER 378922       the corner of the lower left cell, or XLLCENTER: the sample in its middle; neither is used
 //! YLLCORNER 4072345      or YLLCENTER
 //! CELLSIZE 30            distance of samples; DX and DY where they differ along x and y, as GDAL writes them
 //! NODATA_VALUE -32768    optional, otherwise -9999: no measurement

@@ -4,6 +4,10 @@ use crate::machine::{available_memory, bytes};
 use crate::plain;
 use crate::units::CARRIED;
 
+/// Advice where numbers stand for missing measurements, for files of every format.
+pub const MARK: &str = "mark places without a measurement: by nan in a text or an array, otherwise in the program that wrote the file; they are \
+                        filled from what surrounds them, with a warning";
+
 /// Most samples along a cell vector.
 pub const MOST: usize = 32_768;
 
@@ -63,7 +67,7 @@ impl Heights {
                 format!("holds {} at [{}, {}]", plain::float(values[k]), k / n2, k % n2),
                 "every height must be at most 1e60",
             )
-            .help("write nan where there is no measurement")),
+            .help(MARK)),
         }
     }
 }

@@ -3,7 +3,7 @@
 //! [`no_data`] refuses values that no surface has; [`doubts`] returns warnings about implausible ones, which are used nevertheless. Samples
 //! without a measurement are not a number, and left out of both.
 
-use super::fault::{Fault, Heights};
+use super::fault::{Fault, Heights, MARK};
 
 /// Values that instruments and programs write for missing data.
 const NO_DATA: [f64; 20] = [
@@ -61,8 +61,7 @@ pub fn no_data(heights: &Heights) -> Result<(), Fault> {
                 first / n2,
                 first % n2
             );
-            return Err(Fault::new(what, "no data")
-                .help("write nan there: it is filled from what surrounds it, with a warning"));
+            return Err(Fault::new(what, "no data").help(MARK));
         }
     }
     Ok(())
@@ -108,8 +107,8 @@ fn rising(heights: &Heights, axis: usize) -> Option<String> {
     let at = if axis == 0 { format!("[:, {first}]") } else { format!("[{first}, :]") };
     let more = if found.len() > 1 { format!(" and {} more lines", found.len() - 1) } else { String::new() };
     Some(format!(
-        "surface.heights: heights{at}{more} rise evenly and the others do not: coordinates beside the heights? Remove them from \
-         the file"
+        "surface.heights: heights{at}{more} rise evenly and the others do not: coordinates beside the heights? The file must hold \
+         heights alone"
     ))
 }
 
@@ -153,7 +152,8 @@ fn alone(heights: &Heights) -> Option<String> {
             let n2 = heights.points[1];
             format!(
                 "surface.heights: the same height occurs at {count} of {} places, the first at [{}, {}], far from all others: does it \
-                 mark places without a measurement? Write nan there",
+                 mark places without a measurement? They must be nan in a text or an array, or marked in the program that wrote the \
+                 file",
                 values.len(),
                 first / n2,
                 first % n2
@@ -256,6 +256,8 @@ mod tests {
                 let fault = no_data(&heights).unwrap_err();
                 let told = format!("at {} of 1600 places, the first at [0, 0]", 1600_usize.div_ceil(every));
                 assert!(fault.what.contains(&told), "{code} {every}: {}", fault.what);
+                // Nobody writes into the file of an instrument.
+                assert!(fault.help.is_some_and(|help| help.contains("in the program that wrote the file")));
             }
         }
     }

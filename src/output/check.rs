@@ -322,8 +322,8 @@ fn write_stages(f: &mut fmt::Formatter<'_>, stages: &[Stage], units: &Units) -> 
             }
             Treated::Filled { share } => format!("{} % of the places filled", number(100.0 * share)),
             Treated::Smoothed { cutoff, is_periodic } => {
-                let beyond = if is_periodic { "periodic" } else { "up to its border" };
-                format!("without waves below {}, {beyond}", described::length(units, cutoff))
+                let beyond = if is_periodic { "continued periodically" } else { "border: only samples that exist" };
+                format!("waves below {} weakened ({beyond})", described::length(units, cutoff))
             }
         };
         writeln!(f, "  {what}: {}, {}", described::length(units, rms.height), number(rms.slope))?;

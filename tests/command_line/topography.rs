@@ -235,6 +235,10 @@ fn check_says_what_was_done_to_the_heights_of_a_file() {
     );
     desk.write("case.toml", case("form = \"sphere\"\ncutoff = 8\nwindow = true"));
     let answer = desk.percoat(&["check", "case.toml"]);
-    assert!(answer.out.contains("  without waves below 8.0000\u{a0}µm, up to its border: "), "{}", answer.out);
+    assert!(
+        answer.out.contains("  waves below 8.0000\u{a0}µm weakened (border: only samples that exist): "),
+        "{}",
+        answer.out
+    );
     assert!(!answer.err.contains("noise"), "{}", answer.err);
 }

@@ -164,7 +164,7 @@ fn noise(cell: Cell, heights: &Array2<f64>, run_out: Option<&RunOut>) -> Option<
     Some(format!(
         "surface.heights: its shortest waves look like noise of the instrument: from the wavelength {} down to {} the power spectrum goes \
          as q^{:.1}, and that of rough surfaces at least as q^−2 downward; these waves have {:.0} % of the mean square slope, to \
-         which contact areas and pressures answer; surface.cutoff = {} leaves them out",
+         which contact areas and pressures answer; surface.cutoff = {} weakens them, the longest to a half, the shortest to 6 %",
         number(from),
         number(0.5 * from),
         exponent,
