@@ -48,7 +48,7 @@ mod solver;
 mod source;
 mod span;
 mod stress;
-mod suggestions;
+pub(crate) mod suggestions;
 mod surface;
 #[cfg(test)]
 mod tests;

@@ -19,7 +19,7 @@ pub(super) fn alternatives(names: &[impl AsRef<str>], quote: char) -> String {
 }
 
 /// Names joined by commas, with `word` before the last one.
-pub(super) fn joined(names: &[impl AsRef<str>], word: &str) -> String {
+pub(crate) fn joined(names: &[impl AsRef<str>], word: &str) -> String {
     let mut text = String::new();
     for (index, name) in names.iter().enumerate() {
         let joint = match index {

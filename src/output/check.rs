@@ -125,10 +125,7 @@ impl Check {
         let counts = || case.layers.iter().map(crate::case::LayerSection::sublayers).collect();
         Ok(Self {
             title: if case.title.is_empty() { name.to_owned() } else { case.title.clone() },
-            problem: [
-                described::counterbody(&units, case.counterbody()),
-                described::bodies(&units, case.problem().bodies()),
-            ],
+            problem: [described::counterbody(&units, case.counterbody()), described::bodies(&units, case.problem())],
             units,
             sublayers: sublayer_error(case).map(|error| (counts(), error)),
             points,

@@ -1,9 +1,10 @@
 //! Counterbody, half-space and grid of a case in words, every length and pressure with its unit.
 
 use super::number::{number, with_error};
-use crate::body::{Bodies, Durability, Fatigue, HalfSpace, Interface, Layer, Material, Side};
+use crate::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Side};
 use crate::counterbody::{Counterbody, GivenPressure, LoadedDisc, Shape};
 use crate::lattice::{Cell, Grid};
+use crate::problem::Problem;
 use crate::units::{Unit, Units};
 
 /// A length with its unit, five digits.
@@ -110,14 +111,16 @@ fn interface(units: &Units, interface: Interface) -> String {
 
 /// Layers and substrate of the body, one a line, then those of an elastic counterbody, or what a rigid one bears, and the largest
 /// pressure.
-pub(super) fn bodies(units: &Units, bodies: &Bodies) -> String {
+pub(super) fn bodies(units: &Units, problem: &Problem) -> String {
+    let bodies = problem.bodies();
     let own = half_space(units, bodies.body());
     let above = match bodies.counterbody() {
         Some(above) => format!("\ncounterbody, from its surface inward:\n{}", half_space(units, above)),
-        None => match durability(units, bodies.surface_durability(Side::Counterbody), None) {
-            borne if borne.is_empty() => borne,
-            borne => format!("\ncounterbody: rigid{borne}"),
-        },
+        None if problem.counterbody().pressure().is_some() => String::new(),
+        None => {
+            let borne = durability(units, bodies.surface_durability(Side::Counterbody), None);
+            format!("\ncounterbody: rigid{borne}")
+        }
     };
     let most = bodies.hardness().map_or(String::new(), |(hardness, side)| {
         format!("\npressure: at most {}, the hardness of the surface of the {side}", pressure(units, hardness))

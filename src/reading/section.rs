@@ -74,7 +74,9 @@ impl VerticalSection {
     /// The largest value of a measure; `None` in a section without points.
     pub(crate) fn largest(&self, measure: SectionMeasure) -> Option<LargestInSection> {
         let (distances, values) = (self.line.distances(), self.values(measure));
-        let surface = self.depths.first().filter(|_| measure == SectionMeasure::Along).zip(self.highest);
+        // On the surface σ₁ is at least the stress along the line, which is known between the points.
+        let is_along = matches!(measure, SectionMeasure::Along | SectionMeasure::Tension);
+        let surface = self.depths.first().filter(|_| is_along).zip(self.highest);
         let mut best = surface.map(|(&depth, [s, value])| LargestInSection { value, s, depth });
         for (row, &depth) in values.outer_iter().zip(&self.depths) {
             for (&value, &s) in row.iter().zip(&distances) {
@@ -142,6 +144,7 @@ mod tests {
         assert_eq!(section.largest(SectionMeasure::Along).unwrap().value, 3.0);
         let sharp = VerticalSection { highest: Some([0.3, 3.2]), ..section };
         assert_eq!(sharp.largest(SectionMeasure::Along).map(|largest| (largest.s, largest.value)), Some((0.3, 3.2)));
+        assert_eq!(sharp.largest(SectionMeasure::Tension).unwrap().value, 3.2);
         assert!((sharp.largest(SectionMeasure::Tau1).unwrap().value - 1.5).abs() < 1e-12);
     }
 }

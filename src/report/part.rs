@@ -74,10 +74,26 @@ fn assumptions(case: &Value) -> Assumptions {
     let mean = if case["stress"]["mean"] == "half-space" { MeanStress::HalfSpace } else { MeanStress::default() };
     let isolated = case["lattice"]["kind"] == "isolated";
     let rigid = !is_elastic(case) && case["load"]["pressure"].is_null();
-    Assumptions { mean, isolated, rigid }
+    Assumptions { mean, isolated, rigid, untested: untested(case) }
+}
+
+/// Names of the materials without a strength, as the case names them.
+fn untested(case: &Value) -> Vec<String> {
+    let has_strength = |part: &Value| ["yield_strength", "tensile_strength"].iter().any(|key| !part[key].is_null());
+    let is_rigid = |part: &Value| part.is_null() || part["rigid"] == true;
+    let name = |part: &Value, number: usize| part["name"].as_str().map_or(format!("material {number}"), str::to_owned);
+    let of = |layers: &Value, deepest: &Value, side: &str| -> Vec<String> {
+        let parts = layers.as_array().into_iter().flatten().chain(Some(deepest).filter(|own| !is_rigid(own)));
+        let without = (1..).zip(parts).filter(|(_, part)| !has_strength(part));
+        without.map(|(number, part)| name(part, number) + side).collect()
+    };
+    let counterbody = &case["counterbody"];
+    let mut names = of(&case["layers"], &case["substrate"], "");
+    names.extend(of(&counterbody["layers"], counterbody, " of the counterbody"));
+    names
 }
 
 /// What largest stresses, or with them strengths, of a case assume, a paragraph each.
 pub(super) fn assumed(case: &Value, with_strength: bool) -> Markup {
-    assumptions(case).sentences(with_strength).into_iter().map(|own| tag("p", upper(own))).collect()
+    assumptions(case).sentences(with_strength).into_iter().map(|own| tag("p", upper(&own))).collect()
 }

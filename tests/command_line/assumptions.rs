@@ -72,3 +72,19 @@ fn rigid_indenters_are_said_where_strengths_and_limits_are_and_nowhere_else() {
         }
     }
 }
+
+#[test]
+fn materials_without_a_strength_are_named_beside_strengths() {
+    let desk = Desk::new();
+    let said = "no strength is given of TiAlN and 100Cr6 of the counterbody";
+    for (folder, command) in [("solved", "solve"), ("limit", "limit")] {
+        let answer = desk.percoat(&[command, "ball-on-disc", "-o", folder, "--set=grid.points=48", "--no-pictures"]);
+        assert!(line(&answer.out).contains(said), "{command}:\n{}", answer.out);
+        assert_eq!(desk.percoat(&["report", folder]).code, 0);
+        let page = words(&Folder(desk.path(folder)).text("report.html"));
+        assert!(page.contains(&said.replacen('n', "N", 1)), "{command}");
+    }
+    let all = ["layers.0.tensile_strength=1", "counterbody.yield_strength=2"].map(|own| format!("--set={own}"));
+    let answer = desk.percoat(&["solve", "ball-on-disc", "--set=grid.points=48", "--no-pictures", &all[0], &all[1]]);
+    assert!(!answer.out.contains("no strength is given"), "{}", answer.out);
+}

@@ -129,7 +129,7 @@ fn read(case: Value) -> Result<Case, String> {
 }
 
 fn assumptions(case: &Case) -> Vec<String> {
-    Assumptions::of(case).sentences(true).into_iter().map(str::to_owned).collect()
+    Assumptions::of(case).sentences(true)
 }
 
 /// Keeps the sections of the last step.

@@ -46,7 +46,7 @@ function decode(text) {
     if (key !== "layers" && key !== "substrate" && isUsable(key, given?.[key])) state[key] = given[key];
   }
   if (Array.isArray(given?.layers)) state.layers = given.layers.map(usablePart);
-  if (given?.substrate) state.substrate = usablePart(given.substrate);
+  if (typeof given?.substrate === "object") state.substrate = usablePart(given.substrate);
   return state;
 }
 
@@ -115,7 +115,7 @@ function titleOf(state, bare) {
 // The case of a state on a grid. `radius`: the contact radius where it is known, µm; `bare`: without the layers.
 function caseOf(state, library, { points, radius, bare = false }) {
   const layers = bare ? [] : state.layers.map(partOf);
-  const thickness = state.layers.reduce((sum, layer) => sum + layer.thickness, 0);
+  const thickness = state.layers.reduce((sum, layer) => sum + (layer.thickness ?? 0), 0);
   const own = { title: titleOf(state, bare) };
   let length, depth;
   if (state.body === "ball") {

@@ -1,8 +1,9 @@
 //! Assumptions of largest stresses and limit loads, in sentences below their tables.
 
 use super::text::lines;
-use crate::body::MeanStress;
+use crate::body::{Bodies, HalfSpace, MeanStress};
 use crate::case::Case;
+use crate::case::suggestions::joined;
 
 /// The mean lateral stress in the largest stresses and limit loads, in a sentence.
 fn mean_stress(mean: MeanStress) -> &'static str {
@@ -19,7 +20,7 @@ const RIGID: &str = "the indenters are rigid: elastic ones press less sharply, f
                      limits; a section [counterbody] with `young` and `poisson`, or `material`, makes them elastic";
 
 /// What largest stresses and limit loads of a case assume.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Assumptions {
     /// The mean lateral stress; of no effect on an isolated contact.
     pub mean: MeanStress,
@@ -27,6 +28,8 @@ pub struct Assumptions {
     pub isolated: bool,
     /// Whether indenters or a topography are rigid; a given pressure has none.
     pub rigid: bool,
+    /// Names of the materials without a strength.
+    pub untested: Vec<String>,
 }
 
 impl Assumptions {
@@ -37,21 +40,36 @@ impl Assumptions {
             mean: case.mean_stress(),
             isolated: problem.cell().is_isolated(),
             rigid: problem.bodies().counterbody().is_none() && problem.counterbody().pressure().is_none(),
+            untested: untested(problem.bodies()),
         }
     }
 
     /// A sentence for each that matters; `with_strength`: beside strengths.
-    pub fn sentences(self, with_strength: bool) -> Vec<&'static str> {
-        let mean = (!self.isolated).then(|| mean_stress(self.mean));
-        let rigid = (with_strength && self.rigid).then_some(RIGID);
-        mean.into_iter().chain(rigid).collect()
+    pub fn sentences(&self, with_strength: bool) -> Vec<String> {
+        let mean = (!self.isolated).then(|| mean_stress(self.mean).to_owned());
+        let rigid = (with_strength && self.rigid).then(|| RIGID.to_owned());
+        let untested = (with_strength && !self.untested.is_empty()).then(|| {
+            format!("no strength is given of {}: nothing is said of what fails there", joined(&self.untested, "and"))
+        });
+        [mean, untested, rigid].into_iter().flatten().collect()
     }
 
     /// The sentences in lines of at most `width` letters.
-    pub(super) fn lines(self, with_strength: bool, width: usize) -> String {
-        let sentences = self.sentences(with_strength);
-        sentences.into_iter().map(|own| lines(own, width)).collect()
+    pub(super) fn lines(&self, with_strength: bool, width: usize) -> String {
+        self.sentences(with_strength).iter().map(|own| lines(own, width)).collect()
     }
+}
+
+/// Names of the materials without a strength, each once.
+fn untested(bodies: &Bodies) -> Vec<String> {
+    let of = |body: &HalfSpace| -> Vec<String> {
+        let strengths = (1..).zip(body.strengths());
+        let without = strengths.filter(|(_, own)| own.yielding.is_none() && own.tensile.is_none());
+        without.map(|(number, _)| body.material_id(number).to_string()).collect()
+    };
+    let mut names: Vec<String> = bodies.each().flat_map(of).collect();
+    names.dedup();
+    names
 }
 
 #[cfg(test)]
