@@ -251,8 +251,7 @@ def test_a_failure_of_the_module_is_not_the_last_word(browser):
     done(browser)
     # The next request fails as it does where the module ends itself.
     fails_once = "const send = worker.send; worker.send = () => { worker.send = send; return Promise.resolve({ failure: 'unreachable' }); };"
-    browser.execute_script(fails_once)
-    typed(browser, "[name=force]", "2")
+    browser.execute_script(fails_once + "state.force = 2; changed();")
     error = browser.find_element(By.ID, "error")
     wait(browser, error.is_displayed, "no error")
     assert "unreachable" in error.text
