@@ -52,13 +52,24 @@ fn merits(units: &Units) -> [Merit; 6] {
     let pressure = || units.pressure().clone();
     let first = format!("first limit, {}", units.quantity().name());
     [
-        merit(&first, true, units.load(), |own| own.limit_value(None)),
+        merit(&first, true, units.load(), first_limit),
         merit("passes to damage", true, Unit::None, |own| scalar(own, "passes to damage")),
         merit("largest utilisation", false, Unit::None, |own| own.largest_utilisation().map(known)),
         merit("largest tension", false, pressure(), |own| scalar(own, "largest tension")),
         merit("peak pressure", false, pressure(), |own| scalar(own, "peak pressure")),
         merit("largest von Mises", false, pressure(), |own| scalar(own, "largest von Mises")),
     ]
+}
+
+/// The first limit; where nothing fails, the least load up to which a criterion was followed, as a bound.
+fn first_limit(own: &SweepResult) -> Option<LimitValue> {
+    own.limit_value(None).or_else(|| {
+        let loads = own.limits()?.iter().filter_map(|limit| match limit.into() {
+            LimitValue::Above(load) => Some(load),
+            _ => None,
+        });
+        loads.min_by(f64::total_cmp).map(LimitValue::Above)
+    })
 }
 
 /// The table of the best and the worst combination; `None` where less than two combinations that are done have a result. The load is
