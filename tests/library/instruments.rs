@@ -246,7 +246,8 @@ fn a_channel_is_read_beside_another_that_is_no_surface() {
     assert!(profile("channel = 1\nscale = 1").unwrap_err().contains("a profile is no surface"));
 }
 
-/// Reserved bytes of old files are no spectrum; a spacing without a unit has that of the lengths, if both are the same.
+/// Bytes that the header of old SUR files reserves are not read as a number of spectra; a blank unit of the spacing of samples is the unit of
+/// length where the ratio of the two is 1, and is refused elsewhere.
 #[test]
 fn headers_of_older_sur_files_are_read() {
     let other = put(stored("plain.sur"), 94, &123_456i32.to_le_bytes());
