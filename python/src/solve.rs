@@ -100,7 +100,7 @@ impl Recorder for Keeping<'_> {
         self.searching()
     }
 
-    fn stresses(&mut self) {
+    fn stresses(&mut self, _step: &percoat::Step, _record: &StepRecord) {
         self.clock.turn(Phase::Stress);
         self.tell(true, || "stresses".to_owned(), None);
     }

@@ -80,8 +80,8 @@ impl Recorder for ProgressRecorder<'_> {
         self.recording.clock()
     }
 
-    fn stresses(&mut self) {
-        self.recording.stresses();
+    fn stresses(&mut self, step: &Step, record: &StepRecord) {
+        self.recording.stresses(step, record);
         self.progress.say("stresses");
     }
 

@@ -210,7 +210,7 @@ impl Recorder for Recording<'_> {
         self.clock.turn(Phase::Solve);
     }
 
-    fn stresses(&mut self) {
+    fn stresses(&mut self, _step: &Step, _record: &StepRecord) {
         self.clock.turn(Phase::Stress);
     }
 

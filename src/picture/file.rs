@@ -3,6 +3,7 @@
 use super::canvas::Canvas;
 use super::{paper, raster, vector};
 use crate::output::{OutputError, write_file};
+use png::Compression;
 use std::io::Write;
 use std::path::Path;
 
@@ -34,9 +35,14 @@ impl Canvas {
     pub fn encoded(&self, format: Format) -> Vec<u8> {
         match format {
             Format::Png => raster::png(self),
-            Format::Svg => vector::svg(self).into_bytes(),
+            Format::Svg => vector::svg(self, Compression::Balanced).into_bytes(),
             Format::Pdf => paper::pdf(self),
         }
+    }
+
+    /// The sheet as SVG for a screen: made quickly, with larger images than those of a file.
+    pub fn for_screen(&self) -> String {
+        vector::svg(self, Compression::Fast)
     }
 
     /// Writes the sheet as `<folder>/<name>.png`, `.svg` or `.pdf`, completely or not at all.

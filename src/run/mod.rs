@@ -270,7 +270,7 @@ impl Run {
             record = record.with_tangent(solver.tangent().as_ref());
         }
         let fields = self.mean_stress().map(|mean| {
-            recorder.stresses();
+            recorder.stresses(&step, &record);
             StressFields::with_tables(step.finest(), mean, tables)
         });
         if let Some(fields) = fields.as_ref().filter(|_| record.reading.max_pressure > 0.0) {

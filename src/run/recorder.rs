@@ -54,8 +54,8 @@ pub trait Recorder: Send {
         Ok(())
     }
 
-    /// Called when the stresses of a step begin.
-    fn stresses(&mut self) {}
+    /// Called when the contact of a step is read and its stresses begin; the record has none of them yet.
+    fn stresses(&mut self, _step: &Step, _record: &StepRecord) {}
 
     /// Called many times a second while the largest stresses are searched.
     ///

@@ -18,8 +18,10 @@ use super::far_plane::FarPlane;
 use super::far_tables::{COMPONENTS, FarTables, Interval, Part};
 use super::series::Response;
 use crate::body::Depth;
+use crate::lattice::waves::WaveRow;
 use crate::lattice::{Cell, Grid};
-use crate::numeric::chebyshev::{analysis, inside, nodes, polynomials};
+use crate::numeric::chebyshev::{analysis, inside, polynomials};
+use crate::numeric::lanes::vectorised;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -58,7 +60,7 @@ impl FarField {
             Some(number) => {
                 combined(polynomials(inside(self.segments[number].0.ends, depth.z)), self.in_segment(number))
             }
-            None => self.tables.plane(&self.coefficients, &self.tables.responses(depth)),
+            None => self.below(depth),
         };
         FarPlane { counts: self.tables.counts, coefficients, corner: self.corner }
     }
@@ -86,11 +88,26 @@ impl FarField {
 
     /// Coefficients of the polynomials of an interval, by those in depth. By one thread: others may wait for it.
     fn in_segment(&self, number: usize) -> &[Nodes] {
+        let tables = &self.tables;
         self.segments[number].1.get_or_init(|| {
-            let responses = self.tables.segments[number].1.iter();
-            let values: Vec<Nodes> = responses.map(|own| self.tables.plane(&self.coefficients, own)).collect();
-            in_depth(&values)
+            let (interval, responses) = &tables.segments[number];
+            let mut sums = vec![tables.none(); interval.nodes];
+            for ((part, coefficients), responses) in tables.parts.iter().zip(&self.coefficients).zip(responses) {
+                let planes: Vec<Nodes> = responses.iter().map(|own| part.plane(coefficients, own)).collect();
+                sums.iter_mut().zip(in_depth(&planes)).for_each(|(sums, own)| tables.add(part, &own, sums));
+            }
+            sums
         })
+    }
+
+    /// Coefficients of the polynomials at a depth that no interval holds.
+    fn below(&self, depth: Depth) -> Nodes {
+        let tables = &self.tables;
+        let mut sums = tables.none();
+        for (part, coefficients) in tables.parts.iter().zip(&self.coefficients) {
+            tables.add(part, &part.plane(coefficients, &tables.response(part, depth)), &mut sums);
+        }
+        sums
     }
 }
 
@@ -140,64 +157,10 @@ impl Part {
         all
     }
 
-    /// Adds the components at nodes of the window, by the fractions of those along x and along y, at the depth of a response.
-    fn add(
-        &self,
-        coefficients: &[Complex64],
-        response: &DepthResponse,
-        [along, across]: &[Vec<f64>; 2],
-        values: &mut Nodes,
-    ) {
-        let step = self.waves.step();
-        let steps: Vec<Complex64> = along.iter().map(|s| Complex64::cis(TAU * s)).collect();
-        // Real and imaginary parts apart, in lanes.
-        let mut sums = vec![[[0.0; COMPONENTS]; 2]; along.len()];
-        let mut phases = vec![Complex64::default(); along.len()];
-        for row in self.waves.rows_within(response.shells()) {
-            sums.fill([[0.0; COMPONENTS]; 2]);
-            for (phase, s) in phases.iter_mut().zip(along) {
-                *phase = Complex64::cis(TAU * (f64::from(row.first) * s).fract());
-            }
-            for k in 0..row.len {
-                let number = row.start + k;
-                let shell = self.waves.shells()[number] as usize;
-                let terms: [Complex64; COMPONENTS] = response.times(row.at(k, step), shell, coefficients[number]);
-                let (re, im) = (terms.map(|term| term.re), terms.map(|term| term.im));
-                for ([sum_re, sum_im], (phase, step)) in sums.iter_mut().zip(phases.iter_mut().zip(&steps)) {
-                    let Complex64 { re: c, im: s } = *phase;
-                    for k in 0..COMPONENTS {
-                        sum_re[k] += re[k] * c - im[k] * s;
-                        sum_im[k] += re[k] * s + im[k] * c;
-                    }
-                    *phase = Complex64::new(c * step.re - s * step.im, c * step.im + s * step.re);
-                }
-            }
-            for (j, &t) in across.iter().enumerate() {
-                let Complex64 { re: c, im: s } = Complex64::cis(TAU * (f64::from(row.across) * t).fract());
-                for (i, [re, im]) in sums.iter().enumerate() {
-                    let value = &mut values[i * across.len() + j];
-                    for k in 0..COMPONENTS {
-                        value[k] += c * re[k] - s * im[k];
-                    }
-                }
-            }
-        }
-    }
-}
-
-impl FarTables {
-    /// Coefficients of the polynomials over the window at one depth, by the response of each part there.
-    fn plane(&self, coefficients: &[Vec<Complex64>], responses: &[DepthResponse]) -> Nodes {
+    /// Coefficients of the polynomials over the window at the depth of a response, as many as the waves of the part need.
+    fn plane(&self, coefficients: &[Complex64], response: &DepthResponse) -> Nodes {
+        let values = self.values(coefficients, response);
         let [n1, n2] = self.counts;
-        let mut values: Nodes = vec![[0.0; COMPONENTS]; n1 * n2];
-        let places = self.counts.map(nodes);
-        for ((part, coefficients), response) in self.parts.iter().zip(coefficients).zip(responses) {
-            let fractions = [0, 1].map(|axis| {
-                let part_of_cell = self.window.vectors()[axis][axis] / part.cell.vectors()[axis][axis];
-                places[axis].iter().map(|x| 0.5 * x * part_of_cell + 0.5).collect()
-            });
-            part.add(coefficients, response, &fractions, &mut values);
-        }
         // Along y, row by row, then along x.
         let matrix = analysis(n2);
         let rows = values.chunks_exact(n2).map(|row| {
@@ -212,6 +175,88 @@ impl FarTables {
         });
         let rows: Vec<Nodes> = rows.collect();
         analysis(n1).into_iter().flat_map(|weights| combined(weights.into_iter(), &rows)).collect()
+    }
+
+    /// The components at the nodes of the window, at the depth of a response.
+    fn values(&self, coefficients: &[Complex64], response: &DepthResponse) -> Nodes {
+        let mut values: Nodes = vec![[0.0; COMPONENTS]; self.counts[0] * self.counts[1]];
+        let mut terms = Vec::new();
+        for row in self.waves.rows_within(response.shells()) {
+            vectorised!(_simd => self.add_row(&row, coefficients, response, &mut terms, &mut values));
+        }
+        values
+    }
+
+    /// Adds the waves of a row at the nodes; `terms` is a buffer of their components, real parts before imaginary ones.
+    #[inline(always)]
+    fn add_row(
+        &self,
+        row: &WaveRow,
+        coefficients: &[Complex64],
+        response: &DepthResponse,
+        terms: &mut Vec<[f64; 2 * COMPONENTS]>,
+        values: &mut Nodes,
+    ) {
+        let [n1, n2] = self.counts;
+        let [along, across] = &self.phases;
+        let step = self.waves.step();
+        terms.clear();
+        for k in 0..row.len {
+            let number = row.start + k;
+            let own: [Complex64; COMPONENTS] =
+                response.times(row.at(k, step), self.waves.shells()[number] as usize, coefficients[number]);
+            terms.push(std::array::from_fn(|c| if c < COMPONENTS { own[c].re } else { own[c - COMPONENTS].im }));
+        }
+        // Nodes are mirror images at the middle, where their phases are conjugate: sums by cosines and sines serve both.
+        for i in 0..n1.div_ceil(2) {
+            let [cosines, sines] = along.from(i, row.first);
+            let (by_cosines, by_sines) = (weighted(cosines, terms), weighted(sines, terms));
+            for j in 0..n2 {
+                let [c, s] = across.from(j, row.across).map(|phases| phases[0]);
+                let own = &mut values[i * n2 + j];
+                for k in 0..COMPONENTS {
+                    let (re, im) = (by_cosines[k] - by_sines[k + COMPONENTS], by_cosines[k + COMPONENTS] + by_sines[k]);
+                    own[k] += c * re - s * im;
+                }
+                let mirrored = n1 - 1 - i;
+                if mirrored == i {
+                    continue;
+                }
+                let own = &mut values[mirrored * n2 + j];
+                for k in 0..COMPONENTS {
+                    let (re, im) = (by_cosines[k] + by_sines[k + COMPONENTS], by_cosines[k + COMPONENTS] - by_sines[k]);
+                    own[k] += c * re - s * im;
+                }
+            }
+        }
+    }
+}
+
+/// The sum of all `terms`, with weights.
+#[inline(always)]
+fn weighted<const K: usize>(weights: &[f64], terms: &[[f64; K]]) -> [f64; K] {
+    let mut sums = [0.0; K];
+    for (weight, own) in weights.iter().zip(terms) {
+        for k in 0..K {
+            sums[k] += weight * own[k];
+        }
+    }
+    sums
+}
+
+impl FarTables {
+    /// Coefficients that are all zero.
+    fn none(&self) -> Nodes {
+        vec![[0.0; COMPONENTS]; self.counts[0] * self.counts[1]]
+    }
+
+    /// Adds coefficients of a part to those of all: of the polynomials of lower degree that it has.
+    fn add(&self, part: &Part, own: &Nodes, sums: &mut Nodes) {
+        for (sums, own) in sums.chunks_exact_mut(self.counts[1]).zip(own.chunks_exact(part.counts[1])) {
+            for (sum, own) in sums.iter_mut().flatten().zip(own.iter().flatten()) {
+                *sum += own;
+            }
+        }
     }
 }
 
@@ -229,4 +274,83 @@ fn combined(weights: impl Iterator<Item = f64>, parts: &[Nodes]) -> Nodes {
 /// Coefficients of the polynomials in depth, from those over the window at the nodes in depth.
 fn in_depth(values: &[Nodes]) -> Vec<Nodes> {
     analysis(values.len()).into_iter().map(|weights| combined(weights.into_iter(), values)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Interface, Layer, Material};
+
+    /// Of each cell, between the nodes and at the corners, under a pressure and a traction: what all of its waves add up to one by one.
+    /// The first two are left out: alone they are not smooth over the window, only together.
+    #[test]
+    fn few_nodes_give_what_the_waves_of_a_wide_cell_add_up_to() {
+        let layer = Layer::new(Material::from_shear(5.0, 0.2).unwrap(), 0.05, Interface::Bonded).unwrap();
+        let half_space = HalfSpace::new(vec![layer], Material::from_shear(1.0, 0.3).unwrap());
+        let window = Cell::window([1.0, 2.0]).unwrap();
+        let grid = Grid::new(window, [8, 16]).unwrap();
+        let pressure: Vec<f64> = (0..128).map(|k| f64::from(k * k % 7)).collect();
+        let tables = FarTables::new(window, &half_space, Some([0.3, 0.1])).unwrap();
+        let mut counts = Vec::new();
+        for (number, part) in tables.parts.iter().enumerate().skip(5) {
+            let coefficients = part.coefficients(&grid, &pressure);
+            let response = tables.response(part, Depth { z: 0.3, material: 2 });
+            let mut sums = tables.none();
+            tables.add(part, &part.plane(&coefficients, &response), &mut sums);
+            let plane = FarPlane { counts: tables.counts, coefficients: sums, corner: [-2.0; 2] };
+            for [x, y] in [[0.0, 0.0], [0.37, -0.61], [1.0, 1.0], [-1.0, 0.93]] {
+                let own = plane.at([x, y].map(|place| 0.25 * (place + 2.0)));
+                let (mut exact, mut size) = ([0.0; COMPONENTS], [0.0; COMPONENTS]);
+                for row in part.waves.rows_within(response.shells()) {
+                    for k in 0..row.len {
+                        let (q, wave) = (row.at(k, part.waves.step()), row.start + k);
+                        let shell = part.waves.shells()[wave] as usize;
+                        let terms: [Complex64; COMPONENTS] = response.times(q, shell, coefficients[wave]);
+                        let phase =
+                            Complex64::cis(q[0] * 0.5 * x + q[1] * y) * middle(row.first + k as i32, row.across);
+                        for c in 0..COMPONENTS {
+                            exact[c] += (terms[c] * phase).re;
+                            size[c] += terms[c].norm();
+                        }
+                    }
+                }
+                let largest = size.iter().copied().fold(0.0, f64::max);
+                let worst = (0..COMPONENTS).map(|c| (own[c] - exact[c]).abs()).fold(0.0, f64::max);
+                assert!(worst <= 2e-9 * largest, "cell {number}, {x}, {y}: {worst:e} of {largest:e}");
+            }
+            counts.push(part.counts);
+        }
+        assert!(counts[0] == tables.counts || counts[0][0] >= 9, "{counts:?}");
+        assert!(counts.last().unwrap().iter().all(|&count| count <= 3), "{counts:?}");
+    }
+
+    /// Between the nodes in depth, in a thin coating and below it, what the polynomials have is what the amplitudes there give.
+    #[test]
+    fn few_nodes_in_depth_give_what_the_depth_itself_gives() {
+        let layer = Layer::new(Material::from_shear(5.0, 0.2).unwrap(), 0.05, Interface::Bonded).unwrap();
+        let half_space = HalfSpace::new(vec![layer], Material::from_shear(1.0, 0.3).unwrap());
+        let window = Cell::window([1.0, 1.0]).unwrap();
+        let grid = Grid::new(window, [8, 8]).unwrap();
+        let pressure: Vec<f64> = (0..64).map(|k| f64::from(k * k % 7)).collect();
+        let tables = Arc::new(FarTables::new(window, &half_space, Some([0.3, 0.1])).unwrap());
+        let field = FarField::new(tables, &grid, &pressure, Cell::window([2.0, 2.0]).unwrap());
+        for (z, material) in [(0.0, 1), (0.013, 1), (0.05, 1), (0.05, 2), (0.21, 2), (0.55, 2), (0.9, 2), (3.1, 2)] {
+            let depth = Depth { z, material };
+            let exact = FarPlane { coefficients: field.below(depth), ..field.plane(depth) };
+            let plane = field.plane(depth);
+            for place in [[0.5, 0.5], [0.3, 0.61], [0.26, 0.74]] {
+                let (own, exact) = (plane.at(place), exact.at(place));
+                for kind in [0..6, 6..COMPONENTS] {
+                    let largest = exact[kind.clone()].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+                    let worst = kind.map(|c| (own[c] - exact[c]).abs()).fold(0.0, f64::max);
+                    assert!(worst <= 1e-6 * largest, "{depth:?}, {place:?}: {worst:e} of {largest:e}");
+                }
+            }
+        }
+    }
+
+    /// e^{2πi(κ₁ + κ₂)/2}: fractions of a cell are counted from its corner, places from its middle.
+    fn middle(k1: i32, k2: i32) -> f64 {
+        if (k1 + k2).rem_euclid(2) == 0 { 1.0 } else { -1.0 }
+    }
 }

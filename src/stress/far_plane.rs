@@ -1,6 +1,6 @@
 //! A smooth field over the window of an isolated contact at one depth, as polynomials.
 
-use crate::numeric::chebyshev::polynomials;
+use crate::numeric::chebyshev::{analysis, inside, nodes, place, polynomials};
 
 /// Places are read this far beyond the window, in halves of its side: differences at its border need no more.
 const BEYOND: f64 = 1.03;
@@ -68,8 +68,100 @@ impl<const K: usize> FarPlane<K> {
         sums
     }
 
+    /// The field on the line through the fractions `origin` with the fractions of its `unit` vector, between two distances s from it.
+    ///
+    /// On a line a product of polynomials of x and y is one of s, of the sum of their degrees: so many nodes give it exactly.
+    pub fn on_line(&self, origin: [f64; 2], unit: [f64; 2], ends: [f64; 2]) -> FarLine<K> {
+        let ends = self.part_inside(origin, unit, ends);
+        let degree = |axis: usize| if unit[axis] == 0.0 { 0 } else { self.counts[axis] - 1 };
+        let count = 1 + degree(0) + degree(1);
+        let at = |x: f64| {
+            let s = place(ends, x);
+            self.at([0, 1].map(|axis| origin[axis] + s * unit[axis]))
+        };
+        let values: Vec<[f64; K]> = nodes(count).into_iter().map(at).collect();
+        let coefficient = |weights: Vec<f64>| {
+            std::array::from_fn(|k| weights.iter().zip(&values).map(|(weight, own)| weight * own[k]).sum())
+        };
+        FarLine { ends, coefficients: analysis(count).into_iter().map(coefficient).collect() }
+    }
+
+    /// The part of a line between two distances s whose places are read, in ascending order; a point where none is.
+    fn part_inside(&self, origin: [f64; 2], unit: [f64; 2], [first, last]: [f64; 2]) -> [f64; 2] {
+        let mut part = [first.min(last), first.max(last)];
+        for axis in (0..2).filter(|&axis| unit[axis] != 0.0) {
+            let border = |side: f64| (0.25 * (side * BEYOND - self.corner[axis]) - origin[axis]) / unit[axis];
+            let [one, other] = [border(-1.0), border(1.0)];
+            part = [part[0].max(one.min(other)), part[1].min(one.max(other))];
+        }
+        if part[0] < part[1] { part } else { [part[0]; 2] }
+    }
+
     /// Components at the fractions s, t of the cell of the series.
     pub fn at(&self, [s, t]: [f64; 2]) -> [f64; K] {
         self.on(&self.along(s), t)
+    }
+}
+
+/// K components of a far field on a line at one depth.
+#[derive(Debug, Clone)]
+pub(super) struct FarLine<const K: usize> {
+    /// Distances s between which it is read.
+    ends: [f64; 2],
+    /// Coefficients of the polynomials between them.
+    coefficients: Vec<[f64; K]>,
+}
+
+impl<const K: usize> FarLine<K> {
+    /// Components at a distance s; beyond the ends those at the nearer one.
+    pub fn at(&self, s: f64) -> [f64; K] {
+        let x = if self.ends[0] < self.ends[1] { inside(self.ends, s).clamp(-1.0, 1.0) } else { 0.0 };
+        let mut sums = [0.0; K];
+        for (weight, own) in polynomials(x).zip(&self.coefficients) {
+            sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += weight * own);
+        }
+        sums
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Along x, along y and aslant, in both directions, across the window and from beyond it: to rounding what the plane has.
+    #[test]
+    fn a_line_has_what_the_plane_has() {
+        let counts = [5, 7];
+        let coefficients = (0..35).map(|k| [f64::from(k * 7 % 11) - 5.0, f64::from(k * k % 13) - 6.0]).collect();
+        let plane = FarPlane { counts, coefficients, corner: [-2.0, -2.0] };
+        for unit in [[0.01, 0.0], [0.0, -0.01], [0.006, 0.008], [-0.003, 0.007]] {
+            for (origin, ends) in [([0.45, 0.52], [-12.0, 15.0]), ([0.5, 0.5], [60.0, -70.0])] {
+                let line = plane.on_line(origin, unit, ends);
+                let mut met = 0;
+                for i in 0..=100 {
+                    let s = ends[0] + 0.01 * f64::from(i) * (ends[1] - ends[0]);
+                    let place = [0, 1].map(|axis| origin[axis] + s * unit[axis]);
+                    if place.iter().any(|fraction| (4.0 * fraction - 2.0).abs() > BEYOND) {
+                        continue;
+                    }
+                    met += 1;
+                    let (own, exact) = (line.at(s), plane.at(place));
+                    assert!(
+                        own.iter().zip(&exact).all(|(a, b)| (a - b).abs() < 1e-12),
+                        "{unit:?} {s}: {own:?}, {exact:?}"
+                    );
+                }
+                assert!(met > 20, "{unit:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_line_beyond_the_window_is_finite() {
+        let plane = FarPlane { counts: [3, 3], coefficients: vec![[1.0]; 9], corner: [-2.0, -2.0] };
+        let line = plane.on_line([0.95, 0.1], [0.0, 1.0], [0.0, 0.5]);
+        assert!(line.at(0.2)[0].is_finite());
+        let line = plane.on_line([0.95, 0.95], [1.0, 1.0], [0.0, 0.0]);
+        assert!(line.at(0.0)[0].is_finite());
     }
 }

@@ -14,6 +14,7 @@ use crate::numeric::chebyshev::{nodes, place};
 #[cfg(any(feature = "cli", test))]
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// β: ½ erfc β = 2e-7 is left at both ends of a cut.
@@ -32,6 +33,8 @@ const DOWN: usize = 8;
 const DEEPEST: f64 = 4.0;
 /// What the polynomials over an interval of depth leave of the difference, by the distance of the images.
 const LEFT_IN_DEPTH: f64 = 1e-7;
+/// What the polynomials leave of a wave whose length is many windows.
+const LEFT_OF_WAVE: f64 = 1e-9;
 /// Components: six stresses and three displacements.
 pub(super) const COMPONENTS: usize = 9;
 
@@ -47,7 +50,45 @@ pub(super) struct Part {
     pub waves: Arc<Waves>,
     /// Weight of each shell.
     pub weights: Vec<f64>,
+    /// Numbers of nodes along x and y that its waves need, and the phases of the waves there.
+    pub counts: [usize; 2],
+    pub phases: [NodePhases; 2],
     interiors: InteriorTable,
+}
+
+/// Phases e^{2πiκs} of waves κ at nodes, which have the fractions s of a cell.
+#[derive(Debug)]
+pub(super) struct NodePhases {
+    /// The lowest κ.
+    first: i32,
+    /// Of each node the cosines of all κ, then the sines.
+    values: Vec<[Vec<f64>; 2]>,
+}
+
+impl NodePhases {
+    /// Phases of the waves of some ranges of κ.
+    fn new(ranges: &[Range<i32>], nodes: impl Iterator<Item = f64>) -> Self {
+        let first = ranges.iter().map(|own| own.start).min().unwrap_or(0);
+        let last = ranges.iter().map(|own| own.end).max().unwrap_or(0);
+        let at = |s: f64| {
+            let phase = |k: i32| (TAU * (f64::from(k) * s).fract()).sin_cos();
+            let (sines, cosines) = (first..last).map(phase).unzip();
+            [cosines, sines]
+        };
+        Self { first, values: nodes.map(at).collect() }
+    }
+
+    /// Cosines and sines at a node, from κ on.
+    pub fn from(&self, node: usize, kappa: i32) -> [&[f64]; 2] {
+        let start = (kappa - self.first) as usize;
+        self.values[node].each_ref().map(|values| &values[start..])
+    }
+
+    /// Bytes of the phases of `count` waves at some nodes.
+    #[cfg(any(feature = "cli", test))]
+    fn bytes(count: usize, nodes: usize) -> usize {
+        2 * count * nodes * size_of::<f64>()
+    }
 }
 
 /// What does not depend on the pressure: the waves of all cells, and their amplitudes at the nodes in depth.
@@ -59,7 +100,7 @@ pub(crate) struct FarTables {
     /// Numbers of nodes along x and y.
     pub(super) counts: [usize; 2],
     pub(super) parts: Vec<Part>,
-    /// Ends of the intervals of depth with their materials, and of each node the response of each part.
+    /// Intervals of depth, and of each part the responses at the nodes in depth that its waves need.
     pub(super) segments: Vec<(Interval, Vec<Vec<DepthResponse>>)>,
 }
 
@@ -68,8 +109,8 @@ pub(crate) struct FarTables {
 pub(super) struct Interval {
     pub material: usize,
     pub ends: [f64; 2],
-    /// Number of nodes.
-    nodes: usize,
+    /// Largest number of nodes.
+    pub nodes: usize,
 }
 
 impl FarTables {
@@ -78,6 +119,7 @@ impl FarTables {
         let sides = sides(window);
         let shorter = sides[0].min(sides[1]);
         let limit = |number: usize| limit(shorter, number);
+        let (half_space, counts) = (half_space.clone(), counts(sides));
         let mut parts = Vec::new();
         for number in 0..CELLS {
             let (own, points) = part(sides, number);
@@ -91,13 +133,26 @@ impl FarTables {
             let weights = waves.wavenumbers().iter().map(weight).collect();
             let interiors =
                 InteriorTable::new(Arc::clone(half_space.response()), waves.wavenumbers(), traction.is_some());
-            parts.push(Part { cell: own, waves, weights, interiors });
+            let counts = part_counts(sides, number);
+            let rows = waves.rows_within(waves.wavenumbers().len());
+            let ranges: [Vec<Range<i32>>; 2] = [
+                rows.iter().map(|row| row.first..row.first + row.len as i32).collect(),
+                rows.iter().map(|row| row.across..row.across + 1).collect(),
+            ];
+            let phases = [0, 1].map(|axis| {
+                let part_of_cell = sides[axis] / own.vectors()[axis][axis];
+                let fraction = |x| 0.5 * x * part_of_cell + 0.5;
+                NodePhases::new(&ranges[axis], nodes(counts[axis]).into_iter().map(fraction))
+            });
+            parts.push(Part { cell: own, waves, weights, counts, phases, interiors });
         }
-        let (half_space, counts) = (half_space.clone(), counts(sides));
         let mut own = Self { window, half_space, traction, counts, parts, segments: Vec::new() };
         let tabulated = |interval: Interval| {
-            let depths = nodes(interval.nodes).into_iter().map(|x| interval.depth(x));
-            (interval, depths.map(|depth| own.responses(depth)).collect())
+            let of_part = |(number, part): (usize, &Part)| {
+                let depths = nodes(interval.nodes_of(highest(shorter, number))).into_iter();
+                depths.map(|x| own.response(part, interval.depth(x))).collect()
+            };
+            (interval, own.parts.iter().enumerate().map(of_part).collect())
         };
         own.segments = intervals(&own.half_space, sides).into_iter().map(tabulated).collect();
         Ok(own)
@@ -107,7 +162,7 @@ impl FarTables {
     #[cfg(any(feature = "cli", test))]
     pub fn bytes(window: Cell, half_space: &HalfSpace, slides: bool) -> usize {
         let sides = sides(window);
-        let depths: usize = intervals(half_space, sides).iter().map(|own| own.nodes).sum();
+        let intervals = intervals(half_space, sides);
         // A wave and its mirror image along x have one wavenumber, in a square four waves.
         let together = if sides[0] == sides[1] { 4 } else { 2 };
         let response = size_of::<Amplitudes>() + size_of::<f64>();
@@ -118,9 +173,17 @@ impl FarTables {
             let waves = n1 * n2 / 2;
             let shells = waves / together + n1 + n2;
             let interiors = InteriorTable::bytes(half_space, slides, |_| shells);
-            waves * (size_of::<Complex64>() + size_of::<u32>()) + shells * depths * (response + sliding) + interiors
+            let highest = highest(sides[0].min(sides[1]), number);
+            let depths: usize = intervals.iter().map(|own| own.nodes_of(highest)).sum();
+            let [along, across] = part_counts(sides, number);
+            let phases = NodePhases::bytes(n1, along) + NodePhases::bytes(n2, across);
+            phases
+                + waves * (size_of::<Complex64>() + size_of::<u32>())
+                + shells * depths * (response + sliding)
+                + interiors
         };
         let [n1, n2] = counts(sides);
+        let depths: usize = intervals.iter().map(|own| own.nodes).sum();
         (0..CELLS).map(of_part).sum::<usize>() + depths * n1 * n2 * COMPONENTS * size_of::<f64>()
     }
 
@@ -129,13 +192,10 @@ impl FarTables {
         self.window == window && self.traction == traction && self.half_space.response() == half_space.response()
     }
 
-    /// The response of each part at a depth.
-    pub(super) fn responses(&self, depth: Depth) -> Vec<DepthResponse> {
-        let of = |part: &Part| {
-            let wavenumbers = part.waves.wavenumbers();
-            DepthResponse::new(&part.interiors, depth, wavenumbers, self.traction, StressState::default())
-        };
-        self.parts.iter().map(of).collect()
+    /// The response of a part at a depth.
+    pub(super) fn response(&self, part: &Part, depth: Depth) -> DepthResponse {
+        let wavenumbers = part.waves.wavenumbers();
+        DepthResponse::new(&part.interiors, depth, wavenumbers, self.traction, StressState::default())
     }
 }
 
@@ -155,14 +215,38 @@ fn limit(shorter: f64, number: usize) -> f64 {
 /// Sides of the cell of a number around a window of these sides, and the points of a grid that holds its waves up to twice the limit.
 fn part(sides: [f64; 2], number: usize) -> ([f64; 2], [usize; 2]) {
     let own = sides.map(|side| side * 2f64.powi(1 + number as i32));
-    let most = 2.0 * limit(sides[0].min(sides[1]), number.saturating_sub(1));
+    let most = highest(sides[0].min(sides[1]), number);
     (own, own.map(|side| 2 * (most * side / TAU).ceil() as usize + 2))
+}
+
+/// The highest wavenumber of the cell of a number around a window with this `shorter` side, twice the limit, 1/length.
+fn highest(shorter: f64, number: usize) -> f64 {
+    2.0 * limit(shorter, number.saturating_sub(1))
 }
 
 /// Numbers of nodes along the sides of a window.
 fn counts(sides: [f64; 2]) -> [usize; 2] {
     let shorter = sides[0].min(sides[1]);
     sides.map(|side| ACROSS + (MORE_ACROSS * (side / shorter - 1.0)).ceil() as usize)
+}
+
+/// Numbers of nodes along the sides of a window that the waves of the cell of a number need.
+fn part_counts(sides: [f64; 2], number: usize) -> [usize; 2] {
+    let (most, highest) = (counts(sides), highest(sides[0].min(sides[1]), number));
+    [0, 1].map(|axis| wave_nodes(0.5 * highest * sides[axis]).min(most[axis]))
+}
+
+/// Number of nodes of the polynomials for a wave over an interval, by its phase from the middle to an end.
+///
+/// The coefficients of T_j in e^{iax} are 2|J_j(a)| ≤ 2(a/2)ʲ/j!; those from N on and what of them the nodes give to the others leave
+/// less than 4(a/2)ᴺ/N!, for a < N.
+fn wave_nodes(phase: f64) -> usize {
+    let (mut left, mut count) = (4.0, 0);
+    while left > LEFT_OF_WAVE || phase > count as f64 {
+        count += 1;
+        left *= 0.5 * phase / count as f64;
+    }
+    count
 }
 
 /// Intervals of depth in each material, down to a few times the window of these sides.
@@ -187,6 +271,12 @@ fn intervals(half_space: &HalfSpace, sides: [f64; 2]) -> Vec<Interval> {
 }
 
 impl Interval {
+    /// Number of nodes that waves up to the `highest` wavenumber need. Their functions of depth are e^{±qz} and qz e^{±qz}; the factor
+    /// takes one more.
+    fn nodes_of(&self, highest: f64) -> usize {
+        self.nodes.min(1 + wave_nodes(0.5 * highest * (self.ends[1] - self.ends[0])))
+    }
+
     /// The depth at x in [−1, 1].
     fn depth(&self, x: f64) -> Depth {
         Depth { z: place(self.ends, x), material: self.material }

@@ -74,10 +74,9 @@ impl<'a> Trace<'a> {
         let mut all: Vec<[f64; K]> =
             waves.real_parts().into_iter().map(|sums| std::array::from_fn(|k| mean[k] + sums[k])).collect();
         if let Some(far) = response.far() {
+            let line = far.on_line(self.origin, self.unit, [first, first + points.saturating_sub(1) as f64 * step]);
             for (i, own) in all.iter_mut().enumerate() {
-                let s = first + i as f64 * step;
-                let place = [0, 1].map(|axis| self.origin[axis] + s * self.unit[axis]);
-                own.iter_mut().zip(far.at(place)).for_each(|(own, far)| *own += far);
+                own.iter_mut().zip(line.at(first + i as f64 * step)).for_each(|(own, far)| *own += far);
             }
         }
         all

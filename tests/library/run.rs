@@ -45,7 +45,7 @@ impl Recorder for Diary {
         if self.most.is_some_and(|most| self.iterations > most) { Err(Full) } else { Ok(()) }
     }
 
-    fn stresses(&mut self) {
+    fn stresses(&mut self, _step: &Step, _record: &StepRecord) {
         self.heard.push("stresses".to_owned());
     }
 

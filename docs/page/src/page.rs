@@ -33,19 +33,21 @@ struct Kept {
 
 impl Page {
     /// The answer to a request in JSON: JSON, or the bytes of a picture or table. A request that is refused has the answer
-    /// `{"error": "…"}`.
-    pub fn answer(&mut self, request: &[u8]) -> Vec<u8> {
+    /// `{"error": "…"}`. `begun` takes the answer without its stresses, and without its section, before they are computed.
+    pub fn answer(&mut self, request: &[u8], begun: &mut (dyn FnMut(&[u8]) + Send)) -> Vec<u8> {
         let answer = serde_json::from_slice(request)
             .map_err(|error| format!("no request of this page: {error}"))
-            .and_then(|request| self.perform(request));
+            .and_then(|request| self.perform(request, begun));
         answer.unwrap_or_else(|error| json!({ "error": error }).to_string().into_bytes())
     }
 
-    fn perform(&mut self, request: Request) -> Result<Vec<u8>, String> {
+    fn perform(&mut self, request: Request, begun: &mut (dyn FnMut(&[u8]) + Send)) -> Result<Vec<u8>, String> {
         match request {
             Request::Materials => Ok(json!({ "materials": library() }).to_string().into_bytes()),
             Request::Solve { case, pictures, coarse } => {
-                self.solve(case, pictures, coarse).map(|answer| json!(answer).to_string().into_bytes())
+                let mut begun = |answer: Answer| begun(json!(answer).to_string().as_bytes());
+                let answer = self.solve(case, pictures.then_some(coarse), &mut begun)?;
+                Ok(json!(answer).to_string().into_bytes())
             }
             Request::Limit { case } => limit(case).map(|answer| json!(answer).to_string().into_bytes()),
             Request::Picture { name } => {
@@ -64,41 +66,67 @@ impl Page {
         self.kept.as_ref().ok_or_else(|| "nothing is solved yet".to_owned())
     }
 
-    fn solve(&mut self, case: Value, pictures: bool, coarse: bool) -> Result<Answer, String> {
+    /// `pictures`: whether their section is coarse; `None` without.
+    fn solve(
+        &mut self,
+        case: Value,
+        pictures: Option<bool>,
+        begun: &mut (dyn FnMut(Answer) + Send),
+    ) -> Result<Answer, String> {
         let case = read(case)?;
         let (run, room) = (case.run(), Capacity::on_this_machine(Path::new("")));
-        let cut = run.stress.as_ref().and_then(|stress| stress.cut.clone()).filter(|_| pictures);
+        let cut = run.stress.as_ref().and_then(|stress| stress.cut.clone());
+        let cut = pictures.and_then(|coarse| Some((cut?, coarse)));
         let allowed = Allowed::within(&case, room, Job::Keep)?;
-        let mut recording = Recording { allowed, cut, coarse, sections: Vec::new() };
-        let outcome = run.solve(&mut recording).map_err(|error| error.to_string())?;
-        let record = outcome.steps.last().ok_or("a case has a load at least")?;
-        let units = case.units();
-        let mut tables = vec![TableText::new("contact", table::steps(&outcome.steps, &units))];
-        tables
-            .extend(table::largest_stresses(&outcome.steps, &units).map(|own| TableText::new("largest stresses", own)));
-        let utilised = table::utilisations(&outcome.steps, Some(case.problem().bodies()), &units)
-            .map(|own| TableText::worded("utilisation of strengths", own));
-        let (verdict, utilised) = utilised.unzip();
-        tables.extend(utilised);
-        let mut answer = Answer {
-            case: case.to_toml(),
-            converged: outcome.converged(),
-            numbers: numbers::of(record, &units),
-            verdict,
-            tables,
-            assumptions: assumptions(&case),
-            warnings: [outcome.warnings.clone(), plausibility::of_case(&case)].concat(),
-            pictures: Vec::new(),
-            step: Some(json!(record)),
+        // Those of the surface do not change with the stresses.
+        let mut of_surface = Vec::new();
+        let mut known = |step: &Step, record: &StepRecord| {
+            if pictures.is_none() {
+                return;
+            }
+            let mut answer = of_steps(&case, std::slice::from_ref(record));
+            if of_surface.is_empty() {
+                of_surface = Kept::new(&case, step.clone(), record.clone(), Vec::new()).pictures(&Kept::SURFACE);
+            }
+            answer.pictures = of_surface.clone();
+            begun(answer);
         };
-        if let (true, Some(last)) = (pictures, outcome.last) {
-            let snapshot = Snapshot::new(&case.title, last, record.reading.clone()).with_units(units);
-            let snapshot = snapshot.with_strength(record.strength.clone());
-            let kept = Kept { snapshot, sections: recording.sections, record: record.clone() };
-            answer.pictures = kept.pictures();
+        let mut recording = Recording { allowed, cut, sections: Vec::new(), known: &mut known };
+        let outcome = run.solve(&mut recording).map_err(|error| error.to_string())?;
+        let sections = recording.sections;
+        let record = outcome.steps.last().ok_or("a case has a load at least")?;
+        let mut answer = of_steps(&case, &outcome.steps);
+        answer.converged = outcome.converged();
+        answer.warnings = [outcome.warnings.clone(), answer.warnings].concat();
+        if let (true, Some(last)) = (pictures.is_some(), outcome.last) {
+            let kept = Kept::new(&case, last, record.clone(), sections);
+            let of_surface = if of_surface.is_empty() { kept.pictures(&Kept::SURFACE) } else { of_surface };
+            answer.pictures = [of_surface, kept.pictures(&["section"])].concat();
             self.kept = Some(kept);
         }
         Ok(answer)
+    }
+}
+
+/// What the records of the steps of a case say of the last one; without pictures, and with the warnings of the case alone.
+fn of_steps(case: &Case, steps: &[StepRecord]) -> Answer {
+    let (units, last) = (case.units(), steps.last());
+    let mut tables = vec![TableText::new("contact", table::steps(steps, &units))];
+    tables.extend(table::largest_stresses(steps, &units).map(|own| TableText::new("largest stresses", own)));
+    let utilised = table::utilisations(steps, Some(case.problem().bodies()), &units)
+        .map(|own| TableText::worded("utilisation of strengths", own));
+    let (verdict, utilised) = utilised.unzip();
+    tables.extend(utilised);
+    Answer {
+        case: case.to_toml(),
+        converged: steps.iter().all(StepRecord::converged),
+        numbers: last.map_or(Vec::new(), |last| numbers::of(last, &units)),
+        verdict,
+        tables,
+        assumptions: assumptions(case),
+        warnings: plausibility::of_case(case),
+        pictures: Vec::new(),
+        step: last.map(|last| json!(last)),
     }
 }
 
@@ -135,16 +163,18 @@ fn assumptions(case: &Case) -> Vec<String> {
 /// Keeps the sections of the last step.
 struct Recording<'a> {
     allowed: Allowed<'a>,
-    cut: Option<Cut>,
-    coarse: bool,
+    /// The section, and whether it is coarse.
+    cut: Option<(Cut, bool)>,
     sections: Vec<VerticalSection>,
+    /// Takes a step when its contact is known, and again with its largest stresses.
+    known: &'a mut (dyn FnMut(&Step, &StepRecord) + Send),
 }
 
-/// A line of half as many intervals, and every other depth; interfaces and the last depth stay.
-fn halved(line: SurfaceLine, depths: &[Depth]) -> (SurfaceLine, Vec<Depth>) {
+/// A line of half as many intervals, and every third depth; interfaces and the last depth stay.
+fn thinned(line: SurfaceLine, depths: &[Depth]) -> (SurfaceLine, Vec<Depth>) {
     let stays = |i: usize| {
         let is_on_interface = |j: usize| depths.get(j).is_some_and(|other| other.z == depths[i].z);
-        i.is_multiple_of(2) || i + 1 == depths.len() || is_on_interface(i - 1) || is_on_interface(i + 1)
+        i.is_multiple_of(3) || i + 1 == depths.len() || is_on_interface(i - 1) || is_on_interface(i + 1)
     };
     let rows = (0..depths.len()).filter(|&i| stays(i)).map(|i| depths[i]).collect();
     (SurfaceLine { points: line.points.div_ceil(2), ..line }, rows)
@@ -157,11 +187,16 @@ impl Recorder for Recording<'_> {
         self.allowed.fits(points)
     }
 
-    fn step(&mut self, _step: &Step, _record: &StepRecord, fields: Option<&StressFields>) -> Result<(), Infallible> {
-        if let (Some(cut), Some(fields)) = (&self.cut, fields) {
+    fn stresses(&mut self, step: &Step, record: &StepRecord) {
+        (self.known)(step, record);
+    }
+
+    fn step(&mut self, step: &Step, record: &StepRecord, fields: Option<&StressFields>) -> Result<(), Infallible> {
+        if let (Some((cut, coarse)), Some(fields)) = (&self.cut, fields) {
+            (self.known)(step, record);
             let section = |field: &StressField| {
                 let depths = cut.depths(field.half_space());
-                let (line, depths) = if self.coarse { halved(cut.line, &depths) } else { (cut.line, depths) };
+                let (line, depths) = if *coarse { thinned(cut.line, &depths) } else { (cut.line, depths) };
                 field.section(&line, &depths)
             };
             self.sections = fields.each().map(section).collect();
@@ -171,16 +206,17 @@ impl Recorder for Recording<'_> {
 }
 
 impl Kept {
-    /// Names of the pictures, in the order in which they are shown.
-    const PICTURES: [&str; 3] = ["pressure", "section", "profiles"];
+    /// Names of the pictures of the surface.
+    const SURFACE: [&str; 2] = ["pressure", "profiles"];
 
-    /// The pictures that there are, as SVG.
-    fn pictures(&self) -> Vec<(String, String)> {
-        let svg = |name: &str| {
-            let text = String::from_utf8(self.picture(name)?.encoded(Format::Svg)).ok()?;
-            Some((name.to_owned(), text))
-        };
-        Self::PICTURES.into_iter().filter_map(svg).collect()
+    fn new(case: &Case, step: Step, record: StepRecord, sections: Vec<VerticalSection>) -> Self {
+        let snapshot = Snapshot::new(&case.title, step, record.reading.clone()).with_units(case.units());
+        Self { snapshot: snapshot.with_strength(record.strength.clone()), sections, record }
+    }
+
+    /// Those of the pictures of these names that there are, as SVG.
+    fn pictures(&self, names: &[&str]) -> Vec<(String, String)> {
+        names.iter().filter_map(|&name| Some((name.to_owned(), self.picture(name)?.for_screen()))).collect()
     }
 
     fn picture(&self, name: &str) -> Option<Canvas> {

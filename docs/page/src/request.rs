@@ -15,7 +15,7 @@ pub enum Request {
         case: Value,
         /// Whether pictures are drawn, and the step is kept for [`Request::Picture`] and [`Request::Table`].
         pictures: bool,
-        /// Whether the section has half of its points each way, for a first answer.
+        /// Whether the section has half of its points and a third of its depths, for a first answer.
         #[serde(default)]
         coarse: bool,
     },

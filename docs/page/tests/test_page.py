@@ -175,6 +175,37 @@ def test_a_change_is_computed_at_once_and_stands_in_the_address(browser, tmp_pat
     assert browser.find_element(By.CSS_SELECTOR, "[name=force]").get_attribute("value") == "2.5"
 
 
+# Keeps the numbers, the pictures and the verdict that stand there while the rest is computed.
+KEPT_STAGES = """
+const status = document.getElementById("status");
+window.stages = [];
+new MutationObserver(() => {
+  if (!status.textContent.includes("computing the rest")) return;
+  const rows = [...document.querySelectorAll("#numbers tbody tr")].map((row) => [row.cells[0].textContent, row.cells[1].textContent]);
+  const pictures = [...document.querySelectorAll("#pictures figure")].map((figure) => figure.dataset.name);
+  window.stages.push({ numbers: Object.fromEntries(rows), pictures, verdict: document.getElementById("verdict").textContent });
+}).observe(status, { childList: true });
+"""
+
+
+def test_contact_stresses_and_section_are_shown_one_after_another(browser):
+    """A number stays what it is when others stand beside it."""
+    opened(browser)
+    done(browser)
+    browser.execute_script(KEPT_STAGES)
+    Select(browser.find_element(By.CSS_SELECTOR, "[name=samples]")).select_by_value("96")
+    done(browser)
+    contact, stresses = browser.execute_script("return window.stages")
+    whole = {name: cells[0] for name, cells in numbers(browser).items()}
+    assert {"penetration", "contact radius", "largest pressure"} <= contact["numbers"].keys() < whole.keys(), contact
+    assert contact["numbers"].items() <= whole.items()
+    assert stresses["numbers"] == whole
+    assert not contact["verdict"] and stresses["verdict"]
+    assert contact["pictures"] == stresses["pictures"] == ["pressure", "profiles"]
+    drawn = [figure.get_attribute("data-name") for figure in browser.find_elements(By.CSS_SELECTOR, "#pictures figure")]
+    assert drawn == ["pressure", "section", "profiles"]
+
+
 def test_layers_come_and_go(browser, tmp_path):
     opened(browser)
     browser.find_element(By.ID, "add").click()

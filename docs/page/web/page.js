@@ -13,23 +13,26 @@ const worker = {
   async start() {
     this.own = new Worker(this.source);
     this.own.onmessage = ({ data }) => {
-      this.waiting.get(data.number)?.(data);
+      const { resolve, begun } = this.waiting.get(data.number) ?? {};
+      if (data.begun) return begun?.(data);
       this.waiting.delete(data.number);
+      resolve?.(data);
     };
     this.own.onerror = ({ message }) => this.end(message || "the worker does not start");
     const { failure } = await this.send({ module: this.module });
     if (failure) throw new Error(failure);
   },
-  send(message) {
+  // `begun` takes the first part of the answer, which arrives while the rest is computed.
+  send(message, begun) {
     const number = ++this.count;
     return new Promise((resolve) => {
-      this.waiting.set(number, resolve);
+      this.waiting.set(number, { resolve, begun });
       this.own.postMessage({ ...message, number });
     });
   },
   // What is under way has no answer but this failure.
   end(failure) {
-    for (const resolve of this.waiting.values()) resolve({ failure });
+    for (const { resolve } of this.waiting.values()) resolve({ failure });
     this.waiting.clear();
   },
   async restart() {
@@ -41,8 +44,8 @@ const worker = {
 
 const REPLACED = "a later change has ended it";
 
-async function ask(request) {
-  const { bytes, seconds, failure } = await worker.send({ request });
+async function ask(request, begun) {
+  const { bytes, seconds, failure } = await worker.send({ request }, begun);
   if (!failure) return { bytes, seconds };
   // A module that has failed once computes nothing more.
   if (failure !== REPLACED) await worker.restart();
@@ -56,11 +59,13 @@ async function bytesOf(request) {
   return bytes;
 }
 
-async function answerOf(request) {
-  const { bytes, seconds } = await ask(request);
-  const answer = JSON.parse(new TextDecoder().decode(bytes));
+const parsed = (bytes, seconds) => ({ ...JSON.parse(new TextDecoder().decode(bytes)), seconds });
+
+async function answerOf(request, begun) {
+  const { bytes, seconds } = await ask(request, (data) => begun?.(parsed(data.begun, data.seconds)));
+  const answer = parsed(bytes, seconds);
   if (answer.error) throw new Error(answer.error);
-  return { ...answer, seconds };
+  return answer;
 }
 
 // --- The form
@@ -222,7 +227,8 @@ async function calculate() {
   }
 }
 
-// One grid after another: the coated body, the bare one, then the loads at which something fails.
+// One grid after another: the coated body, the bare one, then the loads at which something fails. On the first grid the coated body is
+// shown as it becomes known: its contact, its largest stresses, its section.
 async function stages(own) {
   const has = state.layers.length > 0;
   const failures = []; // Of what stands beside the coated body.
@@ -233,10 +239,16 @@ async function stages(own) {
   let radius;
   for (let points = FIRST; points <= state.samples; points *= 2) {
     at("status").textContent = `computing on ${samples(points)} …`;
-    const coated = await answerOf({ task: "solve", case: caseOf(state, library, { points, radius }), pictures: true, coarse: points < state.samples });
+    const put = (coated, isWhole) => {
+      if (own !== round) return;
+      shown = { coated, isWhole, points, bare: null, limit: shown.round === own ? shown.limit : null, failures, round: own };
+      show();
+    };
+    const begun = (known) => points === FIRST && put(known, false);
+    const request = { task: "solve", case: caseOf(state, library, { points, radius }), pictures: true, coarse: points < state.samples };
+    put(await answerOf(request, begun), true);
     if (own !== round) return;
-    shown = { coated, points, bare: null, limit: shown.round === own ? shown.limit : null, failures, round: own };
-    show();
+    const { coated } = shown;
     if (has) {
       shown.bare = await beside("Bare substrate", { task: "solve", case: caseOf(state, library, { points, bare: true }), pictures: false });
       if (own !== round) return;
@@ -272,15 +284,15 @@ function showError(message) {
 }
 
 function show() {
-  const { coated, bare, limit, failures, points } = shown;
+  const { coated, isWhole, bare, limit, failures, points } = shown;
   at("result").classList.remove("outdated");
   at("error").hidden = true;
-  at("status").textContent = `${samples(points)}: ${coated.seconds.toFixed(2)} s`;
+  at("status").textContent = `${samples(points)}: ${coated.seconds.toFixed(2)} s` + (isWhole ? "" : "; computing the rest …");
   // The search is made on the first grid alone.
   const searched = points === FIRST ? "" : `, on ${samples(FIRST)}`;
   write("verdict", limit ? limit.verdict + searched : coated.verdict);
   write("here", limit ? coated.verdict : null);
-  const unknown = withoutStrength(state, library);
+  const unknown = isWhole ? withoutStrength(state, library) : [];
   write("unknown", unknown.length ? `No strength is known of ${unknown.join(" and ")}: give it under “moduli and strengths”.` : null);
   showNumbers(coated, bare);
   const warnings = [...coated.warnings, ...(bare?.warnings ?? []).map((text) => `Bare substrate: ${text}`), ...failures];
@@ -292,7 +304,7 @@ function show() {
   const details = element("details", { open: at("more").querySelector("details")?.open ?? false },
     element("summary", { textContent: "all tables" }), ...tables, ...notes);
   at("more").replaceChildren(details);
-  at("actions").hidden = at("same").hidden = false;
+  at("actions").hidden = at("same").hidden = !isWhole;
 }
 
 function showNumbers(coated, bare) {
@@ -310,10 +322,13 @@ function showNumbers(coated, bare) {
   at("numbers").replaceChildren(element("thead", {}, head), element("tbody", {}, ...rows));
 }
 
+// In the order in which they are shown.
 const CAPTIONS = { pressure: "Contact pressure", section: "Stresses in a vertical section, with interfaces", profiles: "Pressure across the contact" };
 
 function showPictures({ pictures }) {
-  const figures = pictures.map(([name, svg]) => {
+  const order = Object.keys(CAPTIONS);
+  const sorted = [...pictures].sort(([a], [b]) => order.indexOf(a) - order.indexOf(b));
+  const figures = sorted.map(([name, svg]) => {
     const image = element("img", { alt: CAPTIONS[name], src: URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })) });
     const button = element("button", { type: "button", textContent: "PNG" });
     button.dataset.picture = name;

@@ -1,9 +1,11 @@
 // The worker: the module, and one request after another.
 
 let exports;
+let under; // The request under way: its number, and when it began.
 
-// Functions that libraries import, and that no calculation calls: those of random numbers and of the names of files.
-function unused(module) {
+// What the module imports: the function that takes the first part of an answer, and those of libraries that no calculation calls
+// (random numbers, names of files).
+function importsOf(module) {
   const imports = {};
   for (const { module: from, name } of WebAssembly.Module.imports(module)) {
     imports[from] ??= {};
@@ -11,28 +13,32 @@ function unused(module) {
       throw new Error(`${name} is not in this page`);
     };
   }
+  imports.page = { begun: (address, length) => send({ begun: bytesAt(address, length) }) };
   return imports;
 }
 
 // Addresses above 2 GiB arrive as negative numbers.
+function bytesAt(address, length) {
+  return new Uint8Array(exports.memory.buffer, address >>> 0, length).slice();
+}
+
 function ask(request) {
   const text = new TextEncoder().encode(JSON.stringify(request));
   const at = exports.allocate(text.length) >>> 0;
   new Uint8Array(exports.memory.buffer, at, text.length).set(text);
   exports.compute();
-  return new Uint8Array(exports.memory.buffer, exports.address() >>> 0, exports.length()).slice();
+  return bytesAt(exports.address(), exports.length());
+}
+
+function send(message) {
+  postMessage({ number: under.number, seconds: (performance.now() - under.began) / 1000, ...message });
 }
 
 onmessage = async ({ data: { module, number, request } }) => {
+  under = { number, began: performance.now() };
   try {
-    if (module) {
-      exports = (await WebAssembly.instantiate(module, unused(module))).exports;
-      postMessage({ number, bytes: new Uint8Array() });
-      return;
-    }
-    const began = performance.now();
-    const bytes = ask(request);
-    postMessage({ number, bytes, seconds: (performance.now() - began) / 1000 });
+    if (module) exports = (await WebAssembly.instantiate(module, importsOf(module))).exports;
+    send({ bytes: module ? new Uint8Array() : ask(request) });
   } catch (error) {
     postMessage({ number, failure: String(error) });
   }

@@ -20,17 +20,20 @@ use crate::stress::FarTables;
 use std::f64::consts::PI;
 
 const MEBIBYTE: u64 = 1 << 20;
-/// The program before it solves anything, mostly its mapped code.
-const PROGRAM: u64 = 15 * MEBIBYTE;
+/// The program before it solves anything, mostly its mapped code; a build for tests, the largest. And what each thread keeps.
+const PROGRAM: u64 = 31 * MEBIBYTE / 2;
+const THREAD: u64 = MEBIBYTE / 2;
 /// Per sample: reading a step, after the memory of solving it is freed.
 const READING: u64 = 20;
 /// Per sample, in place of [`READING`]: waves, their coefficients and the search for maxima, and the plane that is written.
 const STRESS: u64 = 92;
-const PLANE: u64 = 32;
+const PLANE: u64 = 36;
+/// Code and buffers of stresses.
+const STRESSES: u64 = 2 * MEBIBYTE;
 /// Per sample: memory of the stresses of earlier steps that the allocator keeps, in a path and in a search for a limit; and
 /// coefficients of pressure and traction where no two waves share theirs.
 const AGAIN: u64 = 72;
-const SEARCH: u64 = 120;
+const SEARCH: u64 = 110;
 const SHELLS: u64 = 50;
 /// Mean number of waves of one wavenumber on square and hexagonal cells, conjugates not counted, at least.
 const SYMMETRIC: f64 = 4.5;
@@ -46,10 +49,10 @@ const STATE: u64 = 72;
 const COMPONENTS: u64 = 12;
 const VTK_NUMBERS: u64 = 16;
 /// Sheets of paper as pixels, several at a time: maps and profiles, cuts, load curves.
-const MAPS: u64 = 22 * MEBIBYTE;
+const MAPS: u64 = 23 * MEBIBYTE;
 const CUTS: u64 = 19 * MEBIBYTE;
-const CURVES: u64 = 8 * MEBIBYTE;
-const COMPARED: u64 = 13 * MEBIBYTE;
+const CURVES: u64 = 14 * MEBIBYTE;
+const COMPARED: u64 = 16 * MEBIBYTE;
 /// `compare.json` with many levels and circles.
 const COMPARISON: u64 = MEBIBYTE;
 /// Per sample: checkpoints, pressure and gap of all nested grids, twice while one replaces another.
@@ -58,9 +61,8 @@ const CHECKPOINTS: u64 = 43;
 const STEP: u64 = 31;
 /// Per sample: a step at a limit that is shown, pressure and gap of its grids.
 const SHOWN: u64 = 21;
-/// Per sample: a step, its tangent, and problems at other values in its window; and what a thread takes that works on them.
+/// Per sample: a step, its tangent, and problems at other values in its window.
 const TANGENT: u64 = 84;
-const THREAD: u64 = 2 * MEBIBYTE / 5;
 /// Per sample, with hardness: the surface before it is pressed in, depths and their readings; and depths in files.
 const INDENTED: u64 = 48;
 const DEPTHS: u64 = 8;
@@ -123,8 +125,13 @@ impl Needs {
     }
 }
 
-/// Estimate for a job on `case` on a grid of `points`.
+/// Estimate for a job on `case` on a grid of `points`, with the threads of this process.
 pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
+    with_threads(case, points, job, Threads::used())
+}
+
+/// Estimate for a job on a number of threads.
+fn with_threads(case: &Case, points: [usize; 2], job: Job, threads: usize) -> Needs {
     let samples = points[0] as u64 * points[1] as u64;
     let heights = of_heights(case, samples);
     let coupled = case.problem().friction().is_some_and(Friction::couples);
@@ -139,9 +146,13 @@ pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
         Job::Limit { pictures } => of_limits(case, samples, [grids, working, heights], pictures),
         Job::Life { pictures } => of_life(case, samples, [grids, working, heights], pictures),
         Job::Compare { pictures } => of_comparing(case, samples, grids + working + heights, pictures),
-        Job::Identify { pictures } => of_identifying(grids + working + TANGENT * samples, pictures),
+        Job::Identify { pictures } => {
+            let nodes = threads.min(MOST_NODES) as u64;
+            of_identifying(nodes * (grids + working + TANGENT * samples), pictures)
+        }
     };
-    Needs { memory: needs.memory + needs.memory / 10, ..needs }
+    let memory = needs.memory + THREAD * threads as u64;
+    Needs { memory: memory + memory / 10, ..needs }
 }
 
 /// Heights of a topography; where grids are refined, those of its file, with their waves on the way to another grid.
@@ -185,7 +196,7 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
         stress.max(elastic * STRESS * series)
     };
     let again = if stress > 0 && steps > 1 { elastic * AGAIN * series } else { 0 };
-    let stress = if stress > 0 { stress + again + of_shells(case, series) } else { 0 };
+    let stress = if stress > 0 { STRESSES + stress + again + of_shells(case, series) } else { 0 };
     let drawn = if pictures { of_pictures(case) } else { 0 };
     let drawing = PROGRAM + KEPT * samples + heights + drawn;
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
@@ -250,15 +261,15 @@ fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> Needs
     let tables = 8 * (sites * sites * side * side * 5 / 2 + SPOT_FIELDS * sites * width * width);
     let disk = COMPARISON + if pictures { PICTURE } else { 0 };
     let drawing = if pictures { PROGRAM + COMPARED + FIELD * samples } else { 0 };
-    let comparing = PROGRAM + solver + FIELD * samples + tables;
+    let comparing = PROGRAM + COMPARISON + solver + FIELD * samples + tables;
     Needs { memory: comparing.max(drawing), disk, disk_while_running: disk }
 }
 
-/// A search for parameters: nodes of a curve, of which every thread has one.
-fn of_identifying(node: u64, pictures: bool) -> Needs {
+/// A search for parameters: `nodes` of a curve, of which every thread has one.
+fn of_identifying(nodes: u64, pictures: bool) -> Needs {
     let disk = COMPARISON + if pictures { PICTURE } else { 0 };
     let drawing = if pictures { PROGRAM + CURVES } else { 0 };
-    let solving = PROGRAM + Threads::used().min(MOST_NODES) as u64 * (node + THREAD);
+    let solving = PROGRAM + nodes;
     Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
 }
 
@@ -376,31 +387,37 @@ mod tests {
     /// Peaks of the resident memory in MiB, two threads, as `VmHWM` of /proc gave them for the build that the tests run.
     #[test]
     fn estimates_lie_above_the_measured_peaks_by_less_than_a_quarter() {
+        let estimate =
+            |case: &Case, points: usize, job| with_threads(case, [points; 2], job, 2).memory as f64 / MEBIBYTE as f64;
+        let mut wrong = Vec::new();
+        let mut check = |name: String, estimate: f64, peak: f64| {
+            let line = format!("{name}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
+            println!("{line}");
+            wrong.extend((!(peak..=1.25 * peak).contains(&estimate)).then_some(line));
+        };
         const CUT: &str = "stress={section={from=\"level 1\",toward=\"level 2\",length=1.0,depth=1.0}}";
         const AWRY: &str = "stress={section={from=\"level 1\",toward=[1.0,0.7312],length=1.0,depth=1.0}}";
         let measured: [(usize, &[&str], bool, f64); 16] = [
-            (128, &[], false, 15.4),
-            (256, &[], false, 18.4),
-            (512, &[], false, 29.6),
-            (1024, &[], false, 76.9),
-            (256, &["stress={}"], false, 25.2),
-            (512, &["stress={}"], false, 47.1),
-            (512, &["stress={planes=[0,0.5]}"], false, 59.2),
-            (1024, &["stress={planes=[0,0.5]}"], false, 168.9),
-            (256, &["stress={volume={depth=1.0,rows=100,points=200}}"], false, 308.7),
-            (256, &["solver.method=polonsky-keer"], false, 17.3),
-            (64, &[], true, 39.3),
-            (512, &[], true, 52.2),
-            (1024, &[], true, 93.9),
-            (512, &[CUT], true, 75.7),
-            (512, &[AWRY], false, 50.2),
-            (1024, &[AWRY], false, 140.3),
+            (128, &[], false, 17.9),
+            (256, &[], false, 21.4),
+            (512, &[], false, 32.9),
+            (1024, &[], false, 80.2),
+            (256, &["stress={}"], false, 28.9),
+            (512, &["stress={}"], false, 50.6),
+            (512, &["stress={planes=[0,0.5]}"], false, 63.1),
+            (1024, &["stress={planes=[0,0.5]}"], false, 175.9),
+            (256, &["stress={volume={depth=1.0,rows=100,points=200}}"], false, 312.4),
+            (256, &["solver.method=polonsky-keer"], false, 20.3),
+            (64, &[], true, 42.6),
+            (512, &[], true, 56.6),
+            (1024, &[], true, 97.4),
+            (512, &[CUT], true, 80.6),
+            (512, &[AWRY], false, 53.4),
+            (1024, &[AWRY], false, 146.6),
         ];
         for (points, overrides, pictures, peak) in measured {
-            let estimate = needs(&case(overrides), [points; 2], Job::Solve { pictures, fields: true }).memory as f64
-                / MEBIBYTE as f64;
-            println!("{points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
-            assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
+            let estimate = estimate(&case(overrides), points, Job::Solve { pictures, fields: true });
+            check(format!("{points} {overrides:?}"), estimate, peak);
         }
         const SLIDING: &str = "friction={coefficient=0.4,direction=[1.0,0.3]}";
         const OBLIQUE: [&str; 3] = [
@@ -411,40 +428,37 @@ mod tests {
         let [lattice, levels, stress] = OBLIQUE;
         let loads = "load.mean_pressure=[0.02,0.04,0.06]";
         let more: [(usize, &[&str], f64); 8] = [
-            (512, &[SLIDING], 30.6),
-            (1024, &[SLIDING], 82.4),
-            (512, &[SLIDING, stress], 49.9),
-            (1024, &[SLIDING, stress], 146.1),
-            (512, &[stress, loads], 67.5),
-            (1024, &[stress, loads], 237.3),
-            (512, &[lattice, levels, stress], 59.6),
-            (512, &[lattice, levels, stress, SLIDING], 69.1),
+            (512, &[SLIDING], 33.8),
+            (1024, &[SLIDING], 85.5),
+            (512, &[SLIDING, stress], 53.8),
+            (1024, &[SLIDING, stress], 161.0),
+            (512, &[stress, loads], 70.6),
+            (1024, &[stress, loads], 241.9),
+            (512, &[lattice, levels, stress], 62.7),
+            (512, &[lattice, levels, stress, SLIDING], 71.2),
         ];
         for (points, overrides, peak) in more {
-            let estimate = needs(&case(overrides), [points; 2], SOLVE).memory as f64 / MEBIBYTE as f64;
-            println!("{points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
-            assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
+            let estimate = estimate(&case(overrides), points, SOLVE);
+            check(format!("{points} {overrides:?}"), estimate, peak);
         }
         let coating = Case::read(&embedded::source("dlc-on-steel").unwrap(), &[]).unwrap();
-        for (points, pictures, peak) in [(256, false, 40.5), (512, false, 93.9), (256, true, 46.4)] {
-            let estimate = needs(&coating, [points; 2], Job::Limit { pictures }).memory as f64 / MEBIBYTE as f64;
-            println!("limit {points}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
-            assert!((peak..=1.25 * peak).contains(&estimate), "limit {points}: {peak}, not {estimate:.1} MiB");
+        for (points, pictures, peak) in [(256, false, 39.3), (512, false, 97.4), (256, true, 57.5)] {
+            let estimate = estimate(&coating, points, Job::Limit { pictures });
+            check(format!("limit {points}"), estimate, peak);
         }
         let compared: [(usize, &[&str], bool, f64); 6] = [
-            (64, &["localized.elements=12"], true, 29.2),
-            (128, &["localized.elements=12"], false, 15.9),
-            (256, &["localized.elements=12"], true, 31.1),
-            (512, &["localized.elements=12"], true, 38.7),
-            (1024, &["localized.elements=12"], true, 86.4),
-            (64, &["localized.elements=120", "layers=[]"], false, 45.0),
+            (64, &["localized.elements=12"], true, 32.9),
+            (128, &["localized.elements=12"], false, 18.9),
+            (256, &["localized.elements=12"], true, 34.9),
+            (512, &["localized.elements=12"], true, 42.0),
+            (1024, &["localized.elements=12"], true, 89.5),
+            (64, &["localized.elements=120", "layers=[]"], false, 48.0),
         ];
         for (points, overrides, pictures, peak) in compared {
-            let estimate =
-                needs(&case(overrides), [points; 2], Job::Compare { pictures }).memory as f64 / MEBIBYTE as f64;
-            println!("compare {points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
-            assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
+            let estimate = estimate(&case(overrides), points, Job::Compare { pictures });
+            check(format!("compare {points} {overrides:?}"), estimate, peak);
         }
+        assert!(wrong.is_empty(), "{wrong:#?}");
     }
 
     /// Windows are no finer than an identification needs, whatever grid the case has.

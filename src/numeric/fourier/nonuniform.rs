@@ -54,6 +54,11 @@ impl<const K: usize> Nonuniform<K> {
     pub fn real_parts(self) -> Vec<[f64; K]> {
         let Self { points, numbers, decay, ref gathered, .. } = self;
         let fft = FftPlanner::new().plan_fft_inverse(numbers);
+        let restored = |point: usize| {
+            let damping = PI * (point as f64 - (points / 2) as f64) / numbers as f64;
+            (decay / PI).sqrt() * (damping * damping / decay).exp()
+        };
+        let restored: Vec<f64> = (0..points).map(restored).collect();
         let mut results = vec![[0.0; K]; points];
         let mut own = vec![Complex64::default(); numbers];
         let mut scratch = vec![Complex64::default(); fft.get_inplace_scratch_len()];
@@ -65,9 +70,7 @@ impl<const K: usize> Nonuniform<K> {
                 own[(place + numbers - SIDE) % numbers] += Complex64::new(re, im);
             }
             fft.process_with_scratch(&mut own, &mut scratch);
-            for (point, result) in results.iter_mut().enumerate() {
-                let damping = PI * (point as f64 - (points / 2) as f64) / numbers as f64;
-                let restored = (decay / PI).sqrt() * (damping * damping / decay).exp();
+            for (point, (result, restored)) in results.iter_mut().zip(&restored).enumerate() {
                 result[k] = restored * own[(point + numbers - points / 2) % numbers].re;
             }
         }
