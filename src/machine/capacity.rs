@@ -58,13 +58,18 @@ fn free() -> Option<u64> {
 
 /// Free address space under `ulimit -v`, without the reserves of threads, bytes.
 fn address_space() -> Option<u64> {
+    // The main thread and the working ones.
+    let threads = Threads::used() as u64 + 1;
+    Some(addresses_left()?.saturating_sub(threads * RESERVED))
+}
+
+/// Address space that this process may still take under `ulimit -v`, bytes; `None` without a limit.
+pub fn addresses_left() -> Option<u64> {
     let limits = fs::read_to_string("/proc/self/limits").ok()?;
     let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
     let limit: u64 = line.split_whitespace().next()?.parse().ok()?;
     let used = kibibytes(&fs::read_to_string("/proc/self/status").ok()?, "VmSize:")?;
-    // The main thread and the working ones.
-    let threads = Threads::used() as u64 + 1;
-    Some(limit.saturating_sub(used + threads * RESERVED))
+    Some(limit.saturating_sub(used))
 }
 
 /// Memory left in the control groups of this process and their parents (versions 1 and 2), bytes.

@@ -40,7 +40,7 @@ impl Canvas {
         }
     }
 
-    /// The sheet as SVG for a screen: made quickly, with larger images than those of a file.
+    /// The sheet as SVG for a screen: made quickly, its images of more bytes than those of a file.
     pub fn for_screen(&self) -> String {
         vector::svg(self, Compression::Fast)
     }

@@ -151,6 +151,17 @@ mod tests {
     }
 
     #[test]
+    fn images_that_are_packed_quickly_have_the_same_pixels() {
+        let pixels: Vec<u8> = (0..3 * 40 * 30).map(|k| (k * k % 253) as u8).collect();
+        for compression in [Compression::Balanced, Compression::Fast] {
+            let file = encode([40, 30], &pixels, compression);
+            let mut own = vec![0; pixels.len()];
+            png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap().next_frame(&mut own).unwrap();
+            assert_eq!(own, pixels);
+        }
+    }
+
+    #[test]
     fn a_line_is_as_wide_as_it_is_told_wherever_it_stands() {
         for step in 0..10 {
             let y = 24.0 + 0.03 * f64::from(step);

@@ -282,7 +282,7 @@ mod tests {
     use crate::body::{HalfSpace, Interface, Layer, Material};
 
     /// Of each cell, between the nodes and at the corners, under a pressure and a traction: what all of its waves add up to one by one.
-    /// The first two are left out: alone they are not smooth over the window, only together.
+    /// The first five are left out: alone they are not smooth enough over the window for its nodes, only together.
     #[test]
     fn few_nodes_give_what_the_waves_of_a_wide_cell_add_up_to() {
         let layer = Layer::new(Material::from_shear(5.0, 0.2).unwrap(), 0.05, Interface::Bonded).unwrap();
@@ -320,22 +320,32 @@ mod tests {
             }
             counts.push(part.counts);
         }
-        assert!(counts[0] == tables.counts || counts[0][0] >= 9, "{counts:?}");
+        assert!(counts[0][0] == tables.counts[0] && counts[0][1] < tables.counts[1], "{counts:?}");
         assert!(counts.last().unwrap().iter().all(|&count| count <= 3), "{counts:?}");
     }
 
     /// Between the nodes in depth, in a thin coating and below it, what the polynomials have is what the amplitudes there give.
     #[test]
     fn few_nodes_in_depth_give_what_the_depth_itself_gives() {
-        let layer = Layer::new(Material::from_shear(5.0, 0.2).unwrap(), 0.05, Interface::Bonded).unwrap();
-        let half_space = HalfSpace::new(vec![layer], Material::from_shear(1.0, 0.3).unwrap());
-        let window = Cell::window([1.0, 1.0]).unwrap();
+        for (stack, side) in [(vec![0.05], 1.0), (vec![1.3], 1.0), (vec![0.02, 0.3, 0.1], 1.0), (vec![0.05], 6.0)] {
+            let layer = |(k, h): (usize, f64)| {
+                let material = Material::from_shear([5.0, 0.3, 20.0][k], 0.2).unwrap();
+                Layer::new(material, h, Interface::Bonded).unwrap()
+            };
+            let layers = stack.into_iter().enumerate().map(layer).collect();
+            agrees_in_depth(&HalfSpace::new(layers, Material::from_shear(1.0, 0.3).unwrap()), side);
+        }
+    }
+
+    /// Under a window of these sides, 1 and `side`.
+    fn agrees_in_depth(half_space: &HalfSpace, side: f64) {
+        let window = Cell::window([1.0, side]).unwrap();
         let grid = Grid::new(window, [8, 8]).unwrap();
         let pressure: Vec<f64> = (0..64).map(|k| f64::from(k * k % 7)).collect();
-        let tables = Arc::new(FarTables::new(window, &half_space, Some([0.3, 0.1])).unwrap());
-        let field = FarField::new(tables, &grid, &pressure, Cell::window([2.0, 2.0]).unwrap());
-        for (z, material) in [(0.0, 1), (0.013, 1), (0.05, 1), (0.05, 2), (0.21, 2), (0.55, 2), (0.9, 2), (3.1, 2)] {
-            let depth = Depth { z, material };
+        let tables = Arc::new(FarTables::new(window, half_space, Some([0.3, 0.1])).unwrap());
+        let field = FarField::new(tables, &grid, &pressure, Cell::window([2.0, 2.0 * side]).unwrap());
+        let depths = [0.0, 0.013, 0.05, 0.21, 0.55, 0.9, 3.1].map(|z| half_space.depths(z));
+        for depth in depths.into_iter().flatten() {
             let exact = FarPlane { coefficients: field.below(depth), ..field.plane(depth) };
             let plane = field.plane(depth);
             for place in [[0.5, 0.5], [0.3, 0.61], [0.26, 0.74]] {
@@ -343,7 +353,8 @@ mod tests {
                 for kind in [0..6, 6..COMPONENTS] {
                     let largest = exact[kind.clone()].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
                     let worst = kind.map(|c| (own[c] - exact[c]).abs()).fold(0.0, f64::max);
-                    assert!(worst <= 1e-6 * largest, "{depth:?}, {place:?}: {worst:e} of {largest:e}");
+                    // An interval as long as it is deep: its images leave 0.25^N of the difference at N nodes, 8 at most.
+                    assert!(worst <= 0.25f64.powi(8) * largest, "{depth:?}, {place:?}: {worst:e} of {largest:e}");
                 }
             }
         }

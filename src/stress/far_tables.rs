@@ -33,7 +33,7 @@ const DOWN: usize = 8;
 const DEEPEST: f64 = 4.0;
 /// What the polynomials over an interval of depth leave of the difference, by the distance of the images.
 const LEFT_IN_DEPTH: f64 = 1e-7;
-/// What the polynomials leave of a wave whose length is many windows.
+/// What polynomials over the window or over an interval of depth leave of a wave, where fewer of them suffice than the images need.
 const LEFT_OF_WAVE: f64 = 1e-9;
 /// Components: six stresses and three displacements.
 pub(super) const COMPONENTS: usize = 9;
@@ -176,7 +176,7 @@ impl FarTables {
             let highest = highest(sides[0].min(sides[1]), number);
             let depths: usize = intervals.iter().map(|own| own.nodes_of(highest)).sum();
             let [along, across] = part_counts(sides, number);
-            let phases = NodePhases::bytes(n1, along) + NodePhases::bytes(n2, across);
+            let phases = NodePhases::bytes(n1 + 1, along) + NodePhases::bytes(n2 / 2 + 1, across);
             phases
                 + waves * (size_of::<Complex64>() + size_of::<u32>())
                 + shells * depths * (response + sliding)
@@ -233,20 +233,20 @@ fn counts(sides: [f64; 2]) -> [usize; 2] {
 /// Numbers of nodes along the sides of a window that the waves of the cell of a number need.
 fn part_counts(sides: [f64; 2], number: usize) -> [usize; 2] {
     let (most, highest) = (counts(sides), highest(sides[0].min(sides[1]), number));
-    [0, 1].map(|axis| wave_nodes(0.5 * highest * sides[axis]).min(most[axis]))
+    [0, 1].map(|axis| wave_nodes(0.5 * highest * sides[axis], most[axis]))
 }
 
-/// Number of nodes of the polynomials for a wave over an interval, by its phase from the middle to an end.
+/// Number of nodes of the polynomials for a wave over an interval, by its phase from the middle to an end; `most` at most.
 ///
 /// The coefficients of T_j in e^{iax} are 2|J_j(a)| ≤ 2(a/2)ʲ/j!; those from N on and what of them the nodes give to the others leave
-/// less than 4(a/2)ᴺ/N!, for a < N.
-fn wave_nodes(phase: f64) -> usize {
-    let (mut left, mut count) = (4.0, 0);
-    while left > LEFT_OF_WAVE || phase > count as f64 {
-        count += 1;
-        left *= 0.5 * phase / count as f64;
-    }
-    count
+/// less than 4(a/2)ᴺ/N!, for a < N. Those of e^{ax} are 2I_j(a), the same for small a.
+fn wave_nodes(phase: f64, most: usize) -> usize {
+    let mut left = 4.0;
+    let suffices = |count: &usize| {
+        left *= 0.5 * phase / *count as f64;
+        left <= LEFT_OF_WAVE && phase <= *count as f64
+    };
+    (1..most).find(suffices).unwrap_or(most)
 }
 
 /// Intervals of depth in each material, down to a few times the window of these sides.
@@ -272,9 +272,9 @@ fn intervals(half_space: &HalfSpace, sides: [f64; 2]) -> Vec<Interval> {
 
 impl Interval {
     /// Number of nodes that waves up to the `highest` wavenumber need. Their functions of depth are e^{±qz} and qz e^{±qz}; the factor
-    /// takes one more.
+    /// takes one more. Fewer than [`DOWN`] are for phases below 0.2 alone, where the bound of [`wave_nodes`] holds for both.
     fn nodes_of(&self, highest: f64) -> usize {
-        self.nodes.min(1 + wave_nodes(0.5 * highest * (self.ends[1] - self.ends[0])))
+        self.nodes.min(1 + wave_nodes(0.5 * highest * (self.ends[1] - self.ends[0]), self.nodes))
     }
 
     /// The depth at x in [−1, 1].
@@ -292,7 +292,9 @@ mod tests {
     fn held(tables: &FarTables) -> usize {
         let responses = tables.segments.iter().flat_map(|(_, nodes)| nodes.iter().flatten());
         let amplitudes: usize = responses.map(|own| own.normal.len()).sum();
-        amplitudes * (size_of::<Amplitudes>() + size_of::<f64>())
+        let phases = tables.parts.iter().flat_map(|part| &part.phases).flat_map(|own| own.values.iter().flatten());
+        let phases: usize = phases.map(Vec::len).sum();
+        amplitudes * (size_of::<Amplitudes>() + size_of::<f64>()) + phases * size_of::<f64>()
     }
 
     /// Square and slender windows, one thick layer and many thin ones.
@@ -307,6 +309,14 @@ mod tests {
             let (held, stated) = (held(&tables), FarTables::bytes(window, &half_space, false));
             assert!(held <= stated && stated < 2 * held + 20_000_000, "{sides:?}: {held}, {stated}");
         }
+    }
+
+    /// However slender a window is, its memory is stated at once.
+    #[test]
+    fn the_memory_of_slender_windows_is_stated() {
+        let half_space = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
+        let of = |side: f64| FarTables::bytes(Cell::window([1.0, side]).unwrap(), &half_space, false);
+        assert!(of(10.0) < of(40.0) && of(40.0) < of(1000.0));
     }
 
     #[test]

@@ -83,7 +83,8 @@ fn a_small_stack_is_enough() {
 fn few_addresses_are_an_error_of_one_line() {
     let desk = Desk::new();
     let mut failed = 0;
-    for most in [40_000, 60_000, 90_000, 130_000, 180_000, 230_000, 300_000] {
+    // In small steps where the stacks of the first threads take the last of them.
+    for most in (36_000..60_000).step_by(1_000).chain([60_000, 90_000, 130_000, 180_000, 230_000, 300_000]) {
         for arguments in [
             &["check", "fig2"][..],
             &["solve", "fig2", "--set=grid.points=2048", "--no-pictures"],

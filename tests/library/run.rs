@@ -45,7 +45,8 @@ impl Recorder for Diary {
         if self.most.is_some_and(|most| self.iterations > most) { Err(Full) } else { Ok(()) }
     }
 
-    fn stresses(&mut self, _step: &Step, _record: &StepRecord) {
+    fn stresses(&mut self, step: &Step, record: &StepRecord) {
+        assert!(record.stress.is_none() && record.reading.penetration == step.reading().penetration);
         self.heard.push("stresses".to_owned());
     }
 

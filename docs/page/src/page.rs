@@ -23,6 +23,9 @@ pub struct Page {
     kept: Option<Kept>,
 }
 
+/// Takes an answer that is not complete.
+type Begun<'a> = &'a mut (dyn FnMut(Answer) + Send);
+
 /// A solved step with what its pictures and tables are made of.
 #[derive(Debug)]
 struct Kept {
@@ -33,7 +36,7 @@ struct Kept {
 
 impl Page {
     /// The answer to a request in JSON: JSON, or the bytes of a picture or table. A request that is refused has the answer
-    /// `{"error": "…"}`. `begun` takes the answer without its stresses, and without its section, before they are computed.
+    /// `{"error": "…"}`. `begun` takes what is known of it before the rest is computed, where the request has `parts`.
     pub fn answer(&mut self, request: &[u8], begun: &mut (dyn FnMut(&[u8]) + Send)) -> Vec<u8> {
         let answer = serde_json::from_slice(request)
             .map_err(|error| format!("no request of this page: {error}"))
@@ -44,9 +47,10 @@ impl Page {
     fn perform(&mut self, request: Request, begun: &mut (dyn FnMut(&[u8]) + Send)) -> Result<Vec<u8>, String> {
         match request {
             Request::Materials => Ok(json!({ "materials": library() }).to_string().into_bytes()),
-            Request::Solve { case, pictures, coarse } => {
+            Request::Solve { case, pictures, coarse, parts } => {
                 let mut begun = |answer: Answer| begun(json!(answer).to_string().as_bytes());
-                let answer = self.solve(case, pictures.then_some(coarse), &mut begun)?;
+                let begun: Option<Begun<'_>> = if parts { Some(&mut begun) } else { None };
+                let answer = self.solve(case, pictures.then_some(coarse), begun)?;
                 Ok(json!(answer).to_string().into_bytes())
             }
             Request::Limit { case } => limit(case).map(|answer| json!(answer).to_string().into_bytes()),
@@ -67,25 +71,21 @@ impl Page {
     }
 
     /// `pictures`: whether their section is coarse; `None` without.
-    fn solve(
-        &mut self,
-        case: Value,
-        pictures: Option<bool>,
-        begun: &mut (dyn FnMut(Answer) + Send),
-    ) -> Result<Answer, String> {
+    fn solve(&mut self, case: Value, pictures: Option<bool>, mut begun: Option<Begun<'_>>) -> Result<Answer, String> {
+        if pictures.is_some() {
+            self.kept = None;
+        }
         let case = read(case)?;
         let (run, room) = (case.run(), Capacity::on_this_machine(Path::new("")));
         let cut = run.stress.as_ref().and_then(|stress| stress.cut.clone());
         let cut = pictures.and_then(|coarse| Some((cut?, coarse)));
         let allowed = Allowed::within(&case, room, Job::Keep)?;
-        // Those of the surface do not change with the stresses.
+        // Those of the surface, of the step that was last begun: its stresses do not change them.
         let mut of_surface = Vec::new();
         let mut known = |step: &Step, record: &StepRecord| {
-            if pictures.is_none() {
-                return;
-            }
+            let Some(begun) = &mut begun else { return };
             let mut answer = of_steps(&case, std::slice::from_ref(record));
-            if of_surface.is_empty() {
+            if pictures.is_some() && record.stress.is_none() {
                 of_surface = Kept::new(&case, step.clone(), record.clone(), Vec::new()).pictures(&Kept::SURFACE);
             }
             answer.pictures = of_surface.clone();

@@ -18,6 +18,9 @@ pub enum Request {
         /// Whether the section has half of its points and a third of its depths, for a first answer.
         #[serde(default)]
         coarse: bool,
+        /// Whether what is known goes out before the rest is computed: the contact, then the largest stresses.
+        #[serde(default)]
+        parts: bool,
     },
     /// The loads at which the criteria of a case are reached.
     Limit {

@@ -183,7 +183,8 @@ new MutationObserver(() => {
   if (!status.textContent.includes("computing the rest")) return;
   const rows = [...document.querySelectorAll("#numbers tbody tr")].map((row) => [row.cells[0].textContent, row.cells[1].textContent]);
   const pictures = [...document.querySelectorAll("#pictures figure")].map((figure) => figure.dataset.name);
-  window.stages.push({ numbers: Object.fromEntries(rows), pictures, verdict: document.getElementById("verdict").textContent });
+  const buttons = document.querySelectorAll("#actions:not([hidden]) button, #pictures button:not([disabled])").length;
+  window.stages.push({ numbers: Object.fromEntries(rows), pictures, buttons, verdict: document.getElementById("verdict").textContent });
 }).observe(status, { childList: true });
 """
 
@@ -202,8 +203,27 @@ def test_contact_stresses_and_section_are_shown_one_after_another(browser):
     assert stresses["numbers"] == whole
     assert not contact["verdict"] and stresses["verdict"]
     assert contact["pictures"] == stresses["pictures"] == ["pressure", "profiles"]
+    assert contact["buttons"] == stresses["buttons"] == 0, "what is not complete can be saved"
     drawn = [figure.get_attribute("data-name") for figure in browser.find_elements(By.CSS_SELECTOR, "#pictures figure")]
     assert drawn == ["pressure", "section", "profiles"]
+
+
+# The pictures of the parts and of the whole of a case with two loads.
+TWO_LOADS = """
+const [done] = arguments;
+const own = caseOf({ ...state, body: "asperities" }, library, { points: 48 });
+const request = { task: "solve", case: { ...own, load: { mean_pressure: [0.01, 0.04] } }, pictures: true, parts: true };
+const pressure = ({ pictures }) => Object.fromEntries(pictures).pressure;
+const parts = [];
+answerOf(request, (known) => parts.push(pressure(known))).then((whole) => done([...parts, pressure(whole)]), (error) => done(String(error)));
+"""
+
+
+def test_pictures_are_those_of_the_last_load(browser):
+    opened(browser)
+    done(browser)
+    first, first_again, last, last_again, whole = browser.execute_async_script(TWO_LOADS)
+    assert first == first_again != last == last_again == whole
 
 
 def test_layers_come_and_go(browser, tmp_path):

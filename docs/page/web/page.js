@@ -14,7 +14,13 @@ const worker = {
     this.own = new Worker(this.source);
     this.own.onmessage = ({ data }) => {
       const { resolve, begun } = this.waiting.get(data.number) ?? {};
-      if (data.begun) return begun?.(data);
+      if (data.begun) {
+        try {
+          return begun?.(data);
+        } catch (error) {
+          return this.end(String(error));
+        }
+      }
       this.waiting.delete(data.number);
       resolve?.(data);
     };
@@ -190,7 +196,7 @@ at("add").onclick = () => {
 // --- The calculations
 
 let pause = 0;
-let round = 0; // Counts the changes: what an earlier one has asked for is dropped.
+let round = 0; // Counts the changes: what an earlier one has requested is dropped.
 
 function changed() {
   outdated();
@@ -244,8 +250,9 @@ async function stages(own) {
       shown = { coated, isWhole, points, bare: null, limit: shown.round === own ? shown.limit : null, failures, round: own };
       show();
     };
-    const begun = (known) => points === FIRST && put(known, false);
-    const request = { task: "solve", case: caseOf(state, library, { points, radius }), pictures: true, coarse: points < state.samples };
+    // Numbers that are not converged are not shown without their warning.
+    const begun = (known) => known.converged && put(known, false);
+    const request = { task: "solve", case: caseOf(state, library, { points, radius }), pictures: true, coarse: points < state.samples, parts: points === FIRST };
     put(await answerOf(request, begun), true);
     if (own !== round) return;
     const { coated } = shown;
@@ -297,7 +304,7 @@ function show() {
   showNumbers(coated, bare);
   const warnings = [...coated.warnings, ...(bare?.warnings ?? []).map((text) => `Bare substrate: ${text}`), ...failures];
   at("warnings").replaceChildren(...warnings.map((text) => element("li", { textContent: text })));
-  showPictures(coated);
+  showPictures(coated, isWhole);
   const limits = (limit?.tables ?? []).map((table) => ({ ...table, name: table.name + searched }));
   const tables = [...coated.tables, ...limits].map(tableOf);
   const notes = [...coated.assumptions, ...(limit?.warnings ?? []).map((text) => `Search of limits, ${samples(FIRST)}: ${text}`)].map((text) => element("p", { textContent: text }));
@@ -325,12 +332,12 @@ function showNumbers(coated, bare) {
 // In the order in which they are shown.
 const CAPTIONS = { pressure: "Contact pressure", section: "Stresses in a vertical section, with interfaces", profiles: "Pressure across the contact" };
 
-function showPictures({ pictures }) {
+function showPictures({ pictures }, isWhole) {
   const order = Object.keys(CAPTIONS);
   const sorted = [...pictures].sort(([a], [b]) => order.indexOf(a) - order.indexOf(b));
   const figures = sorted.map(([name, svg]) => {
     const image = element("img", { alt: CAPTIONS[name], src: URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })) });
-    const button = element("button", { type: "button", textContent: "PNG" });
+    const button = element("button", { type: "button", textContent: "PNG", disabled: !isWhole });
     button.dataset.picture = name;
     button.onclick = () => saveAnswer(`${name}.png`, { task: "picture", name }, "image/png");
     const figure = element("figure", {}, element("figcaption", {}, `${CAPTIONS[name]} `, button), image);

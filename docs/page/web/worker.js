@@ -1,7 +1,7 @@
 // The worker: the module, and one request after another.
 
 let exports;
-let under; // The request under way: its number, and when it began.
+let current; // The request under way: its number, and when it began.
 
 // What the module imports: the function that takes the first part of an answer, and those of libraries that no calculation calls
 // (random numbers, names of files).
@@ -31,11 +31,11 @@ function ask(request) {
 }
 
 function send(message) {
-  postMessage({ number: under.number, seconds: (performance.now() - under.began) / 1000, ...message });
+  postMessage({ number: current.number, seconds: (performance.now() - current.began) / 1000, ...message });
 }
 
 onmessage = async ({ data: { module, number, request } }) => {
-  under = { number, began: performance.now() };
+  current = { number, began: performance.now() };
   try {
     if (module) exports = (await WebAssembly.instantiate(module, importsOf(module))).exports;
     send({ bytes: module ? new Uint8Array() : ask(request) });

@@ -20,8 +20,9 @@ use crate::stress::FarTables;
 use std::f64::consts::PI;
 
 const MEBIBYTE: u64 = 1 << 20;
-/// The program before it solves anything, mostly its mapped code; a build for tests, the largest. And what each thread keeps.
+/// The program before it solves anything, mostly its mapped code: of a build for tests, which is the largest.
 const PROGRAM: u64 = 31 * MEBIBYTE / 2;
+/// Of each thread: its stack and what the allocator keeps for it.
 const THREAD: u64 = MEBIBYTE / 2;
 /// Per sample: reading a step, after the memory of solving it is freed.
 const READING: u64 = 20;
@@ -147,6 +148,7 @@ fn with_threads(case: &Case, points: [usize; 2], job: Job, threads: usize) -> Ne
         Job::Life { pictures } => of_life(case, samples, [grids, working, heights], pictures),
         Job::Compare { pictures } => of_comparing(case, samples, grids + working + heights, pictures),
         Job::Identify { pictures } => {
+            // Every thread has a node of the curve.
             let nodes = threads.min(MOST_NODES) as u64;
             of_identifying(nodes * (grids + working + TANGENT * samples), pictures)
         }
@@ -265,12 +267,11 @@ fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> Needs
     Needs { memory: comparing.max(drawing), disk, disk_while_running: disk }
 }
 
-/// A search for parameters: `nodes` of a curve, of which every thread has one.
-fn of_identifying(nodes: u64, pictures: bool) -> Needs {
+/// A search for parameters, in which the nodes of a curve that are solved at once take so many bytes.
+fn of_identifying(solving: u64, pictures: bool) -> Needs {
     let disk = COMPARISON + if pictures { PICTURE } else { 0 };
     let drawing = if pictures { PROGRAM + CURVES } else { 0 };
-    let solving = PROGRAM + nodes;
-    Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
+    Needs { memory: (PROGRAM + solving).max(drawing), disk, disk_while_running: disk }
 }
 
 /// Memory of a stress field, and bytes written a step: those that are gathered at the end, and a volume.
@@ -471,7 +472,8 @@ mod tests {
         };
         let room = |memory: u64| Capacity { memory: memory * MEBIBYTE, disk: u64::MAX };
         for fine in ["grid.points=8192", "grid={accuracy=1e-3}"] {
-            assert_eq!(refusal(&ball(&[fine]), room(64), job), None);
+            // A thread more takes less than a MiB more.
+            assert_eq!(refusal(&ball(&[fine]), room(64 + Threads::used() as u64), job), None);
             let said = refusal(&ball(&[fine]), room(17), job).unwrap();
             assert!(said.contains("96 × 96 samples take about") && said.contains("17 MiB are available"), "{said}");
         }
