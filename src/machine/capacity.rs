@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 const UNKNOWN: u64 = if cfg!(target_family = "wasm") { 2 << 30 } else { 64 << 30 };
 
 /// Address space that a thread reserves for its stack and its allocator, bytes.
-const RESERVED: u64 = 72 << 20;
+pub const RESERVED: u64 = 72 << 20;
 
 /// Bytes of a mebibyte.
 const MEBIBYTE: f64 = 1024.0 * 1024.0;

@@ -3,5 +3,5 @@
 mod capacity;
 mod threads;
 
-pub use capacity::{Capacity, addresses_left, available_memory, bytes};
+pub use capacity::{Capacity, RESERVED, addresses_left, available_memory, bytes};
 pub use threads::Threads;

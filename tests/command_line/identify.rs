@@ -105,8 +105,8 @@ fn what_memory_does_not_hold_is_refused_before_anything_is_written() {
     let percoat = assert_cmd::cargo::cargo_bin!("percoat");
     let arguments = "identify curve.csv case.toml --free layers.0.young --threads 1 -o out";
     // glibc reserves address space for an arena of each thread, how much varies from run to run: one arena for all. The outcome is the same
-    // for limits from 50 to 200 MB.
-    let command = format!("ulimit -v 120000 && MALLOC_ARENA_MAX=1 exec {} {arguments}", percoat.display());
+    // for limits from 130 to 200 MB.
+    let command = format!("ulimit -v 180000 && MALLOC_ARENA_MAX=1 exec {} {arguments}", percoat.display());
     let ended = Command::new("sh").args(["-c", &command]).current_dir(desk.path("")).output().unwrap();
     let said = String::from_utf8(ended.stderr).unwrap();
     assert!(ended.status.code() == Some(2) && said.contains("48 × 48 samples take about"), "{said}");
