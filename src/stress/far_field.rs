@@ -14,7 +14,7 @@
 //! window and over depth.
 
 use super::depth_response::DepthResponse;
-use super::far_plane::FarPlane;
+use super::far_plane::{FarPlane, weighted};
 use super::far_tables::{COMPONENTS, FarTables, Interval, Part};
 use super::series::Response;
 use crate::body::Depth;
@@ -163,16 +163,9 @@ impl Part {
         let [n1, n2] = self.counts;
         // Along y, row by row, then along x.
         let matrix = analysis(n2);
-        let rows = values.chunks_exact(n2).map(|row| {
-            let of = |weights: &Vec<f64>| {
-                let mut sum = [0.0; COMPONENTS];
-                for (weight, own) in weights.iter().zip(row) {
-                    sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += weight * own);
-                }
-                sum
-            };
-            matrix.iter().map(of).collect()
-        });
+        let rows = values
+            .chunks_exact(n2)
+            .map(|row| matrix.iter().map(|weights| weighted(weights.iter().copied(), row)).collect());
         let rows: Vec<Nodes> = rows.collect();
         analysis(n1).into_iter().flat_map(|weights| combined(weights.into_iter(), &rows)).collect()
     }
@@ -209,8 +202,7 @@ impl Part {
         }
         // Nodes are mirror images at the middle, where their phases are conjugate: sums by cosines and sines serve both.
         for i in 0..n1.div_ceil(2) {
-            let [cosines, sines] = along.from(i, row.first);
-            let (by_cosines, by_sines) = (weighted(cosines, terms), weighted(sines, terms));
+            let [by_cosines, by_sines] = along.from(i, row.first).map(|phases| weighted(phases.iter().copied(), terms));
             for j in 0..n2 {
                 let [c, s] = across.from(j, row.across).map(|phases| phases[0]);
                 let own = &mut values[i * n2 + j];
@@ -230,18 +222,6 @@ impl Part {
             }
         }
     }
-}
-
-/// The sum of all `terms`, with weights.
-#[inline(always)]
-fn weighted<const K: usize>(weights: &[f64], terms: &[[f64; K]]) -> [f64; K] {
-    let mut sums = [0.0; K];
-    for (weight, own) in weights.iter().zip(terms) {
-        for k in 0..K {
-            sums[k] += weight * own[k];
-        }
-    }
-    sums
 }
 
 impl FarTables {

@@ -63,11 +63,7 @@ impl<const K: usize> FarPlane<K> {
 
     /// Components on the line of [`Self::along`], by the fraction t.
     pub fn on(&self, line: &[[f64; K]], t: f64) -> [f64; K] {
-        let mut sums = [0.0; K];
-        for (weight, own) in self.across(t).zip(line) {
-            sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += weight * own);
-        }
-        sums
+        weighted(self.across(t), line)
     }
 
     /// The field on the line through the fractions `origin` with the fractions of its `unit` vector, between two distances s from it.
@@ -82,10 +78,8 @@ impl<const K: usize> FarPlane<K> {
             self.at([0, 1].map(|axis| origin[axis] + s * unit[axis]))
         };
         let values: Vec<[f64; K]> = nodes(count).into_iter().map(at).collect();
-        let coefficient = |weights: Vec<f64>| {
-            std::array::from_fn(|k| weights.iter().zip(&values).map(|(weight, own)| weight * own[k]).sum())
-        };
-        FarLine { ends, coefficients: analysis(count).into_iter().map(coefficient).collect() }
+        let coefficients = analysis(count).into_iter().map(|weights| weighted(weights.into_iter(), &values)).collect();
+        FarLine { ends, coefficients }
     }
 
     /// The part of a line between two distances s that lies in the window, in ascending order; a point where none does.
@@ -105,6 +99,18 @@ impl<const K: usize> FarPlane<K> {
     }
 }
 
+/// The sum of all `terms`, with weights.
+#[inline(always)]
+pub(super) fn weighted<const K: usize>(weights: impl Iterator<Item = f64>, terms: &[[f64; K]]) -> [f64; K] {
+    let mut sums = [0.0; K];
+    for (weight, own) in weights.zip(terms) {
+        for k in 0..K {
+            sums[k] += weight * own[k];
+        }
+    }
+    sums
+}
+
 /// K components of a far field on a line at one depth.
 #[derive(Debug, Clone)]
 pub(super) struct FarLine<const K: usize> {
@@ -118,11 +124,7 @@ impl<const K: usize> FarLine<K> {
     /// Components at a distance s; beyond the ends those at the nearer one.
     pub fn at(&self, s: f64) -> [f64; K] {
         let x = if self.ends[0] < self.ends[1] { inside(self.ends, s).clamp(-1.0, 1.0) } else { 0.0 };
-        let mut sums = [0.0; K];
-        for (weight, own) in polynomials(x).zip(&self.coefficients) {
-            sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += weight * own);
-        }
-        sums
+        weighted(polynomials(x), &self.coefficients)
     }
 }
 
