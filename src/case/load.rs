@@ -100,6 +100,17 @@ fn one(_: &LoadSection, section: &TableAt<'_>) -> Result<(), Refusal> {
     section.one_of(["mean_pressure", "force", "penetration", "pressure"]).map(drop)
 }
 
+/// Refuses a section without a load of an isolated contact, which has no cell over which a pressure has a mean.
+pub(super) fn of_isolated(section: &TableAt<'_>) -> Result<(), Refusal> {
+    section.only()?;
+    if let Some(mean) = section.optional("mean_pressure") {
+        let message = "`load.mean_pressure` has no meaning for an isolated contact, which has no cell to spread over";
+        return Err(Refusal::new(mean.node.span, message, "not for an isolated contact")
+            .help("prescribe load.force, in the unit of pressure times that of length squared, or load.penetration"));
+    }
+    section.one_of(["force", "penetration", "pressure"]).map(drop)
+}
+
 fn positive_ends(range: &LoadRange, section: &TableAt<'_>) -> Result<(), Refusal> {
     for (key, end) in [("from", range.from), ("to", range.to)] {
         if end == 0.0 && range.spacing == Spacing::Log {
@@ -169,6 +180,7 @@ impl LoadRange {
 
 #[cfg(test)]
 mod tests {
+    use super::super::error::CaseError;
     use super::super::node::{Node, Table};
     use super::*;
 
@@ -186,6 +198,21 @@ mod tests {
         let log = values("{ from = 1e-4, to = 1e-1, steps = 4, spacing = \"log\" }");
         assert_eq!((log[0], log[3]), (1e-4, 1e-1));
         assert!((log[1] / 1e-3 - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn an_isolated_contact_has_a_force_or_a_penetration() {
+        let refused = |text: &str| {
+            let table = Table::parse(text).unwrap();
+            let section = TableAt::root(&table, &LOAD, Node::parse("0", 0, 0).unwrap().span);
+            Some(CaseError::new("a.toml", text, of_isolated(&section).err()?).message().to_owned())
+        };
+        assert_eq!(refused("force = 5"), None);
+        assert_eq!(refused("penetration = 5"), None);
+        assert!(refused("mean_pressure = \"much\"").unwrap().contains("no meaning for an isolated contact"));
+        assert!(refused("forces = 5").unwrap().contains("unknown key"));
+        let missing = refused("").unwrap();
+        assert_eq!(missing, "`force`, `penetration` or `pressure` is missing");
     }
 
     #[test]

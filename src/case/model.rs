@@ -12,7 +12,7 @@ use super::lattice::LATTICE;
 use super::layers::{self, Body, LAYER, SUBSTRATE};
 use super::levels::LEVELS;
 use super::life::LIFE;
-use super::load::LOAD;
+use super::load::{self, LOAD};
 use super::localized::LOCALIZED;
 use super::materials;
 use super::overrides;
@@ -262,17 +262,15 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     };
 
     let load_section = root.required_section("load")?;
+    if counterbody.cell().is_isolated() {
+        load::of_isolated(&load_section)?;
+    }
     let mut load = LoadSection::read_table(&load_section)?;
     load.pressure = load.pressure.map(|given| given.located(source));
     load.given = counterbody.pressure().map(|given| match given.cell().is_isolated() {
         true => Load::Force(given.force()),
         false => Load::MeanPressure(given.force() / given.cell().area()),
     });
-    if let Some(mean) = load_section.optional("mean_pressure").filter(|_| counterbody.cell().is_isolated()) {
-        let message = "`load.mean_pressure` has no meaning for an isolated contact, which has no cell to spread over";
-        return Err(Refusal::new(mean.node.span, message, "not for an isolated contact")
-            .help("prescribe load.force, in the unit of pressure times that of length squared, or load.penetration"));
-    }
     let of_field = || Some(counterbody.pressure()?.values()?.dim().into());
     let file_points = counterbody.topography().map(Topography::points).or_else(of_field);
     let (surface, sampling) = match surface {

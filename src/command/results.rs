@@ -63,6 +63,7 @@ impl Results {
         warnings: &[String],
     ) -> Result<(), Failure> {
         let (folder, saying) = (self.folder.clone(), self.saying);
+        let outdated = self.claim.outdated_reports()?;
         self.publish()?;
         let line = line();
         if saying.json {
@@ -71,6 +72,11 @@ impl Results {
             writeln!(terminal::out(), "{}{line}; written to {}", tables(), plain::path(&folder))?;
         }
         terminal::warn(warnings, saying.quiet);
+        if !saying.quiet {
+            for report in outdated {
+                tell!("{report} showed the earlier result and is removed; `percoat report` writes it anew");
+            }
+        }
         Ok(())
     }
 }

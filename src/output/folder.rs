@@ -1,7 +1,7 @@
 //! An output folder locked for one run; its life is described in the [module's head](super).
 
 use super::error::AtPath;
-use super::files::{FileRecord, Files};
+use super::files::{FileRecord, Files, Ownership};
 use super::folder_error::FolderError;
 use super::foreign::{refuse_in_own_places, refuse_in_staging, refuse_planned};
 use super::interrupted::{has_begun, has_finished, has_steps, move_to_coarser, remove_fields, settle};
@@ -137,6 +137,23 @@ impl RunFolder {
             false if self.resumed => remove_fields(&staging, &self.folder),
             false => Ok(None),
         }
+    }
+
+    /// Names of the reports that show the earlier result, which go when the new one is published.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the report that cannot be read.
+    pub fn outdated_reports(&self) -> Result<Vec<String>, OutputError> {
+        let reports =
+            published(&self.folder).filtered(|_, by| by == Writer::Report && self.plan.writer.outdates_report());
+        let mut names = Vec::new();
+        for name in reports.names() {
+            let path = self.folder.join(name);
+            if reports.ownership(&self.folder, name).at(&path)? == Ownership::AsWritten {
+                names.push(name.to_owned());
+            }
+        }
+        Ok(names)
     }
 
     /// Replaces the earlier result by the new one, and unlocks the folder. Returns the folder to which foreign files of the staging

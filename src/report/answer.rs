@@ -5,7 +5,7 @@ use super::table::pairs;
 use super::units::with_unit;
 use crate::output::table::percent_with_error;
 use crate::output::with_error;
-use crate::reading::LevelReading;
+use crate::reading::{LevelReading, Reading};
 use crate::run::StepRecord;
 use crate::units::Units;
 
@@ -64,11 +64,21 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
             numbers(&contact),
         ),
         ("peak pressure", numbers(&peak)),
-        (
-            if is_isolated { "elastic energy" } else { "elastic energy of a cell" },
-            numbers(&with_unit(&units.energy(), reading.elastic_energy, errors.elastic_energy)),
-        ),
     ];
+    rows.extend(mean_pressure(reading).filter(|_| !step.is_given()).map(|(mean, error)| {
+        let mean = with_unit(units.pressure(), mean, error);
+        ("mean pressure where there is contact", numbers(&mean))
+    }));
+    if let [level] = &reading.levels[..]
+        && let Some(radius) = level.contact_radius.filter(|_| level.load > 0.0 && !level.ring)
+    {
+        let radius = with_unit(units.length(), radius, level.errors.contact_radius);
+        rows.push(("contact radius", numbers(&radius)));
+    }
+    rows.push((
+        if is_isolated { "elastic energy" } else { "elastic energy of a cell" },
+        numbers(&with_unit(&units.energy(), reading.elastic_energy, errors.elastic_energy)),
+    ));
     let shares = reading.levels.iter().map(|level| {
         let share = percent_with_error(level.load_share, level.errors.load_share);
         tag("li", numbers(&format!("level {}: {share}", level.level)))
@@ -102,6 +112,14 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     rows.extend(stiffness.map(|text| (STIFFNESS, numbers(&text))));
     let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());
     vec![with("p", &[("class", "answer")], numbers(&sentence)), pairs(&step_of, &rows)].into()
+}
+
+/// The force by the area of contact, and its error; `None` without contact.
+fn mean_pressure(reading: &Reading) -> Option<(f64, Option<f64>)> {
+    let Reading { force, contact_area, errors, .. } = reading;
+    let mean = (*contact_area > 0.0 && reading.touches()).then(|| force / contact_area)?;
+    let error = errors.contact_area.map(|area| mean * (area / contact_area + errors.force.unwrap_or(0.0) / force));
+    Some((mean, error))
 }
 
 /// The level with the largest pressure, where there are several.

@@ -16,6 +16,8 @@ pub struct Answer {
     pub verdict: Option<String>,
     /// The tables of `percoat solve`, or of `percoat limit`.
     pub tables: Vec<TableText>,
+    /// The materials without a strength, in a sentence.
+    pub without_strength: Option<String>,
     /// Assumptions behind stresses and strengths, a sentence each.
     pub assumptions: Vec<String>,
     /// Warnings, a sentence each.

@@ -214,6 +214,27 @@ def test_contact_stresses_and_section_are_shown_one_after_another(browser):
     assert drawn == ["pressure", "section", "profiles"]
 
 
+# Every case is left after an iteration.
+LEFT_EARLY = """
+const complete = caseOf;
+caseOf = (...given) => {
+  const own = complete(...given);
+  return { ...own, solver: { ...own.solver, max_iterations: 1 } };
+};
+"""
+
+
+def test_what_is_not_converged_is_shown_with_its_warning_alone(browser):
+    opened(browser)
+    done(browser)
+    browser.execute_script(KEPT_PARTS)
+    browser.execute_script(LEFT_EARLY)
+    Select(browser.find_element(By.CSS_SELECTOR, "[name=samples]")).select_by_value("96")
+    done(browser)
+    assert browser.execute_script("return window.shownParts") == []
+    assert "not converged" in browser.find_element(By.ID, "warnings").text
+
+
 # The pictures of the parts and of the whole of a case with two loads.
 TWO_LOADS = """
 const [done] = arguments;

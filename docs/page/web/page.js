@@ -299,8 +299,8 @@ function show() {
   const searched = points === FIRST ? "" : `, on ${samples(FIRST)}`;
   write("verdict", limit ? limit.verdict + searched : coated.verdict);
   write("here", limit ? coated.verdict : null);
-  const unknown = isWhole ? withoutStrength(state, library) : [];
-  write("unknown", unknown.length ? `No strength is known of ${unknown.join(" and ")}: give it under “moduli and strengths”.` : null);
+  const without = isWhole && coated.without_strength;
+  write("unknown", without ? `${without}; give those of layers and substrate under “moduli and strengths”` : null);
   showNumbers(coated, bare);
   const warnings = [...coated.warnings, ...(bare?.warnings ?? []).map((text) => `Bare substrate: ${text}`), ...failures];
   at("warnings").replaceChildren(...warnings.map((text) => element("li", { textContent: text })));

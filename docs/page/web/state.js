@@ -79,15 +79,6 @@ function largestRadius(state, library) {
   return Math.cbrt(0.75 * 1000 * state.force * 500 * state.diameter * compliance);
 }
 
-// Names of the materials whose strengths are not known: nothing is said of what they bear.
-function withoutStrength(state, library) {
-  const parts = [...state.layers, state.substrate].filter((part) => {
-    const own = library.find((entry) => entry.name === part.material);
-    return !["yield_strength", "tensile_strength"].some((key) => part[key] ?? own?.[key]);
-  });
-  return [...new Set(parts.map((part) => part.material || "own material"))];
-}
-
 // Part of the case: a layer or the substrate.
 function partOf(part) {
   const section = {};

@@ -1,5 +1,6 @@
 //! One indenter of a lattice alone, beside the table of a run.
 
+use super::change;
 use crate::case::Case;
 use crate::output::number::number;
 use crate::reading::Reading;
@@ -8,9 +9,6 @@ use crate::reading::Reading;
 pub fn alone(case: &Case, reading: &Reading, single: &Reading) -> Option<String> {
     let units = case.units();
     let (own, other) = (reading.levels.first()?, single.levels.first()?);
-    let change = |of: &str, found: Option<f64>, alone: Option<f64>| {
-        Some(format!("{of} by {:+.2} %", 100.0 * (found? / alone? - 1.0)))
-    };
     let changes: Vec<String> = [
         change("the penetration", Some(reading.penetration), Some(single.penetration)),
         change("the contact radius", own.contact_radius, other.contact_radius),

@@ -48,10 +48,15 @@ impl Assumptions {
     pub fn sentences(&self, with_strength: bool) -> Vec<String> {
         let mean = (!self.isolated).then(|| mean_stress(self.mean).to_owned());
         let rigid = (with_strength && self.rigid).then(|| RIGID.to_owned());
-        let untested = (with_strength && !self.untested.is_empty()).then(|| {
+        let without_strength = self.without_strength().filter(|_| with_strength);
+        [mean, without_strength, rigid].into_iter().flatten().collect()
+    }
+
+    /// The materials without a strength, in a sentence; `None` where all have one.
+    pub fn without_strength(&self) -> Option<String> {
+        (!self.untested.is_empty()).then(|| {
             format!("no strength is given of {}: nothing is said of what fails there", joined(&self.untested, "and"))
-        });
-        [mean, untested, rigid].into_iter().flatten().collect()
+        })
     }
 
     /// The sentences in lines of at most `width` letters.

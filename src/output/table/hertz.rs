@@ -1,5 +1,6 @@
 //! Hertz beside an isolated contact: what the layers change.
 
+use super::change;
 use crate::case::Case;
 use crate::counterbody::Shape;
 use crate::output::number::number;
@@ -47,12 +48,10 @@ pub fn hertz(case: &Case, steps: &[StepRecord], units: &Units) -> Option<[String
         units.length().with_unit(hertz.approach, number),
     ];
     let own = step.reading.levels.first()?;
-    let change =
-        |of: &str, found: Option<f64>, bare: f64| Some(format!("{of} by {:+.2} %", 100.0 * (found? / bare - 1.0)));
     let changes: Vec<String> = [
-        change("the peak pressure", own.finite_peak(), hertz.peak),
-        change("the contact radius", own.contact_radius, hertz.radius),
-        change("the penetration", Some(penetration), hertz.approach),
+        change("the peak pressure", own.finite_peak(), Some(hertz.peak)),
+        change("the contact radius", own.contact_radius, Some(hertz.radius)),
+        change("the penetration", Some(penetration), Some(hertz.approach)),
     ]
     .into_iter()
     .flatten()

@@ -62,14 +62,18 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     text += &hertz(case, steps, &units).map_or(String::new(), |lines| format!("{}\n", lines.join(";\n")));
     let largest = largest_stresses(steps, &units);
     if let Some(largest) = &largest {
-        text += &format!("\n{}\n\n", largest.fitted(width));
+        text += &format!("\n{}\n", largest.fitted(width));
     }
     let strength = utilisations(steps, Some(case.problem().bodies()), &units);
     if let Some(strength) = &strength {
-        text += &format!("\n{}\n\n", strength.fitted(width));
+        text += &format!("\n{}\n", strength.fitted(width));
     }
-    if let Some(lives) = lives(steps, &units) {
-        text += &format!("\n{}\n\n", lives.fitted(width));
+    let lives = lives(steps, &units);
+    if let Some(lives) = &lives {
+        text += &format!("\n{}\n", lives.fitted(width));
+    }
+    if largest.is_some() || strength.is_some() || lives.is_some() {
+        text.push('\n');
     }
     if let Some(errors) = largest_errors(steps) {
         text += &format!("{errors}\n");
@@ -221,7 +225,14 @@ fn detailed(steps: &[StepRecord], units: &Units) -> Table {
             lead = [const { String::new() }; 3];
         }
     }
-    Table::new(&header, rows, 0).keyed(&[0, 3])
+    let table = Table::new(&header, rows, 0);
+    if steps.iter().any(|step| step.reading.levels.len() > 1) {
+        return table.keyed(&[0, 3]);
+    }
+    // A single level has the whole load, and a single isolated indenter the force.
+    let has_force = |reading: &Reading| (reading.levels[0].load - reading.force).abs() <= NOTHING * reading.force;
+    let isolated = steps.iter().all(|step| step.reading.is_isolated() && has_force(&step.reading));
+    table.without(if isolated { &[3, 4, 5] } else { &[3, 5] })
 }
 
 fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
@@ -235,7 +246,9 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
     };
     let mut header = vec![load_unit.headed(units.quantity().name()), penetration.headed(depth), area.to_owned()];
     header.extend((1..=levels).map(|level| pressure.headed(&format!("peak {level}"))));
-    header.extend((1..=levels).map(|level| format!("share {level}")));
+    // A single level has the whole load.
+    let shares = if levels > 1 { levels } else { 0 };
+    header.extend((1..=shares).map(|level| format!("share {level}")));
     let energy = units.energy().suited(readings().map(|reading| reading.elastic_energy));
     if levels == 0 {
         header.extend([pressure.headed("peak pressure"), energy.headed("elastic energy")]);
@@ -248,7 +261,8 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
         ];
         let peak = |level: &LevelReading| finite(&pressure, level.finite_peak(), level.errors.max_pressure);
         row.extend(reading.levels.iter().map(peak));
-        row.extend(reading.levels.iter().map(|level| percent_with_error(level.load_share, level.errors.load_share)));
+        let shared = reading.levels.iter().take(shares);
+        row.extend(shared.map(|level| percent_with_error(level.load_share, level.errors.load_share)));
         if levels == 0 {
             row.push(finite(&pressure, reading.finite_peak(), reading.errors.max_pressure));
             row.push(in_unit(&energy, reading.elastic_energy, reading.errors.elastic_energy));
@@ -271,6 +285,12 @@ fn contact(reading: &Reading, units: &Units) -> String {
 fn percent(x: f64) -> String {
     let text = format!("{:.2} %", 100.0 * x);
     text.strip_prefix('-').filter(|text| *text == "0.00 %").map_or(text.clone(), str::to_owned)
+}
+
+/// What is called by a name changes from a number without layers or neighbours to the one `found`: a signed part with two decimals.
+fn change(name: &str, found: Option<f64>, without: Option<f64>) -> Option<String> {
+    let text = format!("{:+.2} %", 100.0 * (found? / without? - 1.0));
+    Some(format!("{name} by {}", if text == "-0.00 %" { "+0.00 %" } else { &text }))
 }
 
 /// A number with its error, or "singular".
@@ -308,7 +328,7 @@ pub fn solved(steps: &[StepRecord]) -> String {
     };
     format!(
         "{done} of {} load steps converged on {n1} × {n2} samples, at most {most} iterations each, energy of the \
-         error below {gap:.0e} of the elastic{at_rounding}",
+         error below {gap:.0e} of the elastic energy{at_rounding}",
         steps.len()
     )
 }
@@ -361,6 +381,9 @@ mod tests {
     #[test]
     fn what_rounds_to_zero_has_no_sign_and_what_is_infinite_no_number() {
         assert_eq!([-1e-9, 0.0, -0.00006, 0.5].map(percent), ["0.00 %", "0.00 %", "-0.01 %", "50.00 %"]);
+        let changes = [1.0 - 1e-9, 1.0, 1.00006, 0.5].map(|found| change("it", Some(found), Some(1.0)).unwrap());
+        assert_eq!(changes, ["it by +0.00 %", "it by +0.00 %", "it by +0.01 %", "it by -50.00 %"]);
+        assert_eq!(change("it", None, Some(1.0)), None);
         assert_eq!([None, Some(0.5)].map(|x| finite(&Unit::None.prefixed(1.0), x, None)), ["singular", "0.50000"]);
     }
 }

@@ -28,16 +28,16 @@ pub struct Worded {
     pub table: Table,
 }
 
-/// A sentence in lines of at most `width` letters, broken at blanks, each with its end.
+/// A sentence in lines of at most `width` letters, each with its end: broken at blanks, but not between a number and its error.
 pub(super) fn lines(sentence: &str, width: usize) -> String {
     let mut lines: Vec<String> = Vec::new();
-    for word in sentence.split(' ') {
+    for word in sentence.replace(" ± ", "\u{a0}±\u{a0}").split(' ') {
         match lines.last_mut() {
             Some(line) if line.chars().count() + 1 + word.chars().count() <= width => *line += &format!(" {word}"),
             _ => lines.push(word.to_owned()),
         }
     }
-    lines.into_iter().map(|line| line + "\n").collect()
+    lines.into_iter().map(|line| line.replace("\u{a0}±\u{a0}", " ± ") + "\n").collect()
 }
 
 impl Table {
@@ -100,6 +100,12 @@ impl Table {
             return self.to_string();
         }
         parts.iter().map(|columns| self.part(columns).to_string()).collect::<Vec<_>>().join("\n\n")
+    }
+
+    /// Without some of the columns of numbers.
+    pub(super) fn without(&self, columns: &[usize]) -> Self {
+        let left: Vec<usize> = (0..self.head.len()).filter(|index| !columns.contains(index)).collect();
+        Self { keys: vec![0], ..self.part(&left) }
     }
 
     /// A table of some of the columns, those of words first.
@@ -172,6 +178,14 @@ mod tests {
         }
         assert_eq!(table().fitted(20).matches("name").count(), 2);
         assert_eq!(table().keyed(&[0, 2]).fitted(20).matches("22222").count(), 2);
+    }
+
+    #[test]
+    fn a_sentence_is_broken_at_blanks_and_a_number_stays_beside_its_error() {
+        let sentence = "yield has the utilisation 0.32 ± 0.01 here";
+        assert_eq!(lines(sentence, 80), format!("{sentence}\n"));
+        assert_eq!(lines(sentence, 32), "yield has the utilisation\n0.32 ± 0.01 here\n");
+        assert_eq!(lines(sentence, 37), "yield has the utilisation 0.32 ± 0.01\nhere\n");
     }
 
     #[test]
