@@ -74,7 +74,8 @@ impl Results {
         terminal::warn(warnings, saying.quiet);
         if !saying.quiet {
             for report in outdated {
-                tell!("{report} showed the earlier result and is removed; `percoat report` writes it anew");
+                let folder = plain::path(&folder);
+                tell!("{report} showed the earlier result and is removed; `percoat report {folder}` writes it anew");
             }
         }
         Ok(())

@@ -144,8 +144,7 @@ impl RunFolder {
     /// # Errors
     /// [`OutputError`] with the report that cannot be read.
     pub fn outdated_reports(&self) -> Result<Vec<String>, OutputError> {
-        let reports =
-            published(&self.folder).filtered(|_, by| by == Writer::Report && self.plan.writer.outdates_report());
+        let reports = published(&self.folder).filtered(|_, by| self.plan.writer.outdates(by));
         let mut names = Vec::new();
         for name in reports.names() {
             let path = self.folder.join(name);

@@ -53,7 +53,7 @@ pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>,
     let decided = manifest::read(&staging.join(DECIDED)).filter(|_| disk::is_folder(&staging) && is_staging(&staging));
     let (old, Some(decided)) = (published(folder), decided) else { return Ok(None) };
     let new = decided.filtered(|_, by| by == writer);
-    let goes = |by: Writer| by == writer || by == Writer::Report && writer.outdates_report();
+    let goes = |by: Writer| by == writer || writer.outdates(by);
     let mut waiting = Vec::new();
     for name in new.names().filter(|name| disk::is_file(&staging.join(name))) {
         let path = folder.join(name);

@@ -40,8 +40,8 @@ impl Writer {
         Self::Report,
     ];
 
-    /// Whether a new result outdates the report in the folder.
-    pub(super) fn outdates_report(self) -> bool {
-        [Self::Solve, Self::Limit, Self::Life, Self::Sweep].contains(&self)
+    /// Whether a new result outdates what a command has written: the report of an earlier result.
+    pub(super) fn outdates(self, by: Self) -> bool {
+        by == Self::Report && [Self::Solve, Self::Limit, Self::Life, Self::Sweep].contains(&self)
     }
 }

@@ -79,6 +79,15 @@ impl Reading {
         self.force > 0.0
     }
 
+    /// Mean pressure P/A where there is contact, in the unit of Young's modulus, and its error (those of force and area added, relative);
+    /// `None` without contact.
+    pub fn mean_contact_pressure(&self) -> Option<(f64, Option<f64>)> {
+        let Self { force, contact_area, errors, .. } = self;
+        let mean = (self.touches() && *contact_area > 0.0).then(|| force / contact_area)?;
+        let error = errors.contact_area.map(|area| mean * (area / contact_area + errors.force.unwrap_or(0.0) / force));
+        Some((mean, error))
+    }
+
     /// Whether it is one of an isolated contact, which has no mean pressure and no fraction in contact.
     pub fn is_isolated(&self) -> bool {
         self.contact_fraction.is_nan()

@@ -5,7 +5,7 @@ use super::table::pairs;
 use super::units::with_unit;
 use crate::output::table::percent_with_error;
 use crate::output::with_error;
-use crate::reading::{LevelReading, Reading};
+use crate::reading::LevelReading;
 use crate::run::StepRecord;
 use crate::units::Units;
 
@@ -65,7 +65,7 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
         ),
         ("peak pressure", numbers(&peak)),
     ];
-    rows.extend(mean_pressure(reading).filter(|_| !step.is_given()).map(|(mean, error)| {
+    rows.extend(reading.mean_contact_pressure().filter(|_| !step.is_given()).map(|(mean, error)| {
         let mean = with_unit(units.pressure(), mean, error);
         ("mean pressure where there is contact", numbers(&mean))
     }));
@@ -112,14 +112,6 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     rows.extend(stiffness.map(|text| (STIFFNESS, numbers(&text))));
     let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());
     vec![with("p", &[("class", "answer")], numbers(&sentence)), pairs(&step_of, &rows)].into()
-}
-
-/// The force by the area of contact, and its error; `None` without contact.
-fn mean_pressure(reading: &Reading) -> Option<(f64, Option<f64>)> {
-    let Reading { force, contact_area, errors, .. } = reading;
-    let mean = (*contact_area > 0.0 && reading.touches()).then(|| force / contact_area)?;
-    let error = errors.contact_area.map(|area| mean * (area / contact_area + errors.force.unwrap_or(0.0) / force));
-    Some((mean, error))
 }
 
 /// The level with the largest pressure, where there are several.

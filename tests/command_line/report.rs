@@ -134,6 +134,12 @@ fn the_page_of_an_isolated_contact_has_its_force_its_window_and_hertz_beside() {
     for words in ["NaN", "cell", "confined", "igid"] {
         assert!(!page.contains(words), "{words}");
     }
+    let (_, mean) = page.split_once("mean pressure where there is contact").unwrap();
+    let of_tags: String = mean.chars().take(120).collect();
+    let numbers: Vec<f64> = of_tags.split(['<', '>', ' ']).filter_map(|word| word.parse().ok()).take(2).collect();
+    let step = &Folder(desk.path("run")).steps()[1];
+    let expected = step["force"].as_f64().unwrap() / step["contact_area"].as_f64().unwrap();
+    assert!((numbers[0] - expected).abs() <= numbers[1] && numbers[1] < 0.05 * expected, "{of_tags}: {expected}");
 }
 
 #[test]

@@ -20,6 +20,28 @@ fn without_a_case_the_default_is_solved_and_shown() {
 }
 
 #[test]
+fn what_a_single_level_cannot_share_has_no_column() {
+    let desk = Desk::new();
+    let ball = desk.percoat(&["solve", "ball-on-disc", "--no-pictures", "--set", "grid.points=48"]).out;
+    assert!(ball.contains("contact radius") && !ball.contains("load on one") && !ball.contains("share"), "{ball}");
+    assert!(!ball.contains("  level"), "{ball}");
+    let single = [
+        "solve",
+        "--no-pictures",
+        "--set",
+        "grid.points=48",
+        "--set",
+        "levels=[{ shape = \"paraboloid\", radius = 0.8, height = 0 }]",
+    ];
+    let lattice = desk.percoat(&single).out;
+    assert!(lattice.contains("load on one") && !lattice.contains("share"), "{lattice}");
+    let many = desk
+        .percoat(&[&single[..], &["--set", "load.mean_pressure={ from = 0.01, to = 0.07, steps = 7 }"]].concat())
+        .out;
+    assert!(many.contains("peak 1") && !many.contains("share"), "{many}");
+}
+
+#[test]
 fn quiet_prints_nothing() {
     let desk = Desk::new();
     let answer = desk.percoat(&["solve", "--quiet", "--set", "grid.points=64"]);

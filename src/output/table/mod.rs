@@ -229,7 +229,7 @@ fn detailed(steps: &[StepRecord], units: &Units) -> Table {
     if steps.iter().any(|step| step.reading.levels.len() > 1) {
         return table.keyed(&[0, 3]);
     }
-    // A single level has the whole load, and a single isolated indenter the force.
+    // A single level has the whole load, and a single isolated indenter the force: no columns of level, load on one and share.
     let has_force = |reading: &Reading| (reading.levels[0].load - reading.force).abs() <= NOTHING * reading.force;
     let isolated = steps.iter().all(|step| step.reading.is_isolated() && has_force(&step.reading));
     table.without(if isolated { &[3, 4, 5] } else { &[3, 5] })
@@ -287,10 +287,12 @@ fn percent(x: f64) -> String {
     text.strip_prefix('-').filter(|text| *text == "0.00 %").map_or(text.clone(), str::to_owned)
 }
 
-/// What is called by a name changes from a number without layers or neighbours to the one `found`: a signed part with two decimals.
+/// "`name` by +1.25 %": the relative change of a quantity, from its value `without` layers or neighbours to the one `found`; `None`
+/// where one of them is missing.
 fn change(name: &str, found: Option<f64>, without: Option<f64>) -> Option<String> {
-    let text = format!("{:+.2} %", 100.0 * (found? / without? - 1.0));
-    Some(format!("{name} by {}", if text == "-0.00 %" { "+0.00 %" } else { &text }))
+    let text = percent(found? / without? - 1.0);
+    let sign = if text.starts_with('-') { "" } else { "+" };
+    Some(format!("{name} by {sign}{text}"))
 }
 
 /// A number with its error, or "singular".
