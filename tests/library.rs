@@ -55,6 +55,8 @@ mod stopping;
 mod stress;
 #[path = "library/surface_stress.rs"]
 mod surface_stress;
+#[path = "library/surroundings.rs"]
+mod surroundings;
 #[path = "library/tangent.rs"]
 mod tangent;
 #[path = "library/topographies.rs"]

@@ -27,6 +27,7 @@
 //! compliance (`compliances`) and of the interior (`interior_table`).
 
 mod across;
+mod bending;
 mod bodies;
 mod compliances;
 mod depth;

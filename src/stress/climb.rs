@@ -59,8 +59,8 @@ impl StressField {
         self.at(places, &StressComponents(response)).into_iter().map(StressState::from_stresses).collect()
     }
 
-    /// The local maximum of a measure near a candidate, and the state there, at depths within [low, high]; `rise` is the first
-    /// step in depth, a length, 0 for a search at one depth.
+    /// The local maximum of a measure near a candidate, and the state there, at depths within [low, high] and where the field holds;
+    /// `rise` is the first step in depth, a length, 0 for a search at one depth.
     pub(super) fn local_maximum(
         &self,
         from: &Candidate,
@@ -83,7 +83,7 @@ impl StressField {
             let depth = Depth { z: (z + moved[2]).clamp(low, high), material };
             let there = self.expanded(depth, self.grid().cell().nearest_point([x + moved[0], y + moved[1]]));
             let risen = measure.of(&there.state());
-            let is_higher = risen > value;
+            let is_higher = risen > value && !self.is_hidden(there.place);
             if is_higher {
                 (here, value) = (there, risen);
             }

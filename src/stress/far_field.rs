@@ -17,6 +17,7 @@ use super::depth_response::DepthResponse;
 use super::far_plane::{FarPlane, weighted};
 use super::far_tables::{COMPONENTS, FarTables, Interval, Part};
 use super::series::Response;
+use super::window_waves::window_waves;
 use crate::body::Depth;
 use crate::lattice::waves::WaveRow;
 use crate::lattice::{Cell, Grid};
@@ -24,7 +25,6 @@ use crate::numeric::chebyshev::{analysis, inside, polynomials};
 use crate::numeric::lanes::vectorised;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
-use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 /// Values of the components at the nodes of a plane, or coefficients of their polynomials; along x, then y.
@@ -43,11 +43,11 @@ pub(super) struct FarField {
 }
 
 impl FarField {
-    /// The difference under a `pressure` on the grid of a window, one value per sample, a₂ fastest.
+    /// The difference in the window of the tables under a `pressure` on a grid in it, one value per sample, a₂ fastest.
     ///
     /// `series` is the cell of the periodic field, of twice the window.
     pub fn new(tables: Arc<FarTables>, grid: &Grid, pressure: &[f64], series: Cell) -> Self {
-        let corner = [0, 1].map(|axis| 2.0 * series.corner()[axis] / grid.cell().vectors()[axis][axis]);
+        let corner = [0, 1].map(|axis| 2.0 * series.corner()[axis] / tables.window.vectors()[axis][axis]);
         let coefficients: Vec<Vec<Complex64>> =
             tables.parts.par_iter().map(|part| part.coefficients(grid, pressure)).collect();
         let segments = tables.segments.iter().map(|(interval, _)| (*interval, OnceLock::new())).collect();
@@ -114,43 +114,7 @@ impl FarField {
 impl Part {
     /// Coefficients c of the waves of a pressure, with their weights: p = Re Σ c e^{2πi(κ₁s + κ₂t)} by the fractions s, t of the cell.
     fn coefficients(&self, grid: &Grid, pressure: &[f64]) -> Vec<Complex64> {
-        let [n1, n2] = grid.points();
-        let fractions = |axis: usize, n: usize| -> Vec<f64> {
-            let (corner, step) = (grid.cell().corner()[axis], grid.steps()[axis][axis]);
-            let side = self.cell.vectors()[axis][axis];
-            (0..n).map(|i| (corner + i as f64 * step) / side + 0.5).collect()
-        };
-        let (along, across) = (fractions(0, n1), fractions(1, n2));
-        let rows = self.waves.rows_within(self.waves.wavenumbers().len());
-        let most = rows.iter().map(|row| row.across).max().unwrap_or(0);
-        let first = rows.iter().map(|row| row.first).min().unwrap_or(0);
-        let last = rows.iter().map(|row| row.first + row.len as i32).max().unwrap_or(0);
-        let phase = |k: i32, s: f64| Complex64::cis(-TAU * (f64::from(k) * s).fract());
-        // Along y first: of each row of samples the sums for all κ₂.
-        let by_rows: Vec<(usize, Vec<Complex64>)> = (0..n1)
-            .filter(|i| pressure[i * n2..][..n2].iter().any(|&p| p > 0.0))
-            .map(|i| {
-                let mut sums = vec![Complex64::default(); most as usize + 1];
-                for (&p, &t) in pressure[i * n2..][..n2].iter().zip(&across).filter(|(p, _)| **p > 0.0) {
-                    let (step, mut own) = (phase(1, t), Complex64::from(p));
-                    for sum in &mut sums {
-                        (sum.re, sum.im) = (sum.re + own.re, sum.im + own.im);
-                        own = Complex64::new(own.re * step.re - own.im * step.im, own.re * step.im + own.im * step.re);
-                    }
-                }
-                (i, sums)
-            })
-            .collect();
-        let phases: Vec<Vec<Complex64>> =
-            by_rows.iter().map(|&(i, _)| (first..last).map(|k| phase(k, along[i])).collect()).collect();
-        // A wave and its conjugate share one coefficient.
-        let scale = 2.0 * grid.sample_area() / self.cell.area();
-        let component = |[k1, k2]: [i32; 2]| {
-            let terms = by_rows.iter().zip(&phases);
-            scale
-                * terms.map(|((_, sums), phases)| sums[k2 as usize] * phases[(k1 - first) as usize]).sum::<Complex64>()
-        };
-        let mut all = self.waves.coefficients(component);
+        let mut all = window_waves(&self.waves, self.cell, grid, pressure);
         for (c, &shell) in all.iter_mut().zip(self.waves.shells()) {
             *c *= self.weights[shell as usize];
         }

@@ -6,11 +6,12 @@ use super::far_plane::FarPlane;
 use super::regions::Regions;
 use super::series::{Response, Series};
 use super::series_grid::spread;
+use super::surroundings::LoadedWindow;
 use super::tables::Tables;
 use super::tensor::StressState;
 use crate::body::{Bodies, Depth, HalfSpace, Interface, InteriorTable, MeanStress, Side};
 use crate::friction::Friction;
-use crate::lattice::{Grid, NotOnGrid};
+use crate::lattice::{Cell, Grid, NotOnGrid};
 use crate::load::Load;
 use crate::spectral::Contact;
 use ndarray::ArrayView2;
@@ -36,6 +37,10 @@ pub struct StressField {
     series_grid: Arc<Grid>,
     /// What the free field of an isolated contact has beside the periodic one of the series.
     far: Option<FarField>,
+    /// The pressure in the window of an isolated contact; `None` in a periodic cell.
+    pub(super) loaded: Option<Arc<LoadedWindow>>,
+    /// The window inside of which the field does not hold, of one around the window of the contact.
+    hole: Option<Cell>,
     half_space: HalfSpace,
     interiors: Arc<InteriorTable>,
     tables: Arc<Tables>,
@@ -114,6 +119,8 @@ impl StressField {
         });
         let regions = Regions::new(&series_grid, &spread);
         Self {
+            loaded: grid.cell().is_isolated().then(|| Arc::new(LoadedWindow::new(grid, pressure))),
+            hole: None,
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
             interiors: tables.interiors(&series_grid, half_space, traction.is_some()),
@@ -128,6 +135,42 @@ impl StressField {
             edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(beta)),
             series,
         }
+    }
+
+    /// The field of other waves of the same pressure, on the grids of another window and of its series, that holds outside of a `hole`.
+    pub(super) fn outside(
+        &self,
+        hole: Cell,
+        [grid, series_grid]: [Arc<Grid>; 2],
+        series: Series,
+        far: FarField,
+    ) -> Self {
+        let tables = Arc::clone(self.tables.around());
+        Self {
+            loaded: self.loaded.clone(),
+            hole: Some(hole),
+            half_space: self.half_space.clone(),
+            interiors: tables.interiors(&series_grid, &self.half_space, self.slides()),
+            far: Some(far),
+            tables,
+            mean: self.mean.clone(),
+            regions: Regions::new(&series_grid, &vec![0.0; series_grid.len()]),
+            grid,
+            series_grid,
+            series,
+            ..*self
+        }
+    }
+
+    /// Whether the field does not hold at a place, lengths.
+    pub(super) fn is_hidden(&self, place: [f64; 2]) -> bool {
+        let inside = |hole: &Cell| hole.fractions(place).iter().all(|s| (1e-9..1.0 - 1e-9).contains(s));
+        self.hole.as_ref().is_some_and(inside)
+    }
+
+    /// Whether the field has a hole.
+    pub(super) fn has_hole(&self) -> bool {
+        self.hole.is_some()
     }
 
     /// The layered half-space below the pressure.

@@ -1,11 +1,11 @@
 //! What a search for the largest stresses has found, and the errors of it.
 
-use super::constants::SHALLOW;
 use super::contender::{CoarserField, Contender, Contenders, NearSurface, stated};
 use super::crest::Crest;
 use super::field::StressField;
 use super::measure::StressMeasure;
 use super::peak::Peak;
+use super::tensor::StressState;
 use crate::body::InterfaceId;
 
 /// Contenders for the maxima, in the order of the maxima.
@@ -22,26 +22,77 @@ impl ContenderLists {
         let interfaces = self.interfaces.iter_mut().map(|(_, contenders)| contenders);
         self.materials.iter_mut().chain(&mut self.faces).chain(interfaces).flatten()
     }
+
+    /// The contenders of each maximum.
+    fn of_each(&self) -> impl Iterator<Item = &Contenders> {
+        let interfaces = self.interfaces.iter().map(|(_, contenders)| contenders);
+        self.materials.iter().chain(&self.faces).chain(interfaces)
+    }
+
+    /// Adds the contenders for the same maxima elsewhere.
+    fn extend(&mut self, others: &Self) {
+        let pairs = |own: &mut Vec<Contenders>, others: &[Contenders]| {
+            own.iter_mut().zip(others).for_each(|(own, other)| own.extend(other));
+        };
+        pairs(&mut self.materials, &others.materials);
+        pairs(&mut self.faces, &others.faces);
+        self.interfaces.iter_mut().zip(&others.interfaces).for_each(|((_, own), (_, other))| own.extend(other));
+    }
 }
 
 /// The contenders for the measures that were sought, and what their errors depend on.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct FoundStresses {
     pub contenders: ContenderLists,
     /// The largest tension on the surface; `None` where contact has no edge or it was not sought.
     pub crest: Option<Crest>,
     /// Samples along the radius of a disc as large as the smallest contact spot.
     pub resolution: f64,
-    /// Distance between neighbouring samples, a length.
-    pub spacing: f64,
+    /// Depth down to which stresses vary fast from sample to sample, a length.
+    pub shallow_depth: f64,
     /// How far stresses on the surface may ring beside jumps of a given pressure, a pressure; zero under a contact.
     pub ringing: f64,
+    /// What waves that are left out may add, over the stresses.
+    pub left_out: f64,
+    /// The states at rest of each material, which those around an isolated contact approach far away; none of a periodic system.
+    pub at_rest: Vec<StressState>,
+    /// What was found in the windows around that of an isolated contact, from the inner one outward.
+    pub around: Vec<Self>,
 }
 
 impl FoundStresses {
     /// The largest of some contenders by a measure; `None` where it was not sought.
     pub fn stated(&self, contenders: &Contenders, measure: StressMeasure) -> Option<Peak> {
-        stated(contenders, measure, SHALLOW * self.spacing)
+        let peak = stated(contenders, measure, self.shallow_depth)?;
+        // Far away the measure comes arbitrarily near to that of the body at rest.
+        let rest = self.rest(peak, measure);
+        Some(Peak { error: peak.error.map(|error| error.max(rest - peak.value)), ..peak })
+    }
+
+    /// A measure of the body at rest, in the material of a peak; minus infinity where no load leaves it so.
+    fn rest(&self, peak: Peak, measure: StressMeasure) -> f64 {
+        self.at_rest.get(peak.material.number - 1).map_or(f64::NEG_INFINITY, |rest| measure.of(rest))
+    }
+
+    /// The contenders in the window and around it.
+    pub fn everywhere(&self) -> ContenderLists {
+        let mut all = self.contenders.clone();
+        self.around.iter().for_each(|around| all.extend(&around.contenders));
+        all
+    }
+
+    /// Whether the largest contender of any measure lies where a place x, y is on a border, and exceeds the measure at rest.
+    pub fn is_largest_on_border(&self, is_on_border: impl Fn([f64; 2]) -> bool) -> bool {
+        let everywhere = self.everywhere();
+        let is_there = |contenders: &Contenders| {
+            contenders.iter().any(|(measure, Contender { peak, .. })| {
+                let [x, y, _] = peak.position;
+                let is_largest =
+                    || contenders.iter().all(|(of, other)| of != measure || other.peak.value <= peak.value);
+                peak.value > self.rest(*peak, *measure) && is_on_border([x, y]) && is_largest()
+            })
+        };
+        everywhere.of_each().any(is_there)
     }
 
     /// The largest utilisation of an interface by its contenders; `None` without a strength.
@@ -59,9 +110,9 @@ impl FoundStresses {
                 of_crests.push(*measure);
             }
         }
-        let coarser = CoarserField::new(coarser, &of_crests);
-        let surface = NearSurface { depth: SHALLOW * self.spacing, ringing: self.ringing };
-        let resolution = self.resolution;
+        let beside = CoarserField::new(coarser, &of_crests);
+        let surface = NearSurface { depth: self.shallow_depth, ringing: self.ringing };
+        let (resolution, left_out) = (self.resolution, self.left_out);
         let mut known: Vec<(StressMeasure, Contender)> = Vec::new();
         for (measure, contender) in self.contenders.each() {
             // The largest value on a face contends in its material too.
@@ -72,9 +123,16 @@ impl FoundStresses {
             contender.peak.error = match same {
                 Some((_, same)) => same.peak.error,
                 None if !goes_on() => return None,
-                None => Some(contender.error(*measure, &coarser, resolution, surface)),
+                None => {
+                    let left_out = measure.rise(&contender.state, left_out * contender.size);
+                    Some(contender.error(*measure, &beside, resolution, surface) + left_out)
+                }
             };
             known.push((*measure, *contender));
+        }
+        for (number, around) in (1..).zip(&mut self.around) {
+            let Some(coarser) = coarser.around(number) else { break };
+            *around = std::mem::take(around).with_errors(&coarser, goes_on)?;
         }
         Some(self)
     }

@@ -92,9 +92,9 @@ impl StressField {
         SlidingLines::new(self.grid().cell(), direction)
     }
 
-    /// Depth from which on stresses vary slowly from sample to sample, a length.
+    /// Depth from which on stresses vary slowly from sample to sample, a length: zero around the window of a contact.
     pub(super) fn shallow_depth(&self) -> f64 {
-        SHALLOW * self.series_grid().spacing()
+        if self.has_hole() { 0.0 } else { SHALLOW * self.series_grid().spacing() }
     }
 
     /// Stresses on the lines of a plane under contacts of a `radius`, a length.

@@ -72,8 +72,9 @@ impl Maxima {
                 .map(|measure| found.stated(contenders, measure).expect("each material and each face has one of each"));
             Extremes { tau1, tension, mises }
         };
-        let materials = found.contenders.materials.iter().map(extremes).collect();
-        let faces = found.contenders.faces.iter().map(extremes).collect();
+        let everywhere = found.everywhere();
+        let materials = everywhere.materials.iter().map(extremes).collect();
+        let faces = everywhere.faces.iter().map(extremes).collect();
         let carried = |(interface, contenders): &(InterfaceId, Contenders)| {
             Some(Carried {
                 interface: *interface,
@@ -82,7 +83,7 @@ impl Maxima {
                 delamination: found.delamination(contenders),
             })
         };
-        let interfaces = found.contenders.interfaces.iter().filter_map(carried).collect();
+        let interfaces = everywhere.interfaces.iter().filter_map(carried).collect();
         Self { materials, faces, interfaces, crest: found.crest, resolution: found.resolution, found }
     }
 

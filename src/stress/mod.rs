@@ -55,10 +55,12 @@ mod sliding_path;
 mod smoothed_edge;
 mod smoothed_surface;
 mod strength_peaks;
+mod surroundings;
 mod tables;
 mod tensor;
 mod trace;
 mod transform;
+mod window_waves;
 
 pub use crest::Crest;
 #[cfg(feature = "cli")]
@@ -72,5 +74,7 @@ pub use range_plane::RangePlane;
 pub use section::{SurfaceLine, VerticalSection};
 pub use sliding_path::SlidingPath;
 pub(crate) use strength_peaks::StrengthPeaks;
+#[cfg(feature = "cli")]
+pub(crate) use surroundings::bytes_around;
 pub(crate) use tables::Tables;
 pub use tensor::StressState;

@@ -175,12 +175,6 @@ impl StressField {
         self.half_space().side() != Some(Side::Counterbody)
     }
 
-    /// The state without load in a material.
-    fn at_rest(&self, material: usize) -> StressState {
-        let residual = self.half_space().residual_stresses().nth(material - 1).unwrap_or(0.0);
-        StressState { xx: residual, yy: residual, ..StressState::default() }
-    }
-
     /// The largest of each measure in a material, and the planes searched; `None` when the search does not go on.
     fn in_material(
         &self,

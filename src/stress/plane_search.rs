@@ -33,6 +33,32 @@ pub(super) struct Candidate {
     pub step: f64,
 }
 
+/// Columns of a plane that are searched.
+struct SearchedColumns {
+    /// Number of all columns.
+    count: usize,
+    /// Rows that pass through a hole, and their columns outside of it.
+    beside_hole: Option<(Range<usize>, Vec<usize>)>,
+}
+
+impl SearchedColumns {
+    /// Column and value of the largest of each measure in a row whose states are given column by column.
+    fn largest(
+        &self,
+        found: &RunningMaxima<'_>,
+        row: usize,
+        state: impl Fn(usize) -> StressState,
+    ) -> Vec<(usize, f64)> {
+        match &self.beside_hole {
+            Some((rows, columns)) if rows.contains(&row) => {
+                let largest = found.add(columns.len(), |k| state(columns[k]));
+                largest.into_iter().map(|(k, value)| (columns[k], value)).collect()
+            }
+            _ => found.add(self.count, state),
+        }
+    }
+}
+
 impl StressField {
     /// Depths at which planes are searched, ascending, faces first and last.
     pub(super) fn search_depths(&self, material: usize, [small, large]: [f64; 2]) -> Vec<f64> {
@@ -97,18 +123,34 @@ impl StressField {
         let part = if self.grid().cell().is_isolated() { 2 } else { 1 };
         let (rows, columns) = (transform.points()[0].div_ceil(part), transform.points()[1].div_ceil(part));
         let (response, found) = (self.depth_response(depth, PLANE_REACH), RunningMaxima::new(measures));
+        let searched = SearchedColumns { count: columns, beside_hole: self.beside_hole(transform, start) };
         if depth == Depth::SURFACE {
             let traction = self.traction();
             let surface = SurfaceStresses::new(&Arc::new(response), |_| 1.0);
             let fields = self.series.on_plane_from(start, transform, Vec::new(), &surface);
-            return fields.map_first(rows, |_, row| {
-                found.add(columns, |j| StressState::on_surface(row.map(|component| component[j]), traction))
+            return fields.map_first(rows, |i, row| {
+                searched.largest(&found, i, |j| StressState::on_surface(row.map(|component| component[j]), traction))
             });
         }
         let fields = self.series.on_plane_from(start, transform, Vec::new(), &StressComponents(&response));
-        fields.map_first(rows, |_, row| {
-            found.add(columns, |j| StressState::from_stresses(row.map(|component| component[j])))
+        fields.map_first(rows, |i, row| {
+            searched.largest(&found, i, |j| StressState::from_stresses(row.map(|component| component[j])))
         })
+    }
+
+    /// Rows of a plane that pass through the hole of the field, and the columns outside of it; `None` without a hole.
+    fn beside_hole(&self, transform: &Transform, start: [f64; 2]) -> Option<(Range<usize>, Vec<usize>)> {
+        if !self.has_hole() {
+            return None;
+        }
+        let cell = self.series_grid().cell();
+        let [n1, n2] = transform.points();
+        let middle = cell.fractions([0.0; 2]);
+        let is_hidden = |s: f64, t: f64| self.is_hidden(cell.point([s, t]));
+        let rows: Vec<usize> =
+            (0..n1.div_ceil(2)).filter(|&i| is_hidden(start[0] + i as f64 / n1 as f64, middle[1])).collect();
+        let columns = (0..n2.div_ceil(2)).filter(|&j| !is_hidden(middle[0], start[1] + j as f64 / n2 as f64));
+        Some((rows.first().copied()?..rows.last()? + 1, columns.collect()))
     }
 
     /// Rows and columns of the grid of the series that are those of the contact's own grid.

@@ -9,7 +9,7 @@
 //! Within two samples of the surface, where the series converges slowly, the largest sample of the pressure's own grid is taken
 //! without a search.
 
-use super::constants::{EQUAL_BY_SYMMETRY, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES, SHALLOW};
+use super::constants::{EQUAL_BY_SYMMETRY, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES};
 use super::contender::{Contender, Contenders};
 use super::crest::Crest;
 use super::field::{REACH, StressField};
@@ -62,14 +62,14 @@ impl StressField {
     /// Maxima over all materials, faces and interfaces; `None` when `goes_on`, called between planes and between searches,
     /// returns false. `radii` as in [`Self::maxima`].
     pub fn maxima_while(&self, radii: [f64; 2], goes_on: &dyn Fn() -> bool) -> Option<Maxima> {
-        self.found(radii, Sought::All, goes_on).map(Maxima::new)
+        self.found_everywhere(radii, Sought::All, goes_on).map(Maxima::new)
     }
 
-    /// The contenders for what is `sought`; `None` when `goes_on` returns false.
+    /// The contenders for what is `sought` in the cell or the window; `None` when `goes_on` returns false.
     pub(super) fn found(&self, radii: [f64; 2], sought: Sought, goes_on: &dyn Fn() -> bool) -> Option<FoundStresses> {
         let strengths: Vec<Strength> = self.half_space().strengths().collect();
         let of_surface = sought.in_material(strengths[0]);
-        let crests = if of_surface.is_empty() { Vec::new() } else { self.crests_of(&of_surface) };
+        let crests = if of_surface.is_empty() || self.has_hole() { Vec::new() } else { self.crests_of(&of_surface) };
         let (search, mut contenders) = (Search { radii, sought, crests: &crests, goes_on }, ContenderLists::default());
         for (material, &strength) in (1..).zip(&strengths) {
             self.add_contenders(material, &sought.in_material(strength), &search, &mut contenders)?;
@@ -78,8 +78,9 @@ impl StressField {
             contenders,
             crest: of_measure(&crests, StressMeasure::Tension).map(|&(_, crest)| crest),
             resolution: self.regions().least_resolution(),
-            spacing: self.series_grid().spacing(),
+            shallow_depth: self.shallow_depth(),
             ringing: self.regions().ringing(),
+            ..FoundStresses::default()
         })
     }
 
@@ -171,7 +172,7 @@ impl StressField {
         measure: StressMeasure,
         goes_on: &dyn Fn() -> bool,
     ) -> Option<Vec<Contender>> {
-        let near = SHALLOW * self.series_grid().spacing();
+        let near = self.shallow_depth();
         let candidate = |index: usize| planes[index].candidate(measure);
         let shallow = (0..depths.len()).filter(|&i| depths[i] < near && planes[i].on_face.is_empty());
         let shallow = shallow.map(candidate).reduce(|a, b| if b.value > a.value { b } else { a });
@@ -257,7 +258,7 @@ impl StressField {
     /// where the series converges slowly.
     fn on_face(&self, candidate: &Candidate, measure: StressMeasure) -> (Candidate, StressState) {
         let z = candidate.depth.z;
-        if z < SHALLOW * self.series_grid().spacing() {
+        if z < self.shallow_depth() {
             (*candidate, self.state_at(candidate))
         } else {
             self.local_maximum(candidate, 0.0, [z, z], measure)

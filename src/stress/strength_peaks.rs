@@ -19,12 +19,13 @@ pub(crate) struct StrengthPeaks {
 
 impl StrengthPeaks {
     fn new(found: &FoundStresses) -> Self {
+        let contenders = found.everywhere();
         let of = |measure: StressMeasure| {
             let stated = |contenders: &Contenders| found.stated(contenders, measure);
-            found.contenders.materials.iter().map(stated).collect()
+            contenders.materials.iter().map(stated).collect()
         };
         let [tension, mises] = [StressMeasure::Tension, StressMeasure::Mises].map(of);
-        let interfaces = found.contenders.interfaces.iter();
+        let interfaces = contenders.interfaces.iter();
         let delamination = interfaces.map(|(_, contenders)| found.delamination(contenders)).collect();
         Self { tension, mises, delamination }
     }
@@ -44,7 +45,7 @@ impl StressField {
         coarser: Option<&Self>,
         goes_on: &dyn Fn() -> bool,
     ) -> Option<StrengthPeaks> {
-        let found = self.found(radii, Sought::Strengths, goes_on)?;
+        let found = self.found_everywhere(radii, Sought::Strengths, goes_on)?;
         let found = match coarser {
             Some(coarser) => found.with_errors(coarser, goes_on)?,
             None => found,

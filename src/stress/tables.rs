@@ -4,14 +4,21 @@ use super::far_tables::FarTables;
 use super::series_grid::series_grid;
 use crate::body::{HalfSpace, InteriorTable, LayeredResponse};
 use crate::lattice::{Cell, Grid};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Tables that are kept: those of both bodies on the grids of a step and of its errors, and as many that replace them.
 const KEPT: usize = 8;
+/// Tables that are kept of windows around that of an isolated contact: of up to eight windows as many as [`KEPT`] needs of one. Their
+/// grids have few samples.
+const KEPT_AROUND: usize = 32;
 
 /// Tables of the interior that the stress fields of one run share.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Tables {
+    /// Number of tables of each kind that are kept.
+    kept: usize,
+    /// Those of the windows around that of an isolated contact.
+    around: OnceLock<Arc<Tables>>,
     interiors: Mutex<Vec<Entry>>,
     far: Mutex<Vec<Arc<FarTables>>>,
     /// Grids of pressures with those of their series.
@@ -26,7 +33,23 @@ struct Entry {
     table: Arc<InteriorTable>,
 }
 
+impl Default for Tables {
+    fn default() -> Self {
+        Self::keeping(KEPT)
+    }
+}
+
 impl Tables {
+    fn keeping(kept: usize) -> Self {
+        let (around, interiors, far, grids) = Default::default();
+        Self { kept, around, interiors, far, grids }
+    }
+
+    /// Tables of the windows around that of an isolated contact.
+    pub(super) fn around(&self) -> &Arc<Self> {
+        self.around.get_or_init(|| Arc::new(Self::keeping(KEPT_AROUND)))
+    }
+
     /// Table of a half-space for the wavenumbers of a grid, set up unless there is one already.
     pub fn interiors(&self, grid: &Arc<Grid>, half_space: &HalfSpace, slides: bool) -> Arc<InteriorTable> {
         let mut entries = self.interiors.lock().unwrap_or_else(PoisonError::into_inner);
@@ -37,7 +60,7 @@ impl Tables {
         }
         let (grid, response) = (Arc::clone(grid), Arc::clone(response));
         let table = Arc::new(InteriorTable::new(Arc::clone(&response), grid.waves().wavenumbers(), slides));
-        keep(&mut entries, Entry { grid, response, slides, table: Arc::clone(&table) });
+        keep(self.kept, &mut entries, Entry { grid, response, slides, table: Arc::clone(&table) });
         table
     }
 
@@ -48,7 +71,7 @@ impl Tables {
             return Arc::clone(series);
         }
         let series = series_grid(grid);
-        keep(&mut entries, [grid, &series].map(Arc::clone));
+        keep(self.kept, &mut entries, [grid, &series].map(Arc::clone));
         series
     }
 
@@ -60,14 +83,14 @@ impl Tables {
         }
         let own = FarTables::new(window, half_space, traction).expect("multiples of a window are windows");
         let own = Arc::new(own);
-        keep(&mut entries, Arc::clone(&own));
+        keep(self.kept, &mut entries, Arc::clone(&own));
         own
     }
 }
 
-/// Adds an entry, and removes the first one of more than [`KEPT`].
-fn keep<T>(entries: &mut Vec<T>, entry: T) {
-    if entries.len() == KEPT {
+/// Adds an entry, and removes the first one of more than a number.
+fn keep<T>(most: usize, entries: &mut Vec<T>, entry: T) {
+    if entries.len() == most {
         entries.remove(0);
     }
     entries.push(entry);

@@ -16,7 +16,7 @@ use crate::reading::Criterion;
 use crate::run::places::{MOST_ROWS, SECTION};
 use crate::run::{EVENTS, Sampling};
 use crate::spectral::Memory;
-use crate::stress::FarTables;
+use crate::stress::{FarTables, bytes_around};
 use std::f64::consts::PI;
 
 const MEBIBYTE: u64 = 1 << 20;
@@ -303,8 +303,8 @@ fn of_shells(case: &Case, samples: u64) -> u64 {
         of_grid(samples) + of_grid(samples / 4)
     };
     let bodies = case.problem().bodies();
-    let far = |own: &HalfSpace| if cell.is_isolated() { FarTables::bytes(cell, own, slides) as u64 } else { 0 };
-    let far: u64 = bodies.each().map(far).sum();
+    let far = |own: &HalfSpace| (FarTables::bytes(cell, own, slides) + bytes_around(cell, own, slides)) as u64;
+    let far: u64 = if cell.is_isolated() { bodies.each().map(far).sum() } else { 0 };
     let kept = |together: f64| far + bodies.each().map(|own| of_body(own, together)).sum::<u64>();
     let [a1, a2] = case.problem().cell().vectors();
     let [own, other, product] = [(a1, a1), (a2, a2), (a1, a2)].map(|(u, v)| u[0] * v[0] + u[1] * v[1]);

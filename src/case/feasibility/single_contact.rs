@@ -15,6 +15,8 @@ use std::f64::consts::FRAC_PI_2;
 const WIDE: f64 = 6.0;
 /// Width of a window over that of the contact that leaves room enough.
 const ROOM: f64 = 1.3;
+/// qa of the waves by whose compliance the contact radius a is foreseen, from to.
+const CONTACT_WAVES: [f64; 2] = [1.5, 3.0];
 
 /// Warnings about steep flanks at the highest load and few samples at the lowest. `touches` are the mean pressures of first touch
 /// of the levels, where known.
@@ -81,7 +83,7 @@ fn narrow_window(case: &Case) -> Option<String> {
         return None;
     }
     let shape = case.counterbody().levels().first().map(Level::shape).or_else(|| rough_ball(case))?;
-    let radius = highest_radius(case, shape, softer_modulus(case.problem().bodies()))?;
+    let radius = layered_radius(case, shape)?;
     (2.0 * radius > 0.9 * width.min(height)).then(|| {
         format!(
             "by the formulas of a single contact the contact will be about {} wide, and lattice.size is {}: contact must stay \
@@ -134,7 +136,7 @@ fn wide_window(case: &Case) -> Option<String> {
     let cell = case.counterbody().cell();
     let [[width, _], [_, height]] = cell.vectors();
     let level = case.counterbody().levels().first()?.shape();
-    let contact = 2.0 * highest_radius(case, level, softer_modulus(case.problem().bodies()))?;
+    let contact = 2.0 * layered_radius(case, level)?;
     let times = width.min(height) / contact;
     (cell.is_isolated() && sites(case)? == 1 && times > WIDE).then(|| {
         format!(
@@ -166,6 +168,26 @@ pub(super) fn highest_radius(case: &Case, shape: Shape, modulus: f64) -> Option<
         None if cell.is_isolated() && sites == 1 => Some(radius_at(highest(case.load.values()), power_law(shape))),
         None => None,
     }
+}
+
+/// Contact radius as [`highest_radius`], on the layered bodies: E* is that of their compliance for waves about as long as the contact is
+/// wide, 2/(q C). Of Hertz' contact on a coating the one at qa between 1.5 and 3 gives the radius; the larger of both ends is taken.
+fn layered_radius(case: &Case, shape: Shape) -> Option<f64> {
+    let bodies = case.problem().bodies();
+    let [least, most] = [stiffer_modulus(bodies), softer_modulus(bodies)].map(|own| highest_radius(case, shape, own));
+    let widest = |phase: f64| {
+        let exceeds = |a: f64| {
+            let q = phase / a;
+            highest_radius(case, shape, 2.0 / (q * bodies.compliance(q))).is_some_and(|radius| radius > a)
+        };
+        let mut ends = [1e-3 * least?, 1e3 * most?].map(f64::ln);
+        for _ in 0..40 {
+            let middle = 0.5 * (ends[0] + ends[1]);
+            ends[usize::from(!exceeds(middle.exp()))] = middle;
+        }
+        Some(ends[1].exp())
+    };
+    Some(widest(CONTACT_WAVES[0])?.max(widest(CONTACT_WAVES[1])?))
 }
 
 /// c and n of the profile c rⁿ. A sphere is a paraboloid where its contact is small.
@@ -241,6 +263,23 @@ mod tests {
         assert!(foreseen(&of(3000.0, 60.0), &[]).join("").contains("contact must stay inside the window"));
         let told = foreseen(&of(3.0, 200.0), &[]).join("");
         assert!(told.ends_with("is surface.radius in µm, and load.force in mN?"), "{told}");
+    }
+
+    /// A plate of E = 60 on E = 1: 2.0 wide, while the base alone would let it become 5.6.
+    #[test]
+    fn the_contact_on_a_stiff_coating_is_foreseen() {
+        let of = |size: f64| {
+            case(&format!(
+                "lattice={{kind=\"isolated\",size={size}}}\nlevels=[{{shape=\"paraboloid\",radius=50}}]\n\
+                 layers=[{{thickness=0.2,young=60,poisson=0.22}},{{thickness=0.8,young=60,poisson=0.3}}]\n\
+                 substrate={{young=1,poisson=0.38}}\nload={{force=0.68247}}\ngrid={{points=96}}"
+            ))
+        };
+        assert_eq!(foreseen(&of(3.0), &[]), Vec::<String>::new());
+        let told = foreseen(&of(2.2), &[]).join("");
+        assert!(told.contains("will be about 2.1"), "{told}");
+        let radius = layered_radius(&of(3.0), Shape::Paraboloid { radius: 50.0 }).unwrap();
+        assert!((0.98..1.12).contains(&radius), "{radius}");
     }
 
     #[test]
