@@ -7,7 +7,7 @@ use super::depth_response::DepthResponse;
 use super::tensor::StressState;
 #[cfg(any(feature = "cli", test))]
 use crate::body::{Amplitudes, Antiplane};
-use crate::body::{Depth, HalfSpace, InteriorTable};
+use crate::body::{Depth, HalfSpace, InteriorTable, REACH};
 use crate::lattice::waves::Waves;
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::numeric::chebyshev::{nodes, place};
@@ -29,8 +29,9 @@ const ACROSS: usize = 10;
 const MORE_ACROSS: f64 = 8.0;
 /// Largest number of nodes of the polynomials in depth.
 const DOWN: usize = 8;
-/// Depth over the longer side of the window down to which the field is tabulated.
-const DEEPEST: f64 = 4.0;
+/// Depth below the upper face of an elastic substrate, over the longer side of the window or the depth of that face, whichever gives
+/// more, down to which the field is tabulated.
+const DEEPEST: [f64; 2] = [4.0, 3.0];
 /// What the polynomials over an interval of depth leave of the difference, by the distance of the images.
 const LEFT_IN_DEPTH: f64 = 1e-7;
 /// What polynomials over the window or over an interval of depth leave of a wave, where fewer of them suffice than the images need.
@@ -192,9 +193,10 @@ impl FarTables {
         self.window == window && self.traction == traction && self.half_space.response() == half_space.response()
     }
 
-    /// The response of a part at a depth.
+    /// The response of a part at a depth, of the waves that reach it.
     pub(super) fn response(&self, part: &Part, depth: Depth) -> DepthResponse {
-        let wavenumbers = part.waves.wavenumbers();
+        let reached = part.waves.shells_up_to(REACH / depth.z.max(f64::MIN_POSITIVE));
+        let wavenumbers = &part.waves.wavenumbers()[..reached];
         DepthResponse::new(&part.interiors, depth, wavenumbers, self.traction, StressState::default())
     }
 }
@@ -249,13 +251,13 @@ fn wave_nodes(phase: f64, most: usize) -> usize {
     (1..most).find(suffices).unwrap_or(most)
 }
 
-/// Intervals of depth in each material, down to a few times the window of these sides.
+/// Intervals of depth in all layers, and in a substrate as deep as stresses are searched, for a window of these sides.
 fn intervals(half_space: &HalfSpace, sides: [f64; 2]) -> Vec<Interval> {
     let (shorter, longer) = (sides[0].min(sides[1]), sides[0].max(sides[1]));
     let mut all = Vec::new();
     for material in 1..=half_space.material_count() {
         let (mut top, bottom) = half_space.faces(material);
-        let bottom = bottom.min(DEEPEST * longer);
+        let bottom = bottom.min(top + (DEEPEST[0] * longer).max(DEEPEST[1] * top));
         while top < bottom {
             // Twice as deep from interval to interval, half the window at least.
             let least = (0.5 * shorter).max(top);
@@ -317,6 +319,23 @@ mod tests {
         let half_space = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
         let of = |side: f64| FarTables::bytes(Cell::window([1.0, side]).unwrap(), &half_space, false);
         assert!(of(10.0) < of(40.0) && of(40.0) < of(1000.0));
+    }
+
+    /// However deep thin layers lie below the window: every face of each lies in an interval, of which there is hardly more than one a
+    /// layer.
+    #[test]
+    fn all_layers_are_tabulated_with_one_interval_each_or_few_more() {
+        let material = Material::from_shear(1.0, 0.3).unwrap();
+        for (count, h) in [(120, 0.8), (60, 3.0), (10, 1e-3), (3, 1.9)] {
+            let half_space = HalfSpace::new(vec![Layer::new(material, h, Interface::Bonded).unwrap(); count], material);
+            let all = intervals(&half_space, [1.0; 2]);
+            for number in 1..=count {
+                let (top, bottom) = half_space.faces(number);
+                let own: Vec<[f64; 2]> = all.iter().filter(|own| own.material == number).map(|own| own.ends).collect();
+                assert!(own[0][0] == top && own[own.len() - 1][1] == bottom, "{number}: {own:?}");
+            }
+            assert!(all.len() <= count + 14, "{count}, {h}: {}", all.len());
+        }
     }
 
     #[test]
