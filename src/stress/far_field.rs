@@ -14,10 +14,12 @@
 //! window and over depth.
 
 use super::depth_response::DepthResponse;
+use super::disc_waves::waves_of_discs;
 use super::far_plane::{FarPlane, weighted};
 use super::far_tables::{COMPONENTS, FarTables, Interval, Part};
 use super::series::Response;
 use crate::body::Depth;
+use crate::counterbody::LoadedDisc;
 use crate::lattice::waves::WaveRow;
 use crate::lattice::{Cell, Grid};
 use crate::numeric::chebyshev::{analysis, inside, polynomials};
@@ -45,11 +47,11 @@ pub(super) struct FarField {
 impl FarField {
     /// The difference under a `pressure` on the grid of a window, one value per sample, a₂ fastest.
     ///
-    /// `series` is the cell of the periodic field, of twice the window.
-    pub fn new(tables: Arc<FarTables>, grid: &Grid, pressure: &[f64], series: Cell) -> Self {
+    /// `discs` are those that the samples stand for, none of another pressure. `series` is the cell of the periodic field, of twice the window.
+    pub fn new(tables: Arc<FarTables>, grid: &Grid, pressure: &[f64], discs: &[LoadedDisc], series: Cell) -> Self {
         let corner = [0, 1].map(|axis| 2.0 * series.corner()[axis] / grid.cell().vectors()[axis][axis]);
         let coefficients: Vec<Vec<Complex64>> =
-            tables.parts.par_iter().map(|part| part.coefficients(grid, pressure)).collect();
+            tables.parts.par_iter().map(|part| part.coefficients(grid, pressure, discs)).collect();
         let segments = tables.segments.iter().map(|(interval, _)| (*interval, OnceLock::new())).collect();
         Self { tables, corner, coefficients, segments }
     }
@@ -112,8 +114,21 @@ impl FarField {
 }
 
 impl Part {
-    /// Coefficients c of the waves of a pressure, with their weights: p = Re Σ c e^{2πi(κ₁s + κ₂t)} by the fractions s, t of the cell.
-    fn coefficients(&self, grid: &Grid, pressure: &[f64]) -> Vec<Complex64> {
+    /// Coefficients c of the waves of discs, or else of a pressure, with their weights: p = Re Σ c e^{2πi(κ₁s + κ₂t)} by the fractions s, t of
+    /// the cell.
+    fn coefficients(&self, grid: &Grid, pressure: &[f64], discs: &[LoadedDisc]) -> Vec<Complex64> {
+        let mut all = match discs {
+            [] => self.of_samples(grid, pressure),
+            discs => waves_of_discs(&self.waves, self.cell, discs),
+        };
+        for (c, &shell) in all.iter_mut().zip(self.waves.shells()) {
+            *c *= self.weights[shell as usize];
+        }
+        all
+    }
+
+    /// Coefficients of the waves of a pressure without weights.
+    fn of_samples(&self, grid: &Grid, pressure: &[f64]) -> Vec<Complex64> {
         let [n1, n2] = grid.points();
         let fractions = |axis: usize, n: usize| -> Vec<f64> {
             let (corner, step) = (grid.cell().corner()[axis], grid.steps()[axis][axis]);
@@ -150,11 +165,7 @@ impl Part {
             scale
                 * terms.map(|((_, sums), phases)| sums[k2 as usize] * phases[(k1 - first) as usize]).sum::<Complex64>()
         };
-        let mut all = self.waves.coefficients(component);
-        for (c, &shell) in all.iter_mut().zip(self.waves.shells()) {
-            *c *= self.weights[shell as usize];
-        }
-        all
+        self.waves.coefficients(component)
     }
 
     /// Coefficients of the polynomials over the window at the depth of a response, as many as the waves of the part need.
@@ -273,7 +284,7 @@ mod tests {
         let tables = FarTables::new(window, &half_space, Some([0.3, 0.1])).unwrap();
         let mut counts = Vec::new();
         for (number, part) in tables.parts.iter().enumerate().skip(5) {
-            let coefficients = part.coefficients(&grid, &pressure);
+            let coefficients = part.coefficients(&grid, &pressure, &[]);
             let response = tables.response(part, Depth { z: 0.3, material: 2 });
             let mut sums = tables.none();
             tables.add(part, &part.plane(&coefficients, &response), &mut sums);
@@ -323,7 +334,7 @@ mod tests {
         let grid = Grid::new(window, [8, 8]).unwrap();
         let pressure: Vec<f64> = (0..64).map(|k| f64::from(k * k % 7)).collect();
         let tables = Arc::new(FarTables::new(window, half_space, Some([0.3, 0.1])).unwrap());
-        let field = FarField::new(tables, &grid, &pressure, Cell::window([2.0, 2.0 * side]).unwrap());
+        let field = FarField::new(tables, &grid, &pressure, &[], Cell::window([2.0, 2.0 * side]).unwrap());
         let depths = [0.0, 0.013, 0.05, 0.21, 0.55, 0.9, 3.1].map(|z| half_space.depths(z));
         for depth in depths.into_iter().flatten() {
             let exact = FarPlane { coefficients: field.below(depth), ..field.plane(depth) };

@@ -36,6 +36,8 @@ pub(super) struct FoundStresses {
     pub spacing: f64,
     /// How far stresses on the surface may ring beside jumps of a given pressure, a pressure; zero under a contact.
     pub ringing: f64,
+    /// Whether the waves of the pressure are known, so that below the surface the samples leave nothing open.
+    pub is_exact_below: bool,
 }
 
 impl FoundStresses {
@@ -60,7 +62,8 @@ impl FoundStresses {
             }
         }
         let coarser = CoarserField::new(coarser, &of_crests);
-        let surface = NearSurface { depth: SHALLOW * self.spacing, ringing: self.ringing };
+        let surface =
+            NearSurface { depth: SHALLOW * self.spacing, ringing: self.ringing, is_exact_below: self.is_exact_below };
         let resolution = self.resolution;
         let mut known: Vec<(StressMeasure, Contender)> = Vec::new();
         for (measure, contender) in self.contenders.each() {

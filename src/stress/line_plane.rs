@@ -94,7 +94,7 @@ impl StressField {
 
     /// Depth from which on stresses vary slowly from sample to sample, a length.
     pub(super) fn shallow_depth(&self) -> f64 {
-        SHALLOW * self.series_grid().spacing()
+        SHALLOW * self.spacing()
     }
 
     /// Stresses on the lines of a plane under contacts of a `radius`, a length.

@@ -78,8 +78,9 @@ impl StressField {
             contenders,
             crest: of_measure(&crests, StressMeasure::Tension).map(|&(_, crest)| crest),
             resolution: self.regions().least_resolution(),
-            spacing: self.series_grid().spacing(),
+            spacing: self.spacing(),
             ringing: self.regions().ringing(),
+            is_exact_below: self.regions().is_exact(),
         })
     }
 
@@ -171,7 +172,7 @@ impl StressField {
         measure: StressMeasure,
         goes_on: &dyn Fn() -> bool,
     ) -> Option<Vec<Contender>> {
-        let near = SHALLOW * self.series_grid().spacing();
+        let near = SHALLOW * self.spacing();
         let candidate = |index: usize| planes[index].candidate(measure);
         let shallow = (0..depths.len()).filter(|&i| depths[i] < near && planes[i].on_face.is_empty());
         let shallow = shallow.map(candidate).reduce(|a, b| if b.value > a.value { b } else { a });
@@ -232,7 +233,7 @@ impl StressField {
     /// depth `near`.
     pub(super) fn value_beside(&self, contender: &Contender, measure: StressMeasure, near: f64) -> f64 {
         let Peak { position: [x, y, z], material, .. } = contender.peak;
-        let (depth, step) = (Depth { z, material: material.number }, self.series_grid().spacing());
+        let (depth, step) = (Depth { z, material: material.number }, self.spacing());
         if z < near {
             let states = self.stresses_at(&self.depth_response(depth, REACH), &self.samples_around([x, y]));
             return states.iter().map(|state| measure.of(state)).fold(f64::NEG_INFINITY, f64::max);
@@ -257,7 +258,7 @@ impl StressField {
     /// where the series converges slowly.
     fn on_face(&self, candidate: &Candidate, measure: StressMeasure) -> (Candidate, StressState) {
         let z = candidate.depth.z;
-        if z < SHALLOW * self.series_grid().spacing() {
+        if z < SHALLOW * self.spacing() {
             (*candidate, self.state_at(candidate))
         } else {
             self.local_maximum(candidate, 0.0, [z, z], measure)
@@ -295,6 +296,7 @@ impl StressField {
             xx: state.xx - mean.xx,
             yy: state.yy - mean.yy,
             zz: state.zz - mean.zz,
+            xy: state.xy - mean.xy,
             xz: state.xz - mean.xz,
             yz: state.yz - mean.yz,
             ..*state
