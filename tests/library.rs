@@ -31,6 +31,8 @@ mod life;
 mod limit_paths;
 #[path = "library/limits.rs"]
 mod limits;
+#[path = "library/lines.rs"]
+mod lines;
 #[path = "library/operator.rs"]
 mod operator;
 #[path = "library/rigid_base.rs"]

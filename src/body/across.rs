@@ -88,34 +88,84 @@ pub(super) fn compliance(strata: &Strata, wavenumber: f64) -> f64 {
 /// # Panics
 /// When there is no such material.
 pub(super) fn amplitudes(strata: &Strata, wavenumber: f64, depth: Depth) -> Antiplane {
-    let of = |shear: f64, v: f64, s: f64| Antiplane { stz: -s, sqt: -v, ut: v / (shear * wavenumber) };
     let index = depth.material - 1;
-    if index == 0 && strata.layers.first().is_none_or(|layer| wavenumber * layer.thickness > SHIELDING) {
-        let decay = (-(wavenumber * depth.z.max(0.0)).min(MAX_EXPONENT)).exp();
-        return of(strata.surface_material().shear, decay, decay);
+    if index == 0 && is_shielded(strata, wavenumber) {
+        return shielded(strata, wavenumber, depth.z.max(0.0));
     }
     if strata.layers[..index].iter().any(|layer| layer.interface == Interface::Frictionless) {
         return Antiplane::default();
     }
-    let mut faces = Vec::with_capacity(strata.layers.len() + 1);
-    let surface = surface_state(strata, wavenumber, |state| faces.push(state));
-    faces.reverse();
     let below = (depth.z - strata.layers[..index].iter().fold(0.0, |top, layer| top + layer.thickness)).max(0.0);
-    let (shear, state) = match strata.layers.get(index) {
-        Some(layer) => {
-            let thickness = (wavenumber * layer.thickness).min(MAX_EXPONENT);
-            let state = faces[index].raised(thickness - (wavenumber * below).min(thickness));
-            (layer.material.shear, state)
-        }
-        None => {
-            let state = faces[index];
-            let x = (wavenumber * below).min(MAX_EXPONENT);
-            let substrate = strata.substrate.as_ref().expect("a rigid base is no material");
-            (substrate.shear, ShearState { exponent: state.exponent - x, ..state })
-        }
+    Wave::new(strata, wavenumber).at(index, below)
+}
+
+/// Amplitudes at the upper and the lower face of each material under a shear traction across the wavevector, of the wavenumber q > 0
+/// (1/length), from one passage through the layers; zero at the infinite depth of a substrate.
+pub(super) fn at_faces(strata: &Strata, wavenumber: f64) -> Vec<[Antiplane; 2]> {
+    let (wave, mut is_reached) = (Wave::new(strata, wavenumber), true);
+    let of = |index: usize| {
+        let layer = strata.layers.get(index);
+        let faces = match layer.map(|layer| layer.thickness) {
+            _ if !is_reached => [Antiplane::default(); 2],
+            Some(h) if index == 0 && is_shielded(strata, wavenumber) => {
+                [0.0, h].map(|z| shielded(strata, wavenumber, z))
+            }
+            Some(h) => [0.0, h].map(|below| wave.at(index, below)),
+            None => [wave.at(index, 0.0), Antiplane::default()],
+        };
+        is_reached &= layer.is_none_or(|layer| layer.interface != Interface::Frictionless);
+        faces
     };
-    let scale = (state.exponent - surface.exponent).exp() / surface.s;
-    of(shear, scale * state.v, scale * state.s)
+    (0..strata.materials().count()).map(of).collect()
+}
+
+/// Whether a wave does not reach the lower face of the surface material.
+fn is_shielded(strata: &Strata, wavenumber: f64) -> bool {
+    strata.layers.first().is_none_or(|layer| wavenumber * layer.thickness > SHIELDING)
+}
+
+/// Amplitudes at a depth z in a surface material whose lower face the wave does not reach.
+fn shielded(strata: &Strata, wavenumber: f64, z: f64) -> Antiplane {
+    let decay = (-(wavenumber * z).min(MAX_EXPONENT)).exp();
+    Antiplane { stz: -decay, sqt: -decay, ut: decay / (strata.surface_material().shear * wavenumber) }
+}
+
+/// One wave in all materials that the traction reaches.
+struct Wave<'a> {
+    strata: &'a Strata,
+    wavenumber: f64,
+    /// The state at the lower face of each layer, from inside it, then at the upper face of an elastic substrate.
+    faces: Vec<ShearState>,
+    surface: ShearState,
+}
+
+impl<'a> Wave<'a> {
+    fn new(strata: &'a Strata, wavenumber: f64) -> Self {
+        let mut faces = Vec::with_capacity(strata.layers.len() + 1);
+        let surface = surface_state(strata, wavenumber, |state| faces.push(state));
+        faces.reverse();
+        Self { strata, wavenumber, faces, surface }
+    }
+
+    /// Amplitudes at a distance `below` the upper face of a material, from 0; a length.
+    fn at(&self, index: usize, below: f64) -> Antiplane {
+        let Self { strata, wavenumber, ref faces, surface } = *self;
+        let (shear, state) = match strata.layers.get(index) {
+            Some(layer) => {
+                let thickness = (wavenumber * layer.thickness).min(MAX_EXPONENT);
+                let state = faces[index].raised(thickness - (wavenumber * below).min(thickness));
+                (layer.material.shear, state)
+            }
+            None => {
+                let state = faces[index];
+                let x = (wavenumber * below).min(MAX_EXPONENT);
+                let substrate = strata.substrate.as_ref().expect("a rigid base is no material");
+                (substrate.shear, ShearState { exponent: state.exponent - x, ..state })
+            }
+        };
+        let scale = (state.exponent - surface.exponent).exp() / surface.s;
+        Antiplane { stz: -scale * state.s, sqt: -scale * state.v, ut: scale * state.v / (shear * wavenumber) }
+    }
 }
 
 #[cfg(test)]

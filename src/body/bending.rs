@@ -3,14 +3,14 @@
 //! A plate of the bending stiffness D on a half-space of the modulus E* deflects as ŵ = 1/(½E*q + Dq⁴): like the half-space alone below
 //! 1/ℓ, ℓ³ = 2D/E*, and with a steeper slope above. Around a force its deflection, its bending and what lifts it off its base have
 //! further extremes up to some 4ℓ away. For any stack the steeper slope of the compliance C shows the same: with q₀ the least wavenumber
-//! at which d ln C/d ln q falls below −1.2, which is 0.41/ℓ for that plate, the distance is 2/q₀.
+//! at which d ln C/d ln q falls below −1.5, which is 0.58/ℓ for that plate, the distance is 2.8/q₀.
 
 use super::HalfSpace;
 
 /// Slope of the compliance, both by their logarithms, below which layers bend: a half-space has −1, a plate −4.
-const STEEP: f64 = -1.2;
+const STEEP: f64 = -1.5;
 /// The distance, times the least wavenumber with that slope.
-const REACH: f64 = 2.0;
+const REACH: f64 = 2.8;
 /// Ratio of neighbouring wavenumbers at which the slope is looked for.
 const RATIO: f64 = 1.1;
 /// The least wavenumber looked at, times the thickness of all layers: those a billion times as stiff as their base bend at a larger one.
@@ -41,7 +41,7 @@ mod tests {
         HalfSpace::new(vec![layer], Material::from_young(1.0, 0.3).unwrap())
     }
 
-    /// D = E₁h³/(12(1 − ν²)) and E* = 1/(1 − ν²): ℓ = h (E₁/6)^{1/3}, and 2/q₀ = 4.8ℓ; a ratio of the wavenumbers off, and what the
+    /// D = E₁h³/(12(1 − ν²)) and E* = 1/(1 − ν²): ℓ = h (E₁/6)^{1/3}, and 2.8/q₀ = 4.8ℓ; a ratio of the wavenumbers off, and what the
     /// base resists beside its deflection.
     #[test]
     fn a_stiff_plate_reaches_some_five_bending_lengths() {

@@ -5,6 +5,7 @@
 //! The table holds the longest waves, as many as fit into 16 MiB; the amplitudes of shorter ones are computed from the
 //! layers at every call.
 
+use super::across::at_faces;
 use super::interior::SHIELDING;
 use super::minors::PlaneStrain;
 use super::strata::{Strata, Stratum};
@@ -83,14 +84,12 @@ impl InteriorTable {
         } else {
             vec![Vec::new(); tops.len()]
         };
-        let table = |(material, (normal, along)): (usize, (Vec<_>, Vec<_>))| {
-            let thickness = strata.layers.get(material).map_or(f64::INFINITY, |layer| layer.thickness);
-            let ends = [tops[material], tops[material] + thickness];
-            let waves = if slides { &wavenumbers[..counts[material]] } else { &[] };
-            let across = antiplane(&response, material, ends, waves);
+        let across = if slides { across(&response, wavenumbers, &counts) } else { vec![Vec::new(); tops.len()] };
+        let parts = normal.into_iter().zip(along).zip(across).enumerate();
+        let table = |(material, ((normal, along), across)): (usize, ((Vec<_>, Vec<_>), Vec<_>))| {
             MaterialTable::new(strata, material, tops[material], normal, along, across)
         };
-        let materials = normal.into_iter().zip(along).enumerate().map(table).collect();
+        let materials = parts.map(table).collect();
         Self { response, materials }
     }
 
@@ -181,20 +180,14 @@ fn in_plane(
     (0..counts.len()).map(|material| waves.iter().filter_map(|wave| wave[material]).collect()).collect()
 }
 
-/// α, β of v in a material, from 0, between the depths of its faces.
-fn antiplane(
-    response: &LayeredResponse,
-    material: usize,
-    [top, bottom]: [f64; 2],
-    wavenumbers: &[f64],
-) -> Vec<[f64; 2]> {
-    let of_wave = |&q: &f64| {
-        let at = |z: f64| response.antiplane(q, Depth { z, material: material + 1 });
-        let upper = at(top);
-        let lower = if bottom.is_finite() { at(bottom) } else { Antiplane::default() };
-        [-0.5 * (upper.sqt + upper.stz), -0.5 * (lower.sqt - lower.stz)]
-    };
-    wavenumbers.par_iter().map(of_wave).collect()
+/// α, β of v in each material, of as many of the `wavenumbers` as `counts` has for it.
+fn across(response: &LayeredResponse, wavenumbers: &[f64], counts: &[usize]) -> Vec<Vec<[f64; 2]>> {
+    let most = counts.iter().copied().max().unwrap_or(0);
+    let faces: Vec<Vec<[Antiplane; 2]>> =
+        wavenumbers[..most].par_iter().map(|&q| at_faces(response.strata(), q)).collect();
+    let of = |[upper, lower]: [Antiplane; 2]| [-0.5 * (upper.sqt + upper.stz), -0.5 * (lower.sqt - lower.stz)];
+    let table = |(material, &count): (usize, &usize)| faces[..count].iter().map(|wave| of(wave[material])).collect();
+    counts.iter().enumerate().map(table).collect()
 }
 
 impl MaterialTable {

@@ -23,7 +23,7 @@ const SIZE_OR_ZERO: Form = Form::Number(Range::SizeOrZero);
 const COORDINATE: Form = Form::Number(Range::Coordinate);
 const LEVEL: Form = Form::Text("a level such as \"level 1\"");
 
-words! { MeanStress { Confined = "confined", HalfSpace = "half-space", } }
+words! { MeanStress { Confined = "confined", HalfSpace = "half-space", Line = "line", } }
 
 section! {
     /// The section `[stress]`.
@@ -33,7 +33,8 @@ section! {
             Key::new(&[Form::List { of: &SIZE_OR_ZERO, count: [0, 1000] }], "[0.0, 0.25, 0.5]")
                 .unit(Unit::Length)
                 .default("[]"),
-        /// the mean lateral stress: that of no mean lateral strain, or under the centre of a wide loaded disc
+        /// the mean lateral stress: that of no mean lateral strain, under the centre of a wide loaded disc, or under lines far apart, of a
+        /// surface that is constant along one side of the cell
         pub mean: MeanStress = Key::new(&[Form::Word(MeanStress::WORDS)], "\"half-space\"").default("\"confined\""),
         /// a vertical cut from one level or place toward another, or along a direction
         pub section: Option<CutSection> = Key::new(
@@ -108,6 +109,19 @@ pub enum Toward {
     Direction([f64; 2]),
 }
 
+/// The refusal of the mean lateral stress of lines under a counterbody that is none.
+fn no_line(section: &TableAt<'_>) -> Result<Refusal, Refusal> {
+    let value = section.value("mean")?;
+    let message = format!(
+        "`{}` = \"line\", and what loads the body is not constant along one side of the cell alone",
+        value.path
+    );
+    Ok(Refusal::new(value.node.span, message, "no lines").help(
+        "\"line\" is for heights of a [surface], or a field of load.pressure, that change along one side of a periodic cell and are constant \
+         along the other; otherwise \"confined\" or \"half-space\"",
+    ))
+}
+
 impl StressSection {
     /// Reads the section of a case with this `counterbody`, which slides along a direction; `base`: depth of the rigid base, infinite
     /// without one.
@@ -129,6 +143,9 @@ impl StressSection {
         }
         let own = Self { section: own.section.map(|cut| cut.completed(sliding)), ..own };
         own.within(counterbody, section)?;
+        if own.mean == MeanStress::Line && counterbody.line().is_none() {
+            return Err(no_line(section)?);
+        }
         Ok(own)
     }
 

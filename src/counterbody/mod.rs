@@ -3,6 +3,7 @@
 mod error;
 mod indenter;
 mod indenters;
+mod loaded_disc;
 mod pressure;
 pub mod roughness;
 mod surface;
@@ -11,11 +12,13 @@ mod topography;
 pub use error::CounterbodyError;
 pub use indenter::{IndenterError, Level, Shape};
 pub use indenters::{Indenters, Site};
-pub use pressure::{GivenPressure, LoadedDisc};
+pub use loaded_disc::LoadedDisc;
+pub use pressure::GivenPressure;
 pub use surface::Surface;
 pub use topography::Topography;
 
 use crate::lattice::Cell;
+use ndarray::{ArrayView1, ArrayView2, Axis};
 use std::fmt;
 
 /// The counterbody, independent of any grid, or a pressure in its place.
@@ -64,10 +67,36 @@ impl Counterbody {
         }
     }
 
+    /// The axis, 0 along a₁ or 1 along a₂, along which a topography or a given field of pressures is constant, but for rounding, while it
+    /// changes along the other: contact is that of lines along it. `None` for any other counterbody, and in a window, where lines end.
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            _ if self.cell().is_isolated() => None,
+            Self::Topography(topography) => constant_axis(topography.heights()),
+            Self::Pressure(pressure) => constant_axis(pressure.values()?),
+            Self::Indenters(_) => None,
+        }
+    }
+
     /// The levels of the indenters; none for a topography and a given pressure.
     pub fn levels(&self) -> &[Level] {
         self.indenters().map_or(&[], Indenters::levels)
     }
+}
+
+/// Part of the range of values within which they count as equal.
+const EQUAL: f64 = 1e-9;
+
+/// The axis along which values are constant while they change along the other; `None` where there is no such axis.
+pub(crate) fn constant_axis(values: ArrayView2<'_, f64>) -> Option<usize> {
+    let range = |values: ArrayView1<'_, f64>| {
+        let [low, high] =
+            values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)]);
+        high - low
+    };
+    // Ranges within the lines along an axis.
+    let along = [0, 1].map(|axis| values.lanes(Axis(axis)).into_iter().map(range).fold(0.0, f64::max));
+    (0..2).find(|&axis| along[axis] <= EQUAL * along[1 - axis] && along[1 - axis] > 0.0)
 }
 
 impl From<Indenters> for Counterbody {

@@ -5,7 +5,8 @@
 //! grid. What is left is second order in the spacing d: a wave of the wavenumber q is damped by 1 − (qd)²/24 along each step, which
 //! leaves an error of the order (d/z)²/24 at a depth z.
 
-use super::CounterbodyError;
+use super::loaded_disc::Arrangement;
+use super::{CounterbodyError, LoadedDisc};
 use crate::lattice::{Cell, Grid};
 use ndarray::{Array2, ArrayView2};
 use std::f64::consts::PI;
@@ -14,20 +15,6 @@ use std::sync::Arc;
 
 /// Part of a window from its middle within which discs stay: beyond, the outermost samples of a coarse grid would miss a part of them.
 const ROOM: f64 = 0.875;
-
-/// Covered part of a cell that is rounding alone.
-const ROUNDING: f64 = 1e-13;
-
-/// A disc under a uniform pressure.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LoadedDisc {
-    /// Centre x, y; lengths.
-    pub centre: [f64; 2],
-    /// Radius > 0, a length.
-    pub radius: f64,
-    /// Pressure ≥ 0.
-    pub pressure: f64,
-}
 
 /// A given pressure on one cell, or on the window of an isolated one.
 #[derive(Debug, Clone, PartialEq)]
@@ -114,10 +101,10 @@ impl GivenPressure {
         }
     }
 
-    /// The largest pressure; where discs overlap that of each.
+    /// The largest pressure; where discs overlap, of all of them together.
     pub fn highest(&self) -> f64 {
         match &self.distribution {
-            Distribution::Discs(discs) => discs.iter().map(|own| own.pressure).fold(0.0, f64::max),
+            Distribution::Discs(discs) => Arrangement::new(self.cell, discs).highest(),
             Distribution::Field(values) => values.iter().copied().fold(0.0, f64::max),
         }
     }
@@ -126,33 +113,14 @@ impl GivenPressure {
     pub fn loaded_area(&self) -> Option<f64> {
         match &self.distribution {
             Distribution::Discs(discs) => {
-                let loaded: Vec<&LoadedDisc> = discs.iter().filter(|own| own.pressure > 0.0).collect();
-                let area = loaded.iter().map(|own| PI * own.radius * own.radius).sum();
-                (!self.overlap(&loaded)).then_some(area)
+                let arrangement = Arrangement::new(self.cell, discs);
+                let area = arrangement.discs().map(|own| PI * own.radius * own.radius).sum();
+                (!arrangement.overlaps()).then_some(area)
             }
             Distribution::Field(values) => {
                 Some(values.iter().filter(|p| **p > 0.0).count() as f64 / values.len() as f64 * self.cell.area())
             }
         }
-    }
-
-    /// Whether discs overlap, their periodic images included.
-    fn overlap(&self, discs: &[&LoadedDisc]) -> bool {
-        let (cell, reduced) = (self.cell, self.cell.reduced());
-        let [s1, s2] = reduced.short();
-        let image = if cell.is_isolated() { f64::INFINITY } else { s1.hypot(s2) };
-        let distance = |one: &LoadedDisc, other: &LoadedDisc| {
-            let away = [0, 1].map(|k| one.centre[k] - other.centre[k]);
-            if cell.is_isolated() {
-                return away[0].hypot(away[1]);
-            }
-            let [x, y] = reduced.nearest(cell.parts(away));
-            x.hypot(y)
-        };
-        discs.iter().enumerate().any(|(number, one)| {
-            2.0 * one.radius > image
-                || discs[..number].iter().any(|other| distance(one, other) < one.radius + other.radius)
-        })
     }
 
     /// The pressure on a grid of the cell, one value per sample, axes along a₁ and a₂; its force is [`Self::force`].
@@ -166,65 +134,6 @@ impl GivenPressure {
             Distribution::Field(values) => averaged(values, grid.points()),
         }
     }
-}
-
-impl LoadedDisc {
-    /// Adds its pressure to the samples of a grid, its periodic images included.
-    fn add(&self, grid: &Grid, pressure: &mut Array2<f64>) {
-        let (cell, points, steps) = (grid.cell(), grid.points(), grid.steps());
-        let area = grid.sample_area();
-        // In steps along both axes: the disc is an ellipse between two parallels a distance r/|sin| apart.
-        let middle = cell.fractions(self.centre);
-        let reach = [0, 1].map(|axis| {
-            let [x, y] = steps[1 - axis];
-            self.radius * x.hypot(y) / area + 0.5
-        });
-        let span = |axis: usize| {
-            let at = middle[axis] * points[axis] as f64;
-            (at - reach[axis]).ceil() as i64..=(at + reach[axis]).floor() as i64
-        };
-        let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
-        for i in span(0) {
-            for j in span(1) {
-                let place = cell.point([i as f64 / points[0] as f64, j as f64 / points[1] as f64]);
-                let corner =
-                    |[s, t]: [f64; 2]| [0, 1].map(|k| place[k] + s * steps[0][k] + t * steps[1][k] - self.centre[k]);
-                let covered = disc_over_polygon(self.radius, &corners.map(corner)) / area;
-                // Outside of the disc rounding is left.
-                if covered < ROUNDING {
-                    continue;
-                }
-                let at = [(i, 0), (j, 1)].map(|(index, axis)| index.rem_euclid(points[axis] as i64) as usize);
-                pressure[at] += self.pressure * covered;
-            }
-        }
-    }
-}
-
-/// Area of the disc of a radius around the origin that lies in a polygon, corner by corner.
-fn disc_over_polygon(radius: f64, corners: &[[f64; 2]]) -> f64 {
-    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
-    edges.map(|(&from, &to)| disc_over_triangle(radius, from, to)).sum::<f64>().abs()
-}
-
-/// Area, positive counterclockwise, of the disc that lies in the triangle of the origin and two points.
-fn disc_over_triangle(radius: f64, from: [f64; 2], to: [f64; 2]) -> f64 {
-    let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
-    let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
-    let sector = |a: [f64; 2], b: [f64; 2]| 0.5 * radius * radius * cross(a, b).atan2(dot(a, b));
-    let along = [to[0] - from[0], to[1] - from[1]];
-    let (a, b, c) = (dot(along, along), dot(from, along), dot(from, from) - radius * radius);
-    let root = b * b - a * c;
-    if root <= 0.0 {
-        return sector(from, to);
-    }
-    // Where the edge enters the disc and leaves it.
-    let [enters, leaves] = [-1.0, 1.0].map(|sign| ((-b + sign * root.sqrt()) / a).clamp(0.0, 1.0));
-    if enters >= leaves {
-        return sector(from, to);
-    }
-    let [inner, outer] = [enters, leaves].map(|t| [from[0] + t * along[0], from[1] + t * along[1]]);
-    sector(from, inner) + 0.5 * cross(inner, outer) + sector(outer, to)
 }
 
 /// A field of means over the cells of its samples, over the cells of `points` samples; the sum over the area is kept.

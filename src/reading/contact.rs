@@ -164,7 +164,11 @@ impl Reading {
         let (fraction, _) = fractions.best(|own, _| own.uncertainty);
         let typical = counts.half_load().map_or(0, |index| counts.sizes[index].0);
         let spot_resolution = (typical as f64 / PI).sqrt();
-        let highest_peak = highest.map_or(0.0, |index| peak::interpolated(contact, index));
+        // A pressure that is given has no peak between the samples.
+        let highest_peak = match given {
+            Some(given) => given.highest() * (mean_pressure * cell.area() / given.force()),
+            None => highest.map_or(0.0, |index| peak::interpolated(contact, index)),
+        };
         // Between the samples the highest of them need not be the highest peak.
         let resolved = levels.iter().map(LevelReading::grid_peak).fold(highest_peak, f64::max);
         let (max_pressure, resolved_peak) = LevelReading::peak_of(resolved, levels.iter().any(LevelReading::singular));

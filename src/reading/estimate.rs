@@ -149,7 +149,7 @@ struct Grids<'a> {
     coarser: &'a [Reading],
     /// The prescribed load.
     load: Load,
-    /// Whether the pressure is given: its peak has no law.
+    /// Whether the pressure is given, and its largest value with it.
     is_given: bool,
     /// Hardness of the softer surface; infinite without one.
     hardness: f64,
@@ -181,8 +181,7 @@ impl Grids<'_> {
         let energy = self.error(safety, fine.elastic_energy * stored, &|reading| Some(reading.elastic_energy));
         let loaded = fine.levels.iter().zip(exponents).filter(|(level, _)| level.load > 0.0);
         let sharpest = loaded.map(|(_, &exponent)| exponent).fold(2.0, f64::min);
-        let law = if self.is_given { 0.0 } else { peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest) };
-        let peak = fine.grid_peak() * law;
+        let peak = fine.grid_peak() * peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest);
         // The highest of all may be that of any level that reaches as high within its own error.
         let peaks = fine.levels.iter().zip(of_levels);
         let peaks = peaks.filter_map(|(own, errors)| Some(own.finite_peak()? + errors.max_pressure?));
@@ -194,16 +193,16 @@ impl Grids<'_> {
             contact_area: None,
             contact_fraction: None,
             elastic_energy: energy,
-            max_pressure: self.unless_full(fine.max_pressure, || {
+            max_pressure: self.unless_known(fine.max_pressure, || {
                 let own = self.error(safety::PEAK, peak, &|reading| reading.finite_peak());
                 own.map(|error| error.max(beyond))
             }),
         }
     }
 
-    /// An error of a largest pressure; none where that is the hardness, which no pressure exceeds.
-    fn unless_full(&self, pressure: f64, error: impl FnOnce() -> Option<f64>) -> Option<f64> {
-        if self.hardness.is_finite() && pressure >= self.hardness { Some(0.0) } else { error() }
+    /// An error of a largest pressure; none where that is given, or the hardness, which no pressure exceeds.
+    fn unless_known(&self, pressure: f64, error: impl FnOnce() -> Option<f64>) -> Option<f64> {
+        if self.is_given || pressure >= self.hardness { Some(0.0) } else { error() }
     }
 
     /// Samples along the radius of the largest and of the smallest contact, at least one: the penetration is as certain as the
@@ -240,7 +239,7 @@ impl Grids<'_> {
         LevelErrors {
             load: of(safety::LOAD, load, |level| Some(level.load)),
             load_share: of(safety::SHARE, share, |level| Some(level.load_share)),
-            max_pressure: self.unless_full(own.max_pressure, || of(safety::PEAK, peak, LevelReading::finite_peak)),
+            max_pressure: self.unless_known(own.max_pressure, || of(safety::PEAK, peak, LevelReading::finite_peak)),
             contact_area: of(safety::AREA, own.uncertainty.area, |level| Some(level.contact_area)),
             contact_radius: radius(own.uncertainty.radius, |level| level.contact_radius),
             radius_inner: radius(own.uncertainty.hole, |level| level.radius_inner),

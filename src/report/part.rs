@@ -71,10 +71,14 @@ pub(super) fn by(version: &str) -> Markup {
 
 /// What a case assumes, with the default mean lateral stress where it gives none.
 fn assumptions(case: &Value) -> Assumptions {
-    let mean = if case["stress"]["mean"] == "half-space" { MeanStress::HalfSpace } else { MeanStress::default() };
+    let mean = match case["stress"]["mean"].as_str() {
+        Some("half-space") => MeanStress::HalfSpace,
+        Some("line") => MeanStress::Line,
+        _ => MeanStress::default(),
+    };
     let isolated = case["lattice"]["kind"] == "isolated";
     let rigid = !is_elastic(case) && case["load"]["pressure"].is_null();
-    Assumptions { mean, isolated, rigid, untested: untested(case) }
+    Assumptions { mean, line: None, isolated, rigid, untested: untested(case) }
 }
 
 /// Names of the materials without a strength, as the case names them.

@@ -28,9 +28,10 @@ pub struct Checkpoint {
 pub struct OtherGrids;
 
 impl Checkpoint {
-    /// Whether the checkpoint is that of a solver by `method` whose finest grid has `points`.
-    pub fn fits(&self, points: [usize; 2], method: Method) -> bool {
-        self.is_of(nested_points(points, method).into_iter().map(|[n1, n2]| n1 * n2))
+    /// Whether the checkpoint is that of a solver by `method` whose finest grid has `points`, of a counterbody that is constant along the
+    /// axis `line`, see [`Counterbody::line`](crate::Counterbody::line).
+    pub fn fits(&self, points: [usize; 2], method: Method, line: Option<usize>) -> bool {
+        self.is_of(nested_points(points, method, line).into_iter().map(|[n1, n2]| n1 * n2))
     }
 
     /// Whether the checkpoint is that of a solver whose grids have `samples`, the finest first.

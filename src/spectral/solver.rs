@@ -48,8 +48,8 @@ impl Solver {
     pub fn new(problem: impl Into<Arc<Problem>>, points: [usize; 2], settings: Settings) -> Result<Self, LatticeError> {
         let problem = problem.into();
         let mut levels: Vec<GridLevel> = Vec::new();
-        for points in nested_points(points, settings.method) {
-            let counterbody = problem.counterbody();
+        let counterbody = problem.counterbody();
+        for points in nested_points(points, settings.method, counterbody.line()) {
             let surface = match levels.last() {
                 None => Surface::new(counterbody, points)?,
                 Some(finer) => finer.surface().coarser(counterbody, points)?,
@@ -290,7 +290,9 @@ impl Memory {
             Method::PolonskyKeer => 2 * 8 + spectrum,
         };
         let of_grid = |[n1, n2]: [usize; 2]| n1 * n2 * grid + (n1 + n2) * rows;
-        let kept = nested_points(points, method).into_iter().map(of_grid).sum();
+        // A surface may be constant along either axis.
+        let grids = [None, Some(0), Some(1)].map(|line| nested_points(points, method, line));
+        let kept = grids.map(|grids| grids.into_iter().map(of_grid).sum()).into_iter().max().unwrap_or(0);
         let setup = if isolated { FreeSpaceOperator::bytes_while_made(cell, points) } else { 0 };
         Self { kept, working: setup.max(points[0] * points[1] * working) }
     }
@@ -303,11 +305,17 @@ impl fmt::Display for Solver {
     }
 }
 
-/// Points of the nested grids, the finest first. The baseline has one grid.
-pub(super) fn nested_points(finest: [usize; 2], method: Method) -> Vec<[usize; 2]> {
+/// Points of the nested grids, the finest first. The baseline has one grid. Along the axis `line`, on which nothing depends, few points are
+/// kept: nothing is lost on them.
+pub(super) fn nested_points(finest: [usize; 2], method: Method, line: Option<usize>) -> Vec<[usize; 2]> {
     let coarser = |points: &[usize; 2]| {
-        let halved = points.map(|n| fast_points(n.div_ceil(2)));
-        (method == Method::Preconditioned && halved.iter().all(|&n| n >= MIN_POINTS)).then_some(halved)
+        let halved = |axis: usize| {
+            let n = fast_points(points[axis].div_ceil(2));
+            if line == Some(axis) && n < MIN_POINTS { points[axis] } else { n }
+        };
+        let halved = [0, 1].map(halved);
+        let is_held = |axis: usize| line == Some(axis) || halved[axis] >= MIN_POINTS;
+        (method == Method::Preconditioned && [0, 1].into_iter().all(is_held)).then_some(halved)
     };
     std::iter::successors(Some(finest), coarser).collect()
 }

@@ -48,6 +48,10 @@ pub(super) const DEEP_OPENING_ERROR: f64 = 0.01;
 /// Least error of a tension below, times n², over the size of the stress.
 pub(super) const DEEP_TENSION_ERROR: f64 = 0.1;
 
+/// Least error of a stress below under discs, whose waves are known, over the size of the stress: what the polynomials of the free field
+/// leave of it.
+pub(super) const EXACT_ERROR: f64 = 1e-5;
+
 /// Largest part of a maximum that the samples of a plane may miss: planes whose largest sample lies lower are no starts of a climb.
 pub(super) const MISSED_BY_SAMPLES: f64 = 0.05;
 /// Rise of a maximum between three planes above the middle one, over the larger drop beside it: a parabola rises by an eighth

@@ -7,7 +7,9 @@
 //! and a value with vᵢ + eᵢ > v − e₀ at another place is a rival. So value plus error of a part, a face of a material, never
 //! exceeds value plus error of the whole.
 
-use super::constants::{CHANGE_SAFETY, DEEP_OPENING_ERROR, DEEP_SHEAR_ERROR, DEEP_TENSION_ERROR, SHALLOW_ERROR};
+use super::constants::{
+    CHANGE_SAFETY, DEEP_OPENING_ERROR, DEEP_SHEAR_ERROR, DEEP_TENSION_ERROR, EXACT_ERROR, SHALLOW_ERROR,
+};
 use super::crest::Crest;
 use super::field::StressField;
 use super::measure::StressMeasure;
@@ -58,6 +60,8 @@ pub(super) struct NearSurface {
     pub depth: f64,
     /// How far stresses may ring there, a pressure.
     pub ringing: f64,
+    /// Whether the waves of the pressure are known, so that below it the samples leave nothing open.
+    pub is_exact_below: bool,
 }
 
 impl Contender {
@@ -81,7 +85,11 @@ impl Contender {
             _ => DEEP_SHEAR_ERROR,
         };
         let is_near = position[2] < surface.depth;
-        let open = if is_near { SHALLOW_ERROR / resolution } else { deep / resolution.powi(2) };
+        let open = match is_near {
+            true => SHALLOW_ERROR / resolution,
+            false if surface.is_exact_below => EXACT_ERROR,
+            false => deep / resolution.powi(2),
+        };
         let ringing = if is_near { surface.ringing } else { 0.0 };
         CHANGE_SAFETY * (value - coarse).abs() + measure.rise(&self.state, open * self.size + ringing)
     }

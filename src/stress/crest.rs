@@ -91,10 +91,11 @@ struct SurfaceReading {
 }
 
 impl StressField {
-    /// The largest values of some measures on the surface; none where contact has no edge: it is complete, or absent.
+    /// The largest values of some measures on the surface; none where contact has no edge: it is complete, or absent. Under discs see
+    /// [`Self::crests_of_discs`].
     pub(super) fn crests_of(&self, measures: &[StressMeasure]) -> Vec<(StressMeasure, Crest)> {
         if !self.regions().have_edges() {
-            return Vec::new();
+            return self.crests_of_discs(measures);
         }
         let surface = self.read_surface(measures);
         // Points where a measure may be largest, as indices into `places`: most measures share theirs.

@@ -18,6 +18,8 @@ pub(super) struct DepthResponse {
     /// Wavelengths of the shells over 2π.
     pub lengths: Vec<f64>,
     pub mean: StressState,
+    /// Whether the exact waves of discs are summed, see [`Response::is_deep`].
+    pub is_deep: bool,
     /// What a free field has beside the periodic one.
     pub far: Option<FarPlane<9>>,
 }
@@ -61,13 +63,14 @@ impl DepthResponse {
             tangential,
             lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(),
             mean,
+            is_deep: false,
             far: None,
         }
     }
 
-    /// The response with what a free field has beside the periodic one.
-    pub fn with_far(self, far: Option<FarPlane<9>>) -> Self {
-        Self { far, ..self }
+    /// The response of the series of a field, deep or near the surface, with what a free field has beside the periodic one.
+    pub fn in_field(self, is_deep: bool, far: Option<FarPlane<9>>) -> Self {
+        Self { is_deep, far, ..self }
     }
 
     /// Largest difference of the amplitudes of a shell at the surface from those of a bare half-space with this ν, over the
@@ -142,6 +145,10 @@ impl Response<9> for DepthResponse {
         self.mean.components()
     }
 
+    fn is_deep(&self) -> bool {
+        self.is_deep
+    }
+
     fn far(&self) -> Option<FarPlane<9>> {
         self.far.clone()
     }
@@ -160,6 +167,10 @@ impl Response<6> for StressComponents<'_> {
     fn mean(&self) -> [f64; 6] {
         let [stresses @ .., _, _, _] = self.0.mean();
         stresses
+    }
+
+    fn is_deep(&self) -> bool {
+        self.0.is_deep
     }
 
     fn far(&self) -> Option<FarPlane<6>> {
@@ -181,6 +192,10 @@ impl Response<3> for DisplacementComponents<'_> {
     fn mean(&self) -> [f64; 3] {
         let [.., ux, uy, uz] = self.0.mean();
         [ux, uy, uz]
+    }
+
+    fn is_deep(&self) -> bool {
+        self.0.is_deep
     }
 
     fn far(&self) -> Option<FarPlane<3>> {

@@ -17,6 +17,7 @@ use crate::lattice::waves::WaveRow;
 use crate::numeric::lanes::{LANES, splat, total, vectorised};
 use fearless_simd::{f64x8, prelude::*};
 use rayon::prelude::*;
+use rustfft::num_complex::Complex64;
 
 /// Stresses around a point, to second order.
 #[derive(Debug, Clone)]
@@ -51,6 +52,8 @@ struct DepthFunctions<'a> {
     field: &'a StressField,
     /// ν of the material.
     poisson: f64,
+    /// Coefficients of the waves.
+    coefficients: &'a [Complex64],
     /// Wavelengths over 2π.
     lengths: Vec<f64>,
     /// F and its derivatives by qz under a pressure.
@@ -78,6 +81,7 @@ impl StressField {
         let functions = DepthFunctions {
             field: self,
             poisson: self.poisson(depth.material),
+            coefficients: self.series.coefficients(self.is_deep(depth)),
             lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(),
             normal: interiors.functions(InPlane::Normal, wavenumbers, depth),
             tangential,
@@ -205,7 +209,7 @@ impl DepthFunctions<'_> {
     ) -> EightWaves<S> {
         let step = self.field.series.waves.step();
         let shells = &self.field.series.waves.shells()[row.start..row.start + row.len];
-        let coefficients = &self.field.series.coefficients[row.start..row.start + row.len];
+        let coefficients = &self.coefficients[row.start..row.start + row.len];
         // Lanes beyond the row's end have no coefficient.
         let mut own = [[0.0; LANES]; 7];
         let (mut f, mut g, mut v) = ([[0.0; LANES]; 4], [[0.0; LANES]; 4], [[0.0; LANES]; 2]);

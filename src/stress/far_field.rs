@@ -19,6 +19,7 @@ use super::far_tables::{COMPONENTS, FarTables, Interval, Part};
 use super::series::Response;
 use super::window_waves::window_waves;
 use crate::body::Depth;
+use crate::counterbody::LoadedDisc;
 use crate::lattice::waves::WaveRow;
 use crate::lattice::{Cell, Grid};
 use crate::numeric::chebyshev::{analysis, inside, polynomials};
@@ -45,11 +46,11 @@ pub(super) struct FarField {
 impl FarField {
     /// The difference in the window of the tables under a `pressure` on a grid in it, one value per sample, a₂ fastest.
     ///
-    /// `series` is the cell of the periodic field, of twice the window.
-    pub fn new(tables: Arc<FarTables>, grid: &Grid, pressure: &[f64], series: Cell) -> Self {
+    /// `discs` are those that the samples stand for, none of another pressure. `series` is the cell of the periodic field, of twice the window.
+    pub fn new(tables: Arc<FarTables>, grid: &Grid, pressure: &[f64], discs: &[LoadedDisc], series: Cell) -> Self {
         let corner = [0, 1].map(|axis| 2.0 * series.corner()[axis] / tables.window.vectors()[axis][axis]);
         let coefficients: Vec<Vec<Complex64>> =
-            tables.parts.par_iter().map(|part| part.coefficients(grid, pressure)).collect();
+            tables.parts.par_iter().map(|part| part.coefficients(grid, pressure, discs)).collect();
         let segments = tables.segments.iter().map(|(interval, _)| (*interval, OnceLock::new())).collect();
         Self { tables, corner, coefficients, segments }
     }
@@ -89,8 +90,9 @@ impl FarField {
     /// Coefficients of the polynomials of an interval, by those in depth. By one thread: others may wait for it.
     fn in_segment(&self, number: usize) -> &[Nodes] {
         let tables = &self.tables;
-        self.segments[number].1.get_or_init(|| {
-            let (interval, responses) = &tables.segments[number];
+        let responses = tables.responses(number);
+        let (interval, known) = &self.segments[number];
+        known.get_or_init(|| {
             let mut sums = vec![tables.none(); interval.nodes];
             for ((part, coefficients), responses) in tables.parts.iter().zip(&self.coefficients).zip(responses) {
                 let planes: Vec<Nodes> = responses.iter().map(|own| part.plane(coefficients, own)).collect();
@@ -112,9 +114,10 @@ impl FarField {
 }
 
 impl Part {
-    /// Coefficients c of the waves of a pressure, with their weights: p = Re Σ c e^{2πi(κ₁s + κ₂t)} by the fractions s, t of the cell.
-    fn coefficients(&self, grid: &Grid, pressure: &[f64]) -> Vec<Complex64> {
-        let mut all = window_waves(&self.waves, self.cell, grid, pressure);
+    /// Coefficients c of the waves of discs, or else of a pressure, with their weights: p = Re Σ c e^{2πi(κ₁s + κ₂t)} by the fractions s, t of
+    /// the cell.
+    fn coefficients(&self, grid: &Grid, pressure: &[f64], discs: &[LoadedDisc]) -> Vec<Complex64> {
+        let mut all = window_waves(&self.waves, self.cell, grid, pressure, discs);
         for (c, &shell) in all.iter_mut().zip(self.waves.shells()) {
             *c *= self.weights[shell as usize];
         }
@@ -237,7 +240,7 @@ mod tests {
         let tables = FarTables::new(window, &half_space, Some([0.3, 0.1])).unwrap();
         let mut counts = Vec::new();
         for (number, part) in tables.parts.iter().enumerate().skip(5) {
-            let coefficients = part.coefficients(&grid, &pressure);
+            let coefficients = part.coefficients(&grid, &pressure, &[]);
             let response = tables.response(part, Depth { z: 0.3, material: 2 });
             let mut sums = tables.none();
             tables.add(part, &part.plane(&coefficients, &response), &mut sums);
@@ -287,7 +290,7 @@ mod tests {
         let grid = Grid::new(window, [8, 8]).unwrap();
         let pressure: Vec<f64> = (0..64).map(|k| f64::from(k * k % 7)).collect();
         let tables = Arc::new(FarTables::new(window, half_space, Some([0.3, 0.1])).unwrap());
-        let field = FarField::new(tables, &grid, &pressure, Cell::window([2.0, 2.0 * side]).unwrap());
+        let field = FarField::new(tables, &grid, &pressure, &[], Cell::window([2.0, 2.0 * side]).unwrap());
         let depths = [0.0, 0.013, 0.05, 0.21, 0.55, 0.9, 3.1].map(|z| half_space.depths(z));
         for depth in depths.into_iter().flatten() {
             let exact = FarPlane { coefficients: field.below(depth), ..field.plane(depth) };

@@ -7,7 +7,7 @@ use super::depth_response::DepthResponse;
 use super::tensor::StressState;
 #[cfg(any(feature = "cli", test))]
 use crate::body::{Amplitudes, Antiplane};
-use crate::body::{Depth, HalfSpace, InteriorTable};
+use crate::body::{Depth, HalfSpace, InteriorTable, REACH};
 use crate::lattice::waves::Waves;
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::numeric::chebyshev::{nodes, place};
@@ -15,7 +15,7 @@ use crate::numeric::chebyshev::{nodes, place};
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// β: ½ erfc β = 2e-7 is left at both ends of a cut.
 const STEEPNESS: f64 = 3.6;
@@ -29,8 +29,9 @@ const ACROSS: usize = 10;
 const MORE_ACROSS: f64 = 8.0;
 /// Largest number of nodes of the polynomials in depth.
 const DOWN: usize = 8;
-/// Depth over the longer side of the window down to which the field is tabulated.
-const DEEPEST: f64 = 4.0;
+/// Depth below the upper face of an elastic substrate, over the longer side of the window or the depth of that face, whichever gives
+/// more, down to which the field is tabulated.
+const DEEPEST: [f64; 2] = [4.0, 3.0];
 /// What the polynomials over an interval of depth leave of the difference, by the distance of the images.
 const LEFT_IN_DEPTH: f64 = 1e-7;
 /// What polynomials over the window or over an interval of depth leave of a wave, where fewer of them suffice than the images need.
@@ -91,6 +92,9 @@ impl NodePhases {
     }
 }
 
+/// Of each part the responses at the nodes in depth that its waves need.
+pub(super) type Responses = Vec<Vec<DepthResponse>>;
+
 /// What does not depend on the pressure: the waves of all cells, and their amplitudes at the nodes in depth.
 #[derive(Debug)]
 pub(crate) struct FarTables {
@@ -100,8 +104,8 @@ pub(crate) struct FarTables {
     /// Numbers of nodes along x and y.
     pub(super) counts: [usize; 2],
     pub(super) parts: Vec<Part>,
-    /// Intervals of depth, and of each part the responses at the nodes in depth that its waves need.
-    pub(super) segments: Vec<(Interval, Vec<Vec<DepthResponse>>)>,
+    /// Intervals of depth with their responses.
+    pub(super) segments: Vec<(Interval, OnceLock<Responses>)>,
 }
 
 /// An interval of depth in one material, lengths.
@@ -146,16 +150,24 @@ impl FarTables {
             });
             parts.push(Part { cell: own, waves, weights, counts, phases, interiors });
         }
-        let mut own = Self { window, half_space, traction, counts, parts, segments: Vec::new() };
-        let tabulated = |interval: Interval| {
+        let intervals = intervals(&half_space, sides).into_iter();
+        let segments = intervals.map(|interval| (interval, OnceLock::new())).collect();
+        Ok(Self { window, half_space, traction, counts, parts, segments })
+    }
+
+    /// The responses in an interval of depth, by its number, computed when it is first read.
+    pub(super) fn responses(&self, number: usize) -> &Responses {
+        let (interval, known) = &self.segments[number];
+        if known.get().is_none() {
+            let sides = sides(self.window);
             let of_part = |(number, part): (usize, &Part)| {
-                let depths = nodes(interval.nodes_of(highest(shorter, number))).into_iter();
-                depths.map(|x| own.response(part, interval.depth(x))).collect()
+                let count = interval.nodes_of(highest(sides[0].min(sides[1]), number));
+                nodes(count).into_iter().map(|x| self.response(part, interval.depth(x))).collect()
             };
-            (interval, own.parts.iter().enumerate().map(of_part).collect())
-        };
-        own.segments = intervals(&own.half_space, sides).into_iter().map(tabulated).collect();
-        Ok(own)
+            // Not within the lock: threads that wait for it would be those that work on it.
+            let _ = known.set(self.parts.iter().enumerate().map(of_part).collect());
+        }
+        known.get().expect("it has been set")
     }
 
     /// Memory of the tables of a window on a half-space, and of the fields of one load, bytes at most.
@@ -192,9 +204,10 @@ impl FarTables {
         self.window == window && self.traction == traction && self.half_space.response() == half_space.response()
     }
 
-    /// The response of a part at a depth.
+    /// The response of a part at a depth, of the waves that reach it.
     pub(super) fn response(&self, part: &Part, depth: Depth) -> DepthResponse {
-        let wavenumbers = part.waves.wavenumbers();
+        let reached = part.waves.shells_up_to(REACH / depth.z.max(f64::MIN_POSITIVE));
+        let wavenumbers = &part.waves.wavenumbers()[..reached];
         DepthResponse::new(&part.interiors, depth, wavenumbers, self.traction, StressState::default())
     }
 }
@@ -249,13 +262,13 @@ fn wave_nodes(phase: f64, most: usize) -> usize {
     (1..most).find(suffices).unwrap_or(most)
 }
 
-/// Intervals of depth in each material, down to a few times the window of these sides.
+/// Intervals of depth in all layers, and in a substrate as deep as stresses are searched, for a window of these sides.
 fn intervals(half_space: &HalfSpace, sides: [f64; 2]) -> Vec<Interval> {
     let (shorter, longer) = (sides[0].min(sides[1]), sides[0].max(sides[1]));
     let mut all = Vec::new();
     for material in 1..=half_space.material_count() {
         let (mut top, bottom) = half_space.faces(material);
-        let bottom = bottom.min(DEEPEST * longer);
+        let bottom = bottom.min(top + (DEEPEST[0] * longer).max(DEEPEST[1] * top));
         while top < bottom {
             // Twice as deep from interval to interval, half the window at least.
             let least = (0.5 * shorter).max(top);
@@ -290,7 +303,7 @@ mod tests {
 
     /// Bytes of what a table holds, counted.
     fn held(tables: &FarTables) -> usize {
-        let responses = tables.segments.iter().flat_map(|(_, nodes)| nodes.iter().flatten());
+        let responses = (0..tables.segments.len()).flat_map(|number| tables.responses(number).iter().flatten());
         let amplitudes: usize = responses.map(|own| own.normal.len()).sum();
         let phases = tables.parts.iter().flat_map(|part| &part.phases).flat_map(|own| own.values.iter().flatten());
         let phases: usize = phases.map(Vec::len).sum();
@@ -317,6 +330,23 @@ mod tests {
         let half_space = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
         let of = |side: f64| FarTables::bytes(Cell::window([1.0, side]).unwrap(), &half_space, false);
         assert!(of(10.0) < of(40.0) && of(40.0) < of(1000.0));
+    }
+
+    /// However deep thin layers lie below the window: every face of each lies in an interval, of which there is hardly more than one a
+    /// layer.
+    #[test]
+    fn all_layers_are_tabulated_with_one_interval_each_or_few_more() {
+        let material = Material::from_shear(1.0, 0.3).unwrap();
+        for (count, h) in [(120, 0.8), (60, 3.0), (10, 1e-3), (3, 1.9)] {
+            let half_space = HalfSpace::new(vec![Layer::new(material, h, Interface::Bonded).unwrap(); count], material);
+            let all = intervals(&half_space, [1.0; 2]);
+            for number in 1..=count {
+                let (top, bottom) = half_space.faces(number);
+                let own: Vec<[f64; 2]> = all.iter().filter(|own| own.material == number).map(|own| own.ends).collect();
+                assert!(own[0][0] == top && own[own.len() - 1][1] == bottom, "{number}: {own:?}");
+            }
+            assert!(all.len() <= count + 14, "{count}, {h}: {}", all.len());
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The stress field under a solved contact, and its states at points.
 
+use super::constants::SHALLOW;
 use super::depth_response::DepthResponse;
 use super::far_field::FarField;
 use super::far_plane::FarPlane;
@@ -10,21 +11,29 @@ use super::surroundings::LoadedWindow;
 use super::tables::Tables;
 use super::tensor::StressState;
 use crate::body::{Bodies, Depth, HalfSpace, Interface, InteriorTable, MeanStress, Side};
+use crate::counterbody::{LoadedDisc, constant_axis};
 use crate::friction::Friction;
 use crate::lattice::{Cell, Grid, NotOnGrid};
 use crate::load::Load;
+use crate::numeric::sums;
 use crate::spectral::Contact;
 use ndarray::ArrayView2;
+use std::f64::consts::PI;
 use std::fmt;
 use std::sync::Arc;
 
 pub(super) use crate::body::REACH;
 
-/// The traction on a surface, Dundurs' β of the materials that meet there, and whether the pressure is that of a contact.
+/// What a surface bears beside its samples: traction, Dundurs' β of the materials that meet there, and whether the pressure is that of a
+/// contact.
 struct SurfaceTraction<'a> {
+    /// The discs of a given pressure; none of any other.
+    discs: &'a [LoadedDisc],
     friction: Option<&'a Friction>,
     beta: f64,
     is_contact: bool,
+    /// The axis along which nothing changes, see [`Counterbody::line`](crate::Counterbody::line).
+    line: Option<usize>,
 }
 
 /// The stress field of one body in a load step.
@@ -50,6 +59,10 @@ pub struct StressField {
     /// The mean pressure over the cell, or the force on an isolated contact.
     load: Load,
     regions: Regions,
+    /// The discs of a given pressure under the load; none of any other.
+    discs: Vec<LoadedDisc>,
+    /// Distance of neighbouring samples across lines along which nothing changes, a length; `None` where there are none.
+    across_lines: Option<f64>,
     /// μ **e** of a sliding counterbody; `None` without traction.
     traction: Option<[f64; 2]>,
     /// η of the exponents ½ ± η with which the pressure vanishes at edges.
@@ -74,8 +87,9 @@ impl StressField {
             Side::Body => bodies.dundurs_beta(),
             Side::Counterbody => -bodies.dundurs_beta(),
         };
-        let is_contact = problem.counterbody().pressure().is_none();
-        let surface = SurfaceTraction { friction: friction.as_ref(), beta, is_contact };
+        let (is_contact, line) = (problem.counterbody().pressure().is_none(), problem.counterbody().line());
+        let discs = discs_under(contact);
+        let surface = SurfaceTraction { discs: &discs, friction: friction.as_ref(), beta, is_contact, line };
         Self::of_samples(contact.grid(), contact.pressures(), bodies.on(Some(side)), &surface, mean, tables)
     }
 
@@ -93,7 +107,8 @@ impl StressField {
         grid.check(pressure.dim().into())?;
         let samples: Vec<f64> = pressure.iter().copied().collect();
         let beta = Bodies::from(half_space.clone()).dundurs_beta();
-        let surface = SurfaceTraction { friction, beta, is_contact: true };
+        let line = constant_axis(pressure);
+        let surface = SurfaceTraction { discs: &[], friction, beta, is_contact: true, line };
         Ok(Self::of_samples(grid, &samples, half_space, &surface, mean, Arc::default()))
     }
 
@@ -101,12 +116,15 @@ impl StressField {
         grid: &Arc<Grid>,
         pressure: &[f64],
         half_space: &HalfSpace,
-        &SurfaceTraction { friction, beta, is_contact }: &SurfaceTraction<'_>,
+        &SurfaceTraction { discs, friction, beta, is_contact, line }: &SurfaceTraction<'_>,
         mean: MeanStress,
         tables: Arc<Tables>,
     ) -> Self {
         let (series_grid, spread) = (tables.series_grid(grid), spread(grid, pressure));
         let mut series = Series::new(&series_grid, &spread);
+        if !discs.is_empty() {
+            series = series.of_discs(&series_grid, discs);
+        }
         let load = match grid.cell().is_isolated() {
             true => Load::Force(series.mean * series_grid.cell().area()),
             false => Load::MeanPressure(series.mean),
@@ -115,9 +133,9 @@ impl StressField {
         let far = grid.cell().is_isolated().then(|| {
             // The free field has no mean.
             series.mean = 0.0;
-            FarField::new(tables.far(grid.cell(), half_space, traction), grid, pressure, series_grid.cell())
+            FarField::new(tables.far(grid.cell(), half_space, traction), grid, pressure, discs, series_grid.cell())
         });
-        let regions = Regions::new(&series_grid, &spread);
+        let regions = Regions::new(&series_grid, &spread, line);
         Self {
             loaded: grid.cell().is_isolated().then(|| Arc::new(LoadedWindow::new(grid, pressure))),
             hole: None,
@@ -126,10 +144,15 @@ impl StressField {
             interiors: tables.interiors(&series_grid, half_space, traction.is_some()),
             far,
             tables,
-            mean: mean_states(half_space, mean, series.mean, traction.unwrap_or_default()),
+            mean: mean_states(half_space, (mean, across(grid, line)), series.mean, traction.unwrap_or_default()),
             mean_stress: mean,
             load,
-            regions: if is_contact { regions } else { regions.without_edges(&series_grid, &spread) },
+            regions: if is_contact { regions } else { regions.without_edges(&series_grid, &spread, !discs.is_empty()) },
+            discs: discs.to_vec(),
+            across_lines: line.map(|axis| {
+                let [x, y] = grid.steps()[axis];
+                grid.sample_area() / x.hypot(y)
+            }),
             series_grid,
             traction,
             edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(beta)),
@@ -154,7 +177,9 @@ impl StressField {
             far: Some(far),
             tables,
             mean: self.mean.clone(),
-            regions: Regions::new(&series_grid, &vec![0.0; series_grid.len()]),
+            regions: Regions::new(&series_grid, &vec![0.0; series_grid.len()], None),
+            discs: self.discs.clone(),
+            across_lines: None,
             grid,
             series_grid,
             series,
@@ -226,6 +251,11 @@ impl StressField {
         &self.regions
     }
 
+    /// The discs of a given pressure under the load; none of any other.
+    pub(super) fn discs(&self) -> &[LoadedDisc] {
+        &self.discs
+    }
+
     /// Poisson's ratio ν of a material, from 1.
     pub(super) fn poisson(&self, material: usize) -> f64 {
         self.half_space.material(material).poisson()
@@ -264,6 +294,21 @@ impl StressField {
         &waves.wavenumbers()[..waves.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE))]
     }
 
+    /// Distance between neighbouring samples, a length: across lines along which nothing changes, where there are any.
+    pub(super) fn spacing(&self) -> f64 {
+        self.across_lines.unwrap_or_else(|| self.series_grid.spacing())
+    }
+
+    /// Least wavenumber that the samples do not hold, 1/length: across lines along which nothing changes, where there are any.
+    pub(super) fn least_aliased(&self) -> f64 {
+        self.across_lines.map_or_else(|| self.series_grid.least_aliased(), |spacing| PI / spacing)
+    }
+
+    /// Whether a depth lies below what is near the surface, where the waves of discs are summed as they are.
+    pub(super) fn is_deep(&self, depth: Depth) -> bool {
+        depth.z >= SHALLOW * self.spacing()
+    }
+
     /// Response at a depth of the waves with qz up to `reach`.
     pub(super) fn depth_response(&self, depth: Depth, reach: f64) -> DepthResponse {
         DepthResponse::new(
@@ -273,7 +318,7 @@ impl StressField {
             self.traction,
             self.mean(depth),
         )
-        .with_far(self.far.as_ref().map(|far| far.plane(depth)))
+        .in_field(self.is_deep(depth), self.far.as_ref().map(|far| far.plane(depth)))
     }
 
     /// State under the mean pressure at a depth.
@@ -311,7 +356,7 @@ impl fmt::Display for StressField {
         write!(
             f,
             "stress field of {} plane waves in {} shells, {} materials, {}",
-            self.series.coefficients.len(),
+            self.series.coefficients(false).len(),
             self.series.waves.wavenumbers().len(),
             self.materials(),
             self.load
@@ -319,30 +364,44 @@ impl fmt::Display for StressField {
     }
 }
 
-/// State at the upper face of each material under the mean pressure p̄ and the mean `traction` μp̄ **e**, and the derivative of
-/// its displacement by depth. σ_xz = −μp̄ e_x and σ_yz = −μp̄ e_y at every depth; residual stresses are added.
+/// The discs of a given pressure under the load of a contact; none of any other pressure.
+fn discs_under(contact: &Contact) -> Vec<LoadedDisc> {
+    let Some(given) = contact.problem().counterbody().pressure() else { return Vec::new() };
+    let factor = sums::mean(contact.pressures()) * contact.grid().cell().area() / given.force();
+    given.loaded_discs().iter().map(|disc| LoadedDisc { pressure: factor * disc.pressure, ..*disc }).collect()
+}
+
+/// The unit vector across lines along an axis of a grid's cell; along x without lines.
+fn across(grid: &Grid, line: Option<usize>) -> [f64; 2] {
+    line.map_or([1.0, 0.0], |axis| {
+        let [x, y] = grid.cell().vectors()[axis];
+        let length = x.hypot(y);
+        [y / length, -x / length]
+    })
+}
+
+/// State at the upper face of each material under the mean pressure p̄ and the mean `traction` μp̄ **e**, with the mean lateral stress of a
+/// choice and the unit vector across its lines, and the derivative of its displacement by depth. σ_xz = −μp̄ e_x and σ_yz = −μp̄ e_y at every depth; residual stresses are added.
 ///
 /// Displacements are measured from the mean plane of the deformed surface, or from a rigid base; those under a lateral mean strain are
 /// left out.
 fn mean_states(
     half_space: &HalfSpace,
-    mean: MeanStress,
+    (mean, [nx, ny]): (MeanStress, [f64; 2]),
     pressure: f64,
     traction: [f64; 2],
 ) -> Vec<(StressState, [f64; 3])> {
     let shear = traction.map(|t| -pressure * t);
     let mut displacement = [0.0; 3];
     let mut states = Vec::new();
-    let materials = half_space.materials().zip(mean.lateral(half_space)).zip(half_space.residual_stresses());
+    let materials = half_space.materials().zip(mean.across_and_along(half_space)).zip(half_space.residual_stresses());
     for (index, ((material, lateral), residual)) in materials.enumerate() {
-        let lateral = pressure * lateral;
-        let closing = (-pressure - 2.0 * material.poisson() * lateral) / material.young();
+        let [across, along] = lateral.map(|own| pressure * own);
+        let closing = (-pressure - material.poisson() * (across + along)) / material.young();
         let slope = [shear[0] / material.shear(), shear[1] / material.shear(), closing];
-        let [xx, yy] = [lateral + residual; 2];
-        states.push((
-            StressState { xx, yy, zz: -pressure, xz: shear[0], yz: shear[1], displacement, ..StressState::default() },
-            slope,
-        ));
+        let (xx, yy) = (nx * nx * across + ny * ny * along + residual, ny * ny * across + nx * nx * along + residual);
+        let (xy, zz, [xz, yz]) = (nx * ny * (across - along), -pressure, shear);
+        states.push((StressState { xx, yy, zz, xy, xz, yz, displacement }, slope));
         if let Some(layer) = half_space.layers().get(index) {
             displacement.iter_mut().zip(slope).for_each(|(u, slope)| *u += slope * layer.thickness());
             if let Interface::Spring { tangential, normal } = layer.interface() {

@@ -6,7 +6,7 @@ use super::field::StressField;
 use super::measure::StressMeasure;
 use super::peak::Peak;
 use super::tensor::StressState;
-use crate::body::InterfaceId;
+use crate::body::{HalfSpace, InterfaceId};
 
 /// Contenders for the maxima, in the order of the maxima.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -23,10 +23,14 @@ impl ContenderLists {
         self.materials.iter_mut().chain(&mut self.faces).chain(interfaces).flatten()
     }
 
-    /// The contenders of each maximum.
-    fn of_each(&self) -> impl Iterator<Item = &Contenders> {
-        let interfaces = self.interfaces.iter().map(|(_, contenders)| contenders);
-        self.materials.iter().chain(&self.faces).chain(interfaces)
+    /// Adds no contenders for the maxima of a material, of its faces and of the interface below it.
+    pub fn add_none(&mut self, half_space: &HalfSpace, material: usize) {
+        let is_layer = material <= half_space.layers().len();
+        self.materials.push(Vec::new());
+        self.faces.extend(vec![Vec::new(); 1 + usize::from(is_layer)]);
+        if is_layer {
+            self.interfaces.push((half_space.interface_id(material), Vec::new()));
+        }
     }
 
     /// Adds the contenders for the same maxima elsewhere.
@@ -52,6 +56,8 @@ pub(super) struct FoundStresses {
     pub shallow_depth: f64,
     /// How far stresses on the surface may ring beside jumps of a given pressure, a pressure; zero under a contact.
     pub ringing: f64,
+    /// Whether the waves of the pressure are known, so that below the surface the samples leave nothing open.
+    pub is_exact_below: bool,
     /// What waves that are left out may add, over the stresses.
     pub left_out: f64,
     /// The states at rest of each material, which those around an isolated contact approach far away; none of a periodic system.
@@ -81,8 +87,9 @@ impl FoundStresses {
         all
     }
 
-    /// Whether the largest contender of any measure lies where a place x, y is on a border, and exceeds the measure at rest.
-    pub fn is_largest_on_border(&self, is_on_border: impl Fn([f64; 2]) -> bool) -> bool {
+    /// Of each material, with the interface below it, whether the largest contender of any measure lies where a place x, y is on a
+    /// border, and exceeds the measure at rest.
+    pub fn largest_on_border(&self, is_on_border: impl Fn([f64; 2]) -> bool) -> Vec<bool> {
         let everywhere = self.everywhere();
         let is_there = |contenders: &Contenders| {
             contenders.iter().any(|(measure, Contender { peak, .. })| {
@@ -92,7 +99,9 @@ impl FoundStresses {
                 peak.value > self.rest(*peak, *measure) && is_on_border([x, y]) && is_largest()
             })
         };
-        everywhere.of_each().any(is_there)
+        let of_interface = |number: usize| everywhere.interfaces.get(number).is_some_and(|(_, own)| is_there(own));
+        let materials = everywhere.materials.iter().enumerate();
+        materials.map(|(number, contenders)| is_there(contenders) || of_interface(number)).collect()
     }
 
     /// The largest utilisation of an interface by its contenders; `None` without a strength.
@@ -111,7 +120,8 @@ impl FoundStresses {
             }
         }
         let beside = CoarserField::new(coarser, &of_crests);
-        let surface = NearSurface { depth: self.shallow_depth, ringing: self.ringing };
+        let surface =
+            NearSurface { depth: self.shallow_depth, ringing: self.ringing, is_exact_below: self.is_exact_below };
         let (resolution, left_out) = (self.resolution, self.left_out);
         let mut known: Vec<(StressMeasure, Contender)> = Vec::new();
         for (measure, contender) in self.contenders.each() {

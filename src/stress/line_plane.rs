@@ -94,7 +94,7 @@ impl StressField {
 
     /// Depth from which on stresses vary slowly from sample to sample, a length: zero around the window of a contact.
     pub(super) fn shallow_depth(&self) -> f64 {
-        if self.has_hole() { 0.0 } else { SHALLOW * self.series_grid().spacing() }
+        if self.has_hole() { 0.0 } else { SHALLOW * self.spacing() }
     }
 
     /// Stresses on the lines of a plane under contacts of a `radius`, a length.

@@ -28,6 +28,8 @@ mod contender;
 mod crest;
 mod cubic;
 mod depth_response;
+mod disc_crest;
+mod disc_waves;
 mod eight_waves;
 mod enclosing_ball;
 mod expansion;

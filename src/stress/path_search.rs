@@ -11,7 +11,9 @@
 //! Within two samples of the surface the values are those of the samples. On the surface the states just outside the edges of contact
 //! belong to the lines nearest to them.
 
-use super::constants::{CHANGE_SAFETY, DEEP_SHEAR_ERROR, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES, SHALLOW_ERROR};
+use super::constants::{
+    CHANGE_SAFETY, DEEP_SHEAR_ERROR, EXACT_ERROR, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES, SHALLOW_ERROR,
+};
 use super::field::StressField;
 use super::line_plane::Kept;
 use super::path_measure::{LinePath, LineValue, PathMeasure};
@@ -365,7 +367,11 @@ impl StressField {
         let size = state.first().map_or(0.0, |state| self.size_of_waves(best.depth, state));
         let resolution = self.regions().least_resolution();
         let is_near = best.depth.z < self.shallow_depth();
-        let open = if is_near { SHALLOW_ERROR / resolution } else { DEEP_SHEAR_ERROR / resolution.powi(2) };
+        let open = match is_near {
+            true => SHALLOW_ERROR / resolution,
+            false if self.regions().is_exact() => EXACT_ERROR,
+            false => DEEP_SHEAR_ERROR / resolution.powi(2),
+        };
         let ringing = if is_near { self.regions().ringing() } else { 0.0 };
         let left = if is_near { 0.0 } else { LEFT_OPEN * best.value.abs() };
         Some(CHANGE_SAFETY * (best.value - coarse).abs() + measure.rise(open * size + ringing + best.beyond) + left)

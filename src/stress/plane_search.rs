@@ -63,7 +63,7 @@ impl StressField {
     /// Depths at which planes are searched, ascending, faces first and last.
     pub(super) fn search_depths(&self, material: usize, [small, large]: [f64; 2]) -> Vec<f64> {
         let (top, bottom) = self.half_space().faces(material);
-        let least = 0.1 * if small > 0.0 { small } else { self.series_grid().spacing() };
+        let least = 0.1 * if small > 0.0 { small } else { self.spacing() };
         // Stresses decrease below some six radii, or the cell, and a few coating thicknesses.
         let reach = 6.0 * large.min(self.series_grid().cell().reduced().longer_side()) + 3.0 * top;
         let most = if bottom.is_finite() { 0.5 * (bottom - top) } else { reach };

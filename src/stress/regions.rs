@@ -16,14 +16,18 @@ pub(super) struct Regions {
     /// Of a pressure that is given, by which waves of the grid may ring on the surface, a pressure; `None` of a contact, which vanishes
     /// at its edge like a power of the distance.
     ringing: Option<f64>,
+    /// Number of samples along lines on which nothing changes; `None` where there are none.
+    along_lines: Option<usize>,
+    /// Whether the waves of the pressure are known whatever the samples are, see [`super::series::Series::coefficients`].
+    is_exact: bool,
 }
 
 /// Overshoot of the waves of a grid beside a jump, over the jump (Gibbs).
 const OVERSHOOT: f64 = 0.09;
 
 impl Regions {
-    /// Spots and open regions of a `pressure`, one value per sample.
-    pub fn new(grid: &Grid, pressure: &[f64]) -> Self {
+    /// Spots and open regions of a `pressure`, one value per sample, that is constant along an axis `line`.
+    pub fn new(grid: &Grid, pressure: &[f64], line: Option<usize>) -> Self {
         let mut of = vec![0; grid.len()];
         let mut all = contact_spots(grid, pressure);
         let count = all.len() as u32;
@@ -31,12 +35,19 @@ impl Regions {
         for (number, spot) in (0..).zip(&all) {
             spot.indices(grid).for_each(|run| of[run].fill(number));
         }
-        Self { of, count, sizes: all.iter().map(|spot| spot.size()).collect(), ringing: None }
+        Self {
+            of,
+            count,
+            sizes: all.iter().map(|spot| spot.size()).collect(),
+            ringing: None,
+            along_lines: line.map(|axis| grid.points()[axis]),
+            is_exact: false,
+        }
     }
 
-    /// The regions of a pressure that is not of a contact: it may end with a jump, and has no edges.
+    /// The regions of a pressure that is not of a contact: it may end with a jump, and has no edges. `is_exact`: its waves are known.
     #[must_use]
-    pub fn without_edges(self, grid: &Grid, pressure: &[f64]) -> Self {
+    pub fn without_edges(self, grid: &Grid, pressure: &[f64], is_exact: bool) -> Self {
         let [n1, n2] = grid.points();
         // From a sample to the one after the next: one between them may have a part of the jump.
         let jump = |index: usize| {
@@ -45,7 +56,7 @@ impl Regions {
             (pressure[index] - pressure[along]).abs().max((pressure[index] - pressure[across]).abs())
         };
         let jumps = (0..pressure.len()).map(jump).fold(0.0, f64::max);
-        Self { ringing: Some(OVERSHOOT * jumps), ..self }
+        Self { ringing: Some(OVERSHOOT * jumps), is_exact, ..self }
     }
 
     /// How far stresses on the surface may ring beside jumps of a given pressure, a pressure; zero under a contact.
@@ -63,15 +74,28 @@ impl Regions {
         self.of[sample] < self.count
     }
 
-    /// Samples along the radius of a disc as large as the spot or open region of a sample.
+    /// Samples along the radius of a disc as large as the spot or open region of a sample, or along half the width of a line.
     pub fn resolution(&self, sample: usize) -> f64 {
-        (self.sizes[self.of[sample] as usize] as f64 / PI).sqrt()
+        self.samples_along(self.sizes[self.of[sample] as usize])
     }
 
-    /// Samples along the radius of a disc as large as the smallest spot; infinite without contact.
+    /// Samples along the radius of a disc of `size` samples, or along half the width of a line.
+    fn samples_along(&self, size: usize) -> f64 {
+        match self.along_lines {
+            Some(along) => 0.5 * size as f64 / along as f64,
+            None => (size as f64 / PI).sqrt(),
+        }
+    }
+
+    /// Whether the waves of the pressure are known, so that below the surface its samples leave nothing open.
+    pub fn is_exact(&self) -> bool {
+        self.is_exact
+    }
+
+    /// Samples along the radius of a disc as large as the smallest spot, or along half the width of a line; infinite without contact.
     pub fn least_resolution(&self) -> f64 {
         let least = self.sizes[..self.count as usize].iter().min();
-        least.map_or(f64::INFINITY, |&size| (size as f64 / PI).sqrt())
+        least.map_or(f64::INFINITY, |&size| self.samples_along(size))
     }
 }
 
@@ -87,12 +111,12 @@ mod tests {
         for [row, column] in [[0, 0], [5, 0], [0, 7], [5, 7], [2, 3], [2, 4], [3, 4]] {
             pressure[row * 8 + column] = 1.0;
         }
-        let regions = Regions::new(&grid, &pressure);
+        let regions = Regions::new(&grid, &pressure, None);
         assert_eq!((regions.sizes.as_slice(), regions.count, regions.of[5 * 8 + 7]), ([4, 3, 41].as_slice(), 2, 0));
         assert!(
             regions.touches(0) && !regions.touches(1) && (regions.resolution(1) - (41.0 / PI).sqrt()).abs() < 1e-15
         );
         assert!((regions.least_resolution() - (3.0 / PI).sqrt()).abs() < 1e-15 && regions.have_edges());
-        assert!(!Regions::new(&grid, &[1.0; 48]).have_edges());
+        assert!(!Regions::new(&grid, &[1.0; 48], None).have_edges());
     }
 }

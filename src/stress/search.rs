@@ -65,13 +65,24 @@ impl StressField {
         self.found_everywhere(radii, Sought::All, goes_on).map(Maxima::new)
     }
 
-    /// The contenders for what is `sought` in the cell or the window; `None` when `goes_on` returns false.
-    pub(super) fn found(&self, radii: [f64; 2], sought: Sought, goes_on: &dyn Fn() -> bool) -> Option<FoundStresses> {
+    /// The contenders for what is `sought` in the cell or the window, in those materials and on the interfaces below them that are `wanted`;
+    /// `None` when `goes_on` returns false.
+    pub(super) fn found(
+        &self,
+        radii: [f64; 2],
+        sought: Sought,
+        wanted: &[bool],
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<FoundStresses> {
         let strengths: Vec<Strength> = self.half_space().strengths().collect();
         let of_surface = sought.in_material(strengths[0]);
         let crests = if of_surface.is_empty() || self.has_hole() { Vec::new() } else { self.crests_of(&of_surface) };
         let (search, mut contenders) = (Search { radii, sought, crests: &crests, goes_on }, ContenderLists::default());
-        for (material, &strength) in (1..).zip(&strengths) {
+        for ((material, &strength), &is_wanted) in (1..).zip(&strengths).zip(wanted) {
+            if !is_wanted {
+                contenders.add_none(self.half_space(), material);
+                continue;
+            }
             self.add_contenders(material, &sought.in_material(strength), &search, &mut contenders)?;
         }
         Some(FoundStresses {
@@ -80,6 +91,7 @@ impl StressField {
             resolution: self.regions().least_resolution(),
             shallow_depth: self.shallow_depth(),
             ringing: self.regions().ringing(),
+            is_exact_below: self.regions().is_exact(),
             ..FoundStresses::default()
         })
     }
@@ -233,7 +245,7 @@ impl StressField {
     /// depth `near`.
     pub(super) fn value_beside(&self, contender: &Contender, measure: StressMeasure, near: f64) -> f64 {
         let Peak { position: [x, y, z], material, .. } = contender.peak;
-        let (depth, step) = (Depth { z, material: material.number }, self.series_grid().spacing());
+        let (depth, step) = (Depth { z, material: material.number }, self.spacing());
         if z < near {
             let states = self.stresses_at(&self.depth_response(depth, REACH), &self.samples_around([x, y]));
             return states.iter().map(|state| measure.of(state)).fold(f64::NEG_INFINITY, f64::max);
@@ -296,6 +308,7 @@ impl StressField {
             xx: state.xx - mean.xx,
             yy: state.yy - mean.yy,
             zz: state.zz - mean.zz,
+            xy: state.xy - mean.xy,
             xz: state.xz - mean.xz,
             yz: state.yz - mean.yz,
             ..*state

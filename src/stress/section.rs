@@ -103,11 +103,8 @@ impl StressField {
     /// Depth above which stresses are interpolated, a length: where the least wavenumber that the grid cannot hold has decayed as far
     /// as the smoothing damps it on the surface. Zero where contact has no edge; at most the thickness of the coating.
     fn shallow(&self) -> f64 {
-        let depth = if self.regions().have_edges() {
-            0.5 * OPEN_WIDTH * OPEN_WIDTH / self.series_grid().least_aliased()
-        } else {
-            0.0
-        };
+        let depth =
+            if self.regions().have_edges() { 0.5 * OPEN_WIDTH * OPEN_WIDTH / self.least_aliased() } else { 0.0 };
         depth.min(self.half_space().faces(1).1)
     }
 }

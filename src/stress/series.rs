@@ -4,8 +4,10 @@
 //! the same sum with c times a complex factor of **q**: a [`Response`]. It is summed over the points of a plane by transforms,
 //! and at single points term by term.
 
+use super::disc_waves::waves_of_discs;
 use super::far_plane::FarPlane;
 use super::transform::{FieldColumn, FieldColumns, Transform};
+use crate::counterbody::LoadedDisc;
 use crate::lattice::Grid;
 use crate::lattice::waves::{WaveRow, Waves};
 use crate::numeric::lanes::{LANES, vectorised};
@@ -22,6 +24,10 @@ pub(super) trait Response<const K: usize>: Sync {
     fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; K];
     /// Response to the mean pressure.
     fn mean(&self) -> [f64; K];
+    /// Whether the response lies as deep below the surface as the exact waves of discs are summed, see [`Series::coefficients`].
+    fn is_deep(&self) -> bool {
+        false
+    }
     /// What a free field has beside the periodic one of the series; `None` where the system is periodic.
     fn far(&self) -> Option<FarPlane<K>> {
         None
@@ -34,8 +40,10 @@ pub(super) struct Series {
     /// Mean pressure p̄.
     pub mean: f64,
     pub waves: Arc<Waves>,
-    /// Coefficient c of each wave, a pressure.
-    pub coefficients: Vec<Complex64>,
+    /// Coefficient c of each wave of the samples, a pressure.
+    sampled: Vec<Complex64>,
+    /// Those of the discs themselves, whatever the samples see of them; `None` of another pressure.
+    exact: Option<Vec<Complex64>>,
 }
 
 /// Least number of waves per thread.
@@ -47,7 +55,7 @@ impl Series {
         let [n1, n2] = grid.points();
         let columns = Transform::new([n1, n2]).analysed(pressure);
         let waves = Arc::clone(grid.waves());
-        let coefficients = waves.coefficients(|[k1, k2]| {
+        let sampled = waves.coefficients(|[k1, k2]| {
             let [k1, k2] = [k1.rem_euclid(n1 as i32) as usize, k2.rem_euclid(n2 as i32) as usize];
             // A wave and its conjugate share one coefficient.
             if 2 * k2 <= n2 {
@@ -56,13 +64,34 @@ impl Series {
                 2.0 * columns[(n2 - k2) * n1 + (n1 - k1) % n1].conj()
             }
         });
-        Self { mean: columns[0].re, waves, coefficients }
+        Self { mean: columns[0].re, waves, sampled, exact: None }
     }
 
-    /// Wavevector, shell and coefficient of the waves of a row.
-    pub fn of<'a>(&'a self, row: &'a WaveRow) -> impl Iterator<Item = ([f64; 2], usize, Complex64)> + 'a {
+    /// The series of waves with these coefficients, without a mean.
+    pub fn of_waves(waves: Arc<Waves>, coefficients: Vec<Complex64>) -> Self {
+        Self { mean: 0.0, waves, sampled: coefficients, exact: None }
+    }
+
+    /// The series with the waves of the `discs` that the samples of its grid stand for.
+    #[must_use]
+    pub fn of_discs(self, grid: &Grid, discs: &[LoadedDisc]) -> Self {
+        Self { exact: Some(waves_of_discs(&self.waves, grid.cell(), discs)), ..self }
+    }
+
+    /// Coefficient c of each wave, a pressure. Near the surface, where waves beyond those of the grid count, they are those of the samples: means
+    /// over their cells, which ring less. Where the response `is_deep`, they are those of the discs, if there are any.
+    pub fn coefficients(&self, is_deep: bool) -> &[Complex64] {
+        self.exact.as_ref().filter(|_| is_deep).unwrap_or(&self.sampled)
+    }
+
+    /// Wavevector, shell and coefficient of the waves of a row, see [`Self::coefficients`].
+    pub fn of<'a>(
+        &'a self,
+        row: &'a WaveRow,
+        is_deep: bool,
+    ) -> impl Iterator<Item = ([f64; 2], usize, Complex64)> + 'a {
         let range = row.start..row.start + row.len;
-        let pairs = self.waves.shells()[range.clone()].iter().zip(&self.coefficients[range]);
+        let pairs = self.waves.shells()[range.clone()].iter().zip(&self.coefficients(is_deep)[range]);
         let step = self.waves.step();
         pairs.enumerate().map(move |(k, (&shell, &coefficient))| (row.at(k, step), shell as usize, coefficient))
     }
@@ -121,7 +150,7 @@ impl Series {
             for &(_, sign, row) in of(k2..k2 + 1) {
                 let side = f64::from(sign);
                 let mut bin = (sign * row.first).rem_euclid(n1);
-                for (k, (q, shell, c)) in self.of(row).enumerate() {
+                for (k, (q, shell, c)) in self.of(row, response.is_deep()).enumerate() {
                     let mut c = 0.5 * c;
                     if is_moved {
                         let turns = f64::from(row.first + k as i32) * start[0] + f64::from(row.across) * start[1];
@@ -150,6 +179,7 @@ impl Series {
     ) -> FieldColumns<'t, K> {
         let [n2, n1] = transform.points().map(|n| n as i32);
         let (rows, mean, step) = (self.waves.rows_within(response.shells()), response.mean(), self.waves.step());
+        let coefficients = self.coefficients(response.is_deep());
         transform.columns(
             buffer,
             |_| true,
@@ -164,7 +194,7 @@ impl Series {
                     for k in (first..row.len).step_by(n1 as usize) {
                         let number = row.start + k;
                         let turns = f64::from(row.first + k as i32) * start[0] + f64::from(row.across) * start[1];
-                        let c = 0.5 * self.coefficients[number] * Complex64::cis(std::f64::consts::TAU * turns.fract());
+                        let c = 0.5 * coefficients[number] * Complex64::cis(std::f64::consts::TAU * turns.fract());
                         let waves = response.times(row.at(k, step), self.waves.shells()[number] as usize, c);
                         let side = f64::from(sign);
                         column.add(bin, waves.map(|wave| Complex64::new(wave.re, side * wave.im)));
@@ -218,7 +248,7 @@ impl Series {
         response: &R,
     ) -> [[f64; P]; K] {
         let mut sums = [[0.0; P]; K];
-        for ((q, shell, c), [along_re, along_im]) in self.of(row).zip(along) {
+        for ((q, shell, c), [along_re, along_im]) in self.of(row, response.is_deep()).zip(along) {
             let waves = response.times(q, shell, c);
             for p in 0..P {
                 let re = along_re[p] * across_re[p] - along_im[p] * across_im[p];

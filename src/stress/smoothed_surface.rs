@@ -68,13 +68,21 @@ pub(super) struct SurfaceStresses {
     surface: Arc<DepthResponse>,
     /// Factor of each shell.
     factors: Vec<f64>,
+    /// Whether the waves are those of discs, whatever the samples see of them.
+    is_of_discs: bool,
 }
 
 impl SurfaceStresses {
     /// Response of the surface, each shell multiplied by a factor of its wavenumber that decreases to zero.
     pub fn new(surface: &Arc<DepthResponse>, factor: impl Fn(f64) -> f64) -> Self {
         let factors = surface.lengths.iter().map(|length| factor(1.0 / length));
-        Self { surface: Arc::clone(surface), factors: factors.take_while(|&factor| factor > NEGLIGIBLE).collect() }
+        let factors = factors.take_while(|&factor| factor > NEGLIGIBLE).collect();
+        Self { surface: Arc::clone(surface), factors, is_of_discs: false }
+    }
+
+    /// Response of the surface to the discs themselves, not to their samples.
+    pub fn of_discs(surface: &Arc<DepthResponse>, factor: impl Fn(f64) -> f64) -> Self {
+        Self { is_of_discs: true, ..Self::new(surface, factor) }
     }
 }
 
@@ -90,8 +98,12 @@ impl Response<4> for SurfaceStresses {
     }
 
     fn mean(&self) -> [f64; 4] {
-        let StressState { xx, yy, zz, .. } = self.surface.mean;
-        [xx, yy, 0.0, -zz]
+        let StressState { xx, yy, zz, xy, .. } = self.surface.mean;
+        [xx, yy, xy, -zz]
+    }
+
+    fn is_deep(&self) -> bool {
+        self.is_of_discs
     }
 
     fn far(&self) -> Option<FarPlane<4>> {
@@ -121,7 +133,7 @@ impl Response<3> for SmoothedPressure {
 impl SmoothedSurface {
     /// Smoothed surface of a field with the response `surface`, with `scale` times the usual widths.
     pub fn new(field: &StressField, surface: &Arc<DepthResponse>, scale: f64) -> Self {
-        let most = field.series_grid().least_aliased();
+        let most = field.least_aliased();
         let (from, power) = WIDTH_GROWTH;
         let growth = (field.regions().least_resolution() / from).max(1.0).powf(power);
         let [width, open] = [EDGE_WIDTH * growth, OPEN_WIDTH].map(|c| scale * c / most);
@@ -218,6 +230,6 @@ impl SmoothedSurface {
 }
 
 /// Factor of the Gaussian smoothing that changes smooth fields in the fourth order alone; `qw` is wavenumber times width.
-fn fourth(qw: f64) -> f64 {
+pub(super) fn fourth(qw: f64) -> f64 {
     (1.0 + 0.5 * qw * qw) * (-0.5 * qw * qw).exp()
 }

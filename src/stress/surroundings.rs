@@ -154,13 +154,13 @@ impl StressField {
         let (tables, traction) = (self.tables().around(), Some(self.traction()).filter(|_| self.slides()));
         let series_grid = tables.series_grid(&grid);
         let waves = Arc::clone(series_grid.waves());
-        let mut coefficients = window_waves(&waves, series_grid.cell(), &loaded.grid, &loaded.pressure);
+        let mut coefficients = window_waves(&waves, series_grid.cell(), &loaded.grid, &loaded.pressure, self.discs());
         for (c, &shell) in coefficients.iter_mut().zip(waves.shells()) {
             *c *= 0.5 * libm::erfc(STEEPNESS * (waves.wavenumbers()[shell as usize] / most - 1.0));
         }
         let far_tables = tables.far(window, self.half_space(), traction);
-        let far = FarField::new(far_tables, &loaded.grid, &loaded.pressure, series_grid.cell());
-        Some(self.outside(hole, [grid, series_grid], Series { mean: 0.0, waves, coefficients }, far))
+        let far = FarField::new(far_tables, &loaded.grid, &loaded.pressure, self.discs(), series_grid.cell());
+        Some(self.outside(hole, [grid, series_grid], Series::of_waves(waves, coefficients), far))
     }
 
     /// What the waves that are left out may add at the border of the hole, over the stresses there.
@@ -178,18 +178,24 @@ impl StressField {
         sought: Sought,
         goes_on: &dyn Fn() -> bool,
     ) -> Option<FoundStresses> {
-        let mut found = self.found(radii, sought, goes_on)?;
+        let all = vec![true; self.materials()];
+        let mut found = self.found(radii, sought, &all, goes_on)?;
         let Some(loaded) = &self.loaded else { return Some(found) };
         found.at_rest = (1..=self.materials()).map(|material| self.at_rest(material)).collect();
         let (extent, reach) = (&loaded.extent, loaded.extent.reach(self.half_space()));
         let mut window = self.grid().cell();
         for number in 1..=MOST_WINDOWS {
-            if extent.margin(number - 1) >= reach && !found.is_largest_on_border(|place| is_on_border(&window, place)) {
+            let wanted = match extent.margin(number - 1) < reach {
+                true => all.clone(),
+                false => found.largest_on_border(|place| is_on_border(&window, place)),
+            };
+            if !wanted.contains(&true) {
                 break;
             }
             let wide = self.around(number)?;
-            let mut around = wide.found([extent.margin(number - 1); 2], sought, goes_on)?;
-            (around.resolution, around.left_out) = (found.resolution, self.left_out(number));
+            let mut around = wide.found([extent.margin(number - 1); 2], sought, &wanted, goes_on)?;
+            (around.resolution, around.is_exact_below) = (found.resolution, found.is_exact_below);
+            around.left_out = self.left_out(number);
             found.around.push(around);
             window = wide.grid().cell();
         }

@@ -93,7 +93,7 @@ impl<'a> Trace<'a> {
         let &[[re], [im]] = across.of(row);
         let across = Complex64::new(re, im);
         self.series
-            .of(row)
+            .of(row, response.is_deep())
             .zip(along.from(row))
             .map(move |((q, shell, c), [[re], [im]])| response.times(q, shell, c * (across * Complex64::new(*re, *im))))
     }

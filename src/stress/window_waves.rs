@@ -1,5 +1,7 @@
 //! Waves of a pressure in a window, as that of a wider cell around it.
 
+use super::disc_waves::waves_of_discs;
+use crate::counterbody::LoadedDisc;
 use crate::lattice::waves::Waves;
 use crate::lattice::{Cell, Grid};
 use rayon::prelude::*;
@@ -7,10 +9,20 @@ use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 
 /// Coefficients c of the `waves` of a cell whose middle is that of the window: p = Re Σ c e^{2πi(κ₁s + κ₂t)} by the fractions s, t of
-/// the cell. The `pressure` has one value per sample of the `grid` of the window, a₂ fastest.
+/// the cell. The `pressure` has one value per sample of the `grid` of the window, a₂ fastest; the `discs` are those that the samples stand
+/// for, none of another pressure.
 ///
-/// By the exact sums over the samples: the spacings of the cell's own grid may be any.
-pub(super) fn window_waves(waves: &Waves, cell: Cell, grid: &Grid, pressure: &[f64]) -> Vec<Complex64> {
+/// By the exact sums over discs or samples: the spacings of the cell's own grid may be any.
+pub(super) fn window_waves(
+    waves: &Waves,
+    cell: Cell,
+    grid: &Grid,
+    pressure: &[f64],
+    discs: &[LoadedDisc],
+) -> Vec<Complex64> {
+    if !discs.is_empty() {
+        return waves_of_discs(waves, cell, discs);
+    }
     let [n1, n2] = grid.points();
     let fractions = |axis: usize, n: usize| -> Vec<f64> {
         let (corner, step) = (grid.cell().corner()[axis], grid.steps()[axis][axis]);

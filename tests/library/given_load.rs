@@ -1,13 +1,14 @@
 //! A given pressure in the place of a counterbody: closed forms, published pavements, both kinds of surroundings, limits.
 
+use crate::common::Random;
 use ndarray::Array2;
 use percoat::body::{Durability, InterfaceStrength, Strength};
 use percoat::localized::{disc, point::PointKernel};
 use percoat::reading::Criterion;
 use percoat::run::{At, SearchEnd, StressRequest};
 use percoat::{
-    Cell, Depth, Friction, GivenPressure, HalfSpace, Interface, Layer, Load, LoadedDisc, Material, MeanStress, Problem,
-    Route, Run, Sampling, Settings, Solver, Step, StressField, StressState,
+    Cell, Depth, Friction, GivenPressure, Grid, HalfSpace, Interface, Layer, Load, LoadedDisc, Material, MeanStress,
+    Problem, Route, Run, Sampling, Settings, Solver, Step, StressField, StressState,
 };
 use std::f64::consts::PI;
 
@@ -48,8 +49,8 @@ fn a_disc_on_a_half_space_has_its_closed_forms() {
     let w = step.displacement();
     assert!((w[[80, 80]] / deepest - 1.0).abs() < 2e-4 && (w[[120, 80]] / deepest * PI / 2.0 - 1.0).abs() < 2e-3);
     assert!((reading.contact_area / (PI * a * a) - 1.0).abs() < 1e-12 && reading.levels.is_empty());
-    assert!((reading.max_pressure / p - 1.0).abs() < 1e-3, "{}", reading.max_pressure);
-    assert!(reading.errors.max_pressure.is_some_and(|error| error < 1e-3 * p), "{:?}", reading.errors);
+    assert!((reading.max_pressure / p - 1.0).abs() < 1e-12, "{}", reading.max_pressure);
+    assert_eq!(reading.errors.max_pressure, Some(0.0));
     let field = StressField::new(step.finest(), MeanStress::HalfSpace);
     for z in [0.25, 0.5, 1.0, 2.0, 5.0] {
         let state = field.points(Depth { z, material: 1 }, &[[0.0, 0.0]])[0];
@@ -191,7 +192,7 @@ fn a_braking_load_draws_the_surface_along() {
 }
 
 /// The largest τ₁ under a disc, near its edge, of two grids; and on the surface σ_r = (1 − 2ν)p/2 just outside the edge, where the
-/// pressure jumps and the waves of the grid ring: the largest tension differs from σ_r by less than its stated error.
+/// pressure jumps: the largest stresses differ from it by less than their stated errors.
 #[test]
 fn largest_stresses_under_a_disc_are_within_their_errors() {
     let p = 0.01;
@@ -207,9 +208,13 @@ fn largest_stresses_under_a_disc_are_within_their_errors() {
     let [one, two] = [coarse.overall.tau1, fine.overall.tau1];
     assert!((one.value - two.value).abs() < one.error.unwrap() + two.error.unwrap(), "{one:?}, {two:?}");
     assert!(one.error.unwrap() < 0.6 * one.value, "{one:?}");
-    for tension in [coarse.faces[0].tension, fine.faces[0].tension] {
-        let error = tension.error.unwrap();
-        assert!((tension.value - 0.2 * p).abs() < error && error < 0.25 * p, "{tension:?}");
+    for (own, most) in [(coarse, 0.05), (fine, 0.02)] {
+        // Outside σ_r = −σ_t, without pressure.
+        let known = [(own.faces[0].tension, 0.2), (own.faces[0].tau1, 0.2), (own.faces[0].mises, 0.2 * 3f64.sqrt())];
+        for (found, known) in known {
+            let error = found.error.unwrap();
+            assert!((found.value - known * p).abs() < error && error < most * p, "{found:?} for {known}");
+        }
     }
 }
 
@@ -295,5 +300,123 @@ fn the_limit_is_the_load_over_its_utilisation() {
             assert!(radius < 0.1 || own.error.is_some_and(|error| error < 0.02 * own.value), "{own:?}");
         }
         assert!(Criterion::all(run.problem.bodies()).len() == 3);
+    }
+}
+
+/// However fine the grid is, and wherever the disc lies on it: samples whose cells lie outside have no pressure, those inside all of it.
+#[test]
+fn a_cell_outside_of_a_disc_has_no_pressure_and_one_inside_has_all_of_it() {
+    for (side, points) in [(8.0, 180), (8.0, 216), (8.0, 333), (16.0, 480)] {
+        let given = window([side; 2], &[disc([-0.37, 0.11], 1.508, 0.7)]);
+        let grid = Grid::new(given.cell(), [points; 2]).unwrap();
+        let half = 0.5 * side / points as f64;
+        for ((i, j), &p) in given.on(&grid).indexed_iter() {
+            let [x, y] = given.cell().point([i as f64 / points as f64, j as f64 / points as f64]);
+            let [x, y] = [(x + 0.37).abs(), (y - 0.11).abs()];
+            let (nearest, farthest) = ((x - half).max(0.0).hypot((y - half).max(0.0)), (x + half).hypot(y + half));
+            assert!(p == 0.0 || nearest < 1.508 * (1.0 + 1e-12), "{points}: {p:e} at {i}, {j}");
+            assert!(p == 0.7 || farthest > 1.508 * (1.0 - 1e-12), "{points}: {p} at {i}, {j}");
+        }
+    }
+}
+
+/// Where discs overlap, their periodic images and those of themselves included, the largest pressure is that of all that do in one place.
+#[test]
+fn the_largest_pressure_is_that_of_the_discs_that_overlap_in_one_place() {
+    let highest = |cell: Cell, discs: &[LoadedDisc]| GivenPressure::discs(cell, discs.to_vec()).unwrap().highest();
+    let (wide, square) = (Cell::window([8.0; 2]).unwrap(), Cell::square(1.0).unwrap());
+    let three = [disc([0.0, 0.0], 1.0, 1.0), disc([1.5, 0.0], 1.0, 2.0), disc([0.75, 1.0], 0.3, 4.0)];
+    // The small disc reaches both others, but not the lens that they share.
+    assert_eq!(highest(wide, &three), 6.0);
+    assert_eq!(highest(wide, &[three[0], three[0], three[1]]), 4.0);
+    // One inside of another, and two that touch.
+    assert_eq!(highest(wide, &[disc([0.0, 0.0], 1.0, 1.0), disc([0.2, 0.1], 0.3, 0.5)]), 1.5);
+    assert_eq!(highest(wide, &[disc([-1.0, 0.0], 1.0, 1.0), disc([1.0, 0.0], 1.0, 0.5)]), 1.0);
+    for (radius, most) in [(0.4, 1.0), (0.6, 2.0), (0.75, 4.0)] {
+        assert_eq!(highest(square, &[disc([0.3, 0.3], radius, 1.0)]), most);
+    }
+    // Against samples: a region may be narrower than one, but no sample has more.
+    let mut random = Random(11);
+    for cell in [square, Cell::new([1.0, 0.2], [0.4, 0.9]).unwrap()] {
+        let grid = Grid::new(cell, [300; 2]).unwrap();
+        let mut equal = 0;
+        for _ in 0..20 {
+            let own = |random: &mut Random| {
+                disc([random.unit(), random.unit()], 0.15 + 0.4 * random.unit(), 1.0 + random.unit())
+            };
+            let discs: Vec<LoadedDisc> = (0..4).map(|_| own(&mut random)).collect();
+            let given = GivenPressure::discs(cell, discs).unwrap();
+            let (found, sampled) = (given.highest(), given.on(&grid).iter().copied().fold(0.0, f64::max));
+            assert!(found >= sampled * (1.0 - 1e-12) && found < 1.5 * sampled, "{found}, {sampled}: {given:?}");
+            equal += usize::from(found < sampled * (1.0 + 1e-9));
+        }
+        assert!(equal >= 15, "{equal}");
+    }
+}
+
+/// The largest stresses of a loaded road on grids that share nothing, even and odd: all agree within their errors, and no error is out of
+/// line with those of the other grids.
+#[test]
+fn stated_errors_under_a_disc_are_smooth_in_the_grid() {
+    let asphalt = Layer::new(young(5000.0, 0.35), 260.0, Interface::Bonded).unwrap();
+    let base = Layer::new(young(200.0, 0.4), 500.0, Interface::Bonded).unwrap();
+    let body = HalfSpace::new(vec![asphalt, base], young(50.0, 0.45));
+    let grids = [100, 108, 120, 125, 135, 144];
+    let found = grids.map(|points| {
+        let given = window([1000.0, 1000.0], &[disc([7.3, -4.1], 150.8, 0.7)]);
+        let load = Load::Force(given.force());
+        let run = Run::new(Problem::new(given, body.clone()), vec![load], Sampling::Points([points; 2]));
+        let run = Run { stress: Some(StressRequest::default()), ..run };
+        let step = run.solve(&mut ()).unwrap().steps.remove(0);
+        assert!((step.reading.max_pressure / 0.7 - 1.0).abs() < 1e-12, "{points}");
+        step.stress.clone().unwrap().overall.tension
+    });
+    for (points, own) in grids.iter().zip(&found) {
+        let error = own.error.unwrap();
+        assert!(error < 5e-3 * own.value, "{points}: {own:?}");
+        for other in &found {
+            assert!((own.value - other.value).abs() <= error + other.error.unwrap(), "{points}: {own:?}, {other:?}");
+            assert!(error < 4.0 * other.error.unwrap(), "{points}: {own:?}, {other:?}");
+        }
+    }
+}
+
+/// The largest stresses on the surface at the edges of discs, on grids that share nothing: bare and coated bodies, in windows and in
+/// periodic cells, discs that overlap and discs that touch. All agree within their errors, which fall with the spacing.
+#[test]
+fn stresses_at_the_edges_of_discs_are_those_of_any_grid() {
+    let p = 0.01;
+    let coated = |young_of_layer: f64| {
+        let layer = Layer::new(young(young_of_layer, 0.2), 0.4, Interface::Bonded).unwrap();
+        HalfSpace::new(vec![layer], young(1.0, 0.3))
+    };
+    let bare = HalfSpace::new(vec![], young(1.0, 0.3));
+    let square = Cell::square(2.0).unwrap();
+    let pair = [disc([-0.3, 0.1], 0.5, p), disc([0.35, 0.0], 0.4, 0.7 * p)];
+    let touching = [disc([-0.4, 0.0], 0.4, p), disc([0.4, 0.0], 0.4, p)];
+    let cases = [
+        (window([3.0, 3.0], &pair), bare.clone()),
+        (window([3.0, 3.0], &pair[..1]), coated(4.0)),
+        (window([3.0, 3.0], &touching), coated(0.3)),
+        (GivenPressure::discs(square, vec![disc([0.4, 1.9], 0.45, p)]).unwrap(), bare),
+    ];
+    for (given, body) in cases {
+        let found = [72, 90, 125, 144].map(|points| {
+            let load = Load::Force(given.force());
+            let run = Run::new(Problem::new(given.clone(), body.clone()), vec![load], Sampling::Points([points; 2]));
+            let run = Run { stress: Some(StressRequest::default()), ..run };
+            let surface = run.solve(&mut ()).unwrap().steps[0].stress.clone().unwrap().faces[0];
+            [surface.tension, surface.tau1, surface.mises]
+        });
+        for (k, one) in found.iter().enumerate() {
+            for other in &found[..k] {
+                for (one, other) in one.iter().zip(other) {
+                    let [a, b] = [one.error.unwrap(), other.error.unwrap()];
+                    assert!((one.value - other.value).abs() <= a + b, "{given}, {body}: {one:?}, {other:?}");
+                }
+            }
+        }
+        let last = found[3].map(|own| own.error.unwrap());
+        assert!(last.iter().all(|error| *error < 0.05 * p), "{given}, {body}: {last:?}");
     }
 }

@@ -7,11 +7,12 @@ use crate::common;
 use common::{Random, one_level, paraboloid, solve};
 #[cfg(feature = "validate")]
 use common::{bare, largest_mises_of_a_sliding_sphere};
+use percoat::run::StressRequest;
 use percoat::stress::Peak;
 use percoat::stress::maxima::Extremes;
 use percoat::{
-    Cell, Depth, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Load, Material, MeanStress, Problem,
-    Settings, Solver, Step, StressField, StressFields, StressReading, StressState,
+    Cell, Depth, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, MeanStress, Problem,
+    Run, Sampling, Settings, Shape, Solver, Step, StressField, StressFields, StressReading, StressState,
 };
 use std::f64::consts::PI;
 
@@ -207,4 +208,31 @@ fn no_dense_search_finds_more_than_is_stated() {
 fn no_dense_search_of_fifty_stacks_finds_more_than_is_stated() {
     let worst = worst(4032, 50, 96);
     assert!(worst.iter().all(|&ratio| ratio <= 1.0), "{worst:?}");
+}
+
+/// A graded coating many windows thick, on hardly any samples: what lies deep costs next to nothing, at rest and sliding, and with more
+/// sublayers the stresses change as the square of their thickness.
+#[test]
+fn many_deep_sublayers_are_searched_in_no_time() {
+    let body = |count: usize| {
+        let sublayer = |k: usize| {
+            let t = (k as f64 + 0.5) / count as f64;
+            let material = Material::from_young(4.0 - 3.0 * t, 0.2 + 0.1 * t).unwrap();
+            Layer::new(material, 100.0 / count as f64, Interface::Bonded).unwrap()
+        };
+        HalfSpace::new((0..count).map(sublayer).collect(), Material::from_young(1.0, 0.3).unwrap())
+    };
+    let lattice = Lattice::new(Cell::window([4.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+    let ball = Level::new(Shape::Paraboloid { radius: 10.0 }, 0.0).unwrap();
+    let problem = |count: usize| Problem::new(Indenters::new(lattice.clone(), vec![ball]).unwrap(), body(count));
+    let sliding = |count: usize| problem(count).sliding(Friction::new(0.3, [1.0, 0.0]).unwrap()).unwrap();
+    let largest = |problem: Problem| {
+        let run = Run::new(problem, vec![Load::Force(0.05)], Sampling::Points([7; 2]));
+        let run = Run { stress: Some(StressRequest::default()), ..run };
+        run.solve(&mut ()).unwrap().steps[0].stress.clone().unwrap().overall.mises.value
+    };
+    let [few, many] = [60, 120].map(|count| largest(problem(count)));
+    assert!((few / many - 1.0).abs() < 5e-3, "{few}, {many}");
+    let [few, many] = [60, 120].map(|count| largest(sliding(count)));
+    assert!((few / many - 1.0).abs() < 5e-3, "{few}, {many}");
 }

@@ -5,13 +5,20 @@ use crate::body::{Bodies, HalfSpace, MeanStress};
 use crate::case::Case;
 use crate::case::suggestions::joined;
 
-/// The mean lateral stress in the largest stresses and limit loads, in a sentence.
-fn mean_stress(mean: MeanStress) -> &'static str {
+/// The mean lateral stress in the largest stresses and limit loads, in a sentence; with the axis of lines, where it is known.
+fn mean_stress(mean: MeanStress, line: Option<usize>) -> String {
     match mean {
         MeanStress::HalfSpace => {
             "stresses with stress.mean = \"half-space\": lateral stress under p̄ as in the centre of a wide loaded disc"
+                .to_owned()
         }
-        _ => "stresses with stress.mean = \"confined\": lateral stress under p̄ as without mean lateral strain",
+        MeanStress::Line => format!(
+            "stresses with stress.mean = \"line\": lateral stress under p̄ as under lines far apart{}, in plane strain",
+            line.map_or("", |axis| [" along a₁", " along a₂"][axis])
+        ),
+        _ => {
+            "stresses with stress.mean = \"confined\": lateral stress under p̄ as without mean lateral strain".to_owned()
+        }
     }
 }
 
@@ -24,6 +31,8 @@ const RIGID: &str = "the indenters are rigid: elastic ones press less sharply, f
 pub struct Assumptions {
     /// The mean lateral stress; of no effect on an isolated contact.
     pub mean: MeanStress,
+    /// The axis of the cell along which the surface is constant, where it is known to be.
+    pub line: Option<usize>,
     /// Whether contact is isolated.
     pub isolated: bool,
     /// Whether indenters or a topography are rigid; a given pressure has none.
@@ -38,6 +47,7 @@ impl Assumptions {
         let problem = case.problem();
         Self {
             mean: case.mean_stress(),
+            line: problem.counterbody().line(),
             isolated: problem.cell().is_isolated(),
             rigid: problem.bodies().counterbody().is_none() && problem.counterbody().pressure().is_none(),
             untested: untested(problem.bodies()),
@@ -46,7 +56,7 @@ impl Assumptions {
 
     /// A sentence for each that matters; `with_strength`: beside strengths.
     pub fn sentences(&self, with_strength: bool) -> Vec<String> {
-        let mean = (!self.isolated).then(|| mean_stress(self.mean).to_owned());
+        let mean = (!self.isolated).then(|| mean_stress(self.mean, self.line));
         let rigid = (with_strength && self.rigid).then(|| RIGID.to_owned());
         let without_strength = self.without_strength().filter(|_| with_strength);
         [mean, without_strength, rigid].into_iter().flatten().collect()

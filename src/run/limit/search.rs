@@ -4,7 +4,6 @@ use super::band::{Crossing, UtilisationBand};
 use super::windows::Windows;
 use super::{At, Limit, LimitStep, Limits, SearchEnd};
 use crate::body::{HalfSpace, Layer};
-use crate::lattice::Grid;
 use crate::load::LoadQuantity;
 use crate::problem::Problem;
 use crate::reading::{Criterion, Reading, Utilisation};
@@ -69,7 +68,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
         let (quantity, area) = (run.quantity(), run.problem.cell().area());
         let per_pressure = if quantity == LoadQuantity::Force { area } else { 1.0 };
-        let borne = SearchEnd::OF_HARDNESS * largest_borne(&run.problem, solver.grid()) * per_pressure;
+        let borne = SearchEnd::OF_HARDNESS * largest_borne(&run.problem) * per_pressure;
         let filling = complete.map_or(f64::INFINITY, |pressure| (pressure * per_pressure).min(borne));
         // An isolated contact is never complete, but fills its window under a load of this order.
         let is_isolated = run.problem.cell().is_isolated();
@@ -393,13 +392,10 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
 
 /// Largest mean pressure that the hardness bears, which contact does not reach; that under which the highest value of a given pressure is
 /// the hardness. Infinite without hardness.
-fn largest_borne(problem: &Problem, grid: &Grid) -> f64 {
+fn largest_borne(problem: &Problem) -> f64 {
     let hardness = problem.bodies().hardness().map_or(f64::INFINITY, |(hardness, _)| hardness);
-    let over_highest = problem.counterbody().pressure().map_or(1.0, |given| {
-        // Discs may overlap.
-        let highest = given.on(grid).into_iter().fold(given.highest(), f64::max);
-        given.force() / problem.cell().area() / highest
-    });
+    let over_highest =
+        problem.counterbody().pressure().map_or(1.0, |given| given.force() / problem.cell().area() / given.highest());
     hardness * over_highest
 }
 
