@@ -194,10 +194,12 @@ impl<'a> SmoothedDiscs<'a> {
             let jump = disc.pressure * (step - f64::from(u8::from(is_inside)));
             let excess = self.width * (0.5 * density - 0.5 * u.abs() * libm::erfc(u.abs() / SQRT_2));
             let kink = (1.0 - 2.0 * nu) * disc.pressure / disc.radius * excess;
-            let (nx, ny) = (x / r, y / r);
-            xx += jump * (nx * nx + 2.0 * nu * ny * ny) + kink * (nx * nx - ny * ny);
-            yy += jump * (ny * ny + 2.0 * nu * nx * nx) + kink * (ny * ny - nx * nx);
-            xy += nx * ny * ((1.0 - 2.0 * nu) * jump + 2.0 * kink);
+            // In the middle of a small disc the mean over all directions.
+            let [nxx, nyy, nxy] =
+                if r > 0.0 { [x * x, y * y, x * y].map(|own| own / (r * r)) } else { [0.5, 0.5, 0.0] };
+            xx += jump * (nxx + 2.0 * nu * nyy) + kink * (nxx - nyy);
+            yy += jump * (nyy + 2.0 * nu * nxx) + kink * (nyy - nxx);
+            xy += nxy * ((1.0 - 2.0 * nu) * jump + 2.0 * kink);
             p -= jump;
         }
         StressState::on_surface([xx, yy, xy, p], [0.0; 2])

@@ -41,6 +41,7 @@ mod fields;
 mod found;
 mod line_plane;
 pub mod maxima;
+mod mean_states;
 mod measure;
 mod path_measure;
 mod path_search;

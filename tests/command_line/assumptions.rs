@@ -88,3 +88,29 @@ fn materials_without_a_strength_are_named_beside_strengths() {
     let answer = desk.percoat(&["solve", "ball-on-disc", "--set=grid.points=48", "--no-pictures", &all[0], &all[1]]);
     assert!(!answer.out.contains("no strength is given"), "{}", answer.out);
 }
+
+/// Heights that change along x alone, on six samples along y: the mean stress of lines is said with their direction, errors are stated, and
+/// a surface that changes along both is refused.
+#[test]
+fn lines_are_said_with_their_direction_and_have_their_errors() {
+    let desk = Desk::new();
+    let heights = |ripple: f64| -> String {
+        let height = |i: usize, j: usize| (std::f64::consts::TAU * i as f64 / 64.0).cos() + ripple * (j % 2) as f64;
+        let row = |i: usize| (0..6).map(|j| format!("{:.12}", 0.01 * height(i, j))).collect::<Vec<_>>().join(" ");
+        (0..64).map(|i| row(i) + "\n").collect()
+    };
+    let case = "lattice = { kind = \"oblique\", a1 = [1, 0], a2 = [0, 0.1] }\nsurface = { heights = \"wave.txt\" }\n\
+                substrate = { young = 1, poisson = 0.3 }\nload = { mean_pressure = 0.002 }\nstress = { mean = \"line\" }\n";
+    desk.write("wave.toml", case);
+    desk.write("wave.txt", heights(0.0));
+    let answer = desk.percoat(&["solve", "wave.toml", "-o", "wave", "--no-pictures"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let out = line(&answer.out);
+    assert!(out.contains("stress.mean = \"line\"") && out.contains("lines far apart along a₂"), "{out}");
+    assert!(out.contains('±'), "{out}");
+    assert_eq!(desk.percoat(&["report", "wave"]).code, 0);
+    assert!(words(&Folder(desk.path("wave")).text("report.html")).contains("with stress.mean = \"line\""));
+    desk.write("wave.txt", heights(0.1));
+    desk.percoat(&["solve", "wave.toml", "-o", "rippled"])
+        .complains(2, &["stress.mean", "not constant along one side"]);
+}

@@ -398,9 +398,12 @@ fn stresses_at_the_edges_of_discs_are_those_of_any_grid() {
         (window([3.0, 3.0], &pair), bare.clone()),
         (window([3.0, 3.0], &pair[..1]), coated(4.0)),
         (window([3.0, 3.0], &touching), coated(0.3)),
-        (GivenPressure::discs(square, vec![disc([0.4, 1.9], 0.45, p)]).unwrap(), bare),
+        (GivenPressure::discs(square, vec![disc([0.4, 1.9], 0.45, p)]).unwrap(), bare.clone()),
+        // Of few samples, one of them in its middle.
+        (window([3.0, 3.0], &[disc([0.0, 0.0], 0.1, p)]), bare),
     ];
     for (given, body) in cases {
+        let is_small = given.loaded_discs()[0].radius < 0.2;
         let found = [72, 90, 125, 144].map(|points| {
             let load = Load::Force(given.force());
             let run = Run::new(Problem::new(given.clone(), body.clone()), vec![load], Sampling::Points([points; 2]));
@@ -417,6 +420,6 @@ fn stresses_at_the_edges_of_discs_are_those_of_any_grid() {
             }
         }
         let last = found[3].map(|own| own.error.unwrap());
-        assert!(last.iter().all(|error| *error < 0.05 * p), "{given}, {body}: {last:?}");
+        assert!(last.iter().all(|error| *error < if is_small { 0.5 } else { 0.05 } * p), "{given}, {body}: {last:?}");
     }
 }
