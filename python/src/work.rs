@@ -8,6 +8,7 @@ use crate::errors::refused;
 use crate::progress::Progress;
 use crate::row::Row;
 use percoat::machine::Threads;
+use percoat::output::OutputError;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -53,6 +54,13 @@ pub struct Listener {
 #[derive(Debug, thiserror::Error)]
 #[error("stopped before its end")]
 pub struct Stopped;
+
+/// A sweep of the package keeps no fields, so that none of its files fails.
+impl From<OutputError> for Stopped {
+    fn from(_: OutputError) -> Self {
+        Self
+    }
+}
 
 impl From<Stopped> for String {
     fn from(stopped: Stopped) -> Self {

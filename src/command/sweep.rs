@@ -156,13 +156,18 @@ fn solve(
 /// The combinations of the keys that vary, and the settings of keys with one value.
 fn combinations(options: &SweepOptions, set: &[String]) -> Result<(Combinations, Vec<String>), Failure> {
     let axes = set.iter().map(|text| Axis::parse(text)).collect::<Result<Vec<_>, _>>().map_err(Failure::refused)?;
+    // A key with one value and with several is one of neither list alone.
+    sweep::keys_once(axes.iter().map(|axis| axis.key.as_str())).map_err(Failure::refused)?;
     let (fixed, axes): (Vec<Axis>, Vec<Axis>) = axes.into_iter().partition(|axis| axis.values.len() == 1);
-    let fixed = fixed.iter().flat_map(Axis::settings).collect();
     let mut groups = Vec::new();
     if let Some(path) = &options.table {
         let table = Group::table(&read_text(path)?);
-        groups.push(table.map_err(|error| Failure::refused(format!("{}, {error}", plain::path(path))))?);
+        let table = table.map_err(|error| Failure::refused(format!("{}, {error}", plain::path(path))))?;
+        let fixed = fixed.iter().map(|axis| axis.key.as_str());
+        sweep::keys_once(table.keys().chain(fixed)).map_err(Failure::refused)?;
+        groups.push(table);
     }
+    let fixed = fixed.iter().flat_map(Axis::settings).collect();
     if options.zip && !axes.is_empty() {
         groups.push(Group::zip(&axes).map_err(Failure::refused)?);
     } else {

@@ -10,9 +10,10 @@
 //! 43 2 45 7 3 …          NROWS × NCOLS numbers between blanks or ends of lines
 //! ```
 //!
-//! (Esri, "Esri ASCII raster format".) The format has no units: lengths are in that of `surface.unit`, or of the case.
+//! (Esri, "Esri ASCII raster format".) The format has no units: lengths are in that of `surface.unit`, or of the case. A file `.asc` that begins
+//! with a comment is another text, see [`spip`](super::spip).
 
-use super::binary::{Image, broken, ended, whole_text};
+use super::binary::{Image, broken, ended, twice, whole_text};
 use super::channel::{Channel, WantedChannel, choose};
 use super::fault::{Fault, fits};
 use super::header::Length;
@@ -34,11 +35,15 @@ pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, 
     while let Some(index) = words.peek().and_then(|word| KEYS.iter().position(|key| word.eq_ignore_ascii_case(key))) {
         words.next();
         let value = words.next().ok_or_else(ended)?;
-        found[index] = Some(value.parse::<f64>().map_err(|_| broken("a value of its header is no number"))?);
+        let value: f64 = value.parse().map_err(|_| broken("a value of its header is no number"))?;
+        if found[index].replace(value).is_some() {
+            return Err(twice("a value of its header"));
+        }
     }
     let [Some(columns), Some(rows), cell, dx, dy, no_data, ..] = found else {
         let what = "does not begin as a grid of Esri's, with NCOLS and NROWS";
-        return Err(Fault::new(what, "another kind of .asc?").help("export it as one, or as text with the ending .txt"));
+        let fault = Fault::new(what, "another kind of .asc?");
+        return Err(fault.help("export it as one, or as text with the ending .txt").or_elsewhere());
     };
     let (Some(dx), Some(dy)) = (dx.or(cell), dy.or(cell)) else {
         return Err(broken("its header has no CELLSIZE"));

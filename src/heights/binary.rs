@@ -3,7 +3,8 @@
 //! A file is read whole, as it is at most as large as its length on the disk; nothing of the size that a header states is taken before that
 //! size was compared with the bytes that are there.
 
-use super::fault::{Fault, Heights, MOST, fits};
+use super::fault::{Fault, Heights, MOST, PROFILE, fits};
+use super::suspicious_values;
 use std::borrow::Cow;
 use std::io::Read;
 
@@ -24,6 +25,11 @@ pub fn ended() -> Fault {
 /// The fault of a file whose content contradicts its format.
 pub fn broken(what: impl std::fmt::Display) -> Fault {
     Fault::new(format!("is damaged: {what}"), "damaged").help("export it again from the program that wrote it")
+}
+
+/// The fault of a file that states something twice: the first is not the right one rather than the last.
+pub fn twice(what: impl std::fmt::Display) -> Fault {
+    Fault::new(format!("has {what} twice, and does not say which is meant"), "twice").help("remove one of them")
 }
 
 /// Bytes that are read from their start.
@@ -112,6 +118,20 @@ impl Number {
         }
     }
 
+    /// Least and largest finite number.
+    pub fn range(self) -> [f64; 2] {
+        match self {
+            Self::U8 => [0.0, u8::MAX.into()],
+            Self::I8 => [i8::MIN.into(), i8::MAX.into()],
+            Self::U16 => [0.0, u16::MAX.into()],
+            Self::I16 => [i16::MIN.into(), i16::MAX.into()],
+            Self::U32 => [0.0, u32::MAX.into()],
+            Self::I32 => [i32::MIN.into(), i32::MAX.into()],
+            Self::F32 => [f32::MIN.into(), f32::MAX.into()],
+            Self::F64 => [f64::MIN, f64::MAX],
+        }
+    }
+
     /// Number `k` of a list of them.
     pub fn at(self, bytes: &[u8], k: usize) -> f64 {
         let own = &bytes[k * self.size()..][..self.size()];
@@ -150,11 +170,7 @@ impl Image {
             "says that it holds {width} × {height} heights; there must be between 2 and {MOST} along either direction"
         );
         let fault = Fault::new(what, format!("{width} × {height} heights"));
-        Err(if width == 1.0 || height == 1.0 {
-            fault.help("a profile is no surface: give a measured area")
-        } else {
-            fault
-        })
+        Err(if width == 1.0 || height == 1.0 { fault.help(PROFILE) } else { fault })
     }
 
     pub fn len(self) -> usize {
@@ -168,6 +184,13 @@ impl Image {
         let line = |j: usize| if top_first { height - 1 - j } else { j };
         let values = (0..self.len()).map(|k| value(line(k % height) * width + k / height)).collect();
         Heights::new([width, height], values)
+    }
+
+    /// Heights as those of [`heights`](Self::heights) times a `factor`; refused where numbers as stored mark places without a measurement
+    /// in another way than that of the format, which `value` knows.
+    pub fn scaled(self, factor: f64, value: impl Fn(usize) -> f64) -> Result<Heights, Fault> {
+        let Heights { points, values } = suspicious_values::checked(self.heights(value)?)?;
+        Heights::new(points, values.into_iter().map(|value| factor * value).collect())
     }
 }
 

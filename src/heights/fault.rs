@@ -8,6 +8,14 @@ use crate::units::CARRIED;
 pub const MARK: &str = "mark places without a measurement: by nan in a text or an array, otherwise in the program that wrote the file; they are \
                         filled from what surrounds them, with a warning";
 
+/// Way through another program, for formats and versions that are not read.
+pub const ELSEWHERE: &str =
+    "where Gwyddion or the instrument's program opens it, save it there as .gwy, or as points x y z in a text, .xyz";
+
+/// Advice where a file holds a profile.
+pub const PROFILE: &str = "a profile is no surface: give a measured area; for a surface that is the same all along y, write its heights alone, at \
+                           equal distances along x, in several equal columns";
+
 /// Most samples along a cell vector.
 pub const MOST: usize = 32_768;
 
@@ -39,6 +47,12 @@ impl Fault {
         Self { help: Some(help.into()), ..self }
     }
 
+    /// Adds the way through another program.
+    pub fn or_elsewhere(self) -> Self {
+        let help = self.help.as_ref().map_or(ELSEWHERE.to_owned(), |help| format!("{help}; or, {ELSEWHERE}"));
+        self.help(help)
+    }
+
     /// Label at the excerpt of the case.
     pub fn label(self) -> String {
         self.label
@@ -56,7 +70,8 @@ impl Heights {
         let [n1, n2] = points;
         if points.iter().any(|n| !(2..=MOST).contains(n)) {
             let what = format!("holds {n1} × {n2} heights; there must be between 2 and {MOST} along either direction");
-            return Err(Fault::new(what, format!("{n1} × {n2} heights")));
+            let fault = Fault::new(what, format!("{n1} × {n2} heights"));
+            return Err(if n1.min(n2) == 1 && n1.max(n2) > 1 { fault.help(PROFILE) } else { fault });
         }
         match values.iter().position(|height| height.abs() > *CARRIED.end()) {
             None if values.iter().all(|height| height.is_nan()) => {

@@ -13,15 +13,15 @@
 //! GwySIUnit      unitstr s
 //! ```
 //!
-//! The first line is the top one. Samples where the mask is at least ½ have no measurement.
+//! The first line is the top one. A unit that is missing or empty is none, as in images of cameras: the case must say it. Samples where the mask is at least ½ have no measurement.
 
-use super::binary::{Bytes, Image, Number, broken, text};
+use super::binary::{Bytes, Image, Number, broken, text, twice};
 use super::channel::{Channel, WantedChannel, choose};
 use super::fault::Fault;
 use super::header::{HeightsUnit, Length};
 use super::measured::Measured;
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// First bytes of a file.
 pub const MAGIC: &[u8] = b"GWYP";
@@ -67,7 +67,7 @@ pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, 
     };
     let all: Vec<Channel> = fields.iter().map(described).collect();
     if all.is_empty() {
-        return Err(Fault::new("holds no channel with an image", "no heights"));
+        return Err(Fault::new("holds no channel with an image", "no heights").help("save one of heights in Gwyddion"));
     }
     let index = choose(&all, wanted)?;
     let (field, own) = fields.swap_remove(index);
@@ -124,11 +124,14 @@ fn channels(mut container: Bytes<'_>) -> Result<BTreeMap<u32, Parts<'_>>, Fault>
         let Some((number, key)) = name.strip_prefix('/').and_then(|name| name.split_once('/')) else { continue };
         let Ok(number) = number.parse() else { continue };
         let own = parts.entry(number).or_default();
-        match (key, kind) {
-            ("data", b'o') => own.data = Some(value),
-            ("mask", b'o') => own.mask = Some(value),
-            ("data/title", b's') => own.title = Some(value),
-            _ => {}
+        let before = match (key, kind) {
+            ("data", b'o') => own.data.replace(value),
+            ("mask", b'o') => own.mask.replace(value),
+            ("data/title", b's') => own.title.replace(value),
+            _ => None,
+        };
+        if before.is_some() {
+            return Err(twice("a channel, its mask or its title"));
         }
     }
     Ok(parts)
@@ -138,8 +141,12 @@ impl<'a> DataField<'a> {
     fn read(bytes: &'a [u8]) -> Result<Self, Fault> {
         let mut components = object(&mut Bytes::new(bytes), "GwyDataField")?;
         let (mut numbers, mut units, mut data) = ([None; 4], [None, None], None);
+        let mut names = BTreeSet::new();
         while !components.rest.is_empty() {
             let (name, (kind, value)) = component(&mut components)?;
+            if !names.insert(name.clone()) {
+                return Err(twice("a part of an image"));
+            }
             match (&name[..], kind) {
                 ("xres", b'i') => numbers[0] = Some(Number::I32.at(value, 0)),
                 ("yres", b'i') => numbers[1] = Some(Number::I32.at(value, 0)),

@@ -6,7 +6,8 @@
 //! # Value units: m          # x-unit = nm
 //! ```
 //!
-//! Such a text is an image: a line runs along x, the first one on top. Comments with other keys are ignored.
+//! Such a text is an image: a line runs along x, the first one on top. Comments with other keys are ignored. SPIP's are those of
+//! [`spip`](super::spip). A quantity that is given twice, and not the same, is refused.
 
 use super::fault::Fault;
 use super::unit;
@@ -25,6 +26,11 @@ impl Length {
             None => Some(self.value * factor),
             Some(own) => Some(self.value * unit::factor(own, length?).ok()?),
         }
+    }
+
+    /// It in metres; `None` without a known unit.
+    pub fn metres(&self) -> Option<f64> {
+        Some(self.value * unit::factor(self.unit.as_deref()?, "m").ok()?)
     }
 }
 
@@ -56,6 +62,12 @@ pub struct Header {
     lateral: Option<String>,
     heights: Option<HeightsUnit>,
     has_channel: bool,
+    /// Whether it is one of SPIP, whose sides are in nanometres.
+    is_spip: bool,
+    /// Factor of the numbers to nanometres.
+    bit2nm: Option<f64>,
+    /// Number of places without a measurement that a mask behind the heights marks.
+    voids: Option<usize>,
 }
 
 /// Quantity of a key.
@@ -70,10 +82,13 @@ enum About {
     Heights,
     Factor,
     Channel,
+    Format,
+    Bit2nm,
+    Voids,
 }
 
 /// Keys in small letters, with blanks for `-` and `_`.
-const KEYS: [(&[&str], About); 9] = [
+const KEYS: [(&[&str], About); 12] = [
     (&["width", "breite", "largeur", "larghezza", "ancho", "x length", "scan width"], About::Side(0)),
     (&["height", "höhe", "h\u{fffd}he", "hauteur", "altezza", "alto", "y length", "scan height"], About::Side(1)),
     (&["pixel size", "pixelsize", "pixel"], About::Pixel),
@@ -81,7 +96,10 @@ const KEYS: [(&[&str], About); 9] = [
     (&["h", "y pixels", "lines", "rows", "nrows"], About::Count(1)),
     (&["lateral units", "lateral unit", "xy units", "xy unit", "x unit", "y unit"], About::Lateral),
     (&["value units", "value unit", "z units", "z unit", "data unit", "data units", "height unit"], About::Heights),
-    (&["bit2nm", "bit2unit", "z scale", "zscale", "z factor"], About::Factor),
+    (&["file format"], About::Format),
+    (&["bit2nm"], About::Bit2nm),
+    (&["voidpixels"], About::Voids),
+    (&["bit2unit", "z scale", "zscale", "z factor"], About::Factor),
     (&["channel", "kanal"], About::Channel),
 ];
 
@@ -117,8 +135,21 @@ impl Header {
         };
         match about {
             About::Channel => self.has_channel = true,
-            About::Count(axis) => self.counts[axis] = counted(),
-            About::Side(axis) if ["px", "pixel", "pixels"].contains(&unit) => self.counts[axis] = counted(),
+            About::Format => self.is_spip |= value.trim().eq_ignore_ascii_case("ASCII"),
+            About::Voids => self.voids = counted(),
+            About::Bit2nm => {
+                let Some(factor) = amount.filter(|x| x.is_finite() && *x > 0.0) else {
+                    return Err(Fault::new(
+                        format!("line {number} gives a Bit2nm that is no number greater than 0"),
+                        "no factor",
+                    ));
+                };
+                set(&mut self.bit2nm, factor, number)?;
+            }
+            About::Count(axis) => set_if(&mut self.counts[axis], counted(), number)?,
+            About::Side(axis) if ["px", "pixel", "pixels"].contains(&unit) => {
+                set_if(&mut self.counts[axis], counted(), number)?;
+            }
             // "Height: nm" is the unit of the heights; other words are ignored.
             About::Side(1) if amount.is_none() => {
                 self.heights = known(value.trim()).map(HeightsUnit::Known).or(self.heights.take());
@@ -132,20 +163,21 @@ impl Header {
                 if own.is_none() && !unit.is_empty() {
                     return Err(unreadable("a side of the image in a unit of length that is not known"));
                 }
-                let length = Some(Length { value, unit: own });
+                let length = Length { value, unit: own };
                 match about {
-                    About::Side(axis) => self.sides[axis] = length,
-                    _ => self.pixel = length,
+                    About::Side(axis) => set(&mut self.sides[axis], length, number)?,
+                    _ => set(&mut self.pixel, length, number)?,
                 }
             }
-            About::Lateral => match known(value.trim()) {
-                Some(name) => self.lateral = Some(name),
+            About::Lateral => match known(in_brackets(value)) {
+                Some(name) => set(&mut self.lateral, name, number)?,
                 None => return Err(unreadable("sides in a unit of length that is not known")),
             },
             // A factor precedes the unit that applies after it.
             About::Heights if self.heights == Some(HeightsUnit::Other) => {}
             About::Heights => {
-                self.heights = Some(known(value.trim()).map_or(HeightsUnit::Other, HeightsUnit::Known));
+                let own = known(in_brackets(value)).map_or(HeightsUnit::Other, HeightsUnit::Known);
+                set(&mut self.heights, own, number)?;
             }
             About::Factor => self.heights = Some(HeightsUnit::Other),
         }
@@ -157,9 +189,28 @@ impl Header {
         self.sides.iter().any(Option::is_some) || self.pixel.is_some() || self.counts.iter().any(Option::is_some)
     }
 
-    /// Unit of the heights; `None` where the header has none.
-    pub fn heights(&self) -> Option<&HeightsUnit> {
-        self.heights.as_ref()
+    /// Unit of the heights, that of the numbers times [`factor`](Self::factor); `None` where the header has none.
+    pub fn heights(&self) -> Option<HeightsUnit> {
+        match (&self.heights, self.bit2nm) {
+            (Some(_), Some(factor)) if factor != 1.0 => Some(HeightsUnit::Other),
+            (None, Some(_)) => Some(HeightsUnit::Known("nm".to_owned())),
+            (unit, _) => unit.clone(),
+        }
+    }
+
+    /// Factor from the numbers of the file to its unit.
+    pub fn factor(&self) -> f64 {
+        self.bit2nm.filter(|_| self.heights.is_none()).unwrap_or(1.0)
+    }
+
+    /// Whether it is one of SPIP.
+    pub fn is_spip(&self) -> bool {
+        self.is_spip || self.bit2nm.is_some()
+    }
+
+    /// Lines of heights, and places without a measurement that a mask behind them marks; `None` without such places.
+    pub fn voids(&self) -> Option<[usize; 2]> {
+        Some([self.counts[1]?, self.voids?])
     }
 
     /// Unit of the coordinates of points: that of the sides, or of the heights.
@@ -182,8 +233,8 @@ impl Header {
             );
             return Err(Fault::new(what, "header and numbers differ").help("correct or remove the header"));
         }
-        let with_unit =
-            |length: &Length| Length { unit: length.unit.clone().or_else(|| self.lateral.clone()), ..*length };
+        let lateral = || self.lateral.clone().or_else(|| self.is_spip().then(|| "nm".to_owned()));
+        let with_unit = |length: &Length| Length { unit: length.unit.clone().or_else(lateral), ..*length };
         match (&self.sides, &self.pixel) {
             ([Some(width), Some(height)], _) => Ok(Some([with_unit(width), with_unit(height)])),
             ([Some(_), None], _) => Err(Fault::new("has a header with a width and no height", "which height?")
@@ -195,6 +246,26 @@ impl Header {
             _ => Ok(None),
         }
     }
+}
+
+/// Sets a quantity of line `number`; refused where another line gives another one.
+fn set<T: PartialEq>(quantity: &mut Option<T>, value: T, number: usize) -> Result<(), Fault> {
+    if quantity.as_ref().is_some_and(|other| *other != value) {
+        let what = format!("line {number} gives a quantity that another line of the header gives otherwise");
+        return Err(Fault::new(what, format!("line {number}: which one?")).help("remove the line that is wrong"));
+    }
+    *quantity = Some(value);
+    Ok(())
+}
+
+/// [`set`] with a value, if any.
+fn set_if<T: PartialEq>(quantity: &mut Option<T>, value: Option<T>, number: usize) -> Result<(), Fault> {
+    value.map_or(Ok(()), |value| set(quantity, value, number))
+}
+
+/// A text without blanks and brackets around it.
+fn in_brackets(text: &str) -> &str {
+    text.trim().trim_matches(['[', ']', '(', ')'])
 }
 
 /// Known keys of a comment with their values: `key: value`, `key = value`, or several `k=v` of one letter.
@@ -215,7 +286,7 @@ fn pairs(comment: &str) -> Vec<(About, &str)> {
 fn measured(value: &str) -> (Option<f64>, &str) {
     let value = value.trim();
     let end = value.find(|c: char| !(c.is_ascii_digit() || "+-.,eE".contains(c))).unwrap_or(value.len());
-    (value[..end].replace(',', ".").parse().ok(), value[end..].trim().trim_matches(['[', ']', '(', ')']))
+    (value[..end].replace(',', ".").parse().ok(), in_brackets(&value[end..]))
 }
 
 #[cfg(test)]
@@ -281,7 +352,7 @@ mod tests {
                     "{comments:?}"
                 );
             }
-            assert_eq!((found.is_some(), header.heights().cloned()), (sides.is_some(), heights), "{comments:?}");
+            assert_eq!((found.is_some(), header.heights()), (sides.is_some(), heights), "{comments:?}");
         }
     }
 

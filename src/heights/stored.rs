@@ -11,11 +11,11 @@ use super::header::{Header, HeightsUnit, Length};
 use super::measured::Measured;
 use super::text::NumberTable;
 use super::xyz::PointGrid;
-use super::{asc, gwy, npy, sdf, sur, suspicious_values, text, x3p, xyz};
+use super::{asc, gwy, npy, profile, sdf, spip, sur, suspicious_values, text, x3p, xyz};
 
 /// The formats, for error messages.
 pub const FORMATS: &str = "`.npy` (NumPy), `.csv`, `.txt` or `.dat` (a matrix of numbers), `.xyz` (x y z, one point a line), `.x3p` (ISO 25178-72), \
-     `.sdf` (ISO 25178-71), `.sur` or `.pro` (Digital Surf), `.gwy` (Gwyddion), `.asc` (Esri's grid)";
+     `.sdf` (ISO 25178-71), `.sur` or `.pro` (Digital Surf), `.gwy` (Gwyddion), `.asc` (Esri's grid, SPIP's text)";
 
 /// A format of heights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub enum HeightsFormat {
     Sur,
     /// Gwyddion.
     Gwy,
-    /// Esri's grid.
+    /// Esri's grid, or a text that begins with a comment.
     Asc,
 }
 
@@ -82,6 +82,8 @@ pub struct Stored {
     pub sides: Option<[Length; 2]>,
     /// Unit of the heights; none where the file has none.
     pub unit: Option<HeightsUnit>,
+    /// Whether it is the file of an instrument, whose lengths are not in the unit of the case where it states none.
+    pub is_measured: bool,
     /// Whether it is a text whose lines run along a₁ by default.
     pub lines_along_a1: bool,
     /// Warnings about its format, a sentence each.
@@ -97,12 +99,18 @@ impl Stored {
         format: Option<HeightsFormat>,
         wanted: Option<&WantedChannel>,
     ) -> Result<Self, Fault> {
-        let start = reader.fill_buf().map_or(HeightsFormat::Text, HeightsFormat::of_start);
-        let format = format.unwrap_or(start);
+        let first = reader.fill_buf().unwrap_or_default();
+        let (start, is_comment) =
+            (HeightsFormat::of_start(first), first.strip_prefix(b"\xef\xbb\xbf").unwrap_or(first).starts_with(b"#"));
+        let format = match format.unwrap_or(start) {
+            HeightsFormat::Asc if is_comment => HeightsFormat::Text,
+            format => format,
+        };
         if format.has_mark() && start != format {
-            return Err(Fault::new("does not begin as a file of its format", "another format?").help(
-                "its ending says which format it is in: rename it, or export it again from the program of the instrument",
-            ));
+            let help = "its ending says which format it is in: rename it, or export it again from the program of the instrument";
+            return Err(Fault::new("does not begin as a file of its format", "another format?")
+                .help(help)
+                .or_elsewhere());
         }
         let stored = match format {
             HeightsFormat::Npy => npy::read(reader, bytes).and_then(of_array),
@@ -117,8 +125,10 @@ impl Stored {
         stored.only(wanted)?.checked()
     }
 
-    fn measured(Measured { heights, sides, unit, doubts }: Measured) -> Result<Self, Fault> {
-        Self { heights, sides: Some(sides), unit, lines_along_a1: false, doubts }.checked()
+    fn measured(mut own: Measured) -> Result<Self, Fault> {
+        own.doubts.extend(own.implausible());
+        let Measured { heights, sides, unit, doubts } = own;
+        Self { heights, sides: Some(sides), unit, is_measured: true, lines_along_a1: false, doubts }.checked()
     }
 
     /// Heights of an array in memory.
@@ -156,8 +166,8 @@ impl Stored {
 
     fn points(PointGrid { heights, period }: PointGrid, header: &Header) -> Self {
         let side = |value: f64| Length { value, unit: header.of_coordinates() };
-        let (sides, unit) = (Some(period.map(side)), header.heights().cloned());
-        Self { heights, sides, unit, lines_along_a1: false, doubts: Vec::new() }
+        let (sides, unit) = (Some(period.map(side)), header.heights());
+        Self { heights, sides, unit, is_measured: false, lines_along_a1: false, doubts: Vec::new() }
     }
 }
 
@@ -170,7 +180,8 @@ fn of_array(heights: Heights) -> Result<Stored, Fault> {
             Fault::new(what, "points x y z?").help("save heights of shape (n1, n2), or the points in a file .xyz")
         );
     }
-    Ok(Stored { heights, sides: None, unit: None, lines_along_a1: false, doubts: Vec::new() })
+    profile::refuse(&heights)?;
+    Ok(Stored { heights, sides: None, unit: None, is_measured: false, lines_along_a1: false, doubts: Vec::new() })
 }
 
 /// The content of a text: points, an image, or lines along a₁.
@@ -179,12 +190,23 @@ fn of_table(table: NumberTable) -> Result<Stored, Fault> {
     if let Some(points) = xyz::of_table(&heights, &lines) {
         return Ok(Stored::points(points?, &header));
     }
-    let Heights { points: [lines, numbers], values } = heights;
-    let Heights { values, .. } = Heights::new([lines, numbers], values)?;
+    if !header.is_image() {
+        profile::refuse(&heights)?;
+    }
+    let mut heights = match header.voids() {
+        Some([lines, voids]) => spip::without_voids(heights, lines, voids)?,
+        None => heights,
+    };
+    if header.factor() != 1.0 {
+        heights = suspicious_values::checked(heights)?;
+        heights.values.iter_mut().for_each(|height| *height *= header.factor());
+    }
+    let Heights { points: [lines, numbers], values } = Heights::new(heights.points, heights.values)?;
     let sides = header.sides([numbers, lines])?;
     let heights = match header.is_image() {
         true => Image { width: numbers, height: lines, top_first: true }.heights(|k| values[k])?,
         false => Heights { points: [lines, numbers], values },
     };
-    Ok(Stored { heights, sides, unit: header.heights().cloned(), lines_along_a1: !header.is_image(), doubts })
+    let (unit, is_measured) = (header.heights(), header.is_spip());
+    Ok(Stored { heights, sides, unit, is_measured, lines_along_a1: !header.is_image(), doubts })
 }

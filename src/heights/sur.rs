@@ -20,7 +20,7 @@
 //! Points are signed numbers, line by line; height = point × spacing along z, but for a constant. The number least − 2 marks a point
 //! that was not measured. Compressed points: the number of streams, u32; for each its length before and after compression, u32 twice; the
 //! streams (zlib). The first line counts as the top one, as in an image. A spacing without a unit of its own has that of the lengths,
-//! where their quotient is 1.
+//! where their quotient is 1. Without any the case must say it.
 
 use super::binary::{Bytes, Image, Number, broken, ended};
 use super::channel::{Channel, WantedChannel, choose};
@@ -91,7 +91,7 @@ impl<'a> Object<'a> {
         }
         if at(12, Number::I16)? != 0.0 {
             let what = "is written in the order of bytes of old Macintosh computers";
-            return Err(Fault::new(what, "another order of bytes").help("save it on a PC"));
+            return Err(Fault::new(what, "another order of bytes").help("save it on a PC").or_elsewhere());
         }
         let kind = match at(98, Number::I16)? {
             16.0 => Number::I16,
@@ -102,7 +102,8 @@ impl<'a> Object<'a> {
         let of = at(18, Number::I16)?;
         // Only spectra have a number of points each; in older files these bytes are reserved.
         if SPECTRA.contains(&of) && at(94, Number::I32)? > 1.0 {
-            return Err(Fault::new("holds a spectrum at each point", "no surface").help("export the surface alone"));
+            let fault = Fault::new("holds a spectrum at each point", "no surface");
+            return Err(fault.help("export the surface alone").or_elsewhere());
         }
         let name = [field(20, 30)?, field(164, 16)?].join(" ");
         let spacings = [120, 124, 128];
@@ -145,7 +146,8 @@ impl<'a> Object<'a> {
     fn stored(self) -> Result<Measured, Fault> {
         // Pictures: of one bit, of intensities, in colours.
         if [3.0, 10.0, 12.0, 18.0].contains(&self.of) {
-            return Err(Fault::new("holds a picture, not heights", "no heights").help("export the surface alone"));
+            let fault = Fault::new("holds a picture, not heights", "no heights");
+            return Err(fault.help("export the surface alone").or_elsewhere());
         }
         let unit = self.heights_unit();
         let image = self.image?;
@@ -154,9 +156,9 @@ impl<'a> Object<'a> {
             return Err(broken("a spacing of its header is no length greater than 0"));
         }
         let points = self.points.plain(self.kind.size() * image.len())?;
-        let heights = image.heights(|k| {
+        let heights = image.scaled(z, |k| {
             let point = self.kind.at(&points, k);
-            if self.bad == Some(point) { f64::NAN } else { z * point }
+            if self.bad == Some(point) { f64::NAN } else { point }
         })?;
         let side = |count: usize, spacing: f64, unit: &str| Length {
             value: count as f64 * spacing,

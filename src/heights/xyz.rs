@@ -7,6 +7,7 @@
 use super::fault::{Fault, Heights, MOST, fits, push};
 use super::header::Header;
 use super::lines::{Line, Lines};
+use super::profile;
 use super::text::FEW;
 use std::io::BufRead;
 
@@ -108,6 +109,9 @@ pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<PointGrid, Fa
     }
     let axes = axes(&points);
     let [n1, n2] = axes.map(|axis| axis.count);
+    if let Some(fault) = profile_along(&points, [n1, n2]) {
+        return Some(Err(fault));
+    }
     // A few small whole numbers fill a grid by chance.
     let most = if count < 9 { count } else { 2 * count };
     if n1.min(n2) < 2 || n1.max(n2) > count / 2 || !(count..=most).contains(&(n1 * n2)) {
@@ -130,6 +134,15 @@ pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<PointGrid, Fa
     })
 }
 
+/// The fault of points on a line along x or y, one behind the other.
+fn profile_along(points: &[Point], counts: [usize; 2]) -> Option<Fault> {
+    let along = (0..2).find(|axis| counts[1 - axis] == 1)?;
+    let places: Vec<f64> = points.iter().map(|point| point.at[along]).collect();
+    let name = ["x", "y"][along];
+    profile::is_ordered(places.iter())
+        .then(|| profile::fault(&format!("{} points on a line along {name}", points.len())))
+}
+
 fn axes(points: &[Point]) -> [EvenAxis; 2] {
     [0, 1].map(|axis| EvenAxis::of(points.iter().map(|point| point.at[axis]).collect()))
 }
@@ -142,6 +155,9 @@ fn on_grid(points: &[Point]) -> Result<PointGrid, Fault> {
     fits(PER_GRID_POINT * points.len() as u64)?;
     let axes = axes(points);
     let counts = axes.map(|axis| axis.count);
+    if let Some(fault) = profile_along(points, counts) {
+        return Err(fault);
+    }
     let mut values = vec![f64::NAN; 0];
     let mut lines_of = vec![0usize; 0];
     if counts.iter().all(|n| (2..=MOST).contains(n)) && counts[0] * counts[1] <= 2 * points.len() {

@@ -1,7 +1,7 @@
 //! The combinations of a sweep: the product of axes, their pairs, or the rows of a table; and a part of them.
 
 use super::axis::Axis;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::iter;
 
 /// Most combinations of a sweep.
@@ -34,8 +34,11 @@ pub enum CombinationsError {
     )]
     Nothing,
     /// A key is given twice.
-    #[error("`{0}` is given twice")]
+    #[error("`{0}` is given twice; give a key once, with all its values: --set {0}=V1,V2,…")]
     Twice(String),
+    /// The same values are given twice.
+    #[error("{0} is given twice, and would be solved twice: give every value, or row of values, once")]
+    Repeated(String),
     /// Keys to be paired have different numbers of values.
     #[error("--zip pairs values one by one: `{first}` has {first_count} of them, `{other}` {other_count}")]
     Unequal {
@@ -93,6 +96,20 @@ impl Group {
         Ok(Self { keys: axes.iter().map(|axis| axis.key.clone()).collect(), rows: (0..count).map(row).collect() })
     }
 
+    /// The keys, as in the case file.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.keys.iter().map(String::as_str)
+    }
+
+    /// Refuses values that are there twice.
+    fn rows_once(&self) -> Result<(), CombinationsError> {
+        let mut seen = HashSet::with_capacity(self.rows.len());
+        let mut is_new = |row: &Vec<String>| seen.insert(row.iter().map(|value| value_of(value)).collect::<Vec<_>>());
+        let Some(row) = self.rows.iter().find(|row| !is_new(row)) else { return Ok(()) };
+        let named = self.keys.iter().zip(row).map(|(key, value)| format!("{key} = {value}"));
+        Err(CombinationsError::Repeated(named.collect::<Vec<_>>().join(", ")))
+    }
+
     /// A table: the first line has the keys, each further line one value for each key, separated by commas or semicolons.
     /// Empty lines and those that begin with `#` are skipped. A cell in double quotes may hold the separator.
     ///
@@ -135,6 +152,23 @@ impl Group {
     }
 }
 
+/// Refuses a key that is there twice, also where it is spelt in two ways.
+///
+/// # Errors
+/// [`CombinationsError::Twice`].
+pub fn keys_once<'a>(keys: impl IntoIterator<Item = &'a str>) -> Result<(), CombinationsError> {
+    let mut seen = BTreeSet::new();
+    match keys.into_iter().find(|key| !seen.insert(column(key))) {
+        Some(key) => Err(CombinationsError::Twice(key.to_owned())),
+        None => Ok(()),
+    }
+}
+
+/// A value by which equal ones are found: a number whatever its spelling, or the text.
+fn value_of(text: &str) -> String {
+    text.parse::<f64>().map_or_else(|_| text.to_owned(), |number| format!("{:e}", number + 0.0))
+}
+
 /// The cells of a line, without blanks and quotes around them; two quotes within a quoted cell are one.
 fn cells(line: &str, separator: char) -> Vec<String> {
     let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
@@ -155,13 +189,11 @@ impl Combinations {
     /// Every row of each group with every row of the others, the last group fastest.
     ///
     /// # Errors
-    /// [`CombinationsError::Nothing`] without rows, `Twice`, `TooMany`.
+    /// [`CombinationsError::Nothing`] without rows, `Twice`, `Repeated`, `TooMany`.
     pub fn product(groups: &[Group]) -> Result<Self, CombinationsError> {
         let keys: Vec<String> = groups.iter().flat_map(|group| group.keys.clone()).collect();
-        let mut seen = BTreeSet::new();
-        if let Some(key) = keys.iter().find(|key| !seen.insert(column(key))) {
-            return Err(CombinationsError::Twice(key.clone()));
-        }
+        keys_once(keys.iter().map(String::as_str))?;
+        groups.iter().try_for_each(Group::rows_once)?;
         let count = groups.iter().try_fold(1_usize, |count, group| count.checked_mul(group.rows.len()));
         match count {
             Some(0) => return Err(CombinationsError::Nothing),
@@ -300,6 +332,12 @@ mod tests {
         };
         assert!(product(&[]).contains("several values"));
         assert!(product(&["layers.0.a=1,2", "layers[0].a=3,4"]).contains("given twice"));
+        assert!(product(&["a=1,2,1.0"]).starts_with("a = 1.0 is given twice"));
+        assert!(product(&["a=x,y", "b=0.1:0.1:3"]).starts_with("b = 0.1 is given twice"));
+        let table = Group::table("a,b\n1,2\n1,3\n1.0,2e0\n").unwrap();
+        let repeated = Combinations::product(&[table]).unwrap_err().to_string();
+        assert!(repeated.starts_with("a = 1.0, b = 2e0 is given twice"), "{repeated}");
+        assert!(Combinations::product(&[Group::zip(&axes(&["a=1,1,2", "b=1,2,2"])).unwrap()]).is_ok());
         assert!(product(&["a=1:2:10000", "b=1:2:10000"]).contains("100000000 combinations"));
         let unequal = Group::zip(&axes(&["a=1,2", "b=1,2,3"])).unwrap_err().to_string();
         assert!(unequal.contains("`a` has 2 of them, `b` 3"), "{unequal}");

@@ -3,10 +3,9 @@
 use super::row::Ended;
 use crate::case::feasibility::Allowed;
 use crate::case::{Case, plausibility};
-use crate::output::{Clock, Recording, RunFolder, release, solved_plan, write_scalars};
-use crate::run::Recorder;
+use crate::output::{Clock, FolderError, OutputError, Recording, RunFolder, release, solved_plan, write_scalars};
+use crate::run::{Recorder, RunError};
 use crate::spectral::Progress;
-use std::error::Error;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -38,12 +37,21 @@ impl Recorder for Scalars<'_> {
     }
 }
 
-/// Solves a case into `folder`, as `percoat solve --no-pictures` does. The error is the reason of a failed combination.
-pub(super) fn keep(case: &Case, folder: &Path, allowed: Allowed) -> Result<Ended, Box<dyn Error>> {
+/// Solves a case into `folder`, as `percoat solve --no-pictures` does. What cannot be solved is a failed combination, what cannot be written
+/// ends the sweep.
+pub(super) fn keep(case: &Case, folder: &Path, allowed: Allowed) -> Result<Ended, OutputError> {
     let (clock, run) = (Clock::start(), case.run());
-    let claim = RunFolder::claim(folder, solved_plan(case, run.loads.len(), true))?;
+    let claim = match RunFolder::claim(folder, solved_plan(case, run.loads.len(), true)) {
+        Ok(claim) => claim,
+        Err(FolderError::Output(error)) => return Err(error),
+        Err(refused) => return Ok(Ended::failed(refused.to_string())),
+    };
     let mut recording = Recording::new(&claim, &run, case.to_toml(), clock).within(allowed);
-    let outcome = run.solve(&mut recording).map_err(|error| error.told())?;
+    let outcome = match run.solve(&mut recording) {
+        Ok(outcome) => outcome,
+        Err(RunError::Recorder(error)) => return Err(error),
+        Err(error) => return Ok(Ended::failed(error.told())),
+    };
     let (_, mut clock) = recording.finish()?;
     let warnings = [outcome.warnings.clone(), plausibility::of_case(case)].concat();
     write_scalars(&claim.staging(), case, &outcome, &warnings, clock.timing())?;

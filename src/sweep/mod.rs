@@ -29,7 +29,7 @@ mod workers;
 
 pub use axis::{Axis, AxisError};
 pub use best::best_and_worst;
-pub use combinations::{Combination, Combinations, CombinationsError, Group, column};
+pub use combinations::{Combination, Combinations, CombinationsError, Group, column, keys_once};
 pub use known::Known;
 pub use log::{Damage, Log, Logged, read};
 pub use parts::{Part, PartError, UNFINISHED, join};

@@ -9,7 +9,7 @@ use crate::case::feasibility::Allowed;
 use crate::case::resources::Job;
 use crate::case::{Case, CaseError, Source};
 use crate::machine::Capacity;
-use crate::output::COMBINATIONS;
+use crate::output::{COMBINATIONS, OutputError};
 use std::collections::HashSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -93,8 +93,8 @@ impl<'a> Study<'a> {
     /// Kept fields are gathered in `folder`.
     ///
     /// # Errors
-    /// Those of `done`.
-    pub fn run<E>(
+    /// Those of `done`, and of writing fields.
+    pub fn run<E: From<OutputError>>(
         &self,
         known: &HashSet<usize>,
         folder: &Path,
@@ -105,6 +105,7 @@ impl<'a> Study<'a> {
         let (small, large): (Vec<&Planned>, Vec<&Planned>) = pending.partition(|planned| planned.is_small);
         let workers = self.workers(rayon::current_num_threads());
         let share = Capacity { memory: self.room.memory / workers as u64, ..self.room };
+        let mut done = |row: Result<Row, OutputError>| done(row?);
         workers::each(&small, workers, |planned| self.row(planned, folder, share), &mut done)?;
         workers::each(&large, 1, |planned| self.row(planned, folder, self.room), &mut done)
     }
@@ -120,13 +121,13 @@ impl<'a> Study<'a> {
         }
     }
 
-    fn row(&self, planned: &Planned, folder: &Path, room: Capacity) -> Row {
+    fn row(&self, planned: &Planned, folder: &Path, room: Capacity) -> Result<Row, OutputError> {
         let (combination, started) = (planned.combination, Instant::now());
         // A panic fails this combination alone.
         let ended = catch_unwind(AssertUnwindSafe(|| self.ended(planned, folder, room)));
-        let Ended { status, reason, warnings, results, files } =
-            ended.unwrap_or_else(|_| Ended::failed("percoat itself failed on it, which is a fault of the program"));
-        Row {
+        let fault = "percoat itself failed on it, which is a fault of the program";
+        let Ended { status, reason, warnings, results, files } = ended.unwrap_or_else(|_| Ok(Ended::failed(fault)))?;
+        Ok(Row {
             combination: combination.number,
             settings: self.combinations.named_values(combination),
             fingerprint: planned.fingerprint.clone(),
@@ -136,10 +137,10 @@ impl<'a> Study<'a> {
             results,
             seconds: started.elapsed().as_secs_f64(),
             files,
-        }
+        })
     }
 
-    fn ended(&self, planned: &Planned, folder: &Path, room: Capacity) -> Ended {
+    fn ended(&self, planned: &Planned, folder: &Path, room: Capacity) -> Result<Ended, OutputError> {
         let read;
         let case = match &planned.case {
             Some(case) => case,
@@ -148,19 +149,16 @@ impl<'a> Study<'a> {
                     read = case;
                     &read
                 }
-                Err(error) => return Ended::failed(error.message()),
+                Err(error) => return Ok(Ended::failed(error.message())),
             },
         };
         let allowed = match Allowed::within(case, room, self.job()) {
             Ok(allowed) => allowed,
-            Err(why) => return Ended::failed(why),
+            Err(why) => return Ok(Ended::failed(why)),
         };
         let mut scalars = Scalars { allowed, stop: &self.stop };
-        match (self.task, self.keeps_fields) {
-            (Task::Solve, true) => {
-                let folder = folder.join(folder_of(planned.combination.number));
-                keep(case, &folder, allowed).unwrap_or_else(|error| Ended::failed(error.to_string()))
-            }
+        Ok(match (self.task, self.keeps_fields) {
+            (Task::Solve, true) => keep(case, &folder.join(folder_of(planned.combination.number)), allowed)?,
             (Task::Solve, false) => match case.run().solve(&mut scalars) {
                 Ok(outcome) => Ended::solved(&outcome, case),
                 Err(error) => Ended::failed(error.told()),
@@ -169,7 +167,7 @@ impl<'a> Study<'a> {
                 Ok(limits) => Ended::limited(&limits, case),
                 Err(error) => Ended::failed(error.told()),
             },
-        }
+        })
     }
 }
 
@@ -195,11 +193,11 @@ mod tests {
             let study = Study::new(&source, &fixed, &combinations, task, room).unwrap();
             let stop = Arc::new(AtomicBool::new(true));
             let (study, mut reasons) = (study.stopped_by(Arc::clone(&stop)), Vec::new());
-            let done = study.run(&HashSet::new(), Path::new("."), |row| -> Result<(), ()> {
+            let done = study.run(&HashSet::new(), Path::new("."), |row| -> Result<(), OutputError> {
                 reasons.push(row.reason);
                 Ok(())
             });
-            assert_eq!(done, Ok(()));
+            done.unwrap();
             assert_eq!(reasons, vec![Some("stopped before its end".to_owned()); 3]);
         }
     }

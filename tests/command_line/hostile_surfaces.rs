@@ -101,6 +101,12 @@ fn files_that_hold_something_else_are_refused_or_told() {
         if j.is_multiple_of(2) { format!("{:.0}", 9.0 * height(i, j / 2)) } else { "0".to_owned() }
     });
     let twice = format!("{0}\n{0}", plain(1.0, "\t"));
+    let profile = |mark: &str, line: fn(f64, f64) -> Vec<f64>| {
+        let of = |k: usize| line(k as f64, height(k, 3)).iter().map(f64::to_string).collect::<Vec<_>>().join(mark);
+        (0..132).map(|k| of(k) + "\n").collect::<String>()
+    };
+    let columns = [profile(" ", |x, _| vec![x]), profile(" ", |_, z| vec![z])];
+    let in_two_lines = columns.map(|column| column.replace('\n', " ") + "\n").concat();
     for (name, file, content, fate) in [
         ("one decimal, commas", "a.csv", decimal(1, 0.0), Told(&["16 lines of 32", "decimal commas, 16 × 16?"][..])),
         ("one decimal of large ones", "a.csv", decimal(1, 250.0), Told(&["decimal commas, 16 × 16?"])),
@@ -245,6 +251,48 @@ fn files_that_hold_something_else_are_refused_or_told() {
             format!("\"x\",\"y\"\n{}", plain(1.0, ",")),
             Refused(&["line 1", "a header?"]),
         ),
+        (
+            "a profile",
+            "a.txt",
+            profile(" ", |x, z| vec![x, z]),
+            Refused(&["132 lines of two numbers", "a profile is no surface", "equal columns"]),
+        ),
+        (
+            "a falling profile",
+            "a.csv",
+            profile(",", |x, z| vec![-0.3 * x * x, z]),
+            Refused(&["a profile is no surface"]),
+        ),
+        (
+            "a profile in two lines",
+            "a.dat",
+            in_two_lines,
+            Refused(&["two lines of 132 numbers", "a profile is no surface"]),
+        ),
+        (
+            "a profile as points",
+            "a.txt",
+            profile(" ", |x, z| vec![x, 7.5, z]),
+            Refused(&["132 points on a line along x", "a profile is no surface"]),
+        ),
+        (
+            "a profile as points, said",
+            "a.xyz",
+            profile(" ", |x, z| vec![0.0, x, z]),
+            Refused(&["132 points on a line along y"]),
+        ),
+        (
+            "an attocube of two units",
+            "a.txt",
+            format!("# x-unit = nm\n# y-unit = µm\n{}", plain(1.0, " ")),
+            Refused(&["line 2 gives a quantity that another line of the header gives otherwise"]),
+        ),
+        (
+            "two widths",
+            "a.txt",
+            format!("# Width: 3 m\n# Height: 3 m\n# Width: 4 m\n{}", plain(1.0, " ")),
+            Refused(&["line 3: which one?"]),
+        ),
         ("one long line", "a.txt", plain(1.0, " ").replace('\n', " "), Refused(&["1 × 256 heights"])),
         ("one column", "a.txt", plain(1.0, "\n"), Refused(&["256 × 1 heights"])),
     ] {
@@ -299,6 +347,16 @@ fn good_files_are_read_without_a_word() {
             ),
             "",
         ),
+        ("SPIP of Gwyddion", "a.asc", spip("# Bit2nm = 1.0\n", &plain(1e3, "\t")), ""),
+        ("SPIP in a text", "a.txt", spip("# Bit2nm = 1.0\n", &plain(1e3, "\t")), ""),
+        ("SPIP in counts", "a.asc", spip("# Bit2nm = 0.5\n", &plain(2e3, "\t")).replace('\n', "\r\n"), ""),
+        (
+            "SPIP in brackets",
+            "a.asc",
+            spip("# Bit2nm = 1.0\n# z-unit = [µm]\n# voidpixels =0\n", &plain(1.0, "\t")),
+            "",
+        ),
+        ("SPIP, the unit by hand", "a.asc", spip("", &plain(1.0, "\t")), "unit = \"µm\""),
         ("counts and a pixel", "a.txt", format!("# h=16 w=16\n# pixel size=4e-6 m\n{}", plain(1.0, " ")), ""),
         ("numpy.savetxt", "a.txt", matrix([16, 16], " ", |i, j| format!("{:.18e}", height(i, j))), PERIOD),
         (
@@ -355,6 +413,64 @@ fn a_factor_that_may_or_may_not_hold_the_unit_is_refused() {
         ("period = 32", MICROMETRES, Told(&["says that it is 64.000 × 64.000 large"])),
     ] {
         meets(&check("a.txt", &content, surface, more), fate, surface);
+    }
+}
+
+/// A header of SPIP on 64 µm, without a unit; with these lines before its end.
+fn spip(more: &str, data: &str) -> String {
+    format!(
+        "# File Format = ASCII\n# Created by Gwyddion 2.65\n# Original file: NONE\n# x-pixels = 16\n# y-pixels = 16\n# x-length = 64000\n\
+         # y-length = 64000\n# x-offset = 0\n# y-offset = 0\n{more}# Start of Data:\n{data}"
+    )
+}
+
+/// Sides are in nanometres and heights are numbers × Bit2nm, whatever the unit of the case and the ending of the file.
+#[test]
+fn the_lengths_of_spip_are_nanometres() {
+    let heights = plain(1e3, "\t");
+    let mask = |hole: &str| matrix([16, 16], "\t", |i, j| if i == 4 && j == 7 { hole } else { "0" }.to_owned());
+    let marked = |voids: &str, hole: &str| {
+        spip(&format!("# Bit2nm = 1.0\n# voidpixels ={voids}\n"), &(heights.clone() + &mask(hole)))
+    };
+    for (content, surface, fate) in [
+        (spip("# Bit2nm = 1.0\n", &heights), "", Read(0.9)),
+        (spip("# Bit2nm = 1.0\n", &heights), "period = 0.064", Told(&["says that it is 64.000 × 64.000 large"][..])),
+        (marked("1", "1"), "", Told(&["1 of 256 places"])),
+        (marked("2", "1"), "", Refused(&["do not mark by 1 the 2 places"])),
+        (marked("1", "0.5"), "", Refused(&["do not mark by 1 the 1 places"])),
+        (marked("0", "1"), "", Refused(&["holds 32 lines of 16 numbers, and its header says 16"])),
+        (
+            spip("# Bit2nm = 1.0\n# voidpixels = 3\n", &heights),
+            "",
+            Refused(&["3 places have no measurement, and does not mark"]),
+        ),
+        (spip("", &heights), "", Refused(&["says no unit of its heights", "surface.unit"])),
+        (spip("# Bit2nm = 0.5\n# z-unit = nm\n", &heights), "", Refused(&["a factor before them", "surface.scale"])),
+        (spip("# Bit2nm = 1.0\n# z-unit = V\n", &heights), "", Refused(&["no unit of length"])),
+        (spip("# Bit2nm = 0\n", &heights), "", Refused(&["Bit2nm that is no number greater than 0"])),
+    ] {
+        for file in ["a.asc", "a.txt"] {
+            meets(&check(file, &content, surface, MICROMETRES), fate, surface);
+        }
+    }
+    // A mark of missing data among the counts, before the factor.
+    let first = heights.split_once('\t').unwrap().1;
+    let counts = spip("# Bit2nm = 0.37\n", &format!("32767\t{first}"));
+    meets(&check("a.asc", counts, "", MICROMETRES), Refused(&["32767.0 at 1 of 256 places"]), "a mark");
+}
+
+/// The way through a program that reads what percoat does not.
+#[test]
+fn a_file_that_is_refused_for_its_format_names_the_way_through() {
+    for (file, content) in
+        [("a.spm", "binary"), ("a.sdf", "no SDF"), ("a.gwy", "no GWY"), ("a.asc", "WSxM file"), ("a.x3p", "no zip")]
+    {
+        let answer = check(file, content, PERIOD, "");
+        assert!(
+            answer.code == 2 && answer.err.contains("Gwyddion") && answer.err.contains(".gwy"),
+            "{file}: {}",
+            answer.err
+        );
     }
 }
 

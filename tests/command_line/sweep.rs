@@ -118,8 +118,26 @@ fn what_fails_is_a_row_that_says_why() {
 fn what_can_be_no_sweep_is_refused_and_nothing_written() {
     let desk = desk();
     desk.write("table.csv", "layers.0.thickness,grid.points\n0.1\n");
+    desk.write("twice.csv", "layers.0.thickness,grid.points\n0.1,16\n0.1,32\n0.10,16.0\n");
+    desk.write("good.csv", "layers.0.thickness,grid.points\n0.1,16\n0.1,32\n");
     for (arguments, words) in [
-        (&[][..], "needs a key with several values"),
+        (
+            &["--set", "grid.points=16,32", "--set", "layers.0.thickness=0.1", "--set", "layers[0].thickness=0.2"][..],
+            "twice",
+        ),
+        (
+            &["--set", "layers.0.thickness=0.1", "--set", "layers.0.thickness=0.2,0.3"],
+            "`layers.0.thickness` is given twice",
+        ),
+        (&["--set", "layers.0.thickness=0.2,0.3", "--set", "layers.0.thickness=0.1"], "give a key once"),
+        (&["--set", "layers.0.thickness=0.1,0.2", "--set", "layers.0.thickness=0.3,0.4"], "give a key once"),
+        (&["--table", "good.csv", "--set", "grid.points=48"], "`grid.points` is given twice"),
+        (&["--table", "good.csv", "--set", "grid.points=48,64"], "`grid.points` is given twice"),
+        (&["--set", "layers.0.thickness=0.1,0.2,0.10"], "layers.0.thickness = 0.10 is given twice"),
+        (&["--set", "layers.0.thickness=0.1:0.1:3"], "layers.0.thickness = 0.1 is given twice"),
+        (&["--table", "twice.csv"], "layers.0.thickness = 0.10, grid.points = 16.0 is given twice"),
+        (&["--zip", "--set", "layers.0.thickness=1,1", "--set", "grid.points=16,16"], "is given twice"),
+        (&[], "needs a key with several values"),
         (&["--set", "layers.0.thickness=0.3"], "needs a key with several values"),
         (&["--set", "layers.0.thicknes=0.1,0.2"], "thickness"),
         (&["--set", "layers.0.thickness=0.1:0.2:0"], "number of values"),
@@ -283,6 +301,32 @@ fn fields_are_kept_where_they_are_asked_for() {
     assert_eq!(Folder(desk.path("out/combinations")).names().len(), 3);
     let fewer = sweep(&desk, "out", &["--set", "layers.0.thickness=0.1,0.2"]);
     assert!(fewer.code == 0 && !desk.path("out/combinations/0001/contact.npz").exists(), "they go with their result");
+}
+
+/// A combination that cannot be written is no failed one: the sweep ends with the error, however quiet, and goes on once there is room.
+#[cfg(unix)]
+#[test]
+fn fields_without_room_end_the_sweep_with_an_error_also_when_quiet() {
+    let desk = desk();
+    let limited = |blocks: &str| {
+        let arguments = ["sweep", "case.toml", "-o", "out", "--no-pictures", "--keep-fields", "-q", "--resume"];
+        let output = Command::new("sh")
+            .args(["-c", &format!("ulimit -f {blocks}; exec \"$0\" \"$@\"")])
+            .arg(assert_cmd::cargo::cargo_bin!("percoat"))
+            .args(arguments)
+            .args(["--set", "layers.0.thickness=0.1,0.2", "--threads", "1"])
+            .current_dir(desk.path("."))
+            .output()
+            .unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, said) = limited("16");
+    assert_eq!(code, Some(4), "{said}");
+    assert!(said.starts_with("error: cannot write out/") && said.contains("File too large"), "{said}");
+    assert!(!desk.path("out/sweep.csv").exists());
+    let (code, said) = limited("unlimited");
+    assert_eq!((code, &said[..]), (Some(0), ""));
+    assert_eq!(Folder(desk.path("out/combinations")).names().len(), 2);
 }
 
 #[test]

@@ -47,7 +47,7 @@ fn doubts(case: &Case) -> String {
 
 /// Errors: of doubles some units in the last place of 500 nm; of a text its ten digits; of points of 32 bits that of the spacing, a
 /// number of single precision; of single precision half a unit in its last place.
-const FILES: [(&str, &str, f64, usize); 13] = [
+const FILES: [(&str, &str, f64, usize); 19] = [
     ("one_height.gwy", "", 1e-12, 4),
     ("two_heights.gwy", "channel = \"Height\"", 1e-12, 4),
     ("two_heights.gwy", "channel = 2", 1e-12, 4),
@@ -55,8 +55,14 @@ const FILES: [(&str, &str, f64, usize); 13] = [
     ("shorts.x3p", "", 1e-12, 4),
     ("layers.x3p", "channel = 1", 1e-12, 4),
     ("other.x3p", "", 1e-4, 0),
+    ("text.x3p", "", 1e-12, 4),
     ("binary.sdf", "", 1e-11, 4),
     ("text.sdf", "", 1e-8, 4),
+    ("iso2.sdf", "", 1e-11, 4),
+    ("iso2_text.sdf", "", 1e-11, 4),
+    ("bcr.sdf", "", 1e-11, 4),
+    ("bcr_floats.sdf", "", 1e-11, 4),
+    ("bcr_text.sdf", "", 1e-11, 4),
     ("plain.sur", "", 1e-4, 4),
     ("compressed.sur", "", 1e-4, 4),
     ("hyperspy.sur", "", 1e-4, 4),
@@ -128,7 +134,7 @@ fn truncated_files_are_refused_wherever_they_end() {
             let Ok(case) = read(name, whole[..end].to_vec(), surface) else { continue };
             // A text may end within its last number, or after it.
             assert!(
-                name == "text.sdf" && end > whole.len() - 60 || name == "grid.asc" && end > whole.len() - 30,
+                name.ends_with("text.sdf") && end > whole.len() - 60 || name == "grid.asc" && end > whole.len() - 30,
                 "{name} to {end}"
             );
             assert_eq!(case.counterbody().topography().unwrap().points(), POINTS);
@@ -217,23 +223,92 @@ fn sizes_that_the_file_does_not_hold_are_refused() {
     }
 }
 
-/// A text of the format before the standard, with comments, other lines and a star in a value; and what may follow binary heights.
+/// A text of the proposal before the standard, with comments, words, ends of lines of old computers and a star in a value; and what may
+/// follow binary heights, or precede them.
 #[test]
 fn sdf_files_of_other_writers_are_read() {
-    let text = String::from_utf8(stored("text.sdf")).unwrap();
+    let text = String::from_utf8(stored("bcr_text.sdf")).unwrap();
     let own = [
         ("NumPoints = 24", "NumPoints   24 ; points of a line"),
         ("Zresolution", "; a comment\nManufacID = A*B\nZresolution"),
+        ("DataType = 6", "DataType = LongInt"),
+        ("Compression = 0", "Compression = NULL"),
+        ("CheckType = 0", "CheckType = None"),
+        ("aBCR", "ABCR"),
+        ("2147483647", "BAD ; 3 4\n"),
     ];
-    let other = own.iter().fold(text.replacen("aISO-1.0", "aBCR-1.0", 1), |text, (from, to)| {
+    let other = own.iter().fold(text, |text, (from, to)| {
         assert!(text.contains(from), "{from}");
         text.replacen(from, to, 1)
     });
-    let case = read("a.sdf", format!("{other}\nmeasured by A").into_bytes(), "").unwrap();
-    assert!(error(&case, 1.0) < 1e-8);
-    let mut binary = put(stored("binary.sdf"), 0, b"bBCR-1.0");
-    binary.extend([b' '; 500]);
-    assert!(error(&read("a.sdf", binary, "").unwrap(), 1.0) < 1e-11);
+    let of = |text: String| error(&read("a.sdf", text.into_bytes(), "").unwrap(), 1.0);
+    assert!(of(format!("{other}\nmeasured by A")) < 1e-11);
+    assert!(of(other.replace("\r\n", "\n").replace('\n', "\r")) < 1e-11);
+    let longer = |name: &str| [stored(name), vec![b' '; 500]].concat();
+    assert!(error(&read("a.sdf", longer("binary.sdf"), "").unwrap(), 1.0) < 1e-11);
+    assert!(error(&read("a.sdf", longer("bcr.sdf"), "").unwrap(), 1.0) < 1e-11);
+    // Two numbers more behind the header.
+    let olympus = [&stored("binary.sdf")[..81], &[5, 0, 0, 0, 1, 0, 0, 0], &stored("binary.sdf")[81..]].concat();
+    assert!(error(&read("a.sdf", olympus, "").unwrap(), 1.0) < 1e-11);
+}
+
+/// As `sdfile_export_text` of Gwyddion writes it: six digits, the first line on top, no star at the end.
+#[test]
+fn the_sdf_export_of_gwyddion_is_read() {
+    let mut text = "aBCR-0.0\nManufacID   = Gwyddion\nCreateDate  = 01012026\nModDate     = 01012026\nNumPoints   = 24\nNumProfiles = 15\n\
+                    Xscale      = 5.000000e-07\nYscale      = 8.000000e-07\nZscale      = 1.000000e+00\nZresolution = -1\n\
+                    Compression = 0\nDataType    = 3\nCheckType   = 0\nNumDataSet  = 1\nNanPresent  = 0\n*\n"
+        .to_owned();
+    for j in (0..POINTS[1]).rev() {
+        (0..POINTS[0]).for_each(|i| text += &format!("{:.5e}\n", 1e-9 * height(i, j)));
+    }
+    let case = read("a.sdf", text.into_bytes(), "").unwrap();
+    // Half a unit of the sixth digit of 500 nm, twice.
+    assert!(error(&case, 1.0) < 1.01e-3 && !doubts(&case).contains("have no measurement"), "{}", error(&case, 1.0));
+}
+
+/// The mark of one version among the numbers of another is no summit and no pit.
+#[test]
+fn what_no_version_of_sdf_explains_is_refused_with_the_way_through() {
+    let binary = |name: &str, at: usize, bytes: &[u8]| read("a.sdf", put(stored(name), at, bytes), "");
+    let text = |name: &str, from: &str, to: &str| {
+        let text = String::from_utf8(stored(name)).unwrap();
+        assert!(text.contains(from), "{from}");
+        read("a.sdf", text.replacen(from, to, 1).into_bytes(), "")
+    };
+    for (told, words) in [
+        (
+            binary("binary.sdf", 0, b"bISO-3.0"),
+            "is of the version ISO-3.0; BCR-0.0, BCR-1.0, ISO-1.0 and ISO-2.0 are read",
+        ),
+        (binary("binary.sdf", 0, b"bISO-\xff\0\0"), "is of the version that is not known"),
+        (text("text.sdf", "aISO-1.0", "aBCR-2.0"), "is of the version BCR-2.0"),
+        (binary("binary.sdf", 78, &[1]), "compressed"),
+        (binary("binary.sdf", 80, &[1]), "checksums"),
+        (binary("binary.sdf", 79, &[1]), "numbers without a sign"),
+        (text("text.sdf", "CheckType = 0", "CheckType = 1"), "checksums"),
+    ] {
+        let told = told.map(|_| ()).unwrap_err();
+        assert!(told.contains(words) && told.contains("save it there as .gwy"), "{words}: {told}");
+    }
+    for (told, words) in [
+        (binary("bcr.sdf", 81 + 2 * 7, &i16::MIN.to_le_bytes()), "-32768.0 at 1 of 360 places"),
+        (text("iso2_text.sdf", " 268 ", " 32767 "), "32767.0 at 1 of 360 places"),
+        (binary("binary.sdf", 81 + 8 * 7, &f64::MAX.to_le_bytes()), "at most 1e60"),
+        (text("text.sdf", "NumPoints = 24", "NumPoints = 24\nNumPoints = 24"), "a number of its header twice"),
+    ] {
+        let told = told.map(|_| ()).unwrap_err();
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    // By the proposal the largest number is the mark, of numbers without a sign too.
+    let raised = (0..360).fold(stored("bcr.sdf"), |content, k| {
+        let at = 81 + 2 * k;
+        let own = i16::from_le_bytes([content[at], content[at + 1]]);
+        let other = if own == i16::MAX { u16::MAX } else { (i32::from(own) + 1000) as u16 };
+        put(content, at, &other.to_le_bytes())
+    });
+    let case = read("a.sdf", put(raised, 79, &[1]), "").unwrap();
+    assert!(error(&case, 1.0) < 1e-11 && doubts(&case).contains("4 of 360 places"));
 }
 
 /// The first channel is a profile, and the second one wanted.
@@ -276,6 +351,46 @@ fn a_sphere_that_leaves_most_of_the_heights_is_doubted() {
     };
     assert!(told(576, "0").contains("the surface has 63 % of its rms height left"), "{}", told(576, "0"));
     assert!(!told(900, "nan").contains("rms height left"), "{}", told(900, "nan"));
+}
+
+/// Files of instruments that state no unit are in no unit, and not in that of the case.
+#[test]
+fn a_file_without_units_is_read_in_the_unit_that_the_case_says() {
+    let field = b"unitstr\0sm\0";
+    let gwy = stored("one_height.gwy");
+    let at: Vec<usize> = (0..gwy.len()).filter(|at| gwy[*at..].starts_with(field)).collect();
+    // The phase has metres along its sides, the height everywhere, its mask along its sides.
+    assert_eq!(at.len(), 4);
+    let blank = |which: &[usize]| which.iter().fold(gwy.clone(), |content, k| put(content, at[*k] + 9, b" "));
+    let of = |which: &[usize], surface: &str| read("a.gwy", blank(which), &format!("channel = 2\n{surface}"));
+    let mut sur = stored("plain.sur");
+    sur[180..276].fill(0);
+    let of_sur = |surface: &str| read("a.sur", sur.clone(), surface);
+    let of_asc = |surface: &str| read("grid.asc", stored("grid.asc"), surface);
+    for told in [of(&[0, 1, 2, 3], ""), of_sur(""), of_asc("")] {
+        let told = told.map(|_| ()).unwrap_err();
+        assert!(told.contains("says no unit of its heights") && told.contains("surface.unit"), "{told}");
+    }
+    for (told, factor) in [
+        (of(&[0, 1, 2, 3], "unit = \"m\""), 1.0),
+        (of(&[0, 1, 2, 3], "scale = 2e9\nperiod = 12e3"), 2.0),
+        (of_sur("unit = \"µm\""), 1.0),
+        (of_asc("unit = \"µm\""), 1.0),
+        (of(&[1], "unit = \"m\"\nperiod = 12e3"), 1.0),
+        (of(&[2], "unit = \"m\"\nperiod = 12e3"), 1.0),
+    ] {
+        let case = told.unwrap_or_else(|error| panic!("{error}"));
+        let [[x, _], [_, y]] = case.counterbody().cell().vectors();
+        assert!(error(&case, factor) < 1e-4 && (x / 12e3 - 1.0).abs() < 1e-7 && (y / 12e3 - 1.0).abs() < 1e-7);
+    }
+    // Neither the unit of the heights nor that of the case is that of the sides. Which of two is blank the file decides.
+    let sides = [of(&[0, 1, 2, 3], "scale = 1e9"), of_sur("scale = 1e3"), of_asc("scale = 1e3")];
+    let one = [of(&[1], ""), of(&[2], "")].map(|told| told.map(|_| ()).unwrap_err());
+    let one: Vec<String> = one.into_iter().filter(|told| !told.contains("no unit of its heights")).collect();
+    assert_eq!(one.len(), 1);
+    for told in sides.into_iter().map(|told| told.map(|_| ()).unwrap_err()).chain(one) {
+        assert!(told.contains("`surface.period` is missing") && told.contains("and not their unit"), "{told}");
+    }
 }
 
 /// A zip of files, each with its content, and the sizes that are stated of it where they are not those that it has.
@@ -381,6 +496,154 @@ fn zips_that_unpack_without_end_are_refused() {
         let told = told.map(|_| ()).unwrap_err();
         assert!(told.contains(words), "{words}: {told}");
     }
+}
+
+/// `main.xml` with its heights as text; this list of them.
+fn main_with(list: &str) -> String {
+    let main = main_xml(["4", "3", "1"], "D");
+    let (before, rest) = main.split_once("<DataLink>").unwrap();
+    format!("{before}{list}{}", rest.split_once("</DataLink>").unwrap().1)
+}
+
+/// As in the samples of the standard.
+#[test]
+fn heights_in_main_xml_are_read_or_refused() {
+    let of = |list: &str| read("a.x3p", zip(&[("main.xml", main_with(list).as_bytes(), None)]), "");
+    let datums = |count: usize| (0..count).map(|k| format!("<Datum>{k}.5e-3</Datum>\n")).collect::<String>();
+    let list = |datums: &str| format!("<DataList>{datums}</DataList>");
+    let plain = of(&list(&datums(12))).unwrap();
+    // In micrometres: the increment along z is one, too.
+    let heights = plain.counterbody().topography().unwrap().heights().to_owned();
+    assert_eq!(heights.dim(), (4, 3));
+    assert!(heights.indexed_iter().all(|((i, j), own)| { (own - heights[[0, 0]] - (i + 4 * j) as f64).abs() < 1e-12 }));
+    let prefixed =
+        list(&datums(12)).replace("<D", "<p:D").replace("</D", "</p:D").replacen("<p:Datum", "<!-- < --> <p:Datum", 1);
+    let spaced = list(&datums(12)).replace("Datum>", "Datum >").replace("DataList>", "DataList\n >");
+    for other in [prefixed, spaced] {
+        assert_eq!(of(&other).unwrap().counterbody(), plain.counterbody());
+    }
+    for empty in ["<Datum/>", "<Datum />", "<Datum></Datum>", "<Datum> </Datum>", "<Datum>nan</Datum>"] {
+        let case = of(&list(&datums(12).replace("<Datum>7.5e-3</Datum>", empty))).unwrap();
+        assert!(doubts(&case).contains("1 of 12 places"), "{empty}: {}", doubts(&case));
+    }
+    let comment = "<!-- <DataList> --><DataList></DataList>";
+    for (told, words) in [
+        (of(&list(&datums(11))), "ends before the data"),
+        (of(&list(&datums(13))), "more heights than its main.xml states"),
+        (of(&list(&datums(12).replace("3.5e-3", "3;5"))), "one of its heights is no number"),
+        (of(&list(&datums(12).replace("3.5e-3", "<b/>"))), "something else"),
+        (of(&list(&datums(12).replacen("</Datum>", "</Data>", 1))), "something else"),
+        (of(&list(&(datums(12) + "<!-- "))), "something else"),
+        (of(&list(&(datums(12) + "and"))), "something else"),
+        (of("<DataList/>"), "ends before the data"),
+        (of(comment), "no XML"),
+        (of(&format!("{0}{0}", list(&datums(12)))), "something else"),
+        (of(&format!("{}<DataList/>", list(&datums(12)))), "an element DataList of its main.xml twice"),
+        (of("<DataList>"), "no XML"),
+        (of(""), "names no file of them"),
+        (of(&(list(&datums(12)) + "<DataLink><PointDataLink>a</PointDataLink></DataLink>")), "its heights twice"),
+        (of(&(list(&datums(12)) + &" ".repeat(1 << 17))), "at most 65536 belong there"),
+    ] {
+        let told = told.map(|_| ()).unwrap_err();
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    // More than the rest of a main.xml may have.
+    let many = main_with(&list(&(0..300 * 200).map(|k| format!("<Datum>{}e-9</Datum>", k % 7)).collect::<String>()))
+        .replace("<SizeX>4<", "<SizeX>300<")
+        .replace("<SizeY>3<", "<SizeY>200<");
+    let case = read("a.x3p", zip(&[("main.xml", many.as_bytes(), None)]), "").unwrap();
+    assert_eq!(case.counterbody().topography().unwrap().points(), [300, 200]);
+}
+
+#[test]
+fn what_an_x3p_file_has_twice_or_changed_is_refused() {
+    let data: Vec<u8> = (0..12u8).flat_map(|k| i16::from(k).to_le_bytes()).collect();
+    let main = main_xml(["4", "3", "1"], "I");
+    let sum = |content: &[u8]| format!("{:X}", md5::compute(content));
+    let stated = |md5: &str| {
+        let md5 = format!("</PointDataLink><MD5ChecksumPointData>{md5}</MD5ChecksumPointData>");
+        main.replace("</PointDataLink>", &md5)
+    };
+    let of = |main: &str, more: &[(&str, &[u8])]| {
+        let own = [("main.xml", main.as_bytes(), None), ("bindata/data.bin", &data[..], None)];
+        let more = more.iter().map(|(name, content)| (*name, *content, None));
+        read("a.x3p", zip(&own.into_iter().chain(more).collect::<Vec<_>>()), "")
+    };
+    let of_main = sum(main.as_bytes()) + " *main.xml\n";
+    let of_data = sum(&data) + " *bindata/data.bin\n";
+    let others = sum(b"another");
+    for (main, more) in [
+        (&stated(&sum(&data)), &[][..]),
+        (&stated("not computed"), &[]),
+        (&main, &[("md5checksum.hex", of_main.as_bytes())]),
+        (&main, &[("md5checksum.hex", &b"none"[..])]),
+        // As SurfaceTopography writes it: the checksum of another member.
+        (&main, &[("md5checksum.hex", of_data.as_bytes())]),
+        (&main, &[("another.hex", others.as_bytes())]),
+        (&main, &[("__MACOSX/main.xml", &b"a"[..]), ("._main.xml", b"b"), ("domain.xml", b"c")]),
+    ] {
+        assert!(of(main, more).is_ok(), "{more:?}");
+    }
+    let valid = main.replace(
+        "</PointDataLink>",
+        "</PointDataLink><ValidPointsLink>v</ValidPointsLink><MD5ChecksumValidPoints>VV</MD5ChecksumValidPoints>",
+    );
+    assert!(of(&valid.replace("VV", &sum(&[255, 15])), &[("v", &[255, 15])]).is_ok());
+    let named = main.replace("</Record3>", "</Record3><Record4><ChecksumFile>a.hex</ChecksumFile></Record4>");
+    for (told, words) in [
+        (of(&stated(&others), &[]), "another checksum"),
+        (of(&valid.replace("VV", &others), &[("v", &[255, 15])]), "another checksum"),
+        (of(&main, &[("md5checksum.hex", others.as_bytes())]), "another checksum"),
+        (of(&named, &[("a.hex", of_main.as_bytes())]), "another checksum"),
+        (of(&main, &[("main.xml", main.as_bytes())]), "a member of its zip twice"),
+        (of(&main, &[("bindata/data.bin", &data)]), "a member of its zip twice"),
+        (of(&main, &[("copy/main.xml", main.as_bytes())]), "is a zip with 2 files main.xml"),
+        (
+            of(&main.replacen("<SizeX>4</SizeX>", "<SizeX>4</SizeX><SizeX>4</SizeX>", 1), &[]),
+            "an element SizeX of its main.xml twice",
+        ),
+        (of(&main.replacen("<Record3>", "<Record3/><Record3>", 1), &[]), "an element Record3 of its main.xml twice"),
+        (of(&main.replacen("<Increment>", "<Increment>2</Increment><Increment>", 1), &[]), "an element Increment"),
+    ] {
+        let told = told.map(|_| ()).unwrap_err();
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    let twice = |name: &[u8]| {
+        let content = stored("two_heights.gwy");
+        let at = content.windows(name.len()).position(|own| own == b"/2/data\0o").unwrap();
+        read("a.gwy", put(content, at, name), "channel = 1\nscale = 1").map(|_| ()).unwrap_err()
+    };
+    assert!(twice(b"/1/data\0o").contains("twice"));
+    let asc = String::from_utf8(stored("grid.asc")).unwrap();
+    let told = read("a.asc", format!("ncols 24\n{asc}").into_bytes(), "unit = \"µm\"").map(|_| ()).unwrap_err();
+    assert!(told.contains("a value of its header twice"), "{told}");
+}
+
+/// Increments are metres; those in micrometres are named, along the sides and upward.
+#[test]
+fn an_increment_that_can_hardly_be_metres_is_named() {
+    let data: Vec<u8> = (0..12u8).flat_map(|k| i16::from(k * k).to_le_bytes()).collect();
+    let of = |increments: [&str; 3]| {
+        let main = main_xml(["4", "3", "1"], "I");
+        let parts: Vec<&str> = main.split("1e-6").collect();
+        let main: String =
+            parts.iter().zip(increments.iter().chain([&""])).flat_map(|(part, own)| [*part, *own]).collect();
+        doubts(
+            &read("a.x3p", zip(&[("main.xml", main.as_bytes(), None), ("bindata/data.bin", &data, None)]), "").unwrap(),
+        )
+    };
+    assert!(!of(["1e-6", "2e-6", "1e-8"]).contains("increment"));
+    let told = of(["0.5", "0.5", "1e-8"]);
+    assert!(told.contains("its samples stand 0.50000 m apart along x, and it is 2.0000 × 1.5000 m large"), "{told}");
+    let told = of(["1e-3", "0.02", "1e-8"]);
+    assert!(told.contains("its samples stand 0.020000 m apart along y"), "{told}");
+    let told = of(["5e-14", "5e-14", "1e-15"]);
+    assert!(told.contains("5.0000e-14 m apart along x"), "{told}");
+    let told = of(["1e-6", "1e-6", "0.01"]);
+    assert!(told.contains("its heights range over 1.2100 m, and it is 4.0000e-6 × 3.0000e-6 m large"), "{told}");
+    let sdf = put(put(stored("binary.sdf"), 46, &0.5f64.to_le_bytes()), 54, &0.5f64.to_le_bytes());
+    let told = doubts(&read("a.sdf", sdf, "").unwrap());
+    assert!(told.contains("0.50000 m apart along x"), "{told}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 """Surfaces as the libraries of others write them, for the tests: see README.md.
 
-    pip install gwyfile x3pio surfalize SurfaceTopography rosettasciio rasterio
+    pip install gwyfile x3pio sdfio surfalize SurfaceTopography rosettasciio rasterio
     python make.py
 """
 
@@ -10,6 +10,7 @@ from pathlib import Path
 import gwyfile.objects as gwy
 import numpy as np
 import rasterio
+import sdfio
 import x3pio
 from rsciio.digitalsurf import file_writer
 from surfalize import Surface
@@ -64,16 +65,31 @@ def x3p() -> None:
     options = {"x_scale": DX, "y_scale": DY}
     x3pio.write(HERE / "doubles.x3p", heights().T, **options)
     x3pio.write(HERE / "layers.x3p", np.stack([heights().T, -heights().T]), **options)
+    x3pio.write(HERE / "text.x3p", heights().T, storage=x3pio.DataStorage.XML, **options)
     x3pio.write(HERE / "shorts.x3p", heights().T, z_type=x3pio.DataType.INT16, z_scale=1e-9, **options)
     Topography(heights(False), (NX * DX, NY * DY), unit="m").to_x3p(HERE / "other.x3p", dtype="F")
 
 
 def surfaces() -> None:
     own = Surface(image(heights()) * 1e6, DX * 1e6, DY * 1e6)
-    own.save(HERE / "binary.sdf", binary=True)
-    own.save(HERE / "text.sdf", binary=False)
     own.save(HERE / "plain.sur", compressed=False)
     own.save(HERE / "compressed.sur", compressed=True)
+
+
+def sdf() -> None:
+    # Profiles from below, y upward: sdfio turns those of BCR over.
+    for name, revision, kind, scale in [
+        ("binary.sdf", "ISO-1.0", sdfio.DataType.BINARY64, 1.0),
+        ("text.sdf", "ISO-1.0", sdfio.DataType.BINARY64, 1.0),
+        ("iso2.sdf", "ISO-2.0", sdfio.DataType.BINARY32, 1e-9),
+        ("iso2_text.sdf", "ISO-2.0", sdfio.DataType.INT16, 1e-9),
+        ("bcr.sdf", "BCR-1.0", sdfio.DataType.INT16, 1e-9),
+        ("bcr_floats.sdf", "BCR-1.0", sdfio.DataType.BINARY32, 1e-9),
+        ("bcr_text.sdf", "BCR-1.0", sdfio.DataType.INT32, 1e-9),
+    ]:
+        form = sdfio.FileFormat.ASCII if "text" in name else sdfio.FileFormat.BINARY
+        metadata = sdfio.Metadata(revision=sdfio.Revision(revision), data_type=kind, create_date=None, mod_date=None)
+        sdfio.write(HERE / name, heights().T, x_scale=DX, y_scale=DY, z_scale=scale, format=form, metadata=metadata)
 
 
 def digital_surf() -> None:
@@ -108,5 +124,6 @@ if __name__ == "__main__":
     gwyddion()
     x3p()
     surfaces()
+    sdf()
     digital_surf()
     esri()

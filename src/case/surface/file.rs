@@ -9,7 +9,7 @@ use super::super::value::ValueAt;
 use super::section::{SurfaceSection, Taper};
 use crate::counterbody::roughness::{MAX_BORDER_JUMP, SurfaceForm, Window, border_jumps};
 use crate::heights::unit::{self, KNOWN};
-use crate::heights::{FORMATS, Fault, Heights, HeightsFormat, HeightsUnit, Length, Stored, WantedChannel};
+use crate::heights::{ELSEWHERE, FORMATS, Fault, Heights, HeightsFormat, HeightsUnit, Length, Stored, WantedChannel};
 use crate::notation::number;
 use crate::numeric::array::field;
 use ndarray::Array2;
@@ -33,13 +33,24 @@ pub(super) struct Treatment {
     pub window: Option<Window>,
 }
 
+/// Sides of a surface as its file states them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Extent {
+    /// Not at all, or in a unit that cannot be converted to that of the case.
+    Unstated,
+    /// In no unit.
+    WithoutUnit,
+    /// Along a₁ and a₂, lengths of the case.
+    Stated([f64; 2]),
+}
+
 /// A surface from a file.
 #[derive(Debug)]
 pub(super) struct FromFile {
     /// Heights, lengths of the case, axis 0 along a₁, axis 1 along a₂; NaN where there is no measurement.
     pub heights: Array2<f64>,
-    /// Its own period along a₁ and a₂, lengths of the case; none where the file has none.
-    pub period: Option<[f64; 2]>,
+    /// The lengths of its sides.
+    pub extent: Extent,
     /// Conversion of its heights.
     pub treatment: Treatment,
     /// Whether it is a text whose lines run along a₁ by default.
@@ -99,6 +110,17 @@ impl Treatment {
         }
     }
 
+    /// Refuses heights of an instrument in no unit, of which the case says none either.
+    fn in_a_unit(&self, own: Option<&HeightsUnit>) -> Result<(), Fault> {
+        if own.is_some() || self.name.is_some() || self.own_scale.is_some() {
+            return Ok(());
+        }
+        Err(Fault::new("says no unit of its heights", "which unit?").help(
+            "give surface.unit, the unit of its lengths; or surface.scale, the factor from its numbers to the case's lengths, and \
+             surface.period",
+        ))
+    }
+
     /// Sides of a file in the unit of the case; `None` where their unit cannot be converted.
     fn sides(&self, sides: [Length; 2], length: Option<&str>) -> Option<[f64; 2]> {
         let [one, two] = sides.map(|side| side.in_unit(length, self.unit));
@@ -133,13 +155,21 @@ pub(super) fn read(
     let name = written.text()?;
     let path = source.path(name).unwrap_or_else(|| PathBuf::from(name));
     let refuse = |fault: Fault| refused(written, &path, fault);
-    let Stored { heights: Heights { points, mut values }, sides, unit, lines_along_a1, doubts } =
+    let Stored { heights: Heights { points, mut values }, sides, unit, is_measured, lines_along_a1, doubts } =
         stored(source, &path, written, wanted, "one period of heights")?.map_err(refuse)?;
+    if is_measured {
+        treatment.in_a_unit(unit.as_ref()).map_err(refuse)?;
+    }
+    // The unit of the section is that of the sides too, where the file has none at all.
+    let is_said = !is_measured || unit.is_none() && treatment.name.is_some();
     let treatment = treatment.of_file(unit.as_ref(), length).map_err(refuse)?;
     values.iter_mut().for_each(|height| *height *= treatment.scale);
     let Heights { values, .. } = Heights::new(points, values).map_err(refuse)?;
-    let period = sides.and_then(|sides| treatment.sides(sides, length));
-    Ok(FromFile { heights: field(points, values), period, treatment, lines_along_a1, doubts })
+    let extent = match sides {
+        Some(sides) if !is_said && sides.iter().any(|side| side.unit.is_none()) => Extent::WithoutUnit,
+        sides => sides.and_then(|sides| treatment.sides(sides, length)).map_or(Extent::Unstated, Extent::Stated),
+    };
+    Ok(FromFile { heights: field(points, values), extent, treatment, lines_along_a1, doubts })
 }
 
 /// The refusal of the file at a path for its fault.
@@ -169,7 +199,9 @@ pub(in crate::case) fn stored(
     let format = HeightsFormat::of(path);
     if format.is_none() && !source.is_pipe(written.text()?) {
         let message = format!("`{}`: {shown} has an ending by which no format is known", written.path);
-        return Err(Refusal::new(written.node.span, message, "which format?").help(format!("allowed: {FORMATS}")));
+        return Err(
+            Refusal::new(written.node.span, message, "which format?").help(format!("allowed: {FORMATS}; {ELSEWHERE}"))
+        );
     }
     let (reader, bytes) = source.open(written.text()?).map_err(|error| {
         let message = format!("`{}`: cannot read {shown}: {error}", written.path);

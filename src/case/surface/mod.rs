@@ -23,7 +23,7 @@ use crate::lattice::Cell;
 use crate::notation::number;
 use crate::run::Sampling;
 use crate::units::CARRIED;
-use file::{FromFile, Treatment};
+use file::{Extent, FromFile, Treatment};
 use ndarray::Array2;
 use preparation::{Prepared, prepared};
 
@@ -79,10 +79,10 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     let own_section = SurfaceSection::read_table(section)?;
     let length = around.length.as_deref();
     let treatment = Treatment::of(&own_section, section, length)?;
-    let FromFile { heights: stored, period: own, treatment, lines_along_a1, doubts } =
+    let FromFile { heights: stored, extent, treatment, lines_along_a1, doubts } =
         file::read(around.source, heights, own_section.channel.as_ref(), treatment, length)?;
     let points: [usize; 2] = stored.dim().into();
-    let (lattice, cell) = cell(&own_section, section, around, points, own)?;
+    let (lattice, cell) = cell(&own_section, section, around, points, extent)?;
     let Prepared { heights: stored, run_out, stages, doubts: of_preparation } =
         prepared(section, heights, cell, stored, &treatment)?;
     let across = across(points, cell);
@@ -92,7 +92,7 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
         Sampling::Points(wanted) if wanted != points => resampled(heights, cell, stored, wanted)?,
         _ => (stored, None),
     };
-    let squeezed = own.and_then(|own| squeezed(own, cell));
+    let squeezed = if let Extent::Stated(sides) = extent { squeezed(sides, cell) } else { None };
     let name = heights.text()?;
     let path = around.source.path(name).map_or(name.to_owned(), |path| path.to_string_lossy().into_owned());
     let topography = topography(section, own_section.radius, cell, on_grid)?;
@@ -168,7 +168,7 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
     }
     let table = random.table_or("write it as a section, [surface.random]")?;
     let own_section = SurfaceSection::read_table(section)?;
-    let (lattice, cell) = cell(&own_section, section, around, [1, 1], None)?;
+    let (lattice, cell) = cell(&own_section, section, around, [1, 1], Extent::Unstated)?;
     let own = RandomSection::read_in(&table, cell)?;
     let surface = own.surface();
     let sampling = grid::read(&around.grid, None)?;
@@ -198,7 +198,7 @@ fn cell(
     section: &TableAt<'_>,
     around: &Around<'_>,
     points: [usize; 2],
-    of_file: Option<[f64; 2]>,
+    of_file: Extent,
 ) -> Result<(LatticeSection, Cell), Refusal> {
     let [period, pixel] = ["period", "pixel"].map(|key| section.optional(key));
     if let Some(table) = &around.lattice {
@@ -215,12 +215,10 @@ fn cell(
         }
         (Some(Sides(sides)), None) => sides,
         (None, Some(Sides([d1, d2]))) => [d1 * points[0] as f64, d2 * points[1] as f64],
-        (None, None) => of_file.ok_or_else(|| {
-            Refusal::new(section.span, "`surface.period` is missing, and so is [lattice]", "how large is the cell?").help(
-                "add period = L or [L1, L2], the lengths of the whole file along a₁ and a₂; or pixel = d, the distance of \
-                 its samples; or a section [lattice]",
-            )
-        })?,
+        (None, None) => match of_file {
+            Extent::Stated(sides) => sides,
+            other => return Err(without_sides(section, other)),
+        },
     };
     if let Some(side) = sides.iter().find(|side| !CARRIED.contains(*side)) {
         let message = format!("`surface`: a side of the cell is {side}; it must be between 1e-60 and 1e60");
@@ -228,6 +226,17 @@ fn cell(
     }
     let lattice = LatticeSection::rectangle(sides);
     Ok((lattice, build_cell(&lattice, section)?))
+}
+
+/// The refusal of a surface whose size neither the case nor its file states.
+fn without_sides(section: &TableAt<'_>, of_file: Extent) -> Refusal {
+    let advice = "add period = L or [L1, L2], the lengths of the whole file along a₁ and a₂; or pixel = d, the distance of its samples; or a \
+                  section [lattice]";
+    let help = match of_file {
+        Extent::WithoutUnit => format!("the file states its sides, and not their unit: {advice}"),
+        _ => advice.to_owned(),
+    };
+    Refusal::new(section.span, "`surface.period` is missing, and so is [lattice]", "how large is the cell?").help(help)
 }
 
 /// Heights of a file on another grid, and a warning about the slope that is lost.
