@@ -78,7 +78,7 @@ pub use load::{LoadSection, Steps};
 pub use localized::LocalizedSection;
 pub use lookup::{NoCase, find};
 pub use materials::{
-    Certainty, LibraryMaterial, MaterialsError, Property, UnknownMaterial, library, materials_of_file,
+    Certainty, LibraryMaterial, LibraryStrength, MaterialsError, Property, UnknownMaterial, library, materials_of_file,
 };
 pub use model::Case;
 pub use named_pipes::Pipes;
