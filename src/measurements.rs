@@ -139,6 +139,8 @@ pub fn read(text: &str, units: &Units) -> Result<Measurement, Fault> {
             MeasurementError::Unequal(..) => None,
             MeasurementError::Force(index, _)
             | MeasurementError::Penetration(index, _)
+            | MeasurementError::Unloading { from: index, .. }
+            | MeasurementError::Hold { from: index, .. }
             | MeasurementError::Deviation(index, _) => numbers.get(index).copied(),
         };
         Fault::Values(error, line)

@@ -19,6 +19,8 @@ mod hardness;
 mod identification;
 #[path = "library/instruments.rs"]
 mod instruments;
+#[path = "library/interface_friction.rs"]
+mod interface_friction;
 #[path = "library/invariance.rs"]
 mod invariance;
 #[path = "library/isolated.rs"]

@@ -136,7 +136,7 @@ def limit_text(case: Case, limits: _Keys, width: int) -> str: ...
 def identify(
     case: Case,
     data: Union[str, PathLike[str], List[Tuple[str, _Array]]],
-    free: List[str],
+    asked: Tuple[List[str], List[str]],
     width: int,
     threads: Optional[int] = None,
     progress: _Listener = None,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 from os import PathLike
-from typing import Any, Iterable, List, Optional, Protocol, Sequence, Tuple, Union
+from typing import Any, Iterable, List, Mapping, Optional, Protocol, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -44,6 +44,9 @@ class Identification:
         a probability of 95 %.
     correlation
         Array (k, k), in the order of ``values``.
+    sensitivities
+        By the names of what was taken as known, its derivatives: ``sensitivities["substrate.poisson"]["substrate.young"]`` is the
+        change of the modulus found over that of Poisson's ratio.
     force, penetration, penetration_error
         The measured curve (n,) in the units of the case; ``penetration_error`` is ``None`` where deviations are unknown.
     fitted, fitted_error
@@ -77,6 +80,9 @@ class Identification:
         self.errors = {own.name: float(own.standard_error) for own in self.summary.parameters}
         self.intervals: dict[str, Tuple[float, float]] = {
             own.name: (own.interval_95[0], own.interval_95[1]) for own in self.summary.parameters
+        }
+        self.sensitivities: dict[str, dict[str, float]] = {
+            own.name: dict(zip(self.values, map(float, own.derivatives))) for own in self.summary.sensitivities
         }
         self.correlation: Array = np.array(self.summary.correlation, dtype=float)
         self.force, self.penetration = _known(arrays["force"]), _known(arrays["penetration"])
@@ -150,6 +156,7 @@ def identify(
     data: Curve,
     free: Union[str, Sequence[str]],
     *,
+    known: Optional[Mapping[str, float]] = None,
     set: Settings = None,
     threads: Optional[int] = None,
     progress: Listener = None,
@@ -168,6 +175,9 @@ def identify(
     free
         What is to be found: keys of the case, ``["layers.0.young", "substrate.young"]``; ``"offset"``, a zero of the
         penetration that was missed; ``"frame_compliance"``, that of the frame, a length per force.
+    known
+        What the instrument is known to add to the penetration, in the units of the case: ``{"offset": 0.002}``, a zero that was
+        missed, and ``"frame_compliance"``, that of the frame. What is free as well begins from there.
     set, threads, progress
         As for :func:`percoat.solve`.
 
@@ -198,7 +208,8 @@ def identify(
     """
     names = [free] if isinstance(free, str) else list(free)
     width = shutil.get_terminal_size().columns
-    found = _core.identify(_core.Case(case, set), _columns(data), names, width, threads, listener(progress))
+    stated = [f"{name}={float(value)!r}" for name, value in (known or {}).items()]
+    found = _core.identify(_core.Case(case, set), _columns(data), (names, stated), width, threads, listener(progress))
     own = Identification(*found)
     warn(own.warnings)
     return own

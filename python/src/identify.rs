@@ -7,7 +7,7 @@ use crate::record::to_python;
 use crate::work;
 use numpy::{PyArray1, PyReadonlyArray1, ToPyArray};
 use percoat::case::resources::Job;
-use percoat::case::{IdentificationTask, plausibility};
+use percoat::case::{IdentificationTask, known_instrument, plausibility};
 use percoat::identification::{IdentificationError, Measurement};
 use percoat::output::{self, IdentificationFile, identified};
 use percoat::{measurements, plain};
@@ -20,15 +20,16 @@ use std::sync::Arc;
 /// What was found as a dict, the arrays of the curve and its fit, the table, and the warnings.
 type Found<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, String, Vec<String>);
 
-/// The values of the numbers `free` of a case from a curve, the path of a table or columns with their names: a dict with the keys of
+/// What is `asked` of a case: its numbers that are free, and what the instrument is known to add as `offset=0.002`. Their values from a curve,
+/// the path of a table or columns with their names: a dict with the keys of
 /// `identification.json`, arrays of the curve and its fit, the table of the command line in lines of `width` letters, and warnings.
 #[pyfunction]
-#[pyo3(signature = (case, data, free, width, threads = None, progress = None))]
+#[pyo3(signature = (case, data, asked, width, threads = None, progress = None))]
 pub fn identify<'py>(
     py: Python<'py>,
     case: &Bound<'py, Case>,
     data: &Bound<'py, PyAny>,
-    free: Vec<String>,
+    asked: (Vec<String>, Vec<String>),
     width: usize,
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
@@ -36,11 +37,14 @@ pub fn identify<'py>(
     let own = Arc::clone(&case.get().own);
     let measured = measured(data, &own)?;
     let curve = measured.clone();
+    let (free, known) = asked;
+    let known = known_instrument(&known).map_err(|error| refused(format!("known: {error}")))?;
     let (source, _) = case::source(case.as_any())?;
     case.get().allow(Job::Identify { pictures: false })?;
     let found = work::run(py, threads, progress, move |listener| {
         let told = |error: IdentificationError<_>| error.to_string();
         let task = IdentificationTask::new(&source, &[], &own, &free).map_err(|error| format!("free: {error}"))?;
+        let task = task.with_instrument(known);
         let (found, best) = task
             .find(&measured, &mut |trial| {
                 let phase = output::trial(&own, trial);
@@ -58,7 +62,8 @@ pub fn identify<'py>(
             })
             .map_err(told)?;
         let text = identified(&found, &best, width);
-        Ok::<_, String>((IdentificationFile::new(&found, &best), text, plausibility::of_case(&best), found))
+        let warnings = [output::doubts(&measured, &found, &best), plausibility::of_case(&best)].concat();
+        Ok::<_, String>((IdentificationFile::new(&found, &best, &warnings), text, warnings, found))
     })?;
     let (file, text, warnings, found) = found.map_err(refused)?;
     let arrays = PyDict::new(py);

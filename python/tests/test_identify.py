@@ -76,6 +76,24 @@ def test_the_case_of_the_result_has_the_values_found(found: percoat.Identificati
     assert step.penetration == pytest.approx(found.fitted[6], rel=2e-3)
 
 
+def test_derivatives_by_what_is_known_are_those_of_hertz(found: percoat.Identification) -> None:
+    # E is in proportion to (1 − ν²)/√R; derivatives on 48 samples are right to a percent or so.
+    young, own = found.values["substrate.young"], found.sensitivities
+    assert own["substrate.poisson"]["substrate.young"] == pytest.approx(-0.6 * young / 0.91, rel=0.02)
+    assert own["levels.0.radius"]["substrate.young"] == pytest.approx(-young / 20.0, rel=0.02)
+    assert list(own) == ["levels.0.radius", "substrate.poisson", "offset", "frame_compliance"]
+
+
+def test_a_zero_that_was_missed_is_told_and_can_be_stated(curve: tuple[Any, Any]) -> None:
+    force, penetration = curve
+    with pytest.warns(UserWarning, match="zero of the penetration seems to be missed by .*free `offset`"):
+        percoat.identify(CASE, (force, penetration + 5e-3), "substrate.young")
+    own = percoat.identify(CASE, (force, penetration + 5e-3), "substrate.young", known={"offset": 5e-3})
+    assert own.warnings == [] and own.values["substrate.young"] == pytest.approx(YOUNG, rel=3e-3)
+    with pytest.raises(percoat.CaseError, match="known: `zero=1.0` is no `offset=LENGTH`"):
+        percoat.identify(CASE, curve, "substrate.young", known={"zero": 1})
+
+
 Given = Callable[[Any, Any], Any]
 
 
@@ -139,6 +157,7 @@ def test_poissons_ratio_stays_within_its_bounds(curve: tuple[Any, Any]) -> None:
         (([1.0, 2.0], [0.1, 0.2]), ["offset", "offset"], percoat.CaseError, "`offset` is there twice"),
         (([1.0, 2.0], [0.1]), ["substrate.young"], percoat.CaseError, "2 forces, but 1 penetrations"),
         (([1.0, 0.0], [0.1, 0.2]), ["substrate.young"], percoat.CaseError, "point 2: the force must be above 0"),
+        (([1.0, 2.0, 1.5], [0.1, 0.2, 0.15]), ["substrate.young"], percoat.CaseError, "points 2 to 3: the force falls"),
         (([1.0, 2.0], [0.1, np.nan]), ["substrate.young"], percoat.CaseError, "point 2: the penetration must be finite"),
         (([1.0], [0.1]), ["substrate.young"], percoat.CaseError, "more points than parameters"),
         (([[1.0]], [0.1]), ["substrate.young"], percoat.CaseError, "a number for each point"),

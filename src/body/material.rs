@@ -22,6 +22,9 @@ pub enum MaterialError {
     /// Strength not positive and finite.
     #[error("a strength must be positive and finite, not {0}")]
     Strength(f64),
+    /// Friction of an interface negative or not finite.
+    #[error("the friction of an interface must be finite and not negative, not {0}")]
+    Friction(f64),
     /// Hardness not positive and finite.
     #[error("a hardness must be positive and finite, not {0}")]
     Hardness(f64),

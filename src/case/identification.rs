@@ -2,7 +2,9 @@
 
 use super::model::CASE;
 use super::{Case, CaseError, Source};
-use crate::identification::{Identification, IdentificationError, Listener, Measurement, Model, Parameter, Quantity};
+use crate::identification::{
+    Identification, IdentificationError, Instrument, Listener, Measurement, Model, Parameter, Quantity,
+};
 use crate::plain;
 use crate::problem::Problem;
 use crate::run::Sampling;
@@ -11,6 +13,19 @@ use serde_json::{Value, json};
 /// Names of a zero that was missed, and of the compliance of the frame, among the parameters.
 const OFFSET: &str = "offset";
 const FRAME: &str = "frame_compliance";
+/// Keys of numbers by which what is found is differentiated where they are taken as known.
+const KNOWN: [&str; 10] = [
+    "radius",
+    "slope",
+    "coefficient",
+    "exponent",
+    "thickness",
+    "young",
+    "shear_ratio",
+    "poisson",
+    "tangential_stiffness",
+    "normal_stiffness",
+];
 /// Most samples along a side of a window: its contact takes up two thirds of them, and leaves some 1e-4 of the penetration.
 const MOST_POINTS: usize = 96;
 
@@ -32,6 +47,39 @@ pub enum NotFree {
     NoNumber(String),
 }
 
+/// Why a number of the instrument is not known.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NotKnown {
+    /// A text that is none of a name and a number.
+    #[error("`{}` is no `{OFFSET}=LENGTH` or `{FRAME}=LENGTH PER FORCE`, a number in the units of the case", plain::line(.0))]
+    NoValue(String),
+    /// A name that is there twice.
+    #[error("`{}` is there twice", plain::line(.0))]
+    Twice(String),
+}
+
+/// What an instrument is known to add, by texts `offset=0.0025` and `frame_compliance=1e-4` in the units of the case.
+///
+/// # Errors
+/// [`NotKnown`] for other texts, and for a name that is there twice.
+pub fn known_instrument(texts: &[String]) -> Result<Instrument, NotKnown> {
+    let [mut offset, mut frame] = [None; 2];
+    for text in texts {
+        let none = || NotKnown::NoValue(text.clone());
+        let (name, value) = text.split_once('=').ok_or_else(none)?;
+        let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(none)?;
+        let own = match name.trim() {
+            OFFSET => &mut offset,
+            FRAME => &mut frame,
+            _ => return Err(none()),
+        };
+        if own.replace(value).is_some() {
+            return Err(NotKnown::Twice(name.trim().to_owned()));
+        }
+    }
+    Ok(Instrument { offset: offset.unwrap_or(0.0), frame_compliance: frame.unwrap_or(0.0) })
+}
+
 /// The task of `percoat identify`: free numbers of a case, from a measured curve.
 #[derive(Debug)]
 pub struct IdentificationTask<'a> {
@@ -39,6 +87,10 @@ pub struct IdentificationTask<'a> {
     set: &'a [String],
     case: &'a Case,
     parameters: Vec<Parameter>,
+    /// Numbers that are taken as known, and by which what is found is differentiated.
+    fixed: Vec<Parameter>,
+    /// What the instrument is known to add; 0 of what is free.
+    instrument: Instrument,
 }
 
 impl<'a> IdentificationTask<'a> {
@@ -71,7 +123,35 @@ impl<'a> IdentificationTask<'a> {
             };
             parameters.push(Parameter { name: name.to_owned(), quantity, start });
         }
-        Ok(Self { source, set, case, parameters })
+        let mut fixed = Vec::new();
+        for section in ["levels", "layers", "substrate", "counterbody"] {
+            collect(&whole[section], section, &mut fixed);
+        }
+        for (name, quantity) in [(OFFSET, Quantity::Offset), (FRAME, Quantity::FrameCompliance)] {
+            fixed.push(Parameter { name: name.to_owned(), quantity, start: 0.0 });
+        }
+        fixed.retain(|own| parameters.iter().all(|free| free.name != own.name));
+        Ok(Self { source, set, case, parameters, fixed, instrument: Instrument::default() })
+    }
+
+    /// The task for an instrument that is known to add this; where it is free as well, the search starts from it.
+    #[must_use]
+    pub fn with_instrument(mut self, instrument: Instrument) -> Self {
+        for own in self.parameters.iter_mut().chain(&mut self.fixed) {
+            match own.quantity {
+                Quantity::Offset => own.start = instrument.offset,
+                Quantity::FrameCompliance => own.start = instrument.frame_compliance,
+                _ => {}
+            }
+        }
+        let known = |quantity: Quantity, of: f64| {
+            if self.parameters.iter().any(|own| own.quantity == quantity) { 0.0 } else { of }
+        };
+        self.instrument = Instrument {
+            offset: known(Quantity::Offset, instrument.offset),
+            frame_compliance: known(Quantity::FrameCompliance, instrument.frame_compliance),
+        };
+        self
     }
 
     /// Finds the values by the elastic curve, and the case with them. `progress` is called with each trial; `Break` ends the search.
@@ -86,18 +166,40 @@ impl<'a> IdentificationTask<'a> {
         let problem =
             |values: &[f64]| -> Result<Problem, CaseError> { Ok(self.with(values)?.problem().without_hardness()) };
         let model = Model { problem: &problem, points: points(self.case), settings: self.case.solver };
-        let found = Identification::new_with_progress(&model, &self.parameters, measured, progress)?;
+        let measured = measured.clone().with_instrument(self.instrument);
+        let found = Identification::with_fixed(&model, (&self.parameters, &self.fixed), &measured, progress)?;
         let values: Vec<f64> = found.estimates.iter().map(|own| own.value).collect();
         let best = self.with(&values).map_err(IdentificationError::Model)?;
         Ok((found, best))
     }
 
-    /// The case with these values of the parameters.
+    /// The case with these values of the parameters, and of the fixed numbers where there are more values.
     fn with(&self, values: &[f64]) -> Result<Case, CaseError> {
         let of_case = |(own, _): &(&Parameter, &f64)| matches!(own.quantity, Quantity::Positive | Quantity::Bounded(_));
-        let free = self.parameters.iter().zip(values).filter(of_case);
+        let free = self.parameters.iter().chain(&self.fixed).zip(values).filter(of_case);
         let settings: Vec<String> = free.map(|(own, value)| format!("{}={value:e}", own.name)).collect();
         Case::read(self.source, &[self.set, &settings].concat())
+    }
+}
+
+/// Adds the numbers of a part of a serialised case at `path` that have a key of [`KNOWN`], each with its path.
+fn collect(part: &Value, path: &str, fixed: &mut Vec<Parameter>) {
+    let mut visit = |name: &str, value: &Value| {
+        let path = format!("{path}.{name}");
+        match (value.as_f64().filter(|_| KNOWN.contains(&name)), CASE.range(&path)) {
+            (Some(start), Some(range)) => {
+                let quantity = range.quantity();
+                if start > 0.0 || matches!(quantity, Quantity::Bounded(_)) {
+                    fixed.push(Parameter { name: path, quantity, start });
+                }
+            }
+            _ => collect(value, &path, fixed),
+        }
+    };
+    match part {
+        Value::Object(entries) => entries.iter().for_each(|(name, value)| visit(name, value)),
+        Value::Array(items) => items.iter().enumerate().for_each(|(index, value)| visit(&index.to_string(), value)),
+        _ => {}
     }
 }
 

@@ -47,6 +47,11 @@ section! {
         pub normal: Option<f64> = Key::new(&[SIZE], "0.5").unit(Unit::Pressure).otherwise("never reached"),
         /// shear strength: the shear stress at failure without tension
         pub shear: Option<f64> = Key::new(&[SIZE], "0.8").unit(Unit::Pressure).otherwise("never reached"),
+        /// friction f of the interface: a pressure p on it adds f p to the shear strength
+        pub friction: f64 = Key::new(&[Form::Number(Range::between(0.0, 100.0))], "0.3")
+            .default("0")
+            .omitted_as_nothing()
+            .rule("only with `shear`"),
     }
 }
 
@@ -114,6 +119,6 @@ fn stiffness_advice(section: &TableAt<'_>) -> Option<&'static str> {
 
 impl InterfaceStrengthSection {
     pub(super) fn strength(&self) -> InterfaceStrength {
-        InterfaceStrength { normal: self.normal, shear: self.shear }
+        InterfaceStrength { normal: self.normal, shear: self.shear, friction: self.friction }
     }
 }

@@ -103,7 +103,7 @@ section! {
         pub interface_strength: Option<InterfaceStrengthSection> =
             Key::new(&[Form::Table(&INTERFACE_STRENGTH)], "{ normal = 0.5, shear = 0.8 }")
                 .otherwise("never reached")
-                .rule("at least one of the two"),
+                .rule("at least one of normal and shear"),
         /// fatigue of the interface below the layer by the range of its shear stress in a pass; not of a frictionless one
         pub interface_fatigue: Option<FatigueSection> =
             Key::new(&[Form::Table(&FATIGUE)], "{ amplitude = 0.2, passes = 1e6, exponent = 8 }").otherwise("no fatigue"),
@@ -158,9 +158,14 @@ pub(super) fn modulus_or_rigid(is_rigid: bool, keys: &[&str], section: &TableAt<
 /// Refuses interface strengths without a number, fatigue of an interface that transmits no shear, and a layer without either a
 /// modulus and Poisson's ratio or `graded`.
 fn consistent(layer: &LayerSection, section: &TableAt<'_>) -> Result<(), Refusal> {
-    if layer.interface_strength == Some(InterfaceStrengthSection { normal: None, shear: None }) {
+    if let Some(InterfaceStrengthSection { shear: None, normal, friction }) = layer.interface_strength
+        && (normal.is_none() || friction > 0.0)
+    {
         let refusal = section.value("interface_strength")?.refuse_form();
-        return Err(refusal.help("at least one of the two; the one left out is never reached"));
+        return Err(refusal.help(match friction > 0.0 {
+            true => "`friction` adds to the shear strength `shear`: give it, or leave `friction` out",
+            false => "at least one of normal and shear; the one left out is never reached",
+        }));
     }
     if let Some(value) = section.optional("interface_fatigue")
         && layer.interface.interface() == Interface::Frictionless

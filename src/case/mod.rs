@@ -67,7 +67,7 @@ pub use given::{DiscsSection, GivenSection, Pressures};
 pub use grading::{Grading, Law};
 pub use grid::Points;
 pub use half_space::half_space;
-pub use identification::{IdentificationTask, NotFree};
+pub use identification::{IdentificationTask, NotFree, NotKnown, known_instrument};
 pub use interface::{InterfaceSection, InterfaceStrengthSection, InterfaceWord, SpringSection};
 pub use keys::{Explanation, NamedKey, UnknownKey, explain, overview, schema, table as key_table};
 pub use lattice::{LatticeKind, LatticeSection};
@@ -78,7 +78,7 @@ pub use load::{LoadSection, Steps};
 pub use localized::LocalizedSection;
 pub use lookup::{NoCase, find};
 pub use materials::{
-    Certainty, LibraryMaterial, MaterialsError, Property, UnknownMaterial, library, materials_of_file,
+    Certainty, LibraryMaterial, LibraryStrength, MaterialsError, Property, UnknownMaterial, library, materials_of_file,
 };
 pub use model::Case;
 pub use named_pipes::Pipes;

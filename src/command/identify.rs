@@ -9,7 +9,7 @@ use super::results::Results;
 use super::terminal;
 use crate::case::feasibility::Allowed;
 use crate::case::resources::Job;
-use crate::case::{Case, CaseError, IdentificationTask, plausibility};
+use crate::case::{Case, CaseError, IdentificationTask, known_instrument, plausibility};
 use crate::identification::{Identification, IdentificationError, Measurement};
 use crate::output::{self, IdentificationFile, Writer, fitted, identified};
 use crate::{measurements, picture, plain};
@@ -17,7 +17,12 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-pub fn run(data: &Path, case: &Path, free: &[String], set: &[String], common: &Common) -> Result<Ending, Failure> {
+pub fn run(
+    (data, case): (&Path, &Path),
+    (free, stated): (&[String], &[String]),
+    set: &[String],
+    common: &Common,
+) -> Result<Ending, Failure> {
     let (started, pictures) = (Instant::now(), &common.pictures);
     let (source, name) = read_source(Some(case))?;
     let own = Case::read(&source, set)?;
@@ -25,17 +30,19 @@ pub fn run(data: &Path, case: &Path, free: &[String], set: &[String], common: &C
         .map_err(|fault| Failure::Refused(format!("{}: {fault}", plain::path(data))))?;
     let task = IdentificationTask::new(&source, set, &own, free)
         .map_err(|error| Failure::Refused(format!("--free: {error}")))?;
+    let known = known_instrument(stated).map_err(|error| Failure::Refused(format!("--known: {error}")))?;
+    let task = task.with_instrument(known);
     let folder = output_folder(common, &name)?;
     Allowed::new(&own, &folder, Job::Identify { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
     let plan = plan(Writer::Identify, &["identification.json", "identification.csv"], pictures, &["identification"]);
     let results = Results::claim(folder, plan, common.saying())?;
     let (found, best) = find(&task, &own, &measured, common)?;
-    let json = IdentificationFile::new(&found, &best).to_json();
+    let warnings = [output::doubts(&measured, &found, &best), plausibility::of_case(&best)].concat();
+    let json = IdentificationFile::new(&found, &best, &warnings).to_json();
     results.write("identification.json", &json)?;
     results.write("identification.csv", &fitted(&measured, &found))?;
     let drawn = || Some(picture::identification(&best.title, &best.units(), &measured, &found));
     pictures.write(&results.staging(), "identification", drawn)?;
-    let warnings = plausibility::of_case(&best);
     let line = || format!("{} steps of the search; {:.2} s", found.steps, started.elapsed().as_secs_f64());
     results.finish(|| json, || identified(&found, &best, terminal::width()), line, &warnings)?;
     Ok(Ending::Done)

@@ -66,8 +66,8 @@ fn carry_out(command: &Command) -> Result<Ending, Failure> {
         Command::Compare { case, changes, common } => compare::run(case.as_deref(), &changes.set, common),
         Command::Limit { case, changes, common } => limit::run(case.as_deref(), &changes.set, common),
         Command::Life { case, changes, options, common } => life::run(case.as_deref(), &changes.set, options, common),
-        Command::Identify { data, case, free, changes, common } => {
-            identify::run(data, case, free, &changes.set, common)
+        Command::Identify { data, case, free, known, changes, common } => {
+            identify::run((data, case), (free, known), &changes.set, common)
         }
         Command::Sweep { case, set, options, common } => sweep::run(case, set, options, common),
         Command::Merge { folders, output, pictures, saying } => {

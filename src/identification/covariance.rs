@@ -11,6 +11,7 @@ pub const MOST_UNCERTAIN: f64 = 0.5;
 const CORRELATED: f64 = 0.9;
 
 /// The covariance of parameters at a minimum.
+#[derive(Debug)]
 pub(super) struct Covariance {
     /// s²: the sum of squares over the degrees of freedom.
     variance: f64,
@@ -24,12 +25,14 @@ impl Covariance {
     ///
     /// # Errors
     /// [`IdentificationError::NoInfluence`], and [`IdentificationError::Undetermined`] for parameters that change all penetrations in
-    /// proportion, and for the one of the largest relative error where that is beyond [`MOST_UNCERTAIN`].
+    /// proportion, and for the one of the largest relative error where that is beyond `most_uncertain`.
+    /// `most_uncertain` is the largest relative standard error with which a parameter is stated.
     pub(super) fn new<E>(
         free: FreeParameters<'_>,
         (place, jacobian): (&[f64], &[Vec<f64>]),
         variance: f64,
         radii: [f64; 2],
+        most_uncertain: f64,
     ) -> Result<Self, IdentificationError<E>> {
         let normal = least_squares::normal(jacobian);
         if let Some(k) = (0..normal.len()).find(|&k| normal[k][k] <= 1e-16 * jacobian.len() as f64) {
@@ -39,7 +42,7 @@ impl Covariance {
             None => parallel(free, place, &normal, radii),
             Some(inverse) => {
                 let own = Self { variance, inverse };
-                match own.undetermined(free, place, radii) {
+                match own.undetermined(free, place, radii, most_uncertain) {
                     None => return Ok(own),
                     Some(undetermined) => undetermined,
                 }
@@ -57,6 +60,14 @@ impl Covariance {
         self.inverse[k][other] / (self.inverse[k][k] * self.inverse[other][other]).sqrt()
     }
 
+    /// (JᵀJ)⁻¹Jᵀc: the change of t that takes up a column c of the residuals.
+    pub(super) fn taken_up(&self, jacobian: &[Vec<f64>], column: &[f64]) -> Vec<f64> {
+        let count = self.inverse.len();
+        let gradient = |k: usize| jacobian.iter().zip(column).map(|(row, c)| row[k] * c).sum::<f64>();
+        let gradient: Vec<f64> = (0..count).map(gradient).collect();
+        (0..count).map(|k| (0..count).map(|other| self.inverse[k][other] * gradient[other]).sum()).collect()
+    }
+
     /// Standard error of a number with these derivatives by t.
     pub(super) fn along(&self, derivatives: &[f64]) -> f64 {
         let count = derivatives.len();
@@ -65,12 +76,18 @@ impl Covariance {
         (self.variance * square).sqrt()
     }
 
-    /// The parameter of the largest relative error where that is beyond [`MOST_UNCERTAIN`].
-    fn undetermined(&self, free: FreeParameters<'_>, place: &[f64], radii: [f64; 2]) -> Option<Undetermined> {
+    /// The parameter of the largest relative error where that is beyond `most_uncertain`.
+    fn undetermined(
+        &self,
+        free: FreeParameters<'_>,
+        place: &[f64],
+        radii: [f64; 2],
+        most_uncertain: f64,
+    ) -> Option<Undetermined> {
         let count = self.inverse.len();
         let relative = |k: usize| free.relative(k, self.deviation(k));
         let worst = (0..count).max_by(|&a, &b| relative(a).total_cmp(&relative(b)));
-        let worst = worst.filter(|&worst| relative(worst).is_nan() || relative(worst) > MOST_UNCERTAIN)?;
+        let worst = worst.filter(|&worst| relative(worst).is_nan() || relative(worst) > most_uncertain)?;
         let others = (0..count).filter(|&other| other != worst);
         let mixed =
             others.max_by(|&a, &b| self.correlation(worst, a).abs().total_cmp(&self.correlation(worst, b).abs()));
@@ -81,6 +98,7 @@ impl Covariance {
             error: self.deviation(worst) * free.slope(worst, place[worst]).abs(),
             mixed: mixed.filter(|(_, correlation)| correlation.abs() > CORRELATED),
             radii,
+            at_start: false,
         })
     }
 }
@@ -97,5 +115,6 @@ fn parallel(free: FreeParameters<'_>, place: &[f64], normal: &[Vec<f64>], radii:
         error: f64::INFINITY,
         mixed: worst.map(|(k, other)| (free.name(other), -parallel(k, other))),
         radii,
+        at_start: false,
     }
 }

@@ -50,6 +50,8 @@ struct Node {
     derivatives: Vec<f64>,
     /// Radius of a disc of the area in contact, a length.
     radius: f64,
+    /// Largest pressure; the mean one where that under a tip is infinite.
+    peak: f64,
     /// Estimated relative error of the discretisation.
     error: Option<f64>,
 }
@@ -101,6 +103,16 @@ impl IndentationCurve {
         let count = self.nodes.first().map_or(0, |node| node.derivatives.len());
         let derivative = |k: usize| penetration * interpolated(&|node| node.derivatives[k] / node.penetration);
         (penetration, (0..count).map(derivative).collect())
+    }
+
+    /// Largest pressure under a force, the mean one under a tip, whose largest is infinite.
+    pub fn peak(&self, force: f64) -> f64 {
+        self.weights(force.ln())
+            .iter()
+            .zip(&self.nodes)
+            .map(|(weight, node)| weight * node.peak.ln())
+            .sum::<f64>()
+            .exp()
     }
 
     /// Least and largest contact radius, lengths.
@@ -203,9 +215,11 @@ fn node(
             tangent.penetration(step.finest(), &all)
         };
         let penetration = step.penetration();
-        let error = step.reading().errors.penetration.map(|error| error / penetration);
+        let reading = step.reading();
+        let error = reading.errors.penetration.map(|error| error / penetration);
+        let peak = reading.finite_peak().unwrap_or(force / (PI * radius * radius));
         let derivatives = model.quotients.iter().map(derivative).collect();
-        return Ok(Node { penetration, derivatives, radius, error });
+        return Ok(Node { penetration, derivatives, radius, peak, error });
     }
     Err(CurveError::NotSolved(force, last))
 }

@@ -82,11 +82,16 @@ pub struct Undetermined {
     pub mixed: Option<(String, f64)>,
     /// Contact radii of the fit, lengths.
     pub radii: [f64; 2],
+    /// Whether the search was given up at its first values.
+    pub at_start: bool,
 }
 
 impl fmt::Display for Undetermined {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, value, error, mixed, radii: [least, most] } = self;
+        let Self { name, value, error, mixed, radii: [least, most], at_start } = self;
+        if *at_start {
+            f.write_str("at the first values of the search, by the scatter of the points, ")?;
+        }
         if error.is_finite() {
             write!(f, "the curve does not determine {name}: {} ± {}", number(*value), number(*error))?;
         } else {

@@ -1,13 +1,17 @@
 //! The fit of a model to a measured curve: parameters with their standard errors, and the fitted penetrations with theirs.
 
 use super::Measurement;
-use super::covariance::Covariance;
+use super::covariance::{Covariance, MOST_UNCERTAIN};
 use super::curve::{self, IndentationCurve};
+use super::doubt::{AtMinimum, Doubt, Missing};
+use super::early::EarlyCheck;
 use super::error::{IdentificationError, NoValue};
 use super::least_squares::{self, End, Linearised, Minimum};
-use super::parameter::Parameter;
+use super::parameter::{Parameter, Quantity};
+use super::pattern::Pattern;
 use super::search::{Listener, Model, Search};
-use super::student;
+use super::sensitivity::Sensitivity;
+use super::student::{self, Quantile};
 use crate::notation::number;
 use std::fmt;
 use std::ops::ControlFlow;
@@ -47,6 +51,12 @@ pub struct Identification {
     pub model_error: Option<f64>,
     /// Contact radii of the fit under the least and the largest force, lengths.
     pub radii: [f64; 2],
+    /// Largest pressure of the elastic fit under each measured force, the mean one under a tip, whose largest is infinite.
+    pub peaks: Vec<f64>,
+    /// Derivatives of the parameters by what was taken as known.
+    pub sensitivities: Vec<Sensitivity>,
+    /// Why the standard errors may not hold; empty where nothing says so.
+    pub doubts: Vec<Doubt>,
     /// Steps of the search.
     pub steps: usize,
 }
@@ -75,6 +85,20 @@ impl Identification {
         measured: &Measurement,
         progress: &mut Listener<'_>,
     ) -> Result<Self, IdentificationError<E>> {
+        Self::with_fixed(model, (parameters, &[]), measured, progress)
+    }
+
+    /// As [`Identification::new_with_progress`], with the derivatives of what is found by the numbers `fixed`, whose starts are their values:
+    /// the model has a problem at the values of the parameters alone, and at these and then those of `fixed`.
+    ///
+    /// # Errors
+    /// Those of [`Identification::new_with_progress`].
+    pub fn with_fixed<E: Send>(
+        model: &Model<'_, E>,
+        (parameters, fixed): (&[Parameter], &[Parameter]),
+        measured: &Measurement,
+        progress: &mut Listener<'_>,
+    ) -> Result<Self, IdentificationError<E>> {
         let (points, count) = (measured.forces().len(), parameters.len());
         if points <= count {
             return Err(IdentificationError::TooFew { points, parameters: count });
@@ -82,12 +106,20 @@ impl Identification {
         let mut search = Search::new(model, parameters, measured);
         let start = vec![0.0; count];
         curve::check(&search.problem(&start, None).map_err(IdentificationError::Model)?)?;
-        let found = least_squares::minimise(start, |t| search.trial(t, progress)).map_err(NoValue::at_the_start)?;
+        let mut early = EarlyCheck::new(measured);
+        let found = least_squares::minimise(start, |t| {
+            let linearised = search.trial(t, progress)?;
+            if early.is_hopeless(search.free, t, &linearised) { Err(NoValue::Stopped) } else { Ok(linearised) }
+        });
+        if let Some(undetermined) = early.refusal {
+            return Err(IdentificationError::Undetermined(undetermined));
+        }
+        let found = found.map_err(NoValue::at_the_start)?;
         if matches!(found.end, End::Refused(NoValue::Stopped)) {
             return Err(IdentificationError::Stopped);
         }
         // A search along what the curve does not contain has no end: that is the reason to be given.
-        let estimated = Self::at(&search, measured, &found)?;
+        let estimated = Self::at(&search, fixed, &found)?;
         match found.end {
             End::Converged => Ok(estimated),
             End::Refused(reason) => Err(IdentificationError::Refused(reason)),
@@ -98,20 +130,21 @@ impl Identification {
     /// Values, standard errors and fitted curve at the minimum that a search has found.
     fn at<E: Send>(
         search: &Search<'_, E>,
-        measured: &Measurement,
+        fixed: &[Parameter],
         found: &Minimum<IndentationCurve, NoValue<E>>,
     ) -> Result<Self, IdentificationError<E>> {
         let Linearised { residuals, jacobian, model: curve } = &found.linearised;
+        let measured = search.measured;
         let count = found.place.len();
         let freedom = residuals.len() - count;
         let reduced = least_squares::sum(residuals) / freedom as f64;
         // Known deviations are taken as they are, unless the fit is worse.
         let variance = if measured.deviations().is_some() { reduced.max(1.0) } else { reduced };
         let radii = curve.radii();
-        let covariance = Covariance::new(search.free, (&found.place, jacobian), variance, radii)?;
+        let covariance = Covariance::new(search.free, (&found.place, jacobian), variance, radii, MOST_UNCERTAIN)?;
         let estimate = |k: usize| {
             let (t, deviation) = (found.place[k], covariance.deviation(k));
-            let reach = student::quantile(freedom) * deviation;
+            let reach = student::quantile(Quantile::TwoSided95, freedom) * deviation;
             Estimate {
                 parameter: search.free.all[k].clone(),
                 value: search.free.value(k, t),
@@ -120,8 +153,12 @@ impl Identification {
             }
         };
         let lengths = search.lengths(residuals);
+        let estimates: Vec<Estimate> = (0..count).map(estimate).collect();
+        let at = AtMinimum { residuals, jacobian, covariance: &covariance, are_known: measured.deviations().is_some() };
+        let doubts = doubts(search, &at, (&found.place, curve), &lengths);
+        let sensitivities = Sensitivity::all(search, (&found.place, jacobian), &covariance, (fixed, &estimates));
         Ok(Self {
-            estimates: (0..count).map(estimate).collect(),
+            estimates,
             correlation: (0..count)
                 .map(|k| (0..count).map(|other| covariance.correlation(k, other)).collect())
                 .collect(),
@@ -132,9 +169,44 @@ impl Identification {
             reduced_chi_square: measured.deviations().map(|_| reduced),
             model_error: curve.error(),
             radii,
+            peaks: measured.forces().iter().map(|&force| curve.peak(force)).collect(),
+            sensitivities: sensitivities.map_err(IdentificationError::Refused)?,
+            doubts,
             steps: found.steps,
         })
     }
+}
+
+/// What of a minimum says that its standard errors do not hold: beyond chance, and beyond the error of the fitted penetrations, `lengths`
+/// of the residuals, by the grid.
+fn doubts<E: Send>(
+    search: &Search<'_, E>,
+    at: &AtMinimum<'_>,
+    (place, curve): (&[f64], &IndentationCurve),
+    lengths: &[f64],
+) -> Vec<Doubt> {
+    let measured = search.measured;
+    let (forces, largest) = (measured.forces(), measured.forces().iter().copied().fold(0.0, f64::max));
+    let root = |all: &[f64]| (least_squares::sum(all) / all.len() as f64).sqrt();
+    let grid = curve.error().unwrap_or(0.0);
+    let mut order: Vec<usize> = (0..forces.len()).collect();
+    order.sort_by(|&a, &b| forces[a].total_cmp(&forces[b]));
+    let pattern = Pattern::of(&order.iter().map(|&i| at.residuals[i]).collect::<Vec<_>>());
+    let fitted: Vec<f64> = forces.iter().map(|&force| curve.at(force).0).collect();
+    let is_beyond = root(lengths) > grid * root(&fitted);
+    let systematic = (pattern.is_systematic() && is_beyond).then_some(Doubt::Systematic(pattern));
+    let missing = |quantity: Quantity, per: &dyn Fn(usize) -> f64, most: f64| {
+        if search.free.all.iter().any(|own| own.quantity == quantity) {
+            return None;
+        }
+        let column: Vec<f64> = (0..forces.len()).map(|i| per(i) / search.deviation(i)).collect();
+        let (value, error, changes) = at.missing(&column)?;
+        let estimates = changes.iter().enumerate().map(|(k, by)| search.free.value(k, place[k] + by)).collect();
+        (value.abs() * most > grid * curve.at(largest).0).then_some(Missing { value, error, estimates })
+    };
+    let offset = missing(Quantity::Offset, &|_| 1.0, 1.0).map(Doubt::Offset);
+    let frame = missing(Quantity::FrameCompliance, &|i| forces[i], largest).map(Doubt::FrameCompliance);
+    [systematic, offset, frame].into_iter().flatten().collect()
 }
 
 impl fmt::Display for Identification {

@@ -7,21 +7,29 @@
 //!
 //! A parameter whose standard error exceeds [`MOST_UNCERTAIN`] of it, or of half the way between its bounds, is not stated: the curve does not contain it.
 
+mod branches;
 mod covariance;
 mod curve;
+mod doubt;
+mod early;
 mod error;
 mod fit;
 mod least_squares;
 mod parameter;
+mod pattern;
 mod search;
+mod sensitivity;
 mod student;
 
 pub use covariance::MOST_UNCERTAIN;
 pub use curve::{CurveError, MOST_NODES};
+pub use doubt::{Doubt, Missing};
 pub use error::{IdentificationError, NoValue, Undetermined};
 pub use fit::{Estimate, Identification};
 pub use parameter::{Parameter, Quantity};
+pub use pattern::{LEVEL, Pattern};
 pub use search::{Listener, Model, Trial};
+pub use sensitivity::Sensitivity;
 
 use crate::notation::number;
 
@@ -32,6 +40,23 @@ pub struct Measurement {
     penetrations: Vec<f64>,
     /// Standard deviation of each penetration; `None`: all alike, and unknown.
     deviations: Option<Vec<f64>>,
+    instrument: Instrument,
+}
+
+/// What an instrument adds to penetrations where it is known: a zero that was missed by δ₀, and C_f P of a frame of the compliance C_f.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Instrument {
+    /// δ₀, a length.
+    pub offset: f64,
+    /// C_f, a length per force.
+    pub frame_compliance: f64,
+}
+
+impl Instrument {
+    /// δ₀ + C_f P of a force P, a length.
+    pub fn adds(&self, force: f64) -> f64 {
+        self.offset + self.frame_compliance * force
+    }
 }
 
 /// What is wrong with a measured curve.
@@ -46,6 +71,36 @@ pub enum MeasurementError {
     /// A penetration that is not finite.
     #[error("point {}: the penetration must be finite, not {}", .0 + 1, number(*.1))]
     Penetration(usize, f64),
+    /// A force that falls.
+    #[error(
+        "points {} to {}: the force falls from {} to {}: unloading is not to be fitted, what has yielded stays behind; give the loading alone, \
+         by rising force where the points are in no order of time",
+        .from + 1, .to + 1, number(.forces[0]), number(.forces[1])
+    )]
+    Unloading {
+        /// Index of the point of the largest force before it.
+        from: usize,
+        /// Index of the point of the least force behind it.
+        to: usize,
+        /// Their forces.
+        forces: [f64; 2],
+    },
+    /// A penetration that changes under one force.
+    #[error(
+        "points {} to {}: the penetration changes by {} while the force stays at {}: in a hold the body creeps, or the instrument drifts; \
+         leave these points out",
+        .from + 1, .to + 1, number(*.by), number(*.force)
+    )]
+    Hold {
+        /// Index of its first point.
+        from: usize,
+        /// Index of its last point.
+        to: usize,
+        /// The force.
+        force: f64,
+        /// The change, a length.
+        by: f64,
+    },
     /// A deviation that is not above 0.
     #[error("point {}: the standard deviation must be above 0 and finite, not {}", .0 + 1, number(*.1))]
     Deviation(usize, f64),
@@ -55,7 +110,7 @@ impl Measurement {
     /// Forces P > 0 (pressure times a length squared), penetrations δ (lengths), and their standard deviations where they are known.
     ///
     /// # Errors
-    /// [`MeasurementError`] for other numbers of them, and for values that are not so.
+    /// [`MeasurementError`] for other numbers of them, for values that are not so, and for unloading and holds.
     pub fn new(
         forces: Vec<f64>,
         penetrations: Vec<f64>,
@@ -77,7 +132,19 @@ impl Measurement {
         if let Some((index, deviations)) = deviations.as_ref().and_then(|all| Some((first(all, &is_size)?, all))) {
             return Err(MeasurementError::Deviation(index, deviations[index]));
         }
-        Ok(Self { forces, penetrations, deviations })
+        branches::check(&forces, &penetrations)?;
+        Ok(Self { forces, penetrations, deviations, instrument: Instrument::default() })
+    }
+
+    /// The same curve of an instrument whose zero and frame are known.
+    #[must_use]
+    pub fn with_instrument(self, instrument: Instrument) -> Self {
+        Self { instrument, ..self }
+    }
+
+    /// What the instrument is known to add to the penetrations.
+    pub fn instrument(&self) -> Instrument {
+        self.instrument
     }
 
     /// Forces, a pressure times a length squared.

@@ -9,9 +9,9 @@ pub enum Quantity {
     Positive,
     /// A quantity of the model between two bounds, both included, as Poisson's ratio: start + (high − low) t.
     Bounded([f64; 2]),
-    /// δ₀, which is added to all penetrations: a zero that was missed. It starts from 0.
+    /// δ₀, which is added to all penetrations: a zero that was missed: start + a length · t.
     Offset,
-    /// C_f of the frame, by which C_f P is added to penetrations, a length per force. It starts from 0.
+    /// C_f of the frame, by which C_f P is added to penetrations, a length per force: start + a length per force · t.
     FrameCompliance,
 }
 
@@ -55,8 +55,8 @@ impl FreeParameters<'_> {
         match quantity {
             Quantity::Positive => start * t.exp(),
             Quantity::Bounded([low, high]) => start + (high - low) * t,
-            Quantity::Offset => self.units[0] * t,
-            Quantity::FrameCompliance => self.units[1] * t,
+            Quantity::Offset => start + self.units[0] * t,
+            Quantity::FrameCompliance => start + self.units[1] * t,
         }
     }
 

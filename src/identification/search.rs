@@ -45,10 +45,11 @@ pub type Listener<'a> = dyn FnMut(Trial) -> ControlFlow<()> + 'a;
 
 /// A search for parameters.
 pub(super) struct Search<'a, E> {
-    model: &'a Model<'a, E>,
+    pub(super) model: &'a Model<'a, E>,
     pub(super) free: FreeParameters<'a>,
-    measured: &'a Measurement,
-    windows: Vec<f64>,
+    pub(super) measured: &'a Measurement,
+    /// Windows of the last curve; empty before the first.
+    pub(super) windows: Vec<f64>,
     trials: usize,
     is_stopped: bool,
 }
@@ -113,7 +114,7 @@ impl<'a, E: Send> Search<'a, E> {
         }
     }
 
-    fn linearised(&mut self, t: &[f64]) -> Result<Linearised<IndentationCurve>, NoValue<E>> {
+    pub(super) fn linearised(&mut self, t: &[f64]) -> Result<Linearised<IndentationCurve>, NoValue<E>> {
         if let Some(outside) = self.free.outside(t) {
             return Err(NoValue::Outside(outside));
         }
@@ -128,7 +129,8 @@ impl<'a, E: Send> Search<'a, E> {
         let rows = (0..forces.len()).map(|i| {
             let (fitted, derivatives) = self.fitted(&model, t, forces[i]);
             let deviation = self.deviation(i);
-            let residual = (fitted - self.measured.penetrations()[i]) / deviation;
+            let added = self.measured.instrument().adds(forces[i]);
+            let residual = (fitted + added - self.measured.penetrations()[i]) / deviation;
             (residual, derivatives.into_iter().map(|own| own / deviation).collect())
         });
         let (residuals, jacobian) = rows.unzip();

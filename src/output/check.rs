@@ -2,9 +2,11 @@
 
 use super::described;
 use super::number::number;
+use super::table;
 use crate::case::resources::{Job, Needs, needs};
 use crate::case::{
-    Case, ORIENTATION, RandomSection, Stage, SurfaceSection, Treated, foreseen, plausibility, sublayer_error,
+    Case, LibraryStrength, ORIENTATION, RandomSection, Stage, SurfaceSection, Treated, foreseen, plausibility,
+    sublayer_error,
 };
 use crate::counterbody::roughness::{Spectrum, Statistics};
 use crate::lattice::{Cell, Grid, LatticeError};
@@ -19,6 +21,9 @@ use serde_json::{Value, json};
 use std::convert::Infallible;
 use std::fmt;
 use std::sync::Arc;
+
+/// Letters of a line of its sentences.
+const WIDTH: usize = 100;
 
 /// Points along the shorter cell vector of the grid for first touches.
 const POINTS: usize = 192;
@@ -54,6 +59,10 @@ pub struct Check {
     pub touches: Option<Touches>,
     /// Roughness of a topography; `None` for indenters.
     pub surface: Option<Roughness>,
+    /// The strengths that are numbers of the library.
+    pub library_strengths: Vec<LibraryStrength>,
+    /// These strengths in sentences.
+    pub library: Vec<String>,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
 }
@@ -138,6 +147,8 @@ impl Check {
             loads: case.load.values().to_vec(),
             touches,
             surface: Roughness::of(case)?,
+            library_strengths: LibraryStrength::of_case(&json!(case)),
+            library: table::library_strengths(&json!(case)),
             warnings,
         })
     }
@@ -158,6 +169,7 @@ impl Check {
             "first_touch_quantity": self.touches.as_ref().map(|touches| touches.quantity.key()),
             "sublayer_error": self.sublayers.as_ref().map(|(_, error)| error),
             "surface": self.surface.as_ref().map(Roughness::json),
+            "library_strengths": self.library_strengths,
             "warnings": warnings,
             "text": self.to_string(),
         })
@@ -284,6 +296,7 @@ impl fmt::Display for Check {
                 }
             }
         }
+        self.library.iter().try_for_each(|own| f.write_str(&table::lines(own, WIDTH)))?;
         self.surface.as_ref().map_or(Ok(()), |surface| surface.write(f, &self.units))
     }
 }

@@ -5,7 +5,8 @@ use super::number::{number, with_error};
 use super::summary::UnitNames;
 use super::table::Table;
 use crate::case::Case;
-use crate::identification::{Estimate, Identification, Measurement, Trial};
+use crate::identification::{Doubt, Estimate, Identification, LEVEL, Measurement, Missing, Sensitivity, Trial};
+use crate::units::Units;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -26,7 +27,17 @@ pub struct IdentificationFile {
     reduced_chi_square: Option<f64>,
     model_error: Option<f64>,
     contact_radii: [f64; 2],
+    sensitivities: Vec<KnownNumber>,
+    warnings: Vec<String>,
     steps: usize,
+}
+
+/// A number that was taken as known, and the derivatives of the parameters by it.
+#[derive(Debug, Clone, Serialize)]
+struct KnownNumber {
+    name: String,
+    value: f64,
+    derivatives: Vec<f64>,
 }
 
 /// A parameter in the file.
@@ -41,13 +52,18 @@ struct FoundParameter {
 
 impl IdentificationFile {
     /// The record of what was found; `case` has the values found.
-    pub fn new(found: &Identification, case: &Case) -> Self {
+    pub fn new(found: &Identification, case: &Case, warnings: &[String]) -> Self {
         let parameter = |own: &Estimate| FoundParameter {
             name: own.parameter.name.clone(),
             start: own.parameter.start,
             value: own.value,
             standard_error: own.error,
             interval_95: own.interval,
+        };
+        let known = |own: &Sensitivity| KnownNumber {
+            name: own.fixed.name.clone(),
+            value: own.fixed.start,
+            derivatives: own.derivatives.clone(),
         };
         Self {
             percoat: env!("CARGO_PKG_VERSION"),
@@ -62,6 +78,8 @@ impl IdentificationFile {
             reduced_chi_square: found.reduced_chi_square,
             model_error: found.model_error,
             contact_radii: found.radii,
+            sensitivities: found.sensitivities.iter().map(known).collect(),
+            warnings: warnings.to_vec(),
             steps: found.steps,
         }
     }
@@ -109,6 +127,9 @@ pub fn identified(found: &Identification, case: &Case, width: usize) -> String {
         let names = [k, other].map(|k| found.estimates[k].parameter.name.as_str());
         text += &format!("correlation of {} and {}: {:+.3}\n", names[0], names[1], found.correlation[k][other]);
     }
+    if let Some(table) = sensitivities(found) {
+        text += &format!("\n{}\n\n", table.fitted(width));
+    }
     let length = units.length();
     let [least, most] = found.radii.map(|radius| length.with_unit(radius, number));
     text += &format!(
@@ -123,4 +144,79 @@ pub fn identified(found: &Identification, case: &Case, width: usize) -> String {
         text += &format!("error of the computed penetrations by the grid: {:.1e} at most\n", error);
     }
     text
+}
+
+/// The derivatives of the parameters by what was taken as known, in the units of the case; `None` without any.
+fn sensitivities(found: &Identification) -> Option<Table> {
+    let parameters = found.estimates.iter().map(|own| format!("d {}", own.parameter.name));
+    let head: Vec<String> =
+        ["by what was taken as known", "value"].map(str::to_owned).into_iter().chain(parameters).collect();
+    let row = |own: &Sensitivity| {
+        let numbers = std::iter::once(own.fixed.start).chain(own.derivatives.iter().copied()).map(number);
+        std::iter::once(own.fixed.name.clone()).chain(numbers).collect()
+    };
+    let rows: Vec<Vec<String>> = found.sensitivities.iter().map(row).collect();
+    (!rows.is_empty()).then(|| Table::new(&head, rows, 1))
+}
+
+/// Why values and standard errors of a fit may not hold, a sentence each; `case` has the values found.
+pub fn doubts(measured: &Measurement, found: &Identification, case: &Case) -> Vec<String> {
+    let units = case.units();
+    let told = found.doubts.iter().map(|own| doubt(own, found, &units));
+    told.chain(beyond_hardness(measured, found, case)).collect()
+}
+
+fn doubt(doubt: &Doubt, found: &Identification, units: &Units) -> String {
+    let length = |x: f64| units.length().with_unit(x, number);
+    match doubt {
+        Doubt::Systematic(pattern) => format!(
+            "the residuals are no scatter: over the force they have {} runs of one sign where scatter has {:.1} (chance makes such a pattern in \
+             fewer than 1 of {:.0} curves); the model does not hold, nor do the standard errors: leave out the larger forces where something \
+             yields, free `offset` or `frame_compliance`, or look for drift and a wrong fixed number",
+            pattern.runs,
+            pattern.expected,
+            0.5 / LEVEL
+        ),
+        Doubt::Offset(own) => {
+            let size = format!("{} ± {}", length(own.value), length(own.error));
+            format!("the zero of the penetration seems to be missed by {size}: {}", with_it(own, found, "offset"))
+        }
+        Doubt::FrameCompliance(own) => {
+            let unit = match (units.force().name(), units.length().name()) {
+                (Some(force), Some(length)) => format!("\u{a0}{length}/{force}"),
+                _ => String::new(),
+            };
+            let size = format!("{}{unit}", with_error(own.value, Some(own.error)));
+            format!("the frame seems to have a compliance of {size}: {}", with_it(own, found, "frame_compliance"))
+        }
+    }
+}
+
+/// What a number of the instrument would change, and how it is freed.
+fn with_it(own: &Missing, found: &Identification, name: &str) -> String {
+    let names = found.estimates.iter().map(|own| own.parameter.name.as_str());
+    let changed: Vec<String> =
+        names.zip(&own.estimates).map(|(name, value)| format!("{name} about {}", number(*value))).collect();
+    format!(
+        "with it {}; free `{name}`, or state it by --known {name}=…, if it is not the model that fails",
+        changed.join(" and ")
+    )
+}
+
+/// That the elastic fit exceeds the hardness of a surface, and from which force on; `None` without a hardness, and below it.
+fn beyond_hardness(measured: &Measurement, found: &Identification, case: &Case) -> Option<String> {
+    let (hardness, side) = case.problem().bodies().hardness()?;
+    let points = measured.forces().iter().zip(&found.peaks);
+    let beyond: Vec<f64> = points.filter(|(_, peak)| **peak > hardness).map(|(force, _)| *force).collect();
+    let least = beyond.iter().copied().reduce(f64::min)?;
+    let most = found.peaks.iter().copied().fold(0.0, f64::max);
+    let units = case.units();
+    let [hardness, most] = [hardness, most].map(|pressure| units.pressure().with_unit(pressure, number));
+    Some(format!(
+        "the pressure of the elastic fit exceeds the hardness {hardness} of the {side} in {} of {} points, from the force {} on, up to {most}: it \
+         yields there, and the fit takes it for elastic; leave these points out",
+        beyond.len(),
+        measured.forces().len(),
+        units.force().with_unit(least, number)
+    ))
 }

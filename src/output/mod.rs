@@ -96,7 +96,7 @@ pub use finished::{CannotGoOn, finished};
 pub use folder::RunFolder;
 pub use folder_error::FolderError;
 pub use histograms::histograms;
-pub use identification::{IdentificationFile, fitted, identified, trial};
+pub use identification::{IdentificationFile, doubts, fitted, identified, trial};
 pub use interrupted::{coarser, has_begun, has_solved_alone, staged_bytes};
 pub use json::Unreadable;
 pub use kernel::{Traction, kernel};

@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn an_interface_shows_what_contributes_most_to_its_failure() {
-        let bears = |normal, shear| InterfaceStrength { normal, shear };
+        let bears = |normal, shear| InterfaceStrength { normal, shear, friction: 0.0 };
         let shown = |[zz, xz]: [f64; 2], bears: InterfaceStrength| {
             let material = Material::from_young(1.0, 0.3).unwrap();
             let layer = Layer::new(material, 1.0, Interface::Bonded).unwrap();

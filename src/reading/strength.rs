@@ -1,7 +1,7 @@
 //! Failure criteria and their utilisations in a load step.
 //!
 //! The **utilisation** of a criterion is 1 where it fails: von Mises over the yield strength, σ₁ over the tensile strength,
-//! √((⟨σ_zz⟩/σ_c)² + (τ/τ_c)²) of an interface; of endurance limits, under any number of passes of the counterbody, [√J₂,a +
+//! √((⟨σ_zz⟩/σ_c)² + (τ/(τ_c + f⟨−σ_zz⟩))²) of an interface; of endurance limits, under any number of passes of the counterbody, [√J₂,a +
 //! (3τ₋₁/σ₋₁ − √3) σ_H]/τ₋₁ (Crossland) and [τ_a + 3(τ₋₁/σ₋₁ − ½) σ_H]/τ₋₁ (Dang Van) along the path of sliding. It is no safety factor: contact is not linear, and the load at which it
 //! reaches 1 is found by solving ([`crate::Run::limits`]).
 
@@ -318,7 +318,7 @@ mod tests {
     fn residual_stress_takes_up_its_part_of_yield_and_in_tension_of_cracking() {
         let material = Material::from_young(1.0, 0.3).unwrap();
         let strength = Strength { yielding: Some(4.0), tensile: Some(2.0) };
-        let bears = InterfaceStrength { normal: Some(1.0), shear: None };
+        let bears = InterfaceStrength { normal: Some(1.0), ..Default::default() };
         let layer = |residual: f64| {
             let layer = Layer::new(material, 1.0, Interface::Bonded).unwrap().with_residual_stress(residual).unwrap();
             layer.with_strengths(strength, bears).unwrap()

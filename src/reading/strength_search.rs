@@ -70,8 +70,8 @@ mod tests {
     #[test]
     fn a_search_for_strengths_alone_finds_the_same_utilisations() {
         let strength = |yielding: Option<f64>, tensile: Option<f64>| Strength { yielding, tensile };
-        let bond = InterfaceStrength { normal: Some(0.02), shear: Some(0.05) };
-        let all = layer(strength(Some(0.3), Some(0.1)), bond);
+        let bond = InterfaceStrength { normal: Some(0.02), shear: Some(0.05), friction: 0.0 };
+        let all = layer(strength(Some(0.3), Some(0.1)), InterfaceStrength { friction: 0.3, ..bond });
         let bodies = [
             HalfSpace::new(vec![layer(strength(None, None), InterfaceStrength::default()), all], material(1.0)),
             HalfSpace::new(vec![layer(strength(None, Some(0.1)), InterfaceStrength::default())], material(1.0))

@@ -4,7 +4,7 @@ use super::markup::{Markup, tag, with};
 use super::problem::is_elastic;
 use super::resolution::upper;
 use crate::body::MeanStress;
-use crate::output::table::Assumptions;
+use crate::output::table::{Assumptions, library_strengths};
 use serde_json::Value;
 
 /// A result on the page.
@@ -78,7 +78,7 @@ fn assumptions(case: &Value) -> Assumptions {
     };
     let isolated = case["lattice"]["kind"] == "isolated";
     let rigid = !is_elastic(case) && case["load"]["pressure"].is_null();
-    Assumptions { mean, line: None, isolated, rigid, untested: untested(case) }
+    Assumptions { mean, line: None, isolated, rigid, untested: untested(case), library: library_strengths(case) }
 }
 
 /// Names of the materials without a strength, as the case names them.

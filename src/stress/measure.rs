@@ -175,7 +175,7 @@ mod tests {
             StressState::from_stresses(std::array::from_fn(|c| ((k * k * 37 + 11 * c * k + c) % 101) as f64 - 50.0))
         };
         let states: Vec<StressState> = (0..200).map(state).chain((0..200).map(state)).collect();
-        let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0) };
+        let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0), friction: 0.3 };
         let measures: Vec<StressMeasure> =
             MATERIAL_MEASURES.into_iter().chain(StressMeasure::of_interface(strength)).collect();
         // All at once, and part by part: the largest of all is among what the parts give.

@@ -114,3 +114,34 @@ fn lines_are_said_with_their_direction_and_have_their_errors() {
     desk.percoat(&["solve", "wave.toml", "-o", "rippled"])
         .complains(2, &["stress.mean", "not constant along one side"]);
 }
+
+/// A verdict by a strength of the library is told with it, its kind of test and its range, by limit, solve, report and check; one by a number of
+/// the case is not.
+#[test]
+fn strengths_of_the_library_are_stated_with_their_range() {
+    let desk = Desk::new();
+    let name = "Al2O3";
+    let said = [
+        "strengths of the library, not of your part:".to_owned(),
+        format!("tensile strength of {name} 0.38 GPa (flexural, 0.25 to 0.43 GPa)"),
+        "a tensile strength of the library is that of bars".to_owned(),
+    ];
+    let set = format!("--set=layers.0.material={name}");
+    for (folder, command) in [("solved", "solve"), ("limit", "limit"), ("", "check")] {
+        let mut arguments = vec![command, "ball-on-disc", &set, "--set=grid.points=48"];
+        if command != "check" {
+            arguments.extend(["-o", folder, "--no-pictures"]);
+        }
+        let answer = desk.percoat(&arguments);
+        for words in &said {
+            assert!(line(&answer.out).contains(words), "{command}: {words}\n{}", answer.out);
+        }
+        if command != "check" {
+            assert_eq!(desk.percoat(&["report", folder]).code, 0);
+            let page = words(&Folder(desk.path(folder)).text("report.html"));
+            assert!(page.contains(&said[1]), "{command}");
+        }
+    }
+    let given = desk.percoat(&["check", "ball-on-disc", &set, "--set=layers.0.tensile_strength=1"]);
+    assert!(!line(&given.out).contains(&said[1]), "{}", given.out);
+}

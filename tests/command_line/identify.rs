@@ -97,6 +97,66 @@ fn what_cannot_be_identified_is_refused_with_what_to_do() {
     refused(&["one.csv", "case.toml", "--free", "layers.0.young"], &["more points than parameters"]);
 }
 
+/// The lines of the curve with its penetrations changed, force and penetration as they are.
+fn changed(desk: &Desk, name: &str, change: impl Fn(usize, f64) -> f64) {
+    let curve = fs::read_to_string(desk.path("curve.csv")).unwrap();
+    let mut lines = curve.lines();
+    let mut text = format!("{}\n", lines.next().unwrap());
+    for (index, line) in lines.enumerate() {
+        let (force, penetration) = line.split_once(',').unwrap();
+        text += &format!("{force},{}\n", change(index, penetration.parse().unwrap()));
+    }
+    desk.write(name, text);
+}
+
+/// A zero missed by 10 nm is told with its size, and no longer where it is stated; pressures above the hardness are told; the derivatives by what
+/// is known stand in the table and in the file.
+#[test]
+fn what_the_fit_does_not_know_is_told() {
+    let desk = desk();
+    changed(&desk, "shifted.csv", |_, penetration| penetration - 0.01);
+    let free = ["identify", "shifted.csv", "case.toml", "--free", "substrate.young", "--set", "layers.0.young=300"];
+    let answer = desk.percoat(&[&free[..], &["--no-pictures", "-o", "out"]].concat());
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let zero = "the zero of the penetration seems to be missed by -";
+    assert!(answer.err.contains(zero) && answer.err.contains("free `offset`"), "{}", answer.err);
+    for words in ["d substrate.young", "levels.0.radius", "substrate.poisson", "frame_compliance", "offset"] {
+        assert!(answer.out.contains(words), "\"{words}\" does not stand in\n{}", answer.out);
+    }
+    let file: Value = serde_json::from_str(&fs::read_to_string(desk.path("out/identification.json")).unwrap()).unwrap();
+    let names: Vec<&str> =
+        file["sensitivities"].as_array().unwrap().iter().map(|own| own["name"].as_str().unwrap()).collect();
+    let known = ["levels.0.radius", "layers.0.thickness", "layers.0.young", "layers.0.poisson", "substrate.poisson"];
+    assert!(known.iter().all(|name| names.contains(name)) && !names.contains(&"substrate.young"), "{names:?}");
+    assert!(file["warnings"].as_array().unwrap().iter().any(|own| own.as_str().unwrap().contains(zero)));
+    let known = ["--known", "offset=-0.01", "--set", "layers.0.hardness=2", "--no-pictures", "-o", "known"];
+    let answer = desk.percoat(&[&free[..], &known].concat());
+    assert!(answer.code == 0 && !answer.err.contains(zero), "{}", answer.err);
+    assert!(answer.err.contains("exceeds the hardness 2.0000\u{a0}GPa of the body in 8 of 8 points"), "{}", answer.err);
+    let file: Value =
+        serde_json::from_str(&fs::read_to_string(desk.path("known/identification.json")).unwrap()).unwrap();
+    let own = |key: &str| number(&file, &format!("/parameters/0/{key}"));
+    assert!((own("value") - 70.0).abs() < 3.0 * own("standard_error") + 0.35, "{file:#}");
+}
+
+#[test]
+fn records_of_more_than_loading_are_refused_with_their_lines() {
+    let desk = desk();
+    let curve = fs::read_to_string(desk.path("curve.csv")).unwrap();
+    let lines: Vec<&str> = curve.lines().collect();
+    let back = lines[1..].iter().rev().copied();
+    desk.write("falls.csv", lines.iter().copied().chain(back).collect::<Vec<_>>().join("\n"));
+    let refused = |arguments: &[&str], words: &[&str]| {
+        let all = [&["identify"], arguments, &["--free", "substrate.young", "-o", "none"]].concat();
+        desk.percoat(&all).complains(2, words);
+        assert!(!desk.path("none").exists());
+    };
+    refused(&["falls.csv", "case.toml"], &["falls.csv: line 9, points 8 to 16: the force falls", "the loading alone"]);
+    for (known, words) in [("offset", "is no `offset=LENGTH`"), ("offset=1,offset=2", "`offset` is there twice")] {
+        refused(&["curve.csv", "case.toml", "--known", known], &[words]);
+    }
+}
+
 /// A shell that may take little memory stands for a machine that has little.
 #[cfg(target_os = "linux")]
 #[test]

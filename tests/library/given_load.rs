@@ -280,7 +280,7 @@ fn a_hardness_presses_nothing_in_under_a_given_pressure() {
 fn the_limit_is_the_load_over_its_utilisation() {
     let strength = Strength { yielding: Some(0.05), tensile: None };
     let layer = Layer::new(young(5.0, 0.25), 0.3, Interface::Bonded).unwrap();
-    let layer = layer.with_strengths(strength, InterfaceStrength { normal: None, shear: Some(0.02) }).unwrap();
+    let layer = layer.with_strengths(strength, InterfaceStrength { shear: Some(0.02), ..Default::default() }).unwrap();
     let body = HalfSpace::new(vec![layer], young(1.0, 0.3)).with_substrate_strength(strength).unwrap();
     // The small disc has two samples along its radius.
     for radius in [0.5, 0.07] {

@@ -1,12 +1,16 @@
 //! Moduli and thickness of a coating from its indentation curve. The curves are those of an integral equation for the
 //! axisymmetric contact, with and without noise (`validation/identification`), not of this program.
 
+use crate::common::Random;
+
 use percoat::identification::{
-    CurveError, Estimate, Identification, IdentificationError, Measurement, Model, NoValue, Parameter, Quantity, Trial,
+    CurveError, Doubt, Estimate, Identification, IdentificationError, Instrument, LEVEL, Measurement, MeasurementError,
+    Model, NoValue, Parameter, Pattern, Quantity, Trial,
 };
 use percoat::{
     Cell, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Material, MaterialError, Problem, Settings, Shape,
 };
+use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 const EXACT: &str = include_str!("../../validation/identification/indentation.csv");
@@ -163,4 +167,225 @@ fn a_search_can_be_stopped_and_tells_of_its_trials() {
         if trials < 2 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
     assert!(stopped == Err(IdentificationError::Stopped) && trials == 2, "{stopped:?}");
+}
+
+/// A number of the normal distribution (Box and Muller).
+fn normal(random: &mut Random) -> f64 {
+    (-2.0 * (1.0 - random.unit()).ln()).sqrt() * (2.0 * PI * random.unit()).cos()
+}
+
+/// Hertz with noise in force and penetration, both a part of their largest value.
+fn record(forces: &[f64], part: f64, random: &mut Random) -> [Vec<f64>; 2] {
+    let largest = forces.iter().copied().fold(0.0, f64::max);
+    let penetrations = forces.iter().map(|force| (force / largest).powf(2.0 / 3.0) + part * normal(random)).collect();
+    let forces = forces.iter().map(|force| (force + part * largest * normal(random)).max(1e-9)).collect();
+    [forces, penetrations]
+}
+
+fn refusal([forces, penetrations]: [Vec<f64>; 2]) -> Option<MeasurementError> {
+    Measurement::new(forces, penetrations, None).err()
+}
+
+/// Loads in equal steps, in equal ratios, and each twice, with noise up to 2 % of the largest: falls of noise are refused in one of a
+/// thousand at most.
+#[test]
+fn loading_with_noise_is_taken_for_loading() {
+    let mut random = Random(1);
+    let mut alarms = Vec::new();
+    for trial in 0..1200 {
+        let count = [5, 12, 40, 300, 1500][trial % 5];
+        let force = |k: i32| match trial % 3 {
+            0 => f64::from(k),
+            1 => 10.0 * 1000f64.powf(f64::from(k) / f64::from(count)),
+            _ => f64::from((k + 1) / 2),
+        };
+        let forces: Vec<f64> = (1..=count).map(force).collect();
+        let part = [0.0, 1e-4, 3e-3, 0.02][trial % 4];
+        alarms.extend(refusal(record(&forces, part, &mut random)).map(|own| (trial, own)));
+    }
+    assert!(alarms.len() <= 3, "{alarms:?}");
+}
+
+#[test]
+fn unloading_and_holds_are_refused_with_their_points() {
+    let mut random = Random(2);
+    let up: Vec<f64> = (1..=20).map(f64::from).collect();
+    let down: Vec<f64> = up.iter().rev().copied().collect();
+    let held = vec![20.0; 12];
+    for part in [0.0, 1e-3, 5e-3] {
+        for forces in [down.clone(), [up.clone(), down.clone()].concat(), [&up[..], &held, &down].concat()] {
+            let found = refusal(record(&forces, part, &mut random));
+            let Some(MeasurementError::Unloading { from, to, forces: ends }) = found else {
+                panic!("{part}: {found:?}")
+            };
+            assert!(to == forces.len() - 1 && forces[from] > 19.0 && (ends[1] - 1.0).abs() < 0.5, "{from} {ends:?}");
+        }
+        // Points that are repeated are no hold; those between whose first and last third the penetration creeps are.
+        let [forces, mut penetrations] = record(&[&up[..], &held].concat(), part, &mut random);
+        assert_eq!(refusal([forces.clone(), penetrations.clone()]), None, "{part}");
+        penetrations[20..].iter_mut().zip(0u8..).for_each(|(own, k)| *own += 0.1 * (f64::from(k) / 11.0).sqrt());
+        let found = refusal([forces, penetrations]);
+        let Some(MeasurementError::Hold { from, to, by, .. }) = found else { panic!("{part}: {found:?}") };
+        assert!((18..22).contains(&from) && to == 31 && by > 0.03, "{from} {to} {by}");
+    }
+}
+
+/// Residuals of straight lines through scatter, also where it grows tenfold along the line, are called a pattern in no more than the
+/// stated part of the curves; an arch of the size of the scatter is found.
+#[test]
+fn scatter_is_no_pattern_and_an_arch_is_one() {
+    let mut random = Random(3);
+    let mut residuals = |count: usize, grows: bool, arch: f64| -> Vec<f64> {
+        let x = |i: usize| 2.0 * i as f64 / (count - 1) as f64 - 1.0;
+        let size = |i: usize| if grows { 0.1 + 0.45 * (x(i) + 1.0) } else { 1.0 };
+        let own: Vec<f64> = (0..count).map(|i| size(i) * normal(&mut random) + arch * x(i) * x(i)).collect();
+        // A straight line is taken off: x has the mean 0.
+        let mean = own.iter().sum::<f64>() / count as f64;
+        let squares: f64 = (0..count).map(|i| x(i) * x(i)).sum();
+        let slope = own.iter().enumerate().map(|(i, r)| x(i) * r).sum::<f64>() / squares;
+        own.iter().enumerate().map(|(i, r)| r - mean - slope * x(i)).collect()
+    };
+    const CURVES: usize = 4000;
+    for count in [6, 10, 24, 100] {
+        for grows in [false, true] {
+            let alarms = (0..CURVES).filter(|_| Pattern::of(&residuals(count, grows, 0.0)).is_systematic()).count();
+            // Two tests; three standard deviations of the count.
+            let expected = 2.0 * LEVEL * CURVES as f64;
+            assert!((alarms as f64) < expected + 3.0 * expected.sqrt(), "{count}, {grows}: {alarms}, {expected}");
+        }
+    }
+    for (count, arch, part) in [(24, 6.0, 0.9), (100, 3.0, 0.9), (12, 30.0, 0.9)] {
+        let found = (0..400).filter(|_| Pattern::of(&residuals(count, false, arch)).is_systematic()).count();
+        assert!(found as f64 > part * 400.0, "{count}, {arch}: {found}");
+    }
+    // All of twelve above, then all below: 2 of C(24, 12) arrangements.
+    let two = Pattern::of(&(0..24).map(|k| if k < 12 { 1.0 } else { -1.0 }).collect::<Vec<_>>());
+    assert!((two.probability / (2.0 / 2_704_156.0) - 1.0).abs() < 1e-9 && two.runs == 2 && two.expected == 13.0);
+}
+
+/// Penetrations of Hertz under a paraboloid of 10 µm: E = 70 GPa and ν = 0.3.
+fn hertz(force: f64) -> f64 {
+    (3.0 * force * 0.91 / (4.0 * 70.0 * 10f64.sqrt())).powf(2.0 / 3.0)
+}
+
+/// The modulus of a body from its curve, beside ν, R and what the instrument is known to add.
+fn modulus(measured: &Measurement, [poisson, radius]: [f64; 2], more: &[Quantity]) -> Identification {
+    let problem = |values: &[f64]| {
+        // The modulus, then what more is free, then ν and R.
+        let (nu, radius) = match values.get(1 + more.len()..) {
+            Some(&[nu, radius, ..]) => (nu, radius),
+            _ => (poisson, radius),
+        };
+        let lattice = Lattice::new(Cell::window([4.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+        let level = Level::new(Shape::Paraboloid { radius }, 0.0).unwrap();
+        let body = HalfSpace::new(vec![], Material::from_young(values[0], nu)?);
+        Ok::<_, MaterialError>(Problem::new(Indenters::new(lattice, vec![level]).unwrap(), body))
+    };
+    let settings = Settings { tolerance: 1e-9, ..Settings::default() };
+    let own = |name: &str, quantity, start| Parameter { name: name.to_owned(), quantity, start };
+    let mut free = vec![own("young", Quantity::Positive, 100.0)];
+    free.extend(more.iter().map(|&quantity| own("instrument", quantity, 0.0)));
+    let mut fixed = vec![
+        own("poisson", Quantity::Bounded([0.0, 0.5]), poisson),
+        own("radius", Quantity::Positive, radius),
+        own("offset", Quantity::Offset, measured.instrument().offset),
+        own("frame", Quantity::FrameCompliance, measured.instrument().frame_compliance),
+    ];
+    fixed.retain(|own| !more.contains(&own.quantity));
+    let model = Model { problem: &problem, points: 48, settings };
+    Identification::with_fixed(&model, (&free, &fixed), measured, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+fn curve(count: i32, scatter: f64, seed: u64, adds: &dyn Fn(f64) -> f64) -> Measurement {
+    let mut random = Random(seed);
+    let forces: Vec<f64> = (1..=count).map(|k| 20.0 * f64::from(k) / f64::from(count)).collect();
+    let penetrations = forces.iter().map(|&force| hertz(force) + adds(force) + scatter * normal(&mut random)).collect();
+    Measurement::new(forces, penetrations, None).unwrap()
+}
+
+/// E is in proportion to (1 − ν²)/√R: its derivatives by ν, R, δ₀ and C_f are those, and those of fits with other fixed numbers.
+#[test]
+fn derivatives_by_what_is_known_are_those_of_hertz_and_of_other_fits() {
+    let measured = curve(12, 0.0, 4, &|_| 0.0);
+    let own = modulus(&measured, [0.3, 10.0], &[]);
+    let young = own.estimates[0].value;
+    let by = |k: usize| own.sensitivities[k].derivatives[0];
+    let exact = [-0.6 * young / 0.91, -young / 20.0];
+    for (k, exact) in exact.into_iter().enumerate() {
+        // Derivatives on 48 samples are right to a percent or so.
+        assert!((by(k) / exact - 1.0).abs() < 0.02, "{k}: {} {exact}", by(k));
+    }
+    let largest = hertz(20.0);
+    for (k, step) in [(2, 0.004 * largest), (3, 0.004 * largest / 20.0)] {
+        let at = |sign: f64| {
+            let mut instrument = Instrument::default();
+            *(if k == 2 { &mut instrument.offset } else { &mut instrument.frame_compliance }) = sign * step;
+            modulus(&measured.clone().with_instrument(instrument), [0.3, 10.0], &[]).estimates[0].value
+        };
+        let quotient = (at(1.0) - at(-1.0)) / (2.0 * step);
+        assert!((by(k) / quotient - 1.0).abs() < 0.02, "{k}: {} {quotient}", by(k));
+    }
+}
+
+/// A zero that is missed by 2.5 nm, and the compliance of a frame, are told with their size and the modulus with them; free, or known, there
+/// is no doubt and the modulus is right. Points that yield beyond 8 mN are told as a pattern. A good curve is not doubted.
+#[test]
+fn a_missed_zero_a_frame_and_yield_are_told() {
+    const SCATTER: f64 = 2e-4;
+    let plain = modulus(&curve(24, SCATTER, 5, &|_| 0.0), [0.3, 10.0], &[]);
+    assert_eq!(plain.doubts, []);
+    let near = |own: &Identification| (own.estimates[0].value - 70.0).abs() < 4.0 * own.estimates[0].error + 0.2;
+    assert!(near(&plain), "{plain}");
+    for (quantity, size, instrument) in [
+        (Quantity::Offset, -2.5e-3, Instrument { offset: -2.5e-3, ..Instrument::default() }),
+        (Quantity::FrameCompliance, 3e-4, Instrument { frame_compliance: 3e-4, ..Instrument::default() }),
+    ] {
+        let measured = curve(24, SCATTER, 6, &|force| instrument.adds(force));
+        let wrong = modulus(&measured, [0.3, 10.0], &[]);
+        assert!(!near(&wrong), "{wrong}");
+        let missing = wrong.doubts.iter().find_map(|own| match own {
+            Doubt::Offset(own) if quantity == Quantity::Offset => Some(own),
+            Doubt::FrameCompliance(own) if quantity == Quantity::FrameCompliance => Some(own),
+            _ => None,
+        });
+        let missing = missing.unwrap_or_else(|| panic!("{wrong:?}"));
+        // To first order of a change of several percent.
+        assert!((missing.value - size).abs() < 4.0 * missing.error + 0.1 * size.abs(), "{missing:?}");
+        assert!((missing.estimates[0] - 70.0).abs() < 1.5, "{missing:?}");
+        let freed = modulus(&measured, [0.3, 10.0], &[quantity]);
+        let known = modulus(&measured.with_instrument(instrument), [0.3, 10.0], &[]);
+        for own in [freed, known] {
+            assert!(near(&own) && own.doubts.is_empty(), "{own}: {:?}", own.doubts);
+        }
+    }
+    let yields = curve(24, SCATTER, 7, &|force| 1.5e-3 * (force - 8.0f64).max(0.0));
+    let told = modulus(&yields, [0.3, 10.0], &[]).doubts;
+    assert!(matches!(told.first(), Some(Doubt::Systematic(pattern)) if pattern.is_systematic()), "{told:?}");
+}
+
+/// What a curve does not contain is said at the first values, not at the end of a search along it.
+#[test]
+fn a_hopeless_search_is_given_up_at_its_start() {
+    // Contact of less than a thousandth of the thickness: nothing of the substrate is in it.
+    let forces: Vec<f64> = (1..=12).map(|k| 1e-9 * f64::from(k)).collect();
+    let penetrations = forces.iter().map(|force| (3.0 * force * 0.96 / (4.0 * 300.0 * 10f64.sqrt())).powf(2.0 / 3.0));
+    let mut random = Random(8);
+    let penetrations = penetrations.map(|own| own * (1.0 + 0.02 * normal(&mut random))).collect();
+    let measured = Measurement::new(forces, penetrations, None).unwrap();
+    let problem = |values: &[f64]| problem(&[values[0], 0.2, 1.0, values[1]]);
+    let settings = Settings { tolerance: 1e-9, ..Settings::default() };
+    let own = |name: &str, start| Parameter { name: name.to_owned(), quantity: Quantity::Positive, start };
+    let mut trials = 0;
+    let found = Identification::new_with_progress(
+        &Model { problem: &problem, points: 32, settings },
+        &[own("coating", 250.0), own("substrate", 70.0)],
+        &measured,
+        &mut |_| {
+            trials += 1;
+            ControlFlow::Continue(())
+        },
+    );
+    let Err(IdentificationError::Undetermined(own)) = found else { panic!("{found:?}") };
+    assert!(own.at_start && own.name == "substrate" && trials <= 3, "{own}, {trials} trials");
+    assert!(own.to_string().starts_with("at the first values of the search"), "{own}");
 }

@@ -76,6 +76,7 @@ fn random_problem(random: &mut Random, points: usize) -> Option<Problem> {
             let bond = InterfaceStrength {
                 normal: near(random, below.normal.value),
                 shear: near(random, below.shear.value).filter(|_| layer.interface() != Interface::Frictionless),
+                friction: 0.0,
             };
             layer.with_strengths(strength, bond).unwrap()
         })

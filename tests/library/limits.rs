@@ -12,7 +12,7 @@ use percoat::{
 };
 use std::convert::Infallible;
 
-const NO_BOND: InterfaceStrength = InterfaceStrength { normal: None, shear: None };
+const NO_BOND: InterfaceStrength = InterfaceStrength { normal: None, shear: None, friction: 0.0 };
 
 /// A hard coating under residual compression that slides, and everything of it with a strength; lengths and pressures in
 /// any unit.
@@ -22,7 +22,7 @@ fn coated([length, pressure]: [f64; 2]) -> Problem {
         yielding: Some(yielding * pressure),
         tensile: tensile.map(|tensile| tensile * pressure),
     };
-    let bond = InterfaceStrength { normal: Some(0.5 * pressure), shear: Some(1.0 * pressure) };
+    let bond = InterfaceStrength { normal: Some(0.5 * pressure), shear: Some(1.0 * pressure), friction: 0.0 };
     let coating = Layer::new(material(200.0, 0.25), 2.0 * length, Interface::Bonded).unwrap();
     let coating = coating.with_residual_stress(-2.0 * pressure).unwrap();
     let coating = coating.with_strengths(strength(8.0, Some(1.5)), bond).unwrap();
@@ -226,7 +226,7 @@ fn a_hardness_does_not_end_the_search_of_an_isolated_contact() {
 /// A stiff coating on a soft body, which comes off where it is opened: between the spheres.
 fn peeling(strength: f64) -> Problem {
     let material = |young: f64, nu: f64| Material::from_young(young, nu).unwrap();
-    let bond = InterfaceStrength { normal: Some(strength), shear: None };
+    let bond = InterfaceStrength { normal: Some(strength), shear: None, friction: 0.0 };
     let stiff = Layer::new(material(400.0, 0.25), 1.0, Interface::Bonded).unwrap();
     let stiff = stiff.with_strengths(Strength::default(), bond).unwrap();
     let level = Level::new(Shape::Sphere { radius: 50.0 }, 0.0).unwrap();
@@ -424,7 +424,7 @@ fn an_error_is_told_with_what_else_may_come_first() {
 #[test]
 fn the_first_failure_is_that_of_a_hump_below_the_load_of_the_case() {
     let material = Material::from_young(1.0, 0.3).unwrap();
-    let bond = InterfaceStrength { normal: Some(0.002), shear: Some(0.2) };
+    let bond = InterfaceStrength { normal: Some(0.002), shear: Some(0.2), friction: 0.0 };
     let layer = Layer::new(material, 0.05, Interface::Bonded).unwrap();
     let layer = layer.with_strengths(Strength::default(), bond).unwrap();
     let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();

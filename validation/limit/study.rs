@@ -358,7 +358,7 @@ fn coated(points: &Points) -> Result<Data, StudyError> {
             };
             let normal = carried(RADIUS) * unit;
             let exact = slider.failing(|radius, axis| carried(radius) * axis / normal);
-            let bears = InterfaceStrength { normal: Some(normal), shear: Some(SHEAR * normal) };
+            let bears = InterfaceStrength { normal: Some(normal), shear: Some(SHEAR * normal), friction: 0.0 };
             let half_space = layered(slider.material, deep, 0.0, Strength::default(), bears)?;
             let found = slider.limit(&half_space, Criterion::delamination_of(1), &exact)?;
             data.rows.push(row(0.0, 2.0, &found, deep));

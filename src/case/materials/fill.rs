@@ -16,7 +16,7 @@ use crate::case::value::ValueAt;
 use crate::units::pascals;
 
 /// Pascals of the unit of the library.
-const GPA: f64 = 1e9;
+pub(super) const GPA: f64 = 1e9;
 
 /// The key of a case that names a file of materials.
 const FILE: &str = "materials";
@@ -157,7 +157,7 @@ fn own(source: &Source, name: &str, span: Span) -> Result<Vec<LibraryMaterial>, 
 }
 
 /// To twelve digits, which no conversion spoils.
-fn rounded(x: f64) -> f64 {
+pub(super) fn rounded(x: f64) -> f64 {
     format!("{x:.11e}").parse().unwrap_or(x)
 }
 

@@ -5,7 +5,9 @@
 mod entry;
 mod fill;
 mod library;
+mod origin;
 
 pub use entry::{Certainty, LibraryMaterial, Property};
 pub(super) use fill::{fill, path};
 pub use library::{MaterialsError, UnknownMaterial, library, materials_of_file};
+pub use origin::LibraryStrength;

@@ -2,8 +2,9 @@
 
 use super::text::lines;
 use crate::body::{Bodies, HalfSpace, MeanStress};
-use crate::case::Case;
 use crate::case::suggestions::joined;
+use crate::case::{Case, LibraryStrength};
+use serde_json::{Value, json};
 
 /// The mean lateral stress in the largest stresses and limit loads, in a sentence; with the axis of lines, where it is known.
 fn mean_stress(mean: MeanStress, line: Option<usize>) -> String {
@@ -39,6 +40,8 @@ pub struct Assumptions {
     pub rigid: bool,
     /// Names of the materials without a strength.
     pub untested: Vec<String>,
+    /// The strengths that are numbers of the library, in sentences.
+    pub library: Vec<String>,
 }
 
 impl Assumptions {
@@ -51,6 +54,7 @@ impl Assumptions {
             isolated: problem.cell().is_isolated(),
             rigid: problem.bodies().counterbody().is_none() && problem.counterbody().pressure().is_none(),
             untested: untested(problem.bodies()),
+            library: library_strengths(&json!(case)),
         }
     }
 
@@ -59,7 +63,8 @@ impl Assumptions {
         let mean = (!self.isolated).then(|| mean_stress(self.mean, self.line));
         let rigid = (with_strength && self.rigid).then(|| RIGID.to_owned());
         let without_strength = self.without_strength().filter(|_| with_strength);
-        [mean, without_strength, rigid].into_iter().flatten().collect()
+        let library = self.library.iter().filter(|_| with_strength).cloned();
+        [mean, without_strength, rigid].into_iter().flatten().chain(library).collect()
     }
 
     /// The materials without a strength, in a sentence; `None` where all have one.
@@ -74,6 +79,31 @@ impl Assumptions {
         self.sentences(with_strength).iter().map(|own| lines(own, width)).collect()
     }
 }
+
+/// The strengths of a serialised case that are numbers of the library with their kind of test and their range, in sentences; empty
+/// without any.
+pub fn library_strengths(case: &Value) -> Vec<String> {
+    let all = LibraryStrength::of_case(case);
+    let unit = case["units"]["pressure"].as_str().unwrap_or_default();
+    let of = |own: &LibraryStrength| {
+        let known = [own.what.map(str::to_owned), own.range.map(|[low, high]| format!("{low} to {high} {unit}"))];
+        let known = known.into_iter().flatten().collect::<Vec<_>>().join(", ");
+        let known = if known.is_empty() { known } else { format!(" ({known})") };
+        format!("{} of {} {} {unit}{known}", own.key.replace('_', " "), own.material, own.value)
+    };
+    if all.is_empty() {
+        return Vec::new();
+    }
+    let told = all.iter().map(of).collect::<Vec<_>>().join("; ");
+    let told =
+        format!("strengths of the library, not of your part: {told}; percoat materials NAME states their sources");
+    let brittle = all.iter().any(|own| own.key == "tensile_strength");
+    [Some(told), brittle.then(|| BARS.to_owned())].into_iter().flatten().collect()
+}
+
+/// What a tensile strength from a bar says of a contact.
+const BARS: &str = "a tensile strength of the library is that of bars, which break at their largest flaw; the small volume under a contact \
+                    bears more: loads of cracking by it err to the safe side";
 
 /// Names of the materials without a strength, each once.
 fn untested(bodies: &Bodies) -> Vec<String> {

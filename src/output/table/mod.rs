@@ -13,7 +13,7 @@ mod strength;
 mod text;
 
 pub use alone::alone;
-pub use assumed::Assumptions;
+pub use assumed::{Assumptions, library_strengths};
 pub use comparison::{differences, readings, stresses};
 pub use fatigue::lives;
 pub use hertz::hertz;
@@ -21,7 +21,7 @@ pub use largest::largest_stresses;
 pub use life::{events, left};
 pub use plastic::plastic;
 pub use strength::{limits, utilisations};
-use text::lines;
+pub(super) use text::lines;
 pub use text::{Table, Worded};
 
 use super::number::{ROUNDING, number, with_error};

@@ -29,7 +29,7 @@ pub struct Worded {
 }
 
 /// A sentence in lines of at most `width` letters, each with its end: broken at blanks, but not between a number and its error.
-pub(super) fn lines(sentence: &str, width: usize) -> String {
+pub(in crate::output) fn lines(sentence: &str, width: usize) -> String {
     let mut lines: Vec<String> = Vec::new();
     for word in sentence.replace(" ± ", "\u{a0}±\u{a0}").split(' ') {
         match lines.last_mut() {

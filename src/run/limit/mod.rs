@@ -69,7 +69,7 @@ impl Run {
     /// // Spheres that slide on steel with a hard coating, in GPa and µm.
     /// let spheres = Indenters::new(Lattice::square(20.0, 1)?, vec![Level::new(Shape::Sphere { radius: 50.0 }, 0.0)?])?;
     /// let bears = Strength { yielding: None, tensile: Some(1.5) };
-    /// let bond = InterfaceStrength { normal: Some(0.5), shear: Some(1.0) };
+    /// let bond = InterfaceStrength { normal: Some(0.5), shear: Some(1.0), friction: 0.0 };
     /// let coating = Layer::new(Material::from_young(300.0, 0.25)?, 2.0, Interface::Bonded)?.with_strengths(bears, bond)?;
     /// let yields = Strength { yielding: Some(2.0), tensile: None };
     /// let body = HalfSpace::new(vec![coating], Material::from_young(210.0, 0.3)?).with_substrate_strength(yields)?;
