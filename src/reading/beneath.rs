@@ -2,11 +2,13 @@
 //!
 //! Below a contact of the radius a in an even body the pressure p₀ in its middle has fallen to p₀/(1 + z²/a²) at the depth z (Hertz; K. L.
 //! Johnson, *Contact Mechanics*, 1985, Eq. 3.45), and over contacts that fill the plane not below the mean pressure. Where that exceeds the
-//! hardness of the material there, it yields as a whole: a hard surface that bears the pressure is carried by a body that does not. Stiff
-//! layers spread the pressure, so that what they pass on is less; thin ones pass on all of it.
+//! hardness of the material there, it yields as a whole: a hard surface that bears the pressure is carried by a body that does not.
+//!
+//! Stiff layers spread the pressure. A layer of the thickness h counts as h (E₁*/E₂*)^⅓ of the material below it, which is as stiff a plate
+//! (N. Odemark, Statens Väginstitut, Meddelande 77, 1949). Thin ones pass on all of the pressure.
 
 use super::Reading;
-use crate::body::{HalfSpace, MaterialId};
+use crate::body::{HalfSpace, Layer, MaterialId};
 use crate::notation::number;
 use crate::numeric::serialised;
 use crate::problem::Problem;
@@ -23,7 +25,7 @@ pub struct Beneath {
     /// Hardness of the material, a pressure.
     #[serde(deserialize_with = "serialised::number")]
     pub hardness: f64,
-    /// Pressure that reaches it, about, by the decay below a contact in an even body.
+    /// Pressure that reaches it, about.
     #[serde(deserialize_with = "serialised::number")]
     pub pressure: f64,
     /// Depth of its upper face, a length.
@@ -43,7 +45,7 @@ impl Beneath {
             let below = body.durabilities().skip(1).zip((2..).zip(faces));
             let known = below.filter_map(|(own, (number, depth))| Some((own.hardness?, number, depth)));
             let reached = known.map(|(hardness, number, depth)| {
-                let [pressure, radius] = reaching(reading, &spots, depth);
+                let [pressure, radius] = reaching(reading, &spots, equivalent_depth(body, number));
                 Self { material: body.material_id(number), hardness, pressure, depth, radius }
             });
             reached.filter(|own| own.pressure > own.hardness).collect()
@@ -76,9 +78,21 @@ fn reaching(reading: &Reading, spots: &[[f64; 2]], depth: f64) -> [f64; 2] {
     [most[0].max(mean), most[1]]
 }
 
-/// Largest pressure that reaches a depth below the surface, about.
-pub(crate) fn pressure_at(problem: &Problem, reading: &Reading, points: [usize; 2], depth: f64) -> f64 {
-    reaching(reading, &spots(problem, reading, points), depth)[0]
+/// Depth of a material (from 1) in an even body of it that spreads a pressure as the layers above do, a length.
+fn equivalent_depth(body: &HalfSpace, number: usize) -> f64 {
+    let below = body.material(number).contact_modulus();
+    let of = |layer: &Layer| layer.thickness() * (layer.material().contact_modulus() / below).cbrt();
+    body.layers()[..number - 1].iter().map(of).sum()
+}
+
+/// Largest pressure that reaches a material (from 1) of a body, about.
+pub(crate) fn pressure_on(
+    problem: &Problem,
+    reading: &Reading,
+    points: [usize; 2],
+    (body, number): (&HalfSpace, usize),
+) -> f64 {
+    reaching(reading, &spots(problem, reading, points), equivalent_depth(body, number))[0]
 }
 
 impl fmt::Display for Beneath {

@@ -38,7 +38,7 @@ mod touch;
 mod verdict;
 
 pub use beneath::Beneath;
-pub(crate) use beneath::pressure_at;
+pub(crate) use beneath::pressure_on;
 pub use boundary::Boundary;
 pub use contact::Reading;
 pub use damage_map::DamageMap;

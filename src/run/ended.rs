@@ -9,7 +9,7 @@ use super::words::{HIGH, Numbered, list, ratio};
 use crate::body::{Bodies, HalfSpace, Material, Side};
 use crate::notation::number;
 use crate::problem::Problem;
-use crate::reading::{Beneath, Criterion, PlasticReading, Utilisation, Verdict, pressure_at};
+use crate::reading::{Beneath, Criterion, PlasticReading, Utilisation, Verdict, pressure_on};
 
 /// Utilisation of yield from which on it is exceeded: a limit is searched up to a part of it.
 const EXCEEDED: f64 = 1.02;
@@ -160,7 +160,7 @@ fn strains(problem: &Problem, &(step, record): &Numbered) -> Vec<Strain> {
             let is_beneath = depth > 0.0;
             // A pressure that is infinite under a tip is left out.
             let pressure = match is_beneath {
-                true => pressure_at(problem, reading, record.points, depth),
+                true => pressure_on(problem, reading, record.points, (body, index)),
                 false => reading.finite_peak().unwrap_or(0.0),
             };
             let whose = match is_beneath {
