@@ -14,7 +14,8 @@ pub enum Load {
     /// Force P ≥ 0 on the cell, or on the isolated contact, a pressure times an area (load control).
     Force(f64),
     /// Penetration δ below first touch, a length (displacement control); in a periodic system at most the mean of the initial gap,
-    /// where contact is complete, unless compressible layers lie on a rigid base. Of a given pressure the largest deflection.
+    /// where contact is complete, unless compressible layers lie on a rigid base; of a surface with hardness below the largest initial gap
+    /// and what the hardness compresses the layers by. Of a given pressure the largest deflection.
     Penetration(f64),
 }
 

@@ -44,6 +44,13 @@ impl Problem {
         self.bodies.hardness().filter(|_| self.counterbody.pressure().is_none())
     }
 
+    /// Whether the softer body moves away below the counterbody, which slides with friction: what is pressed in leaves the contact. Without
+    /// friction, also at a coefficient of zero, the loads of a path follow one another at one place.
+    pub fn is_swept(&self) -> bool {
+        self.friction.is_some_and(|friction| friction.coefficient() > 0.0)
+            && self.hardness().is_some_and(|(_, softer)| softer == Side::Body)
+    }
+
     /// The same problem without hardness: elastic under any pressure.
     #[must_use]
     pub fn without_hardness(&self) -> Self {

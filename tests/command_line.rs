@@ -28,6 +28,8 @@ mod exit_codes;
 mod explain;
 #[path = "command_line/folder.rs"]
 mod folder;
+#[path = "command_line/hardness.rs"]
+mod hardness;
 #[path = "command_line/hostile_folders.rs"]
 mod hostile_folders;
 #[path = "command_line/hostile_surfaces.rs"]

@@ -49,9 +49,9 @@ struct SolvedLoad {
     coarser: usize,
     /// Number of all grids in the file.
     grids: usize,
-    /// Whether earlier loads have pressed the surface in.
+    /// Number of grids with depths that earlier loads have pressed in: all, or none.
     #[serde(default)]
-    indented: bool,
+    indented: usize,
 }
 
 /// Saves the checkpoints of a run.
@@ -135,15 +135,15 @@ impl SolvedLoad {
     fn of(checkpoint: &Checkpoint) -> Self {
         let Report { stop, route, iterations, outer, .. } = checkpoint.report;
         let (coarser, grids) = (checkpoint.coarser, checkpoint.grids.len());
-        Self { stop, route, iterations, outer, coarser, grids, indented: checkpoint.indented.is_some() }
+        Self { stop, route, iterations, outer, coarser, grids, indented: checkpoint.indented.len() }
     }
 }
 
 /// Adds the numbers and fields of a checkpoint; `seconds` is the wall time of its load.
 fn add<W: Write + Seek>(archive: &mut Archive<W>, checkpoint: &Checkpoint, seconds: f64) -> io::Result<()> {
     archive.array("numbers", &[3], [checkpoint.convolutions, checkpoint.report.residual, seconds])?;
-    if let Some(depths) = &checkpoint.indented {
-        archive.array("indentation", &[depths.len()], depths.iter().copied())?;
+    for (index, depths) in checkpoint.indented.iter().enumerate() {
+        archive.array(&format!("indentation_{index}"), &[depths.len()], depths.iter().copied())?;
     }
     for (index, Unknowns { pressure, gap, penetration, certificate }) in checkpoint.grids.iter().enumerate() {
         let Certificate { energy_gap, penetration: deepest, load } = *certificate;
@@ -216,7 +216,7 @@ impl<R: Read + Seek> CheckpointReader<R> {
     fn has_only(&self, others: usize, solved: Option<&SolvedLoad>) -> io::Result<()> {
         const OF_A_GRID: usize = 3;
         let of = |solved: &SolvedLoad| {
-            solved.grids.saturating_mul(OF_A_GRID).saturating_add(1 + usize::from(solved.indented))
+            solved.grids.saturating_mul(OF_A_GRID).saturating_add(solved.indented.saturating_add(1))
         };
         let (found, wanted) = (self.zip.len(), solved.map_or(0, of).saturating_add(others));
         if found == wanted { Ok(()) } else { Err(unlike(format!("it has {found} entries instead of {wanted}"))) }
@@ -271,7 +271,9 @@ impl<R: Read + Seek> CheckpointReader<R> {
             return Err(unlike("a count or a time in it is negative".to_owned()));
         }
         let grids = (0..solved.grids).map(|index| self.unknowns(index, finite)).collect::<io::Result<_>>()?;
-        let indented = solved.indented.then(|| self.sizes("indentation", true)).transpose()?.map(Arc::new);
+        let indented =
+            (0..solved.indented).map(|index| self.sizes(&format!("indentation_{index}"), true).map(Arc::new));
+        let indented = indented.collect::<io::Result<_>>()?;
         let checkpoint = Checkpoint { report, convolutions, coarser: solved.coarser, grids, indented };
         Ok(LastLoad { checkpoint, seconds })
     }

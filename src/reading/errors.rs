@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 /// | load on an indenter, prescribed the penetration | 0.03 n⁻² + 0.3 n⁻⁴ |
 /// | share of the load, absolute; load on an indenter, prescribed the mean pressure | 0.002 n⁻² |
 /// | penetration | 0.01 n⁻²; 0.05 n⁻² under a topography |
-/// | elastic energy | as the penetration, prescribed the mean pressure; 0.03 n⁻² + 0.3 n⁻⁴, prescribed the penetration |
+/// | elastic energy | 0.03 n⁻², prescribed the mean pressure, 0.05 n⁻² under a topography; 0.03 n⁻² + 0.3 n⁻⁴, prescribed the penetration |
 /// | mean gap of a topography | 0.05 n⁻² of the penetration |
 /// | area of a topography corrected by its perimeter | a quarter of the correction |
 /// | centre of the pressure | 0.005 n⁻² of the contact radius |

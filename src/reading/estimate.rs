@@ -27,6 +27,11 @@ fn penetration_law(samples: f64) -> f64 {
     0.01 * samples.powi(-2)
 }
 
+/// Relative error of the elastic energy of indenters under a prescribed load, for n samples along a contact radius.
+fn energy_law(samples: f64) -> f64 {
+    0.03 * samples.powi(-2)
+}
+
 /// Relative error of penetration and elastic energy of a topography, for n samples along the radius of the typical spot.
 fn topography_law(samples: f64) -> f64 {
     0.05 * samples.powi(-2)
@@ -111,6 +116,10 @@ impl Step {
                 reading.contact_fraction = fraction.value;
                 reading.errors.contact_fraction = Some(error);
             }
+        } else if self.load.is_load_control() && reading.penetration > 0.0 {
+            // What earlier loads have left.
+            let left = coarser.iter().map(|coarse| Some(coarse.penetration));
+            reading.errors.penetration = Some(of_area(0.0, reading.penetration, left));
         }
         reading
     }
@@ -177,7 +186,8 @@ impl Grids<'_> {
             false => [penetration_law(largest), safety::PENETRATION],
         };
         let penetration = self.error(safety, fine.penetration.abs() * depth, &|reading| Some(reading.penetration));
-        let [stored, safety] = if by_load { [depth, safety] } else { [load_law(largest), safety::MEAN_PRESSURE] };
+        let stored = if fine.levels.is_empty() { depth } else { energy_law(largest) };
+        let [stored, safety] = if by_load { [stored, safety] } else { [load_law(largest), safety::MEAN_PRESSURE] };
         let energy = self.error(safety, fine.elastic_energy * stored, &|reading| Some(reading.elastic_energy));
         let loaded = fine.levels.iter().zip(exponents).filter(|(level, _)| level.load > 0.0);
         let sharpest = loaded.map(|(_, &exponent)| exponent).fold(2.0, f64::min);

@@ -6,6 +6,7 @@
 //! error.
 
 mod area;
+mod beneath;
 pub(crate) mod boundary;
 mod contact;
 mod contact_area;
@@ -36,6 +37,8 @@ mod topography;
 mod touch;
 mod verdict;
 
+pub use beneath::Beneath;
+pub(crate) use beneath::pressure_on;
 pub use boundary::Boundary;
 pub use contact::Reading;
 pub use damage_map::DamageMap;

@@ -46,6 +46,11 @@ impl StepRecord {
                 at_least_zero(&format!("plastic.{key}"), value)?;
             }
         }
+        if let Some(own) = &self.beneath {
+            let numbers =
+                [("hardness", own.hardness), ("pressure", own.pressure), ("depth", own.depth), ("radius", own.radius)];
+            numbers.into_iter().try_for_each(|(key, value)| at_least_zero(&format!("beneath.{key}"), value))?;
+        }
         finite("penetration", reading.penetration)?;
         at_least_zero("contact_area", reading.contact_area)?;
         peak("max_pressure", reading.max_pressure)?;

@@ -21,6 +21,7 @@ mod accuracy;
 mod alone;
 mod checked;
 mod earlier_run;
+mod ended;
 mod limit;
 mod outcome;
 pub(crate) mod places;
@@ -32,12 +33,13 @@ mod tapered;
 pub(crate) mod touches;
 pub(crate) mod warnings;
 mod wear;
+pub(crate) mod words;
 
 pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change};
 pub use alone::alone;
 pub use earlier_run::{EarlierRun, LastLoad};
 pub use limit::{At, EVENTS, Limit, LimitStep, Limits, SearchEnd, first, rivals};
-pub use outcome::{BeyondFullContact, BeyondHardness, Outcome, RunError};
+pub use outcome::{AllAtHardness, BeyondFullContact, BeyondHardness, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
 pub use record::{Sliding, StepRecord};
 pub use recorder::Recorder;
@@ -108,8 +110,9 @@ impl Run {
     /// a refinement.
     ///
     /// # Errors
-    /// [`RunError::NoLoads`], [`TooOblong`], [`BeyondHardness`] for the first load that the hardness does not bear,
-    /// [`BeyondFullContact`] for the first penetration out of reach, [`LatticeError`] when there is no such grid.
+    /// [`RunError::NoLoads`], [`TooOblong`], [`BeyondHardness`] for the first load that the hardness does not bear, [`AllAtHardness`]
+    /// for the first penetration that takes all of the surface to it, [`BeyondFullContact`] for the first one out of reach,
+    /// [`LatticeError`] when there is no such grid.
     ///
     /// [`LatticeError`]: crate::lattice::LatticeError
     pub fn check(&self) -> Result<(), RunError<Infallible>> {
@@ -131,24 +134,30 @@ impl Run {
                 return Err(BeyondHardness { load: *load, hardness, area: self.problem.cell().area() }.into());
             }
         }
-        // An isolated contact is never complete; complete contact of compressible layers on a rigid base, and a surface that yields, bear
-        // any penetration.
-        let is_limited = !self.problem.cell().is_isolated()
-            && self.problem.bodies().mean_compliance() == 0.0
-            && !is_given
-            && hardness.is_none();
-        if self.loads.iter().all(|load| load.is_load_control()) || !is_limited {
+        // An isolated contact is never complete.
+        let by_load = self.loads.iter().all(|load| load.is_load_control());
+        if by_load || is_given || self.problem.cell().is_isolated() {
             return Ok(());
         }
-        let complete = Surface::new(self.problem.counterbody(), points)?.mean();
-        for load in &self.loads {
-            if let Load::Penetration(penetration) = *load
-                && penetration >= complete
-            {
-                return Err(BeyondFullContact { penetration, complete }.into());
-            }
+        let surface = Surface::new(self.problem.counterbody(), points)?;
+        let deepest = self.loads.iter().filter_map(|load| match *load {
+            Load::Penetration(penetration) => Some(penetration),
+            _ => None,
+        });
+        let beyond = |limit: f64| deepest.clone().find(|penetration| *penetration >= limit);
+        let compliance = self.problem.bodies().mean_compliance();
+        if let Some(hardness) = hardness {
+            // A uniform pressure displaces nothing but the layers on a rigid base.
+            let complete = surface.largest() + compliance * hardness;
+            return beyond(complete)
+                .map_or(Ok(()), |penetration| Err(AllAtHardness { penetration, complete, hardness }.into()));
         }
-        Ok(())
+        // Complete contact of compressible layers on a rigid base bears any penetration.
+        let complete = surface.mean();
+        match beyond(complete).filter(|_| compliance == 0.0) {
+            Some(penetration) => Err(BeyondFullContact { penetration, complete }.into()),
+            None => Ok(()),
+        }
     }
 
     /// Points of the grid on which complete contact is checked.
@@ -267,7 +276,7 @@ impl Run {
         let mut record = StepRecord::new(&step, step.reading());
         let is_indented = self.problem.cell().is_isolated() && !record.is_given();
         if loading == Loading::Path && is_indented && step.report.stop.solved() {
-            record = record.with_tangent(solver.tangent().as_ref());
+            record = record.with_stiffness(solver.stiffness(&step));
         }
         let fields = self.mean_stress().map(|mean| {
             recorder.stresses(&step, &record);

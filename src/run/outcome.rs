@@ -67,6 +67,22 @@ pub struct BeyondHardness {
     pub area: f64,
 }
 
+/// A prescribed penetration at which all of the softer surface is at its hardness: any greater one has the same pressure.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "load.penetration = {penetration} takes all of the surface to its hardness {}, where it yields as a whole and any greater penetration \
+     has the same pressure: that begins at {}; prescribe less, or mean_pressure instead",
+    number(*.hardness), number(*.complete)
+)]
+pub struct AllAtHardness {
+    /// Prescribed penetration, a length.
+    pub penetration: f64,
+    /// Least penetration at which all of the surface is at the hardness, a length.
+    pub complete: f64,
+    /// Hardness of the softer surface, a pressure.
+    pub hardness: f64,
+}
+
 impl<E: Error + 'static> RunError<E> {
     /// The reason in one sentence; of an error of the recorder its own message.
     pub fn told(&self) -> String {
@@ -98,6 +114,9 @@ pub enum RunError<E: Error + 'static> {
     /// A load is beyond the hardness.
     #[error(transparent)]
     BeyondHardness(#[from] BeyondHardness),
+    /// A penetration takes all of the surface to the hardness.
+    #[error(transparent)]
+    AllAtHardness(#[from] AllAtHardness),
     /// A penetration is beyond complete contact.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),

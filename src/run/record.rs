@@ -4,10 +4,10 @@ use super::Tapered;
 use crate::body::Bodies;
 use crate::numeric::serialised;
 use crate::reading::{
-    Criterion, FatigueReading, Governing, PathReading, PlasticReading, Reading, RoughReading, StressReading,
+    Beneath, Criterion, FatigueReading, Governing, PathReading, PlasticReading, Reading, RoughReading, StressReading,
     Utilisation, stiffness, within_the_errors,
 };
-use crate::spectral::{Certificate, Report, Route, Step, Stop, Tangent};
+use crate::spectral::{Certificate, Report, Route, Step, Stop};
 use serde::{Deserialize, Serialize};
 
 /// Every scalar of a load step.
@@ -49,6 +49,9 @@ pub struct StepRecord {
     /// What the hardness of the softer surface has pressed in; `None` without hardness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plastic: Option<PlasticReading>,
+    /// Pressure above the hardness of a material beneath the surface; `None` where none is exceeded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beneath: Option<Beneath>,
     /// How contact and traction were solved together; `None` without friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<Sliding>,
@@ -107,6 +110,7 @@ impl StepRecord {
     pub fn new(step: &Step, reading: Reading) -> Self {
         let Step { report, certificate, convolutions, .. } = *step;
         let rough = step.rough_reading(&reading);
+        let beneath = Beneath::of(step.problem(), &reading, step.grid().points());
         let sliding = Sliding { outer_iterations: report.outer, residual: report.residual };
         let record = Self {
             reading,
@@ -122,6 +126,7 @@ impl StepRecord {
             rough,
             tapered: Tapered::of(step.finest()),
             plastic: PlasticReading::of(step),
+            beneath,
             friction: step.problem().friction().map(|_| sliding),
             stress: None,
             strength: Vec::new(),
@@ -132,11 +137,10 @@ impl StepRecord {
         record.judged()
     }
 
-    /// The record with the contact stiffness by the tangent of its step.
+    /// The record with the contact stiffness of its step and its error.
     #[must_use]
-    pub(super) fn with_tangent(self, tangent: Option<&Tangent>) -> Self {
-        let [contact_stiffness, contact_stiffness_error] =
-            [Tangent::stiffness, Tangent::stiffness_error].map(|of| tangent.map(of));
+    pub(super) fn with_stiffness(self, stiffness: Option<[f64; 2]>) -> Self {
+        let [contact_stiffness, contact_stiffness_error] = [0, 1].map(|index| stiffness.map(|own| own[index]));
         Self { contact_stiffness, contact_stiffness_error, ..self }
     }
 

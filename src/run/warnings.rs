@@ -3,8 +3,9 @@
 //! The theory is one of small strains and small slopes: under an indenter the strain is about the slope of its flank at
 //! the edge of contact, f′(a), and p₀ about ½ E* f′(a). Beyond a slope of ½, a peak pressure of E*/3, a real body is not linear.
 
-use super::StepRecord;
 use super::accuracy::RefinementEnd;
+use super::words::{Numbered, STEEP, list, ratio};
+use super::{StepRecord, ended};
 use crate::counterbody::Shape;
 use crate::counterbody::roughness::Window;
 use crate::notation::number;
@@ -14,10 +15,6 @@ use crate::reading::{FEW_SAMPLES, Reading};
 use crate::spectral::Stop;
 use std::f64::consts::PI;
 
-/// Slope of a flank beyond which strains are not small.
-pub(crate) const STEEP: f64 = 0.5;
-/// Peak pressure over E* beyond which strains are not small.
-pub(crate) const HIGH: f64 = 1.0 / 3.0;
 /// Part of load or contact on tapered heights from which on there is a warning.
 const TAPERED_PART: f64 = 0.02;
 /// Fraction in contact from which on the mean lateral stress is a large part of all stresses.
@@ -33,11 +30,9 @@ pub(crate) fn warnings(
     change: Option<f64>,
 ) -> Vec<String> {
     let steps: Vec<Numbered> = (1..).zip(steps).collect();
-    of_judged(problem, &steps, &steps, end, change)
+    let dropped = dropped(problem, &steps);
+    of_judged(problem, &steps, &steps, end, change).into_iter().chain(dropped).collect()
 }
-
-/// A step with its number in the outputs.
-pub(super) type Numbered<'a> = (usize, &'a StepRecord);
 
 /// Warnings about the steps of a search: about the convergence of all, and about the results of those that are `judged`.
 pub(super) fn of_judged(
@@ -49,6 +44,7 @@ pub(super) fn of_judged(
 ) -> Vec<String> {
     let warnings = [
         unresolved(all),
+        beyond_hardness(all),
         not_converged(all),
         at_window(problem, all),
         few_samples(judged),
@@ -59,15 +55,11 @@ pub(super) fn of_judged(
         mean_matters(problem, judged),
         at_border(problem, judged),
         steep_flank(problem, judged),
-        high_pressure(problem, judged),
+        ended::high_pressure(problem, judged),
+        ended::ended(problem, judged),
+        ended::beyond(problem, judged),
     ];
     warnings.into_iter().flatten().collect()
-}
-
-/// Numbers of the steps for which `of` is true, as a list; `None` without any.
-fn list(steps: &[Numbered], of: impl Fn(&StepRecord) -> bool) -> Option<String> {
-    let numbers = steps.iter().filter(|(_, step)| of(step)).map(|(number, _)| number.to_string());
-    Some(numbers.collect::<Vec<_>>().join(", ")).filter(|list| !list.is_empty())
 }
 
 fn unresolved(steps: &[Numbered]) -> Option<String> {
@@ -78,8 +70,32 @@ fn unresolved(steps: &[Numbered]) -> Option<String> {
     ))
 }
 
+fn beyond_hardness(steps: &[Numbered]) -> Option<String> {
+    let list = list(steps, |step| step.stop == Stop::BeyondHardness)?;
+    Some(format!(
+        "step {list} takes all of the surface to its hardness, where it yields as a whole: any greater penetration has the same pressure, and \
+         a greater load no solution; prescribe less"
+    ))
+}
+
+/// Whether a stop has a warning of its own.
+fn is_told(stop: Stop) -> bool {
+    matches!(stop, Stop::Unresolved | Stop::AtBorder | Stop::BeyondHardness)
+}
+
+/// What a path presses into a softer body that slides away below the counterbody.
+fn dropped(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let (_, before) = steps.split_last()?;
+    let is_pressed_in = |step: &StepRecord| step.plastic.is_some_and(|own| own.is_pressed_in());
+    let list = list(before, is_pressed_in).filter(|_| problem.is_swept())?;
+    Some(format!(
+        "what step {list} has pressed in is dropped: the body is the softer one and moves away below the sliding counterbody ([friction]), so \
+         that each load meets it as it was at first; for loads one after another at one place leave [friction] out, or its coefficient 0"
+    ))
+}
+
 fn not_converged(steps: &[Numbered]) -> Option<String> {
-    let list = list(steps, |step| !step.converged() && !matches!(step.stop, Stop::Unresolved | Stop::AtBorder))?;
+    let list = list(steps, |step| !step.converged() && !is_told(step.stop))?;
     Some(format!("not converged: step {list}; judge it by its certificate"))
 }
 
@@ -220,22 +236,6 @@ fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     Some(flank(&format!("step {step}"), level, levels[level - 1].shape(), radius, question))
 }
 
-fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<String> {
-    // Strains are large in the softer body first.
-    let moduli = problem.bodies().each().map(|own| own.surface_material().contact_modulus());
-    let modulus = moduli.fold(f64::INFINITY, f64::min);
-    // Pressures that are infinite under a tip are left out.
-    let peaks = steps.iter().filter_map(|(number, step)| Some((number, step.reading.finite_peak()?)));
-    let high = peaks.filter(|(_, pressure)| *pressure > HIGH * modulus);
-    let (step, pressure) = high.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some(format!(
-        "step {step}: the largest pressure {} is {} of E* at the surface: strains are not small any more; are load and moduli \
-         in one unit?",
-        number(pressure),
-        ratio(pressure / modulus)
-    ))
-}
-
 /// Warning that the flank of a level is steep at the edge of a contact of radius a, with a question that says what to do.
 pub(crate) fn flank(context: &str, level: usize, shape: Shape, a: f64, question: &str) -> String {
     let size = match shape {
@@ -251,9 +251,4 @@ pub(crate) fn flank(context: &str, level: usize, shape: Shape, a: f64, question:
         "{context}: the contact radius {} of level {level} is {size}: strains are not small any more; {question}",
         number(a)
     )
-}
-
-/// A ratio, with two decimals or two digits.
-pub(crate) fn ratio(x: f64) -> String {
-    if (0.01..1000.0).contains(&x) { format!("{x:.2}") } else { format!("{x:.1e}") }
 }

@@ -18,8 +18,8 @@ pub struct Checkpoint {
     pub coarser: usize,
     /// Unknowns of all grids, the finest first; after a load that is not solved, those of the step alone.
     pub grids: Vec<Unknowns>,
-    /// Depths that loads before this one have pressed in, sample by sample of the finest grid, lengths; `None` without any.
-    pub indented: Option<Arc<Vec<f64>>>,
+    /// Depths that earlier loads have pressed in, sample by sample, lengths, on all grids, the finest first; none without any.
+    pub indented: Vec<Arc<Vec<f64>>>,
 }
 
 /// Error of a checkpoint of other grids than those of the solver.
@@ -41,7 +41,7 @@ impl Checkpoint {
         self.grids.len() == count
             && self.coarser < count
             && count <= samples.len()
-            && self.indented.as_ref().is_none_or(|depths| samples.clone().next() == Some(depths.len()))
+            && (self.indented.is_empty() || self.indented.iter().map(|depths| depths.len()).eq(samples.clone()))
             && self.grids.iter().zip(samples).all(fits)
     }
 }
@@ -56,7 +56,7 @@ impl Solver {
             let contacts = std::iter::once(&step.finest).chain(&step.coarser);
             contacts.map(|contact| contact.unknowns(step.certificate)).collect()
         };
-        let indented = step.finest.indented().cloned();
+        let indented = self.depths();
         Checkpoint {
             report: step.report,
             convolutions: step.convolutions,
@@ -76,8 +76,8 @@ impl Solver {
             return Err(OtherGrids);
         }
         let Checkpoint { report, convolutions, coarser, grids, indented } = checkpoint;
-        if let Some(depths) = indented {
-            self.press_in(depths.to_vec());
+        if !indented.is_empty() {
+            self.press_in(indented);
         }
         let solved = report.stop.solved();
         self.set_unknowns(grids);

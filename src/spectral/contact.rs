@@ -90,11 +90,6 @@ impl Contact {
         })
     }
 
-    /// Depths that earlier loads have pressed in; `None` without any.
-    pub(super) fn indented(&self) -> Option<&Arc<Vec<f64>>> {
-        self.indented.as_ref()
-    }
-
     /// Penetration δ, from the mean plane of the deformed surface to the highest apex, a length: the additional
     /// displacement w_a. On a rigid base it counts from that base and has the mean compression of the layers in it. Under a
     /// given pressure it is the largest deflection of the samples.

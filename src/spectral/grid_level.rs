@@ -139,23 +139,20 @@ impl GridLevel {
         gap
     }
 
-    /// Presses the surface in by the depths on the finest grid, in the place of those before: the pressure stays as the start of the
-    /// next load.
-    pub fn press_in(&mut self, finest: &Array2<f64>) {
+    /// Presses the surface in by these depths, lengths, in the place of those before: the pressure stays as the start of the next load.
+    pub fn press_in(&mut self, depths: Arc<Vec<f64>>) {
         let before = self.indented.take();
         let (original, earlier) = match &before {
             Some((original, depths)) => (Arc::clone(original), &depths[..]),
             None => (Arc::clone(&self.surface), &[][..]),
         };
-        // A restriction by waves may ring.
-        let depths: Vec<f64> = original.restricted(finest).into_iter().map(|depth| depth.max(0.0)).collect();
         let mut gap = original.initial_gap().to_owned();
-        gap.iter_mut().zip(&depths).for_each(|(gap, depth)| *gap += depth);
+        gap.iter_mut().zip(&depths[..]).for_each(|(gap, depth)| *gap += depth);
         let rise = |i: usize| depths[i] - earlier.get(i).copied().unwrap_or(0.0);
         sums::update(&mut Arc::make_mut(&mut self.unknowns.gap)[..], |i, g| g + rise(i));
         self.surface = Arc::new(original.with_initial_gap(gap));
         self.largest_gap = self.surface.largest();
-        self.indented = Some((original, Arc::new(depths)));
+        self.indented = Some((original, depths));
     }
 
     /// The operator, to which a step of wear adds its compliance.
@@ -242,7 +239,12 @@ impl GridLevel {
     /// The tangent of the last load, see [`Tangent`]; `None` without contact.
     pub fn tangent(&mut self, problem: &Arc<Problem>) -> Option<Tangent> {
         let contact = self.contact(problem);
-        Tangent::new(&mut self.operator, &contact)
+        self.tangent_of(&contact)
+    }
+
+    /// The tangent of a contact on this grid; `None` without contact.
+    pub fn tangent_of(&mut self, contact: &Contact) -> Option<Tangent> {
+        Tangent::new(&mut self.operator, contact)
     }
 
     /// Whether an isolated contact reaches the border of its window; a given pressure may.
@@ -280,6 +282,9 @@ impl GridLevel {
         if let Some(given) = &self.given {
             let report = self.load_with(given.clone(), load.on(self.surface.grid().cell()));
             return (report, self.surface.grid().len() as f64);
+        }
+        if let Some(penetration) = self.without_contact(load.on(self.surface.grid().cell())) {
+            return (self.stand_off(penetration), 0.0);
         }
         if let Some(coarser) = coarser {
             self.add_change(&coarser, settings.tolerance);
@@ -324,6 +329,26 @@ impl GridLevel {
             _ if factor > 0.0 && deflection.is_finite() => Stop::Converged,
             _ => Stop::Stalled,
         })
+    }
+
+    /// Penetration δ of a surface that earlier loads have pressed in and this one does not reach, a length: without a load that at which
+    /// contact begins. `None` where the surface is as at first, or touches.
+    fn without_contact(&self, load: Control) -> Option<f64> {
+        self.indented.as_ref()?;
+        let mask = |i: usize| self.mask.as_ref().is_none_or(|mask| mask[i]);
+        let gaps = self.surface.gaps();
+        let begins = sums::least(gaps.len(), |i| if mask(i) { gaps[i] } else { f64::INFINITY });
+        match load {
+            Control::MeanPressure(mean) => (mean == 0.0).then_some(begins),
+            Control::Penetration(penetration) => (0.0..=begins).contains(&penetration).then_some(penetration),
+        }
+    }
+
+    /// No pressure, at a penetration δ: the gap is f − δ.
+    fn stand_off(&mut self, penetration: f64) -> Report {
+        let gap = self.surface.gaps().iter().map(|f| f - penetration).collect();
+        self.unknowns = Unknowns { gap: Arc::new(gap), penetration, ..Unknowns::new(self.surface.grid().len()) };
+        Report::without_contact()
     }
 
     /// Adds to the pressure the change of that on the next `coarser` grid.

@@ -57,8 +57,8 @@ impl Tangent {
         self.stiffness
     }
 
-    /// Estimated error of the stiffness, a force per length: samples that are equal by symmetry, eight or twelve, join a contact of N
-    /// at a time, between which P(δ) is a straight line.
+    /// Part of the error of the stiffness that lies in the samples, a force per length: those that are equal by symmetry, eight or twelve,
+    /// join a contact of N at a time, between which P(δ) is a straight line. [`Solver::stiffness`](super::Solver::stiffness) has the whole.
     pub fn stiffness_error(&self) -> f64 {
         self.step
     }

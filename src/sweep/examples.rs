@@ -60,6 +60,7 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: f64) -> Ste
         rough: None,
         tapered: None,
         plastic: None,
+        beneath: None,
         friction: None,
         stress: None,
         strength: Vec::new(),

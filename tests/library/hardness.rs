@@ -1,7 +1,8 @@
 //! Hardness: 0 ≤ p ≤ H in all modes, by other algorithms and closed forms; what is pressed in stays on a load path.
 
 use ndarray::Array2;
-use percoat::run::{PathEnd, RunError, WearPath};
+use percoat::reading::PlasticReading;
+use percoat::run::{AllAtHardness, PathEnd, RunError, WearPath};
 use percoat::spectral::Wear;
 use percoat::{
     Bodies, Cell, Contact, Durability, Friction, Grid, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load,
@@ -431,4 +432,264 @@ fn wear_begins_on_the_shape_that_is_pressed_in() {
     let kept = yielding.indented().unwrap().iter().copied().fold(0.0, f64::max);
     let first = begun.finest().indentation().unwrap().into_iter().fold(0.0, f64::max);
     assert!((kept / first - 1.0).abs() < 1e-3, "{kept} {first}");
+}
+
+/// A uniform pressure displaces nothing but the layers on a rigid base, so that all of the surface is at the hardness from δ = max f, and
+/// there max f + C̄ H, on. Beyond it nothing is an answer, and a smaller penetration is solved as at first.
+#[test]
+fn a_penetration_that_takes_all_of_the_surface_to_its_hardness_is_no_answer() {
+    let hardness = 0.1;
+    let layer = Layer::new(young(3.0, 0.2), 0.1, Interface::Bonded).unwrap().with_durability(hard(hardness), None);
+    let based = HalfSpace::on_rigid_base(vec![layer.unwrap()]).unwrap();
+    let waves = || rough(Cell::square(1.0).unwrap(), [45, 48]);
+    let problems = [
+        Problem::new(levels(), bare(Some(hardness))),
+        Problem::new(levels(), based),
+        Problem::new(waves(), Bodies::elastic(bare(None), coated(Some(hardness)))),
+        Problem::new(waves(), coated(Some(hardness))).sliding(Friction::new(0.3, [1.0, 0.5]).unwrap()).unwrap(),
+    ];
+    for problem in problems {
+        let compliance = problem.bodies().mean_compliance();
+        let mut own = solver(problem.clone(), [45, 48]);
+        let all = own.surface().initial_gap().iter().copied().fold(0.0, f64::max) + compliance * hardness;
+        let first = own.solve(Load::Penetration(0.9 * all));
+        assert!(first.report.stop.solved(), "{}", first.report);
+        let nearly = own.solve(Load::Penetration(0.99 * all));
+        assert!(nearly.report.stop.solved() && complies(nearly.finest(), 1e-5)[1] > 1000, "{}", nearly.report);
+        for part in [1.0 + 1e-9, 1.1, 10.0] {
+            let step = own.solve(Load::Penetration(part * all));
+            assert_eq!(step.report.stop, Stop::BeyondHardness, "{part}: {}", step.report);
+            assert!(pressures(&step).iter().all(|&p| p == 0.0) && step.elastic_energy() == 0.0);
+            own.keep_indentation();
+        }
+        let again = own.solve(Load::Penetration(0.9 * all));
+        let apart = pressures(&again).iter().zip(pressures(&first)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(again.report.stop.solved() && apart < 1e-3 * hardness, "{apart:e} {}", again.report);
+        let check = |part: f64| {
+            Run::new(problem.clone(), vec![Load::Penetration(part * all)], Sampling::Points([45, 48])).check()
+        };
+        assert!(check(0.999).is_ok());
+        let Err(RunError::AllAtHardness(AllAtHardness { complete, .. })) = check(1.001) else { panic!("refused") };
+        assert!((complete / all - 1.0).abs() < 1e-14, "{complete} {all}");
+    }
+}
+
+/// On a part of the cell all of that part; in a window contact reaches the border, beyond which it would go on.
+#[test]
+fn a_mask_and_a_window_wholly_at_the_hardness_say_so() {
+    let mask = Array2::from_shape_fn([40, 40], |(i, j)| i < 20 && j < 20);
+    let waves = Problem::new(rough(Cell::square(1.0).unwrap(), [40, 40]), bare(Some(0.02)));
+    let mut masked = solver(waves, [40, 40]).with_mask(mask).unwrap();
+    let deepest = masked.surface().initial_gap().iter().copied().fold(0.0, f64::max);
+    assert_eq!(masked.solve(Load::Penetration(20.0 * deepest)).report.stop, Stop::BeyondHardness);
+    let light = masked.solve(Load::MeanPressure(0.001));
+    assert!(light.report.stop.solved(), "{}", light.report);
+    let window = Cell::window([1.0; 2]).unwrap();
+    let ball = Problem::new(ball(window, Shape::Paraboloid { radius: 1.0 }), bare(Some(0.02)));
+    for load in [Load::Penetration(3.0), Load::Force(0.0199)] {
+        assert_eq!(solver(ball.clone(), [40, 40]).solve(load).report.stop, Stop::AtBorder, "{load}");
+    }
+}
+
+/// Without friction loads follow one another at one place, also at a coefficient of zero; a softer body that is slid over drops what is
+/// pressed in, and the run says so.
+#[test]
+fn a_path_under_friction_drops_what_is_pressed_in_and_says_so() {
+    let window = Cell::window([1.0; 2]).unwrap();
+    let of = |coefficient: Option<f64>, body: HalfSpace| {
+        let problem = Problem::new(ball(window, Shape::Paraboloid { radius: 1.0 }), body);
+        let problem = match coefficient {
+            Some(own) => problem.sliding(Friction::new(own, [1.0, 0.0]).unwrap()).unwrap(),
+            None => problem,
+        };
+        let loads = [0.004, 0.001].map(Load::Force).to_vec();
+        Run::new(problem, loads, Sampling::Points([72, 72])).solve(&mut ()).unwrap()
+    };
+    let [none, zero, sliding] = [None, Some(0.0), Some(0.3)].map(|own| of(own, bare(Some(0.06))));
+    let told = |warnings: &[String]| warnings.iter().any(|words| words.contains("step 1 has pressed in is dropped"));
+    for (a, b) in none.steps.iter().zip(&zero.steps) {
+        // Of an isolated contact some are no numbers.
+        assert_eq!(format!("{:?} {:?}", a.reading, a.plastic), format!("{:?} {:?}", b.reading, b.plastic));
+    }
+    let depth = |own: &percoat::run::Outcome| own.steps[1].reading.penetration;
+    assert!(depth(&none) > 1.2 * depth(&sliding), "{} {}", depth(&none), depth(&sliding));
+    assert_eq!([&none, &zero, &sliding].map(|own| told(&own.warnings)), [false, false, true]);
+    assert!(!told(&of(Some(0.3), bare(Some(6.0))).warnings), "nothing is pressed in");
+}
+
+/// At P = 0 the penetration is that at which contact begins, and below it there is none; another load goes on from there.
+#[test]
+fn without_load_what_is_left_is_the_penetration() {
+    let window = Cell::window([1.0; 2]).unwrap();
+    for (problem, load) in [
+        (Problem::new(ball(window, Shape::Paraboloid { radius: 1.0 }), bare(Some(0.06))), 0.004),
+        (Problem::new(levels(), coated(Some(0.15))), 0.01),
+        (Problem::new(rough(Cell::square(1.0).unwrap(), [60, 60]), bare(Some(0.05))), 0.01),
+    ] {
+        let mut own = solver(problem.clone(), [60, 60]);
+        let fresh = own.solve(Load::Force(0.0));
+        assert_eq!((fresh.report.stop, fresh.penetration()), (Stop::NoContact, 0.0));
+        let loaded = own.solve(Load::Force(load));
+        own.keep_indentation();
+        let left = PlasticReading::of(&loaded).unwrap().permanent_depth;
+        let begins = |own: &mut Solver, load: Load| {
+            let step = own.solve(load);
+            own.keep_indentation();
+            assert!(step.report.stop.solved(), "{load}: {}", step.report);
+            step
+        };
+        let none = begins(&mut own, Load::Force(0.0));
+        assert_eq!(none.report.stop, Stop::NoContact);
+        assert!(left > 0.0 && (none.penetration() / left - 1.0).abs() < 1e-12, "{} {left}", none.penetration());
+        assert!(none.gap().iter().all(|&g| g >= 0.0) && none.gap().iter().any(|&g| g == 0.0));
+        let reading = none.reading();
+        let error = reading.errors.penetration.unwrap();
+        println!("{left} ± {error}");
+        assert!(!reading.touches() && error > 0.0 && error < 0.5 * left);
+        let short = begins(&mut own, Load::Penetration(0.5 * left));
+        assert_eq!((short.report.stop, short.penetration()), (Stop::NoContact, 0.5 * left));
+        // The lightest load touches at the depth that is left.
+        let light = begins(&mut own, Load::Force(1e-4 * load));
+        assert!(light.penetration() > left && light.penetration() < 1.05 * left, "{} {left}", light.penetration());
+        let again = begins(&mut own, Load::Force(load));
+        assert!((again.penetration() / loaded.penetration() - 1.0).abs() < 1e-6);
+    }
+}
+
+/// What the loading step has left wrong is in the stated errors of the steps after it, against a grid of four times the points.
+#[test]
+fn errors_of_loading_are_inherited_by_unloading() {
+    let window = Cell::window([1.0; 2]).unwrap();
+    for (problem, hardest) in [
+        (Problem::new(ball(window, Shape::Paraboloid { radius: 1.0 }), bare(Some(0.06))), 0.004),
+        (Problem::new(ball(window, Shape::Cone { slope: 0.3 }), coated(Some(0.2))), 0.004),
+        (Problem::new(levels(), coated(Some(0.15))), 0.008),
+    ] {
+        let forces = [1.0, 0.5, 0.1, 0.0, 0.3].map(|part| Load::Force(part * hardest));
+        let path = |n: usize| {
+            let mut own = solver(problem.clone(), [n, n]);
+            forces.map(|load| {
+                let step = own.solve(load);
+                own.keep_indentation();
+                (step.reading(), PlasticReading::of(&step).unwrap())
+            })
+        };
+        // The apex of the ball is a sample of each grid.
+        let (coarse, fine) = (path(96), path(384));
+        for (index, ((own, plastic), (exact, left))) in coarse.iter().zip(&fine).enumerate() {
+            let of = |name: &str, value: f64, error: Option<f64>, exact: f64| {
+                let (off, error) = ((value - exact).abs(), error.unwrap());
+                println!("step {index}, {name}: {value} ± {error:.1e}, {off:.1e} off");
+                // Of what few samples of the coarser grids show, areas and volumes, the errors are wide.
+                let is_useful = ["contact area", "volume"].contains(&name) || error < 0.3 * exact;
+                assert!(off <= error && is_useful, "step {index}, {name}: {value} ± {error}, {exact}");
+            };
+            of("depth", plastic.depth, plastic.depth_error, left.depth);
+            of("volume", plastic.volume, plastic.volume_error, left.volume);
+            of("permanent depth", plastic.permanent_depth, plastic.permanent_depth_error, left.permanent_depth);
+            of("penetration", own.penetration, own.errors.penetration, exact.penetration);
+            if own.touches() {
+                of("contact area", own.contact_area, own.errors.contact_area, exact.contact_area);
+                of("energy", own.elastic_energy, own.errors.elastic_energy, exact.elastic_energy);
+            }
+        }
+    }
+}
+
+/// A hard thin coating on a softer substrate: its hardness is not reached, that of the substrate is.
+fn thin_on_soft(thickness: f64, substrate: Option<f64>, strength: Option<f64>) -> HalfSpace {
+    let layer = Layer::new(young(2.0, 0.2), thickness, Interface::Bonded).unwrap();
+    let layer = layer.with_durability(hard(2.0), None).unwrap();
+    let strength = percoat::Strength { yielding: strength, ..percoat::Strength::default() };
+    HalfSpace::new(vec![layer], young(1.0, 0.3))
+        .with_substrate_durability(Durability { hardness: substrate, ..Durability::default() })
+        .unwrap()
+        .with_substrate_strength(strength)
+        .unwrap()
+}
+
+/// Said once: which material, how much and where; not where the substrate bears the pressure, or the coating is thick beside the contact.
+#[test]
+fn the_end_of_the_elastic_answer_is_said() {
+    let window = Cell::window([1.0; 2]).unwrap();
+    let said = |body: HalfSpace, force: f64| {
+        let problem = Problem::new(ball(window, Shape::Paraboloid { radius: 1.0 }), body);
+        let outcome = Run::new(problem, vec![Load::Force(force)], Sampling::Points([72, 72])).solve(&mut ()).unwrap();
+        let ended: Vec<String> =
+            outcome.warnings.iter().filter(|words| words.contains("the elastic answer has ended")).cloned().collect();
+        assert!(ended.len() < 2, "{ended:?}");
+        (ended.into_iter().next(), outcome)
+    };
+    let force = 0.01;
+    let (words, outcome) = said(thin_on_soft(0.002, Some(0.03), None), force);
+    let (step, words) = (&outcome.steps[0], words.unwrap());
+    let beneath = step.beneath.unwrap();
+    assert_eq!((beneath.material.number, beneath.hardness, beneath.depth), (2, 0.03, 0.002));
+    let radius = step.reading.levels[0].contact_radius.unwrap();
+    let stiffer: f64 = (2.0 / 0.96) / (1.0 / 0.91);
+    let decay = 1.0 + (0.002 * stiffer.cbrt() / radius).powi(2);
+    assert!((beneath.pressure * decay / step.reading.levels[0].max_pressure - 1.0).abs() < 1e-6, "{beneath}");
+    for part in ["step 1", "material 2", "hardness 0.03", "of the thickness of the layers"] {
+        assert!(words.contains(part), "{part}: {words}");
+    }
+    // Hardness that bears it, none, and a thick coating.
+    assert_eq!(said(thin_on_soft(0.002, Some(1.0), None), force).0, None);
+    assert_eq!(said(thin_on_soft(0.002, None, None), force).0, None);
+    assert_eq!(said(thin_on_soft(0.9, Some(0.03), None), 0.001).0, None);
+    // Nothing says what the substrate bears.
+    let (_, outcome) = said(thin_on_soft(0.002, None, None), force);
+    assert!(outcome.warnings.iter().any(|words| words.contains("nothing says how much")), "{:?}", outcome.warnings);
+    // Yield inside, with its depth, in place of the hardness of the same material.
+    let (words, outcome) = said(thin_on_soft(0.002, Some(0.03), Some(0.01)), force);
+    let (words, own) = (words.unwrap(), &outcome.steps[0].strength[0]);
+    assert!(own.value > 2.0 && words.contains("yield of material 2 has the utilisation"), "{words}");
+    assert!(!words.contains("hardness") && words.contains("at the depth"), "{words}");
+    assert_eq!(said(thin_on_soft(0.002, Some(1.0), Some(0.5)), force).0, None);
+}
+
+/// What is pressed into a coating beyond a tenth of it, and layers on a rigid base that are nearly pressed through.
+#[test]
+fn layers_that_are_pressed_too_deep_are_told() {
+    let cell = Cell::square(1.0).unwrap();
+    let told = |body: HalfSpace, load: Load, word: &str| {
+        let problem = Problem::new(ball(cell, Shape::Paraboloid { radius: 1.0 }), body);
+        let outcome = Run::new(problem, vec![load], Sampling::Points([72, 72])).solve(&mut ()).unwrap();
+        outcome.warnings.iter().any(|words| words.contains(word))
+    };
+    let layer = |h: f64| Layer::new(young(3.0, 0.2), h, Interface::Bonded).unwrap();
+    let hard_layer = |h: f64| layer(h).with_durability(hard(0.05), None).unwrap();
+    for (thickness, expected) in [(0.01, true), (0.5, false)] {
+        let body = HalfSpace::new(vec![hard_layer(thickness)], young(1.0, 0.3));
+        assert_eq!(told(body, Load::MeanPressure(0.01), "beyond a tenth of which"), expected, "{thickness}");
+    }
+    for (depth, expected) in [(0.05, true), (0.01, false)] {
+        let body = HalfSpace::on_rigid_base(vec![layer(0.1)]).unwrap();
+        assert_eq!(told(body, Load::Penetration(depth), "on a rigid base in step"), expected, "{depth}");
+    }
+}
+
+/// Every grid has its depths in a checkpoint: what follows has the same pressures, and the same errors.
+#[test]
+fn a_path_goes_on_from_its_checkpoint_as_without_it() {
+    let problem = Arc::new(Problem::new(levels(), coated(Some(0.15))));
+    let loads = [0.008, 0.003, 0.01, 0.0].map(Load::Force);
+    let whole = |own: &mut Solver, load: Load| {
+        let step = own.solve(load);
+        let saved = own.checkpoint(&step);
+        own.keep_indentation();
+        (format!("{:?} {:?}", step.reading(), PlasticReading::of(&step)), pressures(&step), saved)
+    };
+    let new = || Solver::new(Arc::clone(&problem), [96, 96], Settings::default()).unwrap();
+    let mut straight = new();
+    let steps = loads.map(|load| whole(&mut straight, load));
+    for saved in 0..3 {
+        let mut again = new();
+        let step = again.restore(loads[saved], steps[saved].2.clone()).unwrap();
+        assert_eq!(format!("{:?} {:?}", step.reading(), PlasticReading::of(&step)), steps[saved].0, "{saved}");
+        again.keep_indentation();
+        for index in saved + 1..4 {
+            let (reading, pressure, _) = whole(&mut again, loads[index]);
+            assert!(reading == steps[index].0 && pressure == steps[index].1, "{index} after {saved}");
+        }
+    }
 }

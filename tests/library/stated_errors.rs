@@ -265,3 +265,98 @@ fn stated_errors_hold_at_the_loosest_tolerance() {
     }
     judge(all);
 }
+
+/// Contact stiffness and energy of an isolated contact of a random coated body with their errors, and the exact ones.
+struct Alone {
+    stiffness: [f64; 2],
+    energy: [f64; 2],
+    /// Stiffness, and the energy under a load; under a penetration that is known better than stated.
+    exact: (f64, Option<f64>),
+}
+
+/// So many isolated contacts of 6 to 40 samples to the radius, under balls and other powers, under both controls.
+fn alone(seed: u64, cases: usize) -> Vec<Alone> {
+    let mut random = Random(seed);
+    let mut all = Vec::new();
+    while all.len() < cases {
+        let shape = match random.pick(&[0, 0, 1]) {
+            0 => Shape::Paraboloid { radius: random.log(0.5, 5.0) },
+            _ => Shape::Power { coefficient: random.log(0.1, 1.0), exponent: 1.4 + 2.6 * random.unit() },
+        };
+        let place = [0.45 + 0.1 * random.unit(), 0.45 + 0.1 * random.unit()];
+        let lattice = Lattice::new(Cell::window([1.0; 2]).unwrap(), vec![vec![place]]).unwrap();
+        let indenters = Indenters::new(lattice, vec![Level::new(shape, 0.0).unwrap()]).unwrap();
+        let problem = Problem::new(indenters, half_space(&mut random));
+        let points = 2 * random.log(24.0, 64.99) as usize;
+        let (depth, by_load) = (shape.profile(random.log(0.08, 0.5)), random.unit() < 0.5);
+        let solve = |points: usize, load: Load| {
+            let mut solver = Solver::new(problem.clone(), [points; 2], Settings::default()).unwrap();
+            let step = solver.solve(load);
+            step.report.stop.solved().then(|| (solver, step))
+        };
+        let mut load = Load::Penetration(depth);
+        let Some((_, first)) = solve(points, load) else { continue };
+        let reading = first.reading();
+        let samples = reading.levels[0].resolution;
+        if !SAMPLES.contains(&samples) {
+            continue;
+        }
+        if by_load {
+            load = Load::Force(reading.force);
+        }
+        let Some((mut solver, step)) = solve(points, load) else { continue };
+        let Some((mut finer, exact)) = solve(FINER * points, load) else { continue };
+        let (Some(stiffness), Some(tangent)) = (solver.stiffness(&step), finer.tangent()) else { continue };
+        let reading = step.reading();
+        all.push(Alone {
+            stiffness,
+            energy: [reading.elastic_energy, reading.errors.elastic_energy.unwrap()],
+            exact: (tangent.stiffness(), by_load.then(|| exact.elastic_energy())),
+        });
+    }
+    all
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn stated_errors_of_a_hundred_contact_stiffnesses_and_energies_hold() {
+    let mut errors: BTreeMap<_, Vec<[f64; 2]>> = BTreeMap::new();
+    for Alone { stiffness, energy, exact } in alone(5310, 150) {
+        for (name, own, exact) in [("contact stiffness", stiffness, Some(exact.0)), ("elastic energy", energy, exact.1)]
+        {
+            if let Some(exact) = exact {
+                let [value, error] = own;
+                errors.entry(name).or_default().push([error, (value - exact).abs()].map(|x| x / exact));
+            }
+        }
+    }
+    judge(errors);
+}
+
+/// Soft layers that keep their volume: S grows with up to the square of the area in contact, which steps where samples join. Balls of the
+/// radius R on a layer of thickness h, Young's modulus E and ν on a substrate E = 1, drawn at random among those that the steps alone
+/// do not cover.
+#[test]
+fn the_error_of_a_contact_stiffness_covers_soft_layers() {
+    for (points, radius, young, poisson, thickness, base, load) in [
+        (60, 0.56522, 0.013305, 0.45, 0.048194, 0.056794, Load::Force(0.0148015)),
+        (120, 1.18657, 0.058195, 0.499, 0.052991, 0.464745, Load::Penetration(0.0058845)),
+        (128, 4.27277, 0.093765, 0.499, 0.198720, 0.218512, Load::Force(0.00210525)),
+        (84, 1.57076, 0.026626, 0.49, 0.082854, 0.268718, Load::Force(0.00199986)),
+    ] {
+        let layer = Layer::new(Material::from_young(young, poisson).unwrap(), thickness, Interface::Bonded).unwrap();
+        let body = HalfSpace::new(vec![layer], Material::from_young(1.0, base).unwrap());
+        let lattice = Lattice::new(Cell::window([1.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+        let level = Level::new(Shape::Paraboloid { radius }, 0.0).unwrap();
+        let problem = Problem::new(Indenters::new(lattice, vec![level]).unwrap(), body);
+        let of = |points: usize| {
+            let mut solver = Solver::new(problem.clone(), [points; 2], Settings::default()).unwrap();
+            let step = solver.solve(load);
+            assert!(step.report.stop.solved(), "{}", step.report);
+            solver.stiffness(&step).unwrap()
+        };
+        let ([value, error], [exact, finer]) = (of(points), of(FINER * points));
+        println!("{points}: {value} ± {error:.1e}, {:.1e} off", (value - exact).abs());
+        assert!((value - exact).abs() < error && finer < error && error < 0.1 * exact, "{value} ± {error}, {exact}");
+    }
+}

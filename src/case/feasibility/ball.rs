@@ -10,7 +10,7 @@ use crate::body::HalfSpace;
 use crate::case::Case;
 use crate::counterbody::Shape;
 use crate::notation::number;
-use crate::run::warnings::{STEEP, ratio};
+use crate::run::words::{STEEP, ratio};
 use std::f64::consts::FRAC_2_PI;
 
 /// Part of Young's modulus that no crystal bears as a pressure.

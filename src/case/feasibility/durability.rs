@@ -7,7 +7,7 @@
 use crate::body::{Durability, Fatigue, HalfSpace, Layer, Material, Side};
 use crate::case::Case;
 use crate::notation::number;
-use crate::run::warnings::ratio;
+use crate::run::words::ratio;
 use std::ops::RangeInclusive;
 
 /// Largest hardness over Young's modulus.

@@ -6,7 +6,7 @@ use crate::case::{Case, LayerSection};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
 use crate::notation::number;
-use crate::run::warnings::{HIGH, STEEP, ratio};
+use crate::run::words::{HIGH, STEEP, ratio};
 
 /// Ratio of two lengths, or two moduli, beyond which they are probably not in one unit.
 const APART: f64 = 1e4;

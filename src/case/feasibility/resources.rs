@@ -209,7 +209,7 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
     let disk = fields + steps * (written + volume) + summary + pages;
     // A refinement keeps the steps of the last grid, a quarter, until those of the next are complete.
     let coarser = if matches!(case.grid, Sampling::Accuracy(_)) { disk / 4 } else { 0 };
-    let disk_while_running = disk + fields.max(steps * written) + coarser + (CHECKPOINTS + 2 * depths) * samples;
+    let disk_while_running = disk + fields.max(steps * written) + coarser + (CHECKPOINTS + 3 * depths) * samples;
     let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
     Needs { memory: solving.max(drawing), disk, disk_while_running }
 }

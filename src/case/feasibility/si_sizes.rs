@@ -8,7 +8,7 @@ use crate::case::{Case, LayerSection};
 use crate::counterbody::roughness::Statistics;
 use crate::counterbody::{Level, Shape, Topography};
 use crate::notation::number;
-use crate::run::warnings::{HIGH, ratio};
+use crate::run::words::{HIGH, ratio};
 use crate::units::{Unit, is_force, is_length, is_pressure};
 
 /// Smallest and largest modulus of materials, Pa.

@@ -7,7 +7,8 @@ use crate::lattice::{Grid, Lattice};
 use crate::notation::number;
 use crate::reading::FEW_SAMPLES;
 use crate::run::Sampling;
-use crate::run::warnings::{STEEP, flank, ratio};
+use crate::run::warnings::flank;
+use crate::run::words::{STEEP, ratio};
 use crate::units::Unit;
 use std::f64::consts::FRAC_PI_2;
 

@@ -4,7 +4,7 @@ use crate::body::{Interface, Layer, MeanStress};
 use crate::case::Case;
 use crate::lattice::Cell;
 use crate::notation::number;
-use crate::run::warnings::ratio;
+use crate::run::words::ratio;
 use std::iter::repeat_n;
 
 /// Springs that shear under the mean friction: the layers above them drift by μp̄/k_t against those below.

@@ -16,7 +16,15 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
     if pressed.is_empty() {
         let most = readings().map(|(step, _)| step.reading.grid_peak()).fold(0.0, f64::max);
         let part = 100.0 * most / last.hardness;
-        let words = format!("hardness {hardness}: no pressure reaches it, the largest is {part:.0} % of it");
+        let beneath = readings().filter_map(|(step, _)| step.beneath).next_back();
+        let beneath = beneath.map_or(String::new(), |own| {
+            let [pressure, hardness] = [own.pressure, own.hardness].map(|x| units.pressure().with_unit(x, number));
+            format!(
+                ", but {pressure} reaches {} beneath, of hardness {hardness}: the elastic answer has ended",
+                own.material
+            )
+        });
+        let words = format!("hardness {hardness}: no pressure reaches it, the largest is {part:.0} % of it{beneath}");
         return Some((words, None));
     }
     let shown = if pressed.len() > DETAILED { &pressed[pressed.len() - 1..] } else { &pressed[..] };

@@ -124,6 +124,13 @@ impl<'a> AdmissibleSet<'a> {
         mean * samples as f64 >= self.most * (samples - self.closed().count()) as f64
     }
 
+    /// Whether the pressure is H wherever contact may occur.
+    pub(super) fn is_filled(self, pressure: &[f64]) -> bool {
+        let (most, mask) = (self.bound().nearly, self.mask);
+        self.most.is_finite()
+            && pressure.iter().enumerate().all(|(i, &p)| p > most || mask.is_some_and(|mask| !mask[i]))
+    }
+
     /// p ← 0 where contact may not occur.
     pub(super) fn restrict(self, pressure: &mut [f64]) {
         self.closed().for_each(|i| pressure[i] = 0.0);
@@ -202,6 +209,14 @@ mod tests {
         assert!(pressure[1120..].iter().all(|p| (p - 16.0 / 480.0).abs() < 1e-15));
         set.fill(&mut pressure[1120..], 0.05);
         assert!(pressure[1120..].iter().all(|p| *p == 0.05));
+    }
+
+    #[test]
+    fn a_set_is_filled_where_every_sample_of_its_mask_is_at_the_hardness() {
+        let mask = [true, true, false];
+        let set = AdmissibleSet::new(Some(&mask)).at_most(3.0);
+        assert!(set.is_filled(&[3.0, 3.0, 0.0]) && !set.is_filled(&[3.0, 2.0, 3.0]));
+        assert!(!AdmissibleSet::default().is_filled(&[3.0; 3]));
     }
 
     #[test]

@@ -20,7 +20,7 @@ pub enum Stop {
     /// As many iterations as allowed, tolerance not reached.
     #[serde(alias = "iteration limit")]
     IterationLimit,
-    /// Nothing to solve: the load or the penetration is not above zero.
+    /// Nothing to solve: the load or the penetration is not above zero, or that of the first touch of what earlier loads have pressed in.
     #[serde(alias = "no contact")]
     NoContact,
     /// At the prescribed penetration at most four samples are in contact, a touching indenter (of a topography, in
@@ -30,7 +30,8 @@ pub enum Stop {
     /// reaches it.
     #[serde(alias = "beyond full contact")]
     BeyondFullContact,
-    /// The prescribed mean pressure is not below the hardness of the surface: no pressure bears it.
+    /// The prescribed mean pressure is not below the hardness of the surface, which no pressure exceeds; or at the prescribed penetration
+    /// all of the surface is at it, as at any greater one: nothing is left that is elastic.
     BeyondHardness,
     /// Contact reaches the border of the window of an isolated contact, beyond which it would go on.
     AtBorder,
@@ -144,6 +145,11 @@ impl Report {
     /// Report of a pressure that is given and not found.
     pub(in crate::spectral) fn given(stop: Stop) -> Self {
         Self::new(stop, Route::Given, 0, 0.0)
+    }
+
+    /// Report of a surface that the load does not reach.
+    pub(in crate::spectral) fn without_contact() -> Self {
+        Self::new(Stop::NoContact, Route::Direct, 0, 0.0)
     }
 
     /// Report of one iteration, without outer ones.

@@ -25,8 +25,22 @@ const TRIAL_TOLERANCE: f64 = 0.1;
 impl<O: ElasticOperator> ContactProblem<'_, O> {
     /// Solves from and into `unknowns` (any values; negative pressures are dropped).
     pub fn solve(&mut self, unknowns: &mut Unknowns) -> Report {
-        let report = self.solved_by_route(unknowns);
+        let mut report = self.solved_by_route(unknowns);
+        if report.stop.solved() && !self.admissible.is_everywhere() && self.admissible.is_filled(&unknowns.pressure) {
+            // Any greater penetration has the same pressure.
+            unknowns.clear();
+            ConvergenceCheck::new(self, unknowns);
+            report = Report { stop: Stop::BeyondHardness, residual: f64::INFINITY, ..report };
+        }
         Report { outer: self.outer, ..report }
+    }
+
+    /// Whether all of the surface is at the hardness H at a `penetration`: from max f and the mean displacement under H on, which is all
+    /// that a uniform pressure displaces.
+    fn is_filled_at(&self, penetration: f64) -> bool {
+        let most = self.admissible.bound().most;
+        let displaced = if most.is_finite() { self.operator.mean_compliance() * most } else { f64::INFINITY };
+        penetration >= self.largest_gap + displaced
     }
 
     fn solved_by_route(&mut self, unknowns: &mut Unknowns) -> Report {
@@ -69,6 +83,11 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
                     unknowns.clear();
                     ConvergenceCheck::new(self, unknowns);
                     return done(Stop::BeyondFullContact, f64::INFINITY);
+                }
+                if may_be_complete && self.is_filled_at(penetration) {
+                    unknowns.clear();
+                    ConvergenceCheck::new(self, unknowns);
+                    return done(Stop::BeyondHardness, f64::INFINITY);
                 }
                 let direct = iterate(self, 0, unknowns);
                 unless_found(self, penetration, direct, unknowns)
