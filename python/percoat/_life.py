@@ -15,8 +15,9 @@ from percoat._warnings import NotConverged, warn
 class Life(Record):
     """A life, as ``life.json`` has it. It prints the text of the command line.
 
-    ``first`` is what fails first, ``None`` without a fatigue law: with ``material`` or ``interface``, ``range`` of the shear stress,
-    ``passes`` and their relative ``error``, ``x``, ``y``, ``z``; ``criteria`` has all lives. With ``life.passes`` in the case
+    ``first`` is the first event of any kind, ``None`` where nothing tires and nothing is worn through: with ``kind`` (``"fatigue"``,
+    ``"delamination"``, ``"worn_through"``), ``material`` or ``interface``, ``passes``, the ``distance`` slid by then and a relative
+    ``error``, of fatigue ``range`` of the shear stress and ``x``, ``y``, ``z``; ``criteria`` has all lives. With ``life.passes`` in the case
     ``events`` have what comes off, each with ``passes``, ``what``, ``depth``, ``thickness`` and ``removed``, and ``wear`` the course.
     """
 
@@ -25,7 +26,7 @@ class Life(Record):
     criteria: list[Record]
     events: list[Record]
     wear: list[Record]
-    distance: float
+    distance: Optional[float]
     warnings: list[str]
     converged: bool
 
@@ -42,7 +43,7 @@ class Life(Record):
 
     def __repr__(self) -> str:
         if self.first is None:
-            return f"<percoat.Life {self.title!r}: no fatigue law>"
+            return f"<percoat.Life {self.title!r}: nothing fails>"
         return f"<percoat.Life {self.title!r}: {self.first.passes:.4g} passes, {len(self.events)} events>"
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -198,6 +198,7 @@ impl Case {
             mean: self.mean_stress(),
             passes: self.life.and_then(|own| own.passes),
             distance: self.life.and_then(|own| own.distance),
+            stroke: self.life.and_then(|own| own.stroke),
             tolerance: self.life.map_or(LIFE_TOLERANCE, |own| own.tolerance),
         })
     }

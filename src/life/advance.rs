@@ -2,15 +2,16 @@
 
 use super::beginning::Beginning;
 use super::damage::{Damage, Failure, FailurePlace};
-use super::event::{Course, Event, EventKind};
+use super::event::{Event, EventKind};
+use super::groove::{Groove, MeanPressure};
 use super::rates::Rates;
 use super::state::{LifeEnd, LifeState};
 use super::task::{LifeError, LifeTask};
-use crate::body::{Layer, Side};
+use crate::body::Side;
 use crate::problem::Problem;
 use crate::reading::{FatiguePart, contact_radii};
 use crate::run::{PathEnd, WearPath};
-use crate::spectral::{Solver, Step, Wear};
+use crate::spectral::{Solver, Step, Stop, Wear};
 use ndarray::Axis;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -22,6 +23,10 @@ const REREAD: f64 = 0.02;
 const IN_STEP: f64 = 0.04;
 /// Accepted steps of wear from one state to the next, at most.
 const WEAR_STEPS: usize = 8;
+/// The same over a groove, from one row of samples to the next.
+const GROOVE_STEPS: usize = 60;
+/// Relative change of the largest pressure over a groove, beyond that of a row, at which it is read anew at the latest.
+const IN_GROOVE: f64 = 0.3;
 /// Part of the passes so far within which a failure is due at once: damage while surfaces wear is known no better.
 const NOW: f64 = 1e-4;
 /// Most failures from one solution of the contact to the next.
@@ -47,7 +52,9 @@ impl LifeTask {
             solved: 0,
             events: Vec::new(),
             course: Vec::new(),
+            doubled: 0,
             end: None,
+            stop: None,
         }
     }
 
@@ -69,15 +76,16 @@ impl LifeTask {
         let Some((body, gone)) = original.uncovered(state.removed()) else {
             return Ok(self.ended(state, LifeEnd::NothingLeft));
         };
-        let mut solver = self.worn_solver(&Arc::new(self.problem.on_body(body)), &state)?;
+        let mut solver = self.worn_solver(&Arc::new(self.problem_of(&state, body)), &state)?;
         // The unworn contact is solved already.
         let contact = match state.solved {
             0 => begun.clone(),
             _ => self.contact(&mut solver, goes_on)?,
         };
         let mut next = LifeState { solved: state.solved + 1, ..state };
-        if !contact.step.report.stop.solved() {
-            return Ok(self.ended(next, LifeEnd::Unsolved));
+        let stop = contact.step.report.stop;
+        if !stop.solved() {
+            return Ok(self.without_contact(next, stop));
         }
         let reading = contact.record.fatigue.as_ref();
         let rates = Rates::new(original, gone, &contact.planes, reading, next.damage.y());
@@ -96,17 +104,28 @@ impl LifeTask {
         let room = original.layers().get(gone).map_or(f64::INFINITY, |own| (RELAID * own.thickness()).min(left));
         let wear = self.wear(solver.problem())?;
         let wears = [Side::Body, Side::Counterbody].iter().any(|&side| wear.coefficient(side) > 0.0);
-        let before = next.removed();
+        let (before, begun) = (next.removed(), next.passes);
+        let mut mean = None;
         let until = if wears && self.passes.is_some() {
-            self.wear_on(&mut next, &mut solver, (&wear, room), (&rates, &contact), goes_on)?;
+            mean = self.wear_on(&mut next, &mut solver, (&wear, room), (&rates, &contact), goes_on)?;
             next.passes
         } else {
             keep_indented(&mut next, &contact.step);
             last
         };
+        let rates = match mean {
+            Some(MeanPressure { pressure, swing }) => {
+                let over = self.read(contact.step.with_mean_pressure(pressure), &solver, goes_on)?;
+                let rates = Rates::new(original, gone, &over.planes, over.record.fatigue.as_ref(), next.damage.y());
+                next.damage.add(&rates, next.passes - begun, before);
+                next.bears(&over, swing);
+                rates
+            }
+            None => rates,
+        };
         self.tire(&mut next, &rates, &contact, until, room);
-        if next.end == Some(LifeEnd::Unsolved) {
-            return Ok(self.ended(next, LifeEnd::Unsolved));
+        if let Some(stop) = next.stop {
+            return Ok(self.without_contact(next, stop));
         }
         // Surfaces that stay as they are have this contact to the end.
         if next.end.is_none() && next.passes >= last && next.removed() == before && next.pending == 0.0 {
@@ -116,47 +135,13 @@ impl LifeTask {
         Ok(next)
     }
 
-    /// Adds the present state to the course.
-    fn record(&self, state: &mut LifeState, contact: &Beginning, rates: &Rates) {
-        let failure = state.damage.next_failure(self.problem.half_space(), rates, state.removed());
-        let row = Course {
-            max_pressure: contact.record.reading.max_pressure,
-            contact_area: contact.record.reading.contact_area,
-            next: failure.map_or(f64::INFINITY, |failure| failure.passes),
-            ..self.row(state)
-        };
-        state.course.push(row);
-    }
-
-    /// The end of a life whose surfaces have no contact that is known: the last row has the pressure before.
-    fn ended(&self, mut state: LifeState, end: LifeEnd) -> LifeState {
-        let row = self.row(&state);
-        state.course.push(row);
-        LifeState { end: Some(end), ..state }
-    }
-
-    /// What is left and worn in a state, with the last contact that is known.
-    fn row(&self, state: &LifeState) -> Course {
-        let last = state.course.last();
-        Course {
-            passes: state.passes,
-            thickness: self.thickness(state.removed()),
-            removed: state.removed(),
-            body: state.mean_worn(Side::Body),
-            counterbody: state.mean_worn(Side::Counterbody),
-            body_depth: state.largest_worn(Side::Body),
-            counterbody_depth: state.largest_worn(Side::Counterbody),
-            max_pressure: last.map_or(0.0, |own| own.max_pressure),
-            contact_area: last.map_or(0.0, |own| own.contact_area),
-            next: f64::INFINITY,
+    /// What follows a contact that is not solved: a wider window where it reaches the border of its own, else the end.
+    fn without_contact(&self, state: LifeState, stop: Stop) -> LifeState {
+        let wider = if stop == Stop::AtBorder { self.in_wider_window(state.clone()) } else { None };
+        match wider {
+            Some(wider) => LifeState { stop: None, step: 0.0, ..wider },
+            None => self.ended(LifeState { stop: Some(stop), ..state }, LifeEnd::Unsolved),
         }
-    }
-
-    /// Thickness of all layers together after a height has been removed, a length.
-    fn thickness(&self, removed: f64) -> f64 {
-        let original = self.problem.half_space();
-        let whole: f64 = original.layers().iter().map(Layer::thickness).sum();
-        (whole - removed).max(0.0)
     }
 
     /// Lets what fails come off, up to a number of passes, until more than a height `room` is gone.
@@ -237,7 +222,8 @@ impl LifeTask {
         }
         // Of slices that follow each other the first one is an event.
         if !(is_slice && state.sheds) {
-            state.events.push(Event { passes: state.passes, what, part, depth, thickness, removed: after });
+            let (passes, distance) = (state.passes, self.slid_after(state.passes));
+            state.events.push(Event { passes, distance, what, part, depth, thickness, removed: after });
         }
         state.sheds = is_slice;
         if is_slice {
@@ -262,7 +248,8 @@ impl LifeTask {
         Ok(solver.with_gap(gap)?)
     }
 
-    /// Wears both surfaces on, until the pressure has changed, damage reaches 1, the body is lower by `room`, or for some steps.
+    /// Wears both surfaces on, until the pressure has changed, damage reaches 1, the body is lower by `room`, or for some steps. Where a
+    /// groove widens in a body that tires, until it has taken in a row of samples: its mean pressure, of which the damage is to be added.
     fn wear_on(
         &self,
         state: &mut LifeState,
@@ -270,15 +257,15 @@ impl LifeTask {
         (wear, room): (&Wear, f64),
         (rates, contact): (&Rates, &Beginning),
         goes_on: &dyn Fn() -> bool,
-    ) -> Result<(), LifeError> {
-        let (distance, removed) = (self.distance(), state.removed());
+    ) -> Result<Option<MeanPressure>, LifeError> {
+        let (distance, removed) = (self.slid(), state.removed());
         let last = self.passes.unwrap_or(f64::INFINITY);
         let failure = state.damage.next_failure(self.problem.half_space(), rates, removed);
         let until = failure.map_or(last, |failure| last.min(state.passes + failure.passes));
         let until = until.min(state.passes + room / (distance * lowering(&contact.step, wear)));
         let whole = (until - state.passes) * distance;
         if !(whole.is_finite() && whole > 0.0) {
-            return Ok(());
+            return Ok(None);
         }
         let first = (state.step > 0.0).then_some(state.step);
         let (begun, tires) = (contact.record.reading.grid_peak(), rates.is_any());
@@ -286,11 +273,19 @@ impl LifeTask {
         let before = state.largest_worn(Side::Body) + state.largest_worn(Side::Counterbody);
         let path = WearPath { first, change, before, ..WearPath::new(self.load, *wear, whole, self.tolerance)? };
         let (mut steps, mut slid) = (0, 0.0);
-        let followed = path.slide(solver, &mut |step, _| {
+        let mut groove = if tires { Groove::new(&contact.step, wear) } else { None };
+        let followed = path.slide(solver, &mut |step, end| {
             steps += 1;
             slid = step.distance;
-            let has_changed = tires && (step.max_pressure / begun - 1.0).abs() > REREAD;
-            let ends = has_changed || steps >= WEAR_STEPS || !goes_on();
+            let has_changed = match &mut groove {
+                Some(groove) => {
+                    groove.add(step, end);
+                    let is_far = (step.max_pressure / begun - 1.0).abs() > IN_GROOVE;
+                    groove.has_widened() || steps >= GROOVE_STEPS || is_far
+                }
+                None => steps >= WEAR_STEPS || (tires && (step.max_pressure / begun - 1.0).abs() > REREAD),
+            };
+            let ends = has_changed || !goes_on();
             if ends { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })?;
         if !goes_on() {
@@ -298,13 +293,16 @@ impl LifeTask {
         }
         // Where no step was accepted the length that is tried next stays.
         state.step = if followed.next > 0.0 { followed.next } else { state.step };
-        if let PathEnd::Unsolved(_) = followed.end {
-            state.end = Some(LifeEnd::Unsolved);
+        if let PathEnd::Unsolved(stop) = followed.end {
+            state.stop = Some(stop);
         }
         let passes = if slid >= whole { until - state.passes } else { slid / distance };
-        // The other half is done at the rates of the worn surfaces.
-        state.damage.add(rates, 0.5 * passes, removed);
-        state.pending = 0.5 * passes;
+        let mean = groove.and_then(Groove::mean);
+        if mean.is_none() {
+            // The other half is done at the rates of the worn surfaces.
+            state.damage.add(rates, 0.5 * passes, removed);
+            state.pending = 0.5 * passes;
+        }
         state.passes = if slid >= whole { until } else { state.passes + passes };
         for (own, side) in state.worn.iter_mut().zip([Side::Body, Side::Counterbody]) {
             if let Some(worn) = solver.worn().filter(|_| wear.coefficient(side) > 0.0) {
@@ -317,33 +315,22 @@ impl LifeTask {
         let is_isolated = self.problem.cell().is_isolated();
         state.lowered = if is_isolated { state.largest_worn(Side::Body) } else { state.mean_worn(Side::Body) };
         self.worn_through(state, removed);
-        Ok(())
+        Ok(mean)
     }
+}
 
-    /// Adds the layers that wear has taken to their end since the body was lower by `before`.
-    fn worn_through(&self, state: &mut LifeState, before: f64) {
-        let original = self.problem.half_space();
-        let gone = |removed: f64| original.uncovered(removed).map_or(original.layers().len(), |(_, gone)| gone);
-        let removed = state.removed();
-        for number in gone(before) + 1..=gone(removed) {
-            let part = FatiguePart::Material(original.material_id(number));
-            let (depth, thickness) = (removed - before, self.thickness(removed));
-            state.events.push(Event {
-                passes: state.passes,
-                what: EventKind::WornThrough,
-                part,
-                depth,
-                thickness,
-                removed,
-            });
-            state.sheds = false;
+impl LifeState {
+    /// Has the largest pressure of a contact, which rises and falls by `swing`, in the last row of the course.
+    fn bears(&mut self, contact: &Beginning, swing: f64) {
+        if let Some(row) = self.course.last_mut() {
+            (row.max_pressure, row.max_pressure_error) = (contact.record.reading.max_pressure, Some(swing));
         }
     }
 }
 
 /// Height by which the body is lowered over a length of sliding by the pressure of a step: on a lattice k p̄, under an isolated contact
 /// that of the deepest line of its track, k ∫p ds over the stroke.
-fn lowering(step: &Step, wear: &Wear) -> f64 {
+pub(super) fn lowering(step: &Step, wear: &Wear) -> f64 {
     let (k, grid, pressure) = (wear.coefficient(Side::Body), step.grid(), step.pressure());
     let Some(stroke) = wear.stroke().filter(|_| grid.cell().is_isolated()) else {
         return k * pressure.mean().unwrap_or(0.0);

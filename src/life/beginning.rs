@@ -1,7 +1,7 @@
 //! The body before its first pass: the contact, with what it does in each pass.
 
 use super::task::{LifeError, LifeTask};
-use crate::reading::PathReading;
+use crate::reading::{Pass, PathReading};
 use crate::run::{Refinement, RefinementEnd, Sampling, StepRecord, change};
 use crate::spectral::{Solver, Step};
 use crate::stress::{PathSought, RangePlane, StressFields};
@@ -57,15 +57,35 @@ impl LifeTask {
     /// The contact of the surfaces of a solver, with what it does in a pass.
     pub(super) fn contact(&self, solver: &mut Solver, goes_on: &dyn Fn() -> bool) -> Result<Beginning, LifeError> {
         let step = solver.solve(self.load);
+        self.read(step, solver, goes_on)
+    }
+
+    /// What a step on the surfaces of a solver does in a pass.
+    pub(super) fn read(&self, step: Step, solver: &Solver, goes_on: &dyn Fn() -> bool) -> Result<Beginning, LifeError> {
         let reading = step.reading();
         let fields = StressFields::new(step.finest(), self.mean);
         let sought = PathSought { fatigue: true, endurance: false };
-        let found = match reading.touches() {
-            true => PathReading::of_while(&step, &reading, &fields, sought, goes_on).ok_or(LifeError::Interrupted)?,
-            false => PathReading::default(),
+        let found = if reading.touches() && self.problem.bodies().tire() {
+            let back = self.way_back(solver, &step)?;
+            let pass = Pass { way: self.way(), back: back.as_ref().or(self.stroke.map(|_| &step)) };
+            PathReading::of_pass(&step, &reading, &fields, (sought, &pass), goes_on).ok_or(LifeError::Interrupted)?
+        } else {
+            PathReading::default()
         };
         drop(fields);
         let record = StepRecord { fatigue: found.fatigue, ..StepRecord::new(&step, reading) };
         Ok(Beginning { step, record, planes: found.planes, change: None, end: None })
+    }
+
+    /// The contact of the surfaces of a solver on the way back of a counterbody that goes to and fro; `None` where it is that of the way
+    /// there, `step`.
+    fn way_back(&self, solver: &Solver, step: &Step) -> Result<Option<Step>, LifeError> {
+        let friction = self.problem.friction().filter(|own| self.stroke.is_some() && own.coefficient() > 0.0);
+        let Some(friction) = friction else { return Ok(None) };
+        // What is held one way is held the other way.
+        let Ok(problem) = solver.problem().as_ref().clone().sliding(friction.reversed()) else { return Ok(None) };
+        let back = Solver::new(Arc::new(problem), step.grid().points(), self.settings)?;
+        let gap = solver.surface().initial_gap().to_owned();
+        Ok(Some(back.with_gap(gap)?.solve(self.load)))
     }
 }

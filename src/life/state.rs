@@ -3,6 +3,7 @@
 use super::damage::Damage;
 use super::event::{Course, Event};
 use crate::body::Side;
+use crate::spectral::Stop;
 use serde::{Deserialize, Serialize};
 
 /// The state of a life after some passes. What follows depends on nothing else.
@@ -35,8 +36,12 @@ pub struct LifeState {
     pub events: Vec<Event>,
     /// The course so far.
     pub course: Vec<Course>,
+    /// Times that the window of an isolated contact was doubled, as contact grew.
+    pub doubled: u32,
     /// Why it ended, if it has.
     pub end: Option<LifeEnd>,
+    /// Why the last contact was not solved, where it was not.
+    pub stop: Option<Stop>,
 }
 
 /// Why a life is not followed any further.
@@ -73,7 +78,8 @@ impl LifeState {
         self.detached + self.lowered
     }
 
-    fn of(&self, side: Side) -> &[f64] {
+    /// Depths worn off a surface, lengths sample by sample; empty where nothing is.
+    pub(super) fn of(&self, side: Side) -> &[f64] {
         &self.worn[match side {
             Side::Body => 0,
             Side::Counterbody => 1,

@@ -1,10 +1,11 @@
 //! Warnings about a life, a sentence each, and whether it has converged.
 
+use super::advance::lowering;
 use super::beginning::Beginning;
 use super::state::{LifeEnd, LifeState};
 use super::task::LifeTask;
 use crate::notation::number;
-use crate::reading::Life;
+use crate::reading::{Life, contact_radii};
 use crate::run::RefinementEnd;
 use crate::run::warnings::warnings;
 
@@ -29,18 +30,64 @@ impl LifeTask {
                 life.in_words(number)
             ));
         }
-        if let Some(row) =
-            state.course.iter().find(|row| row.body_depth > row.body + row.thickness && row.thickness > 0.0)
-        {
+        if let Some(row) = state.course.iter().find(|row| row.is_grooved()) {
             warnings.push(format!(
                 "after {} passes a groove is deeper than the layers that are left: layers are taken as even, as thick as they are on the average",
                 number(row.passes)
             ));
         }
+        let more = [self.unworn_below(state), self.short_way(begun), self.wear_left_out(begun)];
+        warnings.extend(more.into_iter().flatten());
         if state.end == Some(LifeEnd::LoadLimit) {
             warnings.push("the life is followed no further: it takes too many loads".to_owned());
         }
         warnings
+    }
+
+    /// A material without a coefficient of wear that is uncovered while those above it wore.
+    fn unworn_below(&self, state: &LifeState) -> Option<String> {
+        let original = self.problem.half_space();
+        let (_, gone) = original.uncovered(state.removed())?;
+        let wears: Vec<bool> = original.durabilities().map(|own| own.wear.is_some_and(|wear| wear > 0.0)).collect();
+        let stays =
+            self.passes.is_some() && wears.iter().take(gone).any(|wears| *wears) && wears.get(gone) == Some(&false);
+        stays.then(|| {
+            format!(
+                "{} is uncovered and has no `wear`: from there on sliding wears the body no further; give it a coefficient",
+                original.material_id(gone + 1)
+            )
+        })
+    }
+
+    /// A way of an isolated contact that is shorter than the contact is wide.
+    fn short_way(&self, begun: &Beginning) -> Option<String> {
+        let way = self.way().filter(|_| self.problem.cell().is_isolated() && begun.record.reading.touches())?;
+        let [_, radius] = contact_radii(&begun.step, &begun.record.reading);
+        (way < 2.0 * radius).then(|| {
+            format!(
+                "the counterbody slides {} in one way, less than the contact is wide, {}: points of the body are not passed from rest to \
+                 rest, as damage and wear suppose; this is fretting",
+                number(way),
+                number(2.0 * radius)
+            )
+        })
+    }
+
+    /// That surfaces wear, but not up to a number of passes.
+    fn wear_left_out(&self, begun: &Beginning) -> Option<String> {
+        if !self.wears() || self.passes.is_some() {
+            return None;
+        }
+        let wear = self.wear(&self.problem).ok()?;
+        let first = self.problem.half_space().layers().first();
+        let lowered = self.slid() * lowering(&begun.step, &wear);
+        let through = first.filter(|_| lowered > 0.0).map(|layer| layer.thickness() / lowered);
+        let through = through.map_or(String::new(), |passes| {
+            format!("; at the wear of the first pass the first layer is worn through after {} passes", number(passes))
+        });
+        Some(format!(
+            "wear is not followed, and the passes are those of surfaces that stay as they are: give life.passes{through}"
+        ))
     }
 
     /// The first failure of an elastic counterbody, where it comes before the end of the passes that are followed, or before any of the

@@ -9,9 +9,10 @@ use super::summary::{UnitNames, check};
 use super::trailer::{with_checksum, without_checksum};
 use super::{OutputError, disk, write_file, write_text};
 use crate::case::{Case, plausibility};
-use crate::life::{Beginning, Course, Event, LifeEnd, LifeState, LifeTask};
+use crate::life::{Beginning, Course, Event, First, LifeEnd, LifeState, LifeTask};
 use crate::reading::{DamageMap, Life};
 use crate::run::StepRecord;
+use crate::spectral::Stop;
 use crate::stress::SlidingPath;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -31,30 +32,44 @@ pub struct LifeFile {
     pub units: UnitNames,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
-    /// Distance that the counterbody slides in one pass, a length.
-    pub distance: f64,
+    /// Distance that the counterbody slides in one pass, a length; `None` where it is not known.
+    pub distance: Option<f64>,
     /// The path along which points of the body meet the stresses; `None` where nothing tires.
     pub path: Option<SlidingPath>,
-    /// What fails first; `None` where nothing tires.
-    pub first: Option<Life>,
-    /// The life of each material and interface that tires.
-    pub criteria: Vec<Life>,
+    /// What happens first, of any kind; `None` where nothing tires and nothing is worn through.
+    pub first: Option<First>,
+    /// The life of each material and interface that tires, under the unworn surfaces.
+    pub criteria: Vec<LifeCriterion>,
     /// What happens up to the prescribed number of passes.
     pub events: Vec<Event>,
     /// What is left and worn, state by state.
     pub wear: Vec<Course>,
     /// Why it ends; `None` where it was followed only to the first failure, and there is one.
     pub end: Option<LifeEnd>,
+    /// Why the last contact was not solved; `None` where it was.
+    #[serde(default)]
+    pub stop: Option<Stop>,
     /// Number of loads that were solved.
     pub solved: usize,
     /// The contact before the first pass.
     pub steps: Vec<StepRecord>,
 }
 
+/// The life of a material or an interface.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LifeCriterion {
+    /// The life.
+    #[serde(flatten)]
+    pub life: Life,
+    /// Distance that the counterbody has slid by then, a length; `None` where it is not known.
+    pub distance: Option<f64>,
+}
+
 impl LifeFile {
     /// The record of a life of a case.
     pub fn new(case: &Case, task: &LifeTask, begun: &Beginning, state: &LifeState) -> Self {
         let fatigue = begun.record.fatigue.as_ref();
+        let of_life = |life: &Life| LifeCriterion { life: *life, distance: task.slid_after(life.passes) };
         Self {
             percoat: env!("CARGO_PKG_VERSION").to_owned(),
             title: case.title.clone(),
@@ -63,10 +78,11 @@ impl LifeFile {
             warnings: [task.warnings(begun, state), plausibility::of_case(case)].concat(),
             distance: task.distance(),
             path: fatigue.map(|own| own.path),
-            first: fatigue.map(|own| own.first),
-            criteria: fatigue.map_or(Vec::new(), |own| own.lives.clone()),
+            first: First::of(task, begun, state),
+            criteria: fatigue.map_or(Vec::new(), |own| own.lives.iter().map(of_life).collect()),
             events: state.events.clone(),
             wear: state.course.clone(),
+            stop: state.stop,
             end: state.end.filter(|end| task.passes.is_some() || *end == LifeEnd::Endless),
             solved: state.solved,
             steps: vec![begun.record.clone()],

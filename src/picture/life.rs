@@ -167,11 +167,18 @@ pub fn course(
     }
     let mut curves = vec![curve("removed from the body", 1, removed, Style::Line)];
     curves.extend(first.as_ref().map(|first| curve("", 1, first.bar(first.removed), Style::Line)));
-    if course.iter().any(|own| own.body > 0.0) {
-        curves.push(curve("worn off the body by sliding, mean", 2, points(|own| own.body), Style::Line));
+    // An isolated contact has no mean.
+    let is_isolated = problem.cell().is_isolated();
+    let [body, counterbody]: [fn(&Course) -> f64; 2] = match is_isolated {
+        true => [|own| own.body_depth, |own| own.counterbody_depth],
+        false => [|own| own.body.unwrap_or(0.0), |own| own.counterbody.unwrap_or(0.0)],
+    };
+    let what = if is_isolated { "depth" } else { "mean" };
+    if course.iter().any(|own| body(own) > 0.0) {
+        curves.push(curve(&format!("worn off the body by sliding, {what}"), 2, points(body), Style::Line));
     }
-    if course.iter().any(|own| own.counterbody > 0.0) {
-        curves.push(curve("worn off the counterbody, mean", 3, points(|own| own.counterbody), Style::Line));
+    if course.iter().any(|own| counterbody(own) > 0.0) {
+        curves.push(curve(&format!("worn off the counterbody, {what}"), 3, points(counterbody), Style::Line));
     }
     let y = Axis::linear(units.length_of("height", "u"));
     charts.push(Chart { title: "removed and worn".to_owned(), x: x(), y, curves });

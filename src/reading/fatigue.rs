@@ -1,14 +1,15 @@
 //! Fatigue by a load step: damage in one pass of the counterbody, and the passes after which each material and interface first has the
 //! damage 1.
 //!
-//! While the counterbody slides over the body a point (y, z) of it meets the stresses of all x. The range of the principal shear stress
-//! along that path, Δτ₁ = max τ₁ − min τ₁, does the damage Q = (1/N₀)(Δτ₁/τ₀)^m of the material's [law](crate::body::Fatigue) in each
-//! pass, on an interface that transmits shear the longest chord of the traction (σ_xz, σ_yz): one that reverses counts twice. Damage
-//! adds, so that a life is 1/max Q passes. A relative error e of the range is one of m·e of the passes.
+//! While the counterbody slides over the body a point (y, z) of it meets the stresses of all x. Each cycle of the principal shear stress
+//! along that path, of the range Δτ₁ = max τ₁ − min τ₁, does the damage (1/N₀)(Δτ₁/τ₀)^m of the material's [law](crate::body::Fatigue),
+//! on an interface that transmits shear each cycle of the traction (σ_xz, σ_yz) with its sign: one that reverses counts twice. Damage
+//! adds, over the cycles of a pass, counted by rainflow (ASTM E1049), and over passes, so that a life is 1/max Q passes. A relative error
+//! e of the range is one of m·e of the passes.
 //!
-//! A pass is one period of a cell, in which a point meets each level once or more: there is one range in it, of all of them
-//! together. The [`SlidingPath`] says along which way. An elastic counterbody is not swept: its points stay under the contact, and one pass
-//! is loading it and unloading it, with Δτ₁ = |τ₁ − τ₁ at rest|.
+//! A pass is one period of a cell, in which a point meets each level once or more, and each of them makes its cycles: a cell of two
+//! periods has half the passes and the same distance. The [`SlidingPath`] says along which way. An elastic counterbody is not swept: its
+//! points stay under the contact, and one pass is loading it and unloading it, with Δτ₁ = |τ₁ − τ₁ at rest|.
 
 use super::strength::Criterion;
 use super::stress::{Tip, beside_site, contact_radii};
@@ -16,7 +17,9 @@ use super::{Reading, Utilisation};
 use crate::body::{Fatigue, HalfSpace, InterfaceId, MaterialId, Side};
 use crate::numeric::serialised;
 use crate::spectral::Step;
-use crate::stress::{PathPeak, PathPeaks, PathSought, RangePlane, SlidingPath, StressField, StressFields, transmitted};
+use crate::stress::{
+    PassOver, PathPeak, PathPeaks, PathSought, RangePlane, SlidingPath, StressField, StressFields, transmitted,
+};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -55,7 +58,8 @@ pub struct Life {
     /// What tires.
     #[serde(flatten)]
     pub part: FatiguePart,
-    /// Largest range of τ₁ along the path, or of the shear traction of an interface, a pressure; infinite under a tip.
+    /// Largest range of τ₁ along the path, or of the shear traction of an interface, a pressure: that of one cycle that does the damage
+    /// of all cycles of a pass; infinite under a tip.
     #[serde(deserialize_with = "serialised::infinite")]
     pub range: f64,
     /// Damage in one pass by that range; infinite under a tip.
@@ -127,6 +131,15 @@ impl FatigueReading {
     }
 }
 
+/// What a pass of the counterbody is.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Pass<'a> {
+    /// Length of one way over a lattice, a length; `None`: one period. A point comes past an isolated contact once in one way.
+    pub way: Option<f64>,
+    /// The contact on the way back, solved on the same grids, where the counterbody goes to and fro.
+    pub back: Option<&'a Step>,
+}
+
 /// What the stresses along the path of sliding say of a step.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct PathReading {
@@ -147,6 +160,17 @@ impl PathReading {
         sought: PathSought,
         goes_on: &dyn Fn() -> bool,
     ) -> Option<Self> {
+        Self::of_pass(step, reading, fields, (sought, &Pass::default()), goes_on)
+    }
+
+    /// What is `sought` of a step in a pass, as [`Self::of_while`].
+    pub fn of_pass(
+        step: &Step,
+        reading: &Reading,
+        fields: &StressFields,
+        (sought, pass): (PathSought, &Pass<'_>),
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<Self> {
         let has_any = |half_space: &HalfSpace| {
             let durabilities = || half_space.durabilities();
             let tires = durabilities().any(|own| own.fatigue.is_some())
@@ -158,17 +182,28 @@ impl PathReading {
             return Some(Self::default());
         }
         let coarser = step.coarser().first().map(|contact| fields.of_other(contact));
+        let back = pass.back.map(|step| fields.of_other(step.finest()));
+        let coarser_back = pass.back.and_then(|step| step.coarser().first().map(|contact| fields.of_other(contact)));
         let (direction, radii) = (step.problem().direction(), contact_radii(step, reading));
         let (mut lives, mut utilisations, mut path, mut planes) = (Vec::new(), Vec::new(), None, Vec::new());
         for field in wanted {
-            let coarser = coarser.as_ref().map(|coarser| coarser.on(field.half_space().side()));
-            let mut peaks = field.path_peaks_while(direction, radii, sought, coarser, goes_on)?;
+            let side = field.half_space().side();
+            let coarser = coarser.as_ref().map(|coarser| coarser.on(side));
+            let over = match side {
+                Some(Side::Counterbody) => PassOver::default(),
+                _ => PassOver {
+                    way: pass.way,
+                    back: back.as_ref().map(StressFields::body),
+                    coarser_back: coarser_back.as_ref().map(StressFields::body),
+                },
+            };
+            let mut peaks = field.path_peaks_of_pass(direction, radii, (sought, over), coarser, goes_on)?;
             peaks.each().for_each(|peak| peak.position = beside_site(step, peak.position));
             if let Some(tip) = Tip::of(step, reading, field.half_space()) {
                 peaks.in_surface().for_each(|peak| tip.press_path(peak));
             }
             path = path.or(Some(peaks.path));
-            if field.half_space().side() != Some(Side::Counterbody) {
+            if side != Some(Side::Counterbody) {
                 planes = std::mem::take(&mut peaks.planes);
             }
             lives.extend(lives_of(field.half_space(), &peaks));

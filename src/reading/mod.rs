@@ -43,8 +43,8 @@ pub use boundary::Boundary;
 pub use contact::Reading;
 pub use damage_map::DamageMap;
 pub use errors::{Errors, LevelErrors};
-pub(crate) use fatigue::PathReading;
 pub use fatigue::{FatiguePart, FatigueReading, Life};
+pub(crate) use fatigue::{Pass, PathReading};
 #[cfg(feature = "cli")]
 pub(crate) use governing::names;
 pub use governing::{Governing, within_the_errors};

@@ -35,16 +35,12 @@ pub(super) fn part(results: &Results, file: &LifeFile) -> Result<Part, ReportErr
     let lives = tables::lives(&file.steps, &units);
     let answer = |words: &str| with("p", &[("class", "answer")], numbers(&upper(words)));
     let mut found = vec![doubts(&file.steps)];
-    match &lives {
-        Some(lives) => found.extend([
-            answer(&lives.words),
-            table("Passes until damage 1; ± is the estimated error of the grid", &lives.table),
-        ]),
-        None => found.push(answer("no fatigue law is given")),
+    found.push(answer(&tables::headline(file, &units)));
+    if let Some(lives) = &lives {
+        found.push(table("Passes until damage 1; ± is the estimated error of the grid", &lives.table));
     }
     found.push(assumed(case, false));
-    let left =
-        tables::left(&file.wear, file.end, &units).map_or(Markup::default(), |words| tag("p", numbers(&upper(&words))));
+    let left = tables::left(file, &units).map_or(Markup::default(), |words| tag("p", numbers(&upper(&words))));
     found.push(left);
     let mut sections = vec![
         section("answer", "Answer", found),

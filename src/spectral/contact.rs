@@ -43,6 +43,13 @@ impl Contact {
         Self { indented, ..self }
     }
 
+    /// It under another pressure, closed wherever that presses.
+    pub(super) fn with_pressure(&self, pressure: Vec<f64>) -> Self {
+        let closed = |(gap, p): (&f64, &f64)| if *p > 0.0 { 0.0 } else { *gap };
+        let gap = Arc::new(self.gap.iter().zip(&pressure).map(closed).collect());
+        Self { pressure: Arc::new(pressure), gap, spots: OnceLock::new(), ..self.clone() }
+    }
+
     /// Unknowns of the iteration, with their certificate.
     pub(super) fn unknowns(&self, certificate: Certificate) -> Unknowns {
         let Self { pressure, gap, penetration, .. } = self;

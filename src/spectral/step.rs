@@ -40,6 +40,11 @@ impl Step {
         &self.coarser
     }
 
+    /// The step with the mean of the pressures of several moments on the finest grid, sample by sample, a₂ fastest.
+    pub(crate) fn with_mean_pressure(&self, pressure: Vec<f64>) -> Self {
+        Self { finest: self.finest.with_pressure(pressure), ..self.clone() }
+    }
+
     /// The problem.
     pub fn problem(&self) -> &Arc<Problem> {
         self.finest.problem()

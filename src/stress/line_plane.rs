@@ -23,7 +23,9 @@ use std::sync::Arc;
 /// qz beyond which waves are neglected: they have e^{−16} of their pressure.
 const LINE_REACH: f64 = 16.0;
 /// Samples along a contact radius, of waves that vary on its scale.
-const PER_RADIUS: f64 = 12.0;
+const PER_RADIUS: f64 = 16.0;
+/// Refinement of planes that are read once more, which are few.
+const FINER: usize = 3;
 
 /// Which stresses are kept at each sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -34,6 +36,8 @@ pub(super) struct Kept {
     pub shear: bool,
     /// All stresses.
     pub stress: bool,
+    /// Whether lines and places are three times as dense.
+    pub finely: bool,
 }
 
 /// Stresses of a row of samples, those that are kept.
@@ -99,7 +103,7 @@ impl StressField {
 
     /// Stresses on the lines of a plane under contacts of a `radius`, a length.
     pub(super) fn line_plane(&self, lines: &SlidingLines, depth: Depth, radius: f64, kept: Kept) -> LinePlane {
-        let points = self.line_points(lines, depth, radius);
+        let points = self.line_points(lines, depth, radius, if kept.finely { FINER } else { 1 });
         let is_isolated = self.grid().cell().is_isolated();
         let used = used_columns(lines, points, is_isolated);
         let rows = if depth == Depth::SURFACE && self.regions().have_edges() {
@@ -115,21 +119,24 @@ impl StressField {
         LinePlane { points, is_smooth: depth.z >= self.shallow_depth(), rows, is_isolated, lines: *lines }
     }
 
-    /// Numbers of rows and columns of a plane: as many as its waves and contacts of a `radius` need.
-    fn line_points(&self, lines: &SlidingLines, depth: Depth, radius: f64) -> LinePoints {
+    /// Numbers of rows and columns of a plane: as many as its waves and contacts of a `radius` need, `finer` times as many below the
+    /// surface.
+    fn line_points(&self, lines: &SlidingLines, depth: Depth, radius: f64, finer: usize) -> LinePoints {
         let [own_rows, own_columns] = [lines.advance, 1 - lines.advance].map(|axis| self.series_grid().points()[axis]);
         let part = if self.grid().cell().is_isolated() { 2 } else { 1 };
         let fast = |least: usize| part * fast_points(least.div_ceil(part));
         let [a, b, way] = lines.lengths().map(|length| part as f64 * length);
         let shallow = depth.z < self.shallow_depth();
+        let finer = if shallow { 1 } else { finer };
         let waves = |length: f64| LINE_REACH * length / (PI * depth.z);
         let needed = |length: f64, way: f64| waves(length).max(PER_RADIUS * way / radius);
         // A slanting line passes more of its length between two rows.
         let own_rows = own_rows as f64 * way / a;
         let rows = if shallow || needed(a, way) >= own_rows { own_rows } else { needed(a, way) }.ceil() as usize;
-        let rows = if rows as f64 == own_rows { rows } else { fast(rows) };
+        let rows = if rows as f64 == own_rows && finer == 1 { rows } else { fast(finer * rows) };
         let least =
             if shallow || needed(b, b) >= own_columns as f64 { own_columns } else { needed(b, b).ceil() as usize };
+        let least = finer * least;
         let columns = if lines.is_sheared() {
             // A shift needs every wave in its place.
             let rows = self.series.waves.rows_within(self.wavenumbers_within(depth, LINE_REACH).len());

@@ -1,31 +1,39 @@
 //! Measures of the stresses along a path: what fatigues a material or an interface.
 //!
-//! - the **range** of the principal shear stress, Δτ₁ = max τ₁ − min τ₁ along the path;
-//! - the range of the **shear traction** of an interface: the longest chord of the path of (σ_xz, σ_yz), so that a shear that
-//!   reverses counts twice;
+//! - the **range** of the principal shear stress: that of one cycle that does the damage of all cycles along the path, counted by
+//!   [rainflow](super::rainflow). Of one cycle it is Δτ₁ = max τ₁ − min τ₁;
+//! - the range of the **shear traction** (σ_xz, σ_yz) of an interface, in the same sense: cycles of its component in that direction in
+//!   which they do the most damage, with its sign, so that a shear that reverses counts twice. Of one cycle it is the longest chord of
+//!   the path;
 //! - **Crossland**: of the deviator s, in the norm √(½ s:s), half the longest chord of its path, and the largest hydrostatic stress;
 //! - **Dang Van**: the largest of τ_a + 3(τ₋₁/σ₋₁ − ½) σ_H along the path, τ_a the shear stress of the deviator about the centre of
 //!   the smallest ball around its path.
 //!
-//! One period, or one pass of an isolated contact, counts as one cycle: several maxima along a path, of the levels of a cell, are not
-//! counted apart. A point of an elastic counterbody stays under the contact: its path is that of loading and unloading, from rest to
-//! the stresses of the step. Between samples maxima and minima are those of parabolas.
+//! A pass holds as many cycles as the path has maxima: those of the levels of a cell count apart. Where the counterbody goes to and fro
+//! the way back follows the way there. A point of an elastic counterbody stays under the contact: its path is that of loading and
+//! unloading, from rest to the stresses of the step. Between samples maxima and minima are those of parabolas.
 
 use super::chord::{Chord, distance, longest_chord};
 use super::enclosing_ball::Ball;
 use super::line_plane::LineStresses;
+use super::rainflow::{Cycles, Equivalent};
 use super::sliding_path::SlidingPath;
 use super::tensor::StressState;
 use crate::body::Endurance;
 use crate::numeric::search::first_largest;
+use std::f64::consts::PI;
+
+/// Directions of a traction that are compared, and halvings of the angle between them about the best.
+const DIRECTIONS: usize = 8;
+const HALVINGS: usize = 5;
 
 /// A measure of the stresses along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum PathMeasure {
-    /// Range of τ₁, a pressure.
-    Range,
-    /// Range of the shear traction on a plane of constant depth, a pressure.
-    ShearRange,
+    /// Range of τ₁ by a law of this exponent, a pressure.
+    Range(f64),
+    /// Range of the shear traction on a plane of constant depth by a law of this exponent, a pressure.
+    ShearRange(f64),
     /// Utilisation of Crossland's criterion.
     Crossland(Endurance),
     /// Utilisation of Dang Van's criterion.
@@ -40,6 +48,8 @@ pub(super) struct LineValue {
     pub place: [f64; 2],
     /// By how much stresses beyond the window of an isolated contact may change it, a pressure.
     pub beyond: f64,
+    /// Rise of the value where those of all cycles rise by one.
+    pub gain: f64,
 }
 
 /// Stresses along a line, and what they are compared with.
@@ -47,10 +57,16 @@ pub(super) struct LineValue {
 pub(super) struct LinePath<'a> {
     pub stresses: &'a LineStresses,
     pub path: SlidingPath,
-    /// Number of the samples that follow one another; others stand behind them.
+    /// Number of the samples that follow one another; others stand behind them, on edges of contact.
     pub ordered: usize,
-    /// Samples in a row of them, which follow one another across the line too where all of a plane is one path.
-    pub columns: usize,
+    /// Number of those from one end of a line to the other: fewer where all of a plane is one path.
+    pub run: usize,
+    /// Of each sample behind the ordered ones the number of that before it on the path, with the part of the way to the next.
+    pub edges: Vec<f64>,
+    /// Times that a pass goes along the path, in one way.
+    pub times: f64,
+    /// The way back, where the counterbody goes to and fro.
+    pub back: Option<&'a LinePath<'a>>,
     /// Whether stresses vary slowly from sample to sample.
     pub is_smooth: bool,
     /// The state without load.
@@ -63,7 +79,7 @@ impl PathMeasure {
     /// Rise of the measure when the stresses along a path rise by a pressure.
     pub fn rise(self, by: f64) -> f64 {
         match self {
-            Self::Range | Self::ShearRange => by,
+            Self::Range(_) | Self::ShearRange(_) => by,
             Self::Crossland(own) => own.crossland(by, by),
             Self::DangVan(own) => own.dang_van(by, by),
         }
@@ -72,8 +88,8 @@ impl PathMeasure {
     /// Its value along a line of at least one sample.
     pub fn along(self, line: &LinePath<'_>) -> LineValue {
         match self {
-            Self::Range => line.range(),
-            Self::ShearRange => line.shear_range(),
+            Self::Range(exponent) => line.range(exponent),
+            Self::ShearRange(exponent) => line.shear_range(exponent),
             Self::Crossland(own) => line.crossland(own),
             Self::DangVan(own) => line.dang_van(own),
         }
@@ -111,23 +127,23 @@ impl LinePath<'_> {
         self.path == SlidingPath::FromFarAway || !self.is_swept
     }
 
+    /// Samples before and behind one along its line; `None` at the border of a window, on edges of contact, and near the surface.
+    fn along(&self, k: usize) -> Option<[usize; 2]> {
+        let run = self.run;
+        if !self.is_smooth || k >= self.ordered || run < 3 {
+            return None;
+        }
+        let (from, own) = (k / run * run, k % run);
+        let is_border = self.path == SlidingPath::FromFarAway && (own == 0 || own + 1 == run);
+        (!is_border).then(|| [from + (own + run - 1) % run, from + (own + 1) % run])
+    }
+
     /// Samples before and behind one, along the line and, where all of a plane is one path, across it.
-    fn beside(&self, k: usize) -> Vec<[usize; 2]> {
-        let n = self.ordered;
-        if !self.is_smooth || k >= n || n < 3 {
-            return Vec::new();
-        }
-        let by = |step: usize| [(k + n - step) % n, (k + step) % n];
-        match self.path {
-            SlidingPath::LatticeVector(_) => vec![by(1)],
-            SlidingPath::FromFarAway if k == 0 || k + 1 == n => Vec::new(),
-            SlidingPath::FromFarAway => vec![[k - 1, k + 1]],
-            SlidingPath::WholePlane => {
-                let columns = self.columns;
-                let (row, column) = (k / columns * columns, k % columns);
-                vec![[row + (column + columns - 1) % columns, row + (column + 1) % columns], by(columns)]
-            }
-        }
+    fn beside(&self, k: usize) -> impl Iterator<Item = [usize; 2]> {
+        let run = self.run;
+        let is_inner = self.path == SlidingPath::WholePlane && run <= k && k + run < self.ordered;
+        let across = (is_inner && self.is_smooth).then(|| [k - run, k + run]);
+        self.along(k).into_iter().chain(across)
     }
 
     /// By how much the values between the samples exceed that of sample `k`, the largest one beside it, and the place of the maximum.
@@ -152,26 +168,93 @@ impl LinePath<'_> {
     /// The largest of values of the samples, between them too.
     fn largest(&self, value: impl Fn(usize) -> f64) -> LineValue {
         let (k, most) = first_largest((0..self.stresses.places.len()).map(&value)).unwrap_or((0, f64::NAN));
+        // A sample beside it may be larger by rounding.
+        let beside = self.along(k).into_iter().flatten();
+        let (k, most) = beside.map(|k| (k, value(k))).fold((k, most), |a, b| if b.1 > a.1 { b } else { a });
         let (rise, place) = self.summit(k, value);
-        LineValue { value: most + rise, place, beyond: 0.0 }
+        LineValue { value: most + rise, place, beyond: 0.0, gain: 1.0 }
     }
 
-    fn range(&self) -> LineValue {
+    /// Numbers of the samples of a line, by its number, in the order in which they are met, those on edges of contact among them.
+    fn met(&self, run: usize) -> Vec<usize> {
+        let own = run * self.run..((run + 1) * self.run).min(self.ordered);
+        let is_within = |position: f64| (position as usize) >= own.start && (position as usize) < own.end;
+        let mut edges: Vec<(f64, usize)> = self.edges.iter().copied().zip(self.ordered..).collect();
+        edges.retain(|(position, _)| is_within(*position));
+        let mut all: Vec<(f64, usize)> = own.map(|k| (k as f64, k)).chain(edges).collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.into_iter().map(|(_, k)| k).collect()
+    }
+
+    /// Values met along a line, by its number, at least `least`; a maximum or a minimum is that of a parabola. The value at rest stands
+    /// before them where the path comes from there.
+    fn sequence(&self, run: usize, rest: f64, least: f64, value: &impl Fn(&Self, usize) -> f64) -> Vec<f64> {
+        let turned = |k: usize| {
+            let own = value(self, k);
+            let Some([before, after]) = self.along(k) else { return own };
+            let three = [value(self, before), own, value(self, after)];
+            (own + top(three).0 - top(three.map(|x| -x)).0).max(least)
+        };
+        let rest = self.comes_from_rest().then_some(rest);
+        rest.into_iter().chain(self.met(run).into_iter().map(turned)).collect()
+    }
+
+    /// The one cycle that does the damage of a pass, by the cycles of a value that is `rest` without load and at least `least`.
+    fn counted(&self, exponent: f64, [rest, least]: [f64; 2], value: &impl Fn(&Self, usize) -> f64) -> Equivalent {
+        let mut cycles = Cycles::default();
+        let runs = self.ordered.div_ceil(self.run.max(1));
+        let times = self.times / runs.max(1) as f64;
+        for run in 0..runs {
+            let there = self.sequence(run, rest, least, value);
+            let Some(back) = self.back else {
+                cycles.count(&there, times);
+                continue;
+            };
+            let of_back = back.sequence(run, rest, least, value);
+            // Once the last cycle there and the first one back are one.
+            let joined = times.min(1.0 / runs as f64);
+            for way in [&there, &of_back] {
+                cycles.count(way, times - joined);
+            }
+            cycles.count(&self.there_and_back(run, there, (back, of_back)), joined);
+        }
+        cycles.equivalent(exponent)
+    }
+
+    /// Values along a line and back: from rest to rest, or where it closes for the point that is passed last with the largest value.
+    fn there_and_back(&self, run: usize, mut there: Vec<f64>, (back, mut of_back): (&Self, Vec<f64>)) -> Vec<f64> {
+        if !self.comes_from_rest() {
+            let most = first_largest(there.iter().copied()).map_or(0, |(most, _)| most);
+            let number = self.met(run)[most];
+            let sample = number.checked_sub(self.ordered).map_or(number, |edge| self.edges[edge] as usize);
+            let same = back.met(run).iter().position(|k| *k == sample).unwrap_or(0);
+            there.rotate_left(most);
+            of_back.rotate_left(same);
+        }
+        // Each way ends as it begins.
+        for way in [&mut there, &mut of_back] {
+            way.extend_from_within(..1);
+        }
+        there.into_iter().chain(of_back.into_iter().rev()).collect()
+    }
+
+    fn range(&self, exponent: f64) -> LineValue {
         let (tau1, rest) = (&self.stresses.tau1, self.rest.tau1());
         if !self.is_swept {
             return self.largest(|k| (tau1[k] - rest).abs());
         }
         let (high, low) = (self.largest(|k| tau1[k]), self.largest(|k| -tau1[k]));
         let [most, least] = [high.value, (-low.value).max(0.0)];
+        let Equivalent { range, gain } = self.counted(exponent, [rest, 0.0], &|own, k| own.stresses.tau1[k]);
         if !self.comes_from_rest() {
-            return LineValue { value: most - least, ..high };
+            return LineValue { value: range, gain, ..high };
         }
         // Where the extreme is that of rest, stresses beyond the window may pass it by as much as they differ from it at its border.
         let ends = [tau1.first(), tau1.get(self.ordered.saturating_sub(1))];
         let away = ends.into_iter().flatten().map(|end| (end - rest).abs()).fold(0.0, f64::max);
         let is_extreme = rest > 0.0 && (rest >= most || rest <= least);
         let place = if rest > most { low.place } else { high.place };
-        LineValue { value: most.max(rest) - least.min(rest), place, beyond: if is_extreme { away } else { 0.0 } }
+        LineValue { value: range, place, beyond: if is_extreme { away } else { 0.0 }, gain }
     }
 
     /// The longest chord of a path of points, each a sample or, the last one, the state of rest; its length between the samples too,
@@ -195,7 +278,7 @@ impl LinePath<'_> {
         self.stresses.places[larger.unwrap_or(0)]
     }
 
-    fn shear_range(&self) -> LineValue {
+    fn shear_range(&self, exponent: f64) -> LineValue {
         let shear = &self.stresses.shear;
         let size = |k: usize| shear[k][0].hypot(shear[k][1]);
         if !self.is_swept {
@@ -203,8 +286,22 @@ impl LinePath<'_> {
         }
         let rest = self.comes_from_rest().then_some([0.0; 2]);
         let points: Vec<[f64; 2]> = shear.iter().copied().chain(rest).collect();
-        let Chord { ends, length } = self.chord(&points);
-        LineValue { value: length, place: self.place_of_end(ends, size), beyond: 0.0 }
+        let Chord { ends, .. } = longest_chord(&points);
+        let place = self.place_of_end(ends, size);
+        let back = self.back.map_or(&[][..], |own| &own.stresses.shear);
+        let all: Vec<[f64; 2]> = points.iter().chain(back).copied().collect();
+        let Chord { ends: [from, to], length } = longest_chord(&all);
+        if !(length > 0.0 && length.is_finite()) {
+            return LineValue { value: length, place, beyond: 0.0, gain: 1.0 };
+        }
+        let angle = (all[to][1] - all[from][1]).atan2(all[to][0] - all[from][0]);
+        let toward = |angle: f64| {
+            let (sine, cosine) = angle.sin_cos();
+            let part = move |own: &Self, k: usize| own.stresses.shear[k][0] * cosine + own.stresses.shear[k][1] * sine;
+            self.counted(exponent, [0.0, f64::NEG_INFINITY], &part)
+        };
+        let Equivalent { range, gain } = most_damaging(angle, toward);
+        LineValue { value: range, place, beyond: 0.0, gain }
     }
 
     /// Deviators of the samples, and of rest where the path comes from there.
@@ -238,7 +335,7 @@ impl LinePath<'_> {
         }
         let size = |k: usize| points[k].iter().map(|x| x * x).sum::<f64>();
         let place = self.place_of_end(ends, size);
-        LineValue { value: endurance.crossland(0.5 * length, pressed), place, beyond }
+        LineValue { value: endurance.crossland(0.5 * length, pressed), place, beyond, gain: 1.0 }
     }
 
     /// Whether a sample is the first or the last of the window of an isolated contact.
@@ -285,6 +382,25 @@ impl LinePath<'_> {
     }
 }
 
+/// The longest cycle of all directions, from one on that has that of a single cycle.
+fn most_damaging(first: f64, toward: impl Fn(f64) -> Equivalent) -> Equivalent {
+    let mut apart = PI / DIRECTIONS as f64;
+    let mut best = (first, toward(first));
+    let longer = |best: (f64, Equivalent), angle: f64| {
+        let own = toward(angle);
+        if own.range > best.1.range { (angle, own) } else { best }
+    };
+    for k in 1..DIRECTIONS {
+        best = longer(best, first + apart * k as f64);
+    }
+    for _ in 0..HALVINGS {
+        apart *= 0.5;
+        let middle = best.0;
+        best = [-apart, apart].into_iter().fold(best, |best, by| longer(best, middle + by));
+    }
+    best.1
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -297,10 +413,13 @@ mod tests {
             shear: states.iter().map(|own| [own.xz, own.yz]).collect(),
             stress: states.to_vec(),
         };
-        let (ordered, rest) = (states.len(), StressState::default());
-        measure
-            .along(&LinePath { stresses: &stresses, path, ordered, columns: ordered, is_smooth: true, rest, is_swept })
-            .value
+        measure.along(&path_of(&stresses, path, is_swept)).value
+    }
+
+    fn path_of(stresses: &LineStresses, path: SlidingPath, is_swept: bool) -> LinePath<'_> {
+        let (run, rest) = (stresses.places.len(), StressState::default());
+        let (ordered, edges, times, back, is_smooth) = (run, Vec::new(), 1.0, None, true);
+        LinePath { stresses, path, ordered, run, edges, times, back, is_smooth, rest, is_swept }
     }
 
     const CLOSED: SlidingPath = SlidingPath::LatticeVector([1, 0]);
@@ -351,7 +470,7 @@ mod tests {
         });
         let pressed = -1.0 / 3.0;
         let known = [own.crossland(0.7, pressed), own.dang_van(0.7, pressed), 1.4];
-        let measures = [PathMeasure::Crossland(own), PathMeasure::DangVan(own), PathMeasure::ShearRange];
+        let measures = [PathMeasure::Crossland(own), PathMeasure::DangVan(own), PathMeasure::ShearRange(6.0)];
         for (measure, known) in measures.into_iter().zip(known) {
             let found = along(measure, &states, CLOSED, true);
             assert!((found - known).abs() < 1e-12, "{measure:?}: {found}, {known}");
@@ -362,10 +481,12 @@ mod tests {
     #[test]
     fn a_shear_that_reverses_counts_twice_as_a_traction() {
         let states = cycle(|_, cosine| StressState { xz: cosine, ..StressState::default() });
-        assert!((along(PathMeasure::ShearRange, &states, CLOSED, true) - 2.0).abs() < 1e-13);
-        assert!((along(PathMeasure::Range, &states, CLOSED, true) - 1.0).abs() < 1e-13);
+        assert!((along(PathMeasure::ShearRange(6.0), &states, CLOSED, true) - 2.0).abs() < 1e-13);
+        // τ₁ rises twice from 0 to 1.
+        let twice = along(PathMeasure::Range(6.0), &states, CLOSED, true) / 2f64.powf(1.0 / 6.0);
+        assert!((twice - 1.0).abs() < 1e-13, "{twice}");
         let pressed = cycle(|_, cosine| StressState { xz: 2.0 + cosine, ..StressState::default() });
-        let range = |path: SlidingPath, is_swept: bool| along(PathMeasure::Range, &pressed, path, is_swept);
+        let range = |path: SlidingPath, is_swept: bool| along(PathMeasure::Range(6.0), &pressed, path, is_swept);
         assert!(
             (range(CLOSED, true) - 2.0).abs() < 1e-13 && (range(SlidingPath::FromFarAway, true) - 3.0).abs() < 1e-13
         );
@@ -379,8 +500,41 @@ mod tests {
         let states: Vec<StressState> = (0..96)
             .map(|k| StressState { xz: 2.0 + ((f64::from(k) + 0.4) * h).cos(), ..StressState::default() })
             .collect();
-        let off = along(PathMeasure::Range, &states, CLOSED, true) - 2.0;
+        let off = along(PathMeasure::Range(6.0), &states, CLOSED, true) - 2.0;
         assert!(off.abs() < h.powi(4) / 24.0, "{off:e}");
+    }
+
+    /// A shear from −1 to 2 on the way there and from −2 to 1 back: each way has a range of 3, and where they join there is one of 4; an
+    /// edge of contact counts where it lies.
+    #[test]
+    fn there_and_back_the_signs_of_both_ways_count() {
+        let of = |states: &[StressState]| LineStresses {
+            places: (0..states.len()).map(|k| [k as f64, 0.0]).collect(),
+            tau1: states.iter().map(StressState::tau1).collect(),
+            shear: states.iter().map(|own| [own.xz, own.yz]).collect(),
+            stress: Vec::new(),
+        };
+        let wave =
+            |sign: f64| cycle(|_, cosine| StressState { yz: sign * (0.5 + 1.5 * cosine), ..StressState::default() });
+        let [there, back] = [1.0, -1.0].map(|sign| of(&wave(sign)));
+        let back = path_of(&back, CLOSED, true);
+        let measure = PathMeasure::ShearRange(4.0);
+        for times in [1.0, 5.0] {
+            let own = LinePath { times, back: Some(&back), ..path_of(&there, CLOSED, true) };
+            let known = 4f64.powi(4) + 2.0 * times * 3f64.powi(4);
+            let found = measure.along(&own).value;
+            assert!((found / known.powf(0.25) - 1.0).abs() < 1e-12, "{found}");
+        }
+        let mut states = wave(1.0);
+        states.push(StressState { yz: 3.0, ..StressState::default() });
+        let stresses = of(&states);
+        let own = LinePath { ordered: 96, run: 96, edges: vec![0.5], ..path_of(&stresses, CLOSED, true) };
+        assert!((measure.along(&own).value - 4.0).abs() < 1e-12, "an edge at the maximum makes it higher");
+        let own = LinePath { edges: vec![48.5], ..own };
+        // Behind it the shear goes on from the sample behind the minimum.
+        let low = 0.5 + 1.5 * (TAU * 49.0 / 96.0).cos();
+        let known = (4f64.powi(4) + (2.0 - low).powi(4)).powf(0.25);
+        assert!((measure.along(&own).value / known - 1.0).abs() < 1e-12, "at the minimum it is a cycle of itself");
     }
 
     #[test]

@@ -4,7 +4,7 @@
 //! 1. **Planes** at depths that are denser towards the faces of each material, both sides of each interface among them: on each the
 //!    measures along every line ([`super::path_measure`]). They are the map of damage too.
 //! 2. **Between**: from the largest values over the depths on, parabolas in depth lead to further planes, until they promise no
-//!    more; across the lines the top is that of a parabola.
+//!    more; across the lines the top is that of a parabola. The best plane of a range is read once more on denser lines and places.
 //! 3. **Errors** as those of the largest stresses ([`super::maxima::Maxima::with_errors`]): from the value at the same depth on the
 //!    next coarser grid, and by the samples along the radius of the smallest spot.
 //!
@@ -15,7 +15,7 @@ use super::constants::{
     CHANGE_SAFETY, DEEP_SHEAR_ERROR, EXACT_ERROR, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES, SHALLOW_ERROR,
 };
 use super::field::StressField;
-use super::line_plane::Kept;
+use super::line_plane::{Kept, LinePlane, LineStresses};
 use super::path_measure::{LinePath, LineValue, PathMeasure};
 use super::plane_search::SEARCH_REACH;
 use super::range_plane::{RangePlane, on_common_lines};
@@ -29,7 +29,7 @@ use rayon::prelude::*;
 const MAX_PLANES: usize = 8;
 /// Part of a value that a further plane must promise.
 const LEAST_RISE: f64 = 2e-5;
-/// Part of a value that the search between planes, lines and places leaves open, with twelve places to a radius.
+/// Part of a value that the search between planes, lines and places leaves open, with sixteen places to a radius.
 const LEFT_OPEN: f64 = 2e-4;
 
 /// Which measures are searched.
@@ -44,6 +44,16 @@ pub(crate) struct PathSought {
 impl PathSought {
     /// All of them.
     pub const ALL: Self = Self { fatigue: true, endurance: true };
+}
+
+/// What a pass is, on the path of a body.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct PassOver<'a> {
+    /// Length of one way of the counterbody over a lattice, a length; `None`: one period. Past an isolated contact a point comes once.
+    pub way: Option<f64>,
+    /// Stresses on the way back, where the counterbody goes to and fro, and those on the next coarser grid.
+    pub back: Option<&'a StressField>,
+    pub coarser_back: Option<&'a StressField>,
 }
 
 /// A largest measure and its place.
@@ -112,6 +122,12 @@ struct SearchedLines {
 /// y and number of a line, and the states on edges of contact that belong to it, with their places.
 type NumberedLine = (f64, usize, Vec<([f64; 2], StressState)>);
 
+/// Numbered lines of a plane, y ascending, with their plane.
+struct NumberedLines {
+    plane: LinePlane,
+    lines: Vec<NumberedLine>,
+}
+
 /// The largest value of a measure on a plane, between the lines too.
 #[derive(Debug, Clone, Copy)]
 struct Best {
@@ -120,6 +136,7 @@ struct Best {
     place: [f64; 2],
     y: f64,
     beyond: f64,
+    gain: f64,
 }
 
 /// What the searches share.
@@ -128,6 +145,9 @@ struct PathSearch<'a> {
     direction: [f64; 2],
     radii: [f64; 2],
     coarser: Option<&'a StressField>,
+    /// Times that a pass goes along the path, in one way.
+    times: f64,
+    pass: PassOver<'a>,
     goes_on: &'a dyn Fn() -> bool,
 }
 
@@ -142,8 +162,23 @@ impl StressField {
         coarser: Option<&Self>,
         goes_on: &dyn Fn() -> bool,
     ) -> Option<PathPeaks> {
+        self.path_peaks_of_pass(direction, radii, (sought, PassOver::default()), coarser, goes_on)
+    }
+
+    /// The largest measures of fatigue of a pass, as [`Self::path_peaks_while`].
+    pub(crate) fn path_peaks_of_pass(
+        &self,
+        direction: [f64; 2],
+        radii: [f64; 2],
+        (sought, pass): (PathSought, PassOver<'_>),
+        coarser: Option<&Self>,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<PathPeaks> {
         let lines = self.sliding_lines(direction);
-        let search = PathSearch { lines, direction, radii, coarser, goes_on };
+        let times = pass.way.zip(lines.period()).map_or(1.0, |(way, period)| way / period);
+        // Where the path never closes a line stands for all of them, as much of it as the period is long.
+        let times = times * lines.period().map_or(1.0, |period| period / lines.length());
+        let search = PathSearch { lines, direction, radii, coarser, times, pass, goes_on };
         let (mut materials, mut interfaces, mut planes) = (Vec::new(), Vec::new(), Vec::new());
         for (number, durability) in (1..).zip(self.half_space().durabilities()) {
             let measures = measures(durability, sought);
@@ -152,19 +187,20 @@ impl StressField {
                 measures.iter().zip(&peaks).find(|(own, _)| wanted(own)).map(|(_, peak)| *peak)
             };
             materials.push(MaterialPeaks {
-                range: of(|own| matches!(own, PathMeasure::Range)),
+                range: of(|own| matches!(own, PathMeasure::Range(_))),
                 crossland: of(|own| matches!(own, PathMeasure::Crossland(_))),
                 dang_van: of(|own| matches!(own, PathMeasure::DangVan(_))),
             });
             let ranges = |own: SearchedLines| {
                 let values = own.values.iter().zip(&own.y).map(|(line, &y)| [y, line[0].value]);
-                RangePlane { depth: own.depth, lines: values.collect(), period: lines.period() }
+                RangePlane { depth: own.depth, lines: values.collect(), period: lines.period_across() }
             };
-            planes.extend(own.into_iter().filter(|_| measures.contains(&PathMeasure::Range)).map(ranges));
+            let tires = measures.iter().any(|own| matches!(own, PathMeasure::Range(_)));
+            planes.extend(own.into_iter().filter(|_| tires).map(ranges));
             if let Some(layer) = self.half_space().layers().get(number - 1) {
                 let fatigue = transmitted(layer).filter(|_| sought.fatigue);
                 interfaces.push(match fatigue {
-                    Some(_) => Some(self.on_interface(number, &search)?),
+                    Some(law) => Some(self.on_interface(number, law, &search)?),
                     None => None,
                 });
             }
@@ -189,7 +225,7 @@ impl StressField {
         }
         let depths = self.search_depths(material, search.radii);
         self.read_ahead(depths.iter().map(|&z| Depth { z, material }));
-        let plane = |&z: &f64| (search.goes_on)().then(|| self.searched_lines(Depth { z, material }, measures, search));
+        let plane = |&z: &f64| (search.goes_on)().then(|| self.own_lines(Depth { z, material }, measures, search));
         let planes: Vec<SearchedLines> = depths.iter().map(plane).collect::<Option<_>>()?;
         let mut peaks = Vec::new();
         for (number, &measure) in measures.iter().enumerate() {
@@ -208,29 +244,88 @@ impl StressField {
     }
 
     /// The largest range of the shear traction that an interface transmits.
-    fn on_interface(&self, number: usize, search: &PathSearch<'_>) -> Option<PathPeak> {
+    fn on_interface(&self, number: usize, law: Fatigue, search: &PathSearch<'_>) -> Option<PathPeak> {
         if !(search.goes_on)() {
             return None;
         }
         let depth = Depth { z: self.half_space().faces(number).1, material: number };
-        let plane = self.searched_lines(depth, &[PathMeasure::ShearRange], search);
-        let best = self.best(&plane, 0, search);
-        Some(largest(&[(best, self.error(&best, PathMeasure::ShearRange, search))]))
+        let measure = PathMeasure::ShearRange(law.exponent());
+        let best = self.finely(depth, measure, search);
+        Some(largest(&[(best, self.error(&best, measure, search))]))
     }
 
-    /// Measures along all lines of a plane.
-    fn searched_lines(&self, depth: Depth, measures: &[PathMeasure], search: &PathSearch<'_>) -> SearchedLines {
+    /// Measures along all lines of a plane on the grid of the search.
+    fn own_lines(&self, depth: Depth, measures: &[PathMeasure], search: &PathSearch<'_>) -> SearchedLines {
+        self.searched_lines(depth, measures, search, (search.pass.back, false))
+    }
+
+    /// The largest value of a measure on a plane, read on lines and places that are denser.
+    fn finely(&self, depth: Depth, measure: PathMeasure, search: &PathSearch<'_>) -> Best {
+        self.best(&self.searched_lines(depth, &[measure], search, (search.pass.back, true)), 0, search)
+    }
+
+    /// Measures along all lines of a plane, where the counterbody goes to and fro with the stresses `back`; `finely`: on denser
+    /// lines and places.
+    fn searched_lines(
+        &self,
+        depth: Depth,
+        measures: &[PathMeasure],
+        search: &PathSearch<'_>,
+        (back, finely): (Option<&Self>, bool),
+    ) -> SearchedLines {
         let has = |wanted: fn(&PathMeasure) -> bool| measures.iter().any(wanted);
         let kept = Kept {
-            tau1: has(|own| matches!(own, PathMeasure::Range)),
-            shear: has(|own| matches!(own, PathMeasure::ShearRange)),
+            tau1: has(|own| matches!(own, PathMeasure::Range(_))),
+            shear: has(|own| matches!(own, PathMeasure::ShearRange(_))),
             stress: has(|own| matches!(own, PathMeasure::Crossland(_) | PathMeasure::DangVan(_))),
+            finely,
         };
+        let (lines, times) = (&search.lines, search.times);
+        let all = self.numbered_lines(depth, search, kept);
+        let back = back.map(|back| (back, back.numbered_lines(depth, search, kept)));
+        let along = |number: usize| -> Vec<LineValue> {
+            let (stresses, edges) = all.stresses(self, number, lines, kept);
+            let own = self.line_path((&all.plane, depth), &stresses, edges, (lines, times));
+            let of_back = back.as_ref().map(|(field, all)| (*field, all, all.stresses(field, number, lines, kept)));
+            let back = of_back.as_ref().map(|(field, all, (stresses, edges))| {
+                field.line_path((&all.plane, depth), stresses, edges.clone(), (lines, times))
+            });
+            let own = LinePath { back: back.as_ref(), ..own };
+            measures.iter().map(|measure| measure.along(&own)).collect()
+        };
+        let values = (0..all.lines.len()).into_par_iter().map(along).collect();
+        SearchedLines { depth, y: all.lines.iter().map(|own| own.0).collect(), values, is_smooth: all.plane.is_smooth }
+    }
+
+    /// The path of the stresses along a line of a plane, those on edges of contact behind the others.
+    fn line_path<'a>(
+        &self,
+        (plane, depth): (&LinePlane, Depth),
+        stresses: &'a LineStresses,
+        edges: Vec<f64>,
+        (lines, times): (&SlidingLines, f64),
+    ) -> LinePath<'a> {
+        let ordered = stresses.places.len() - edges.len();
+        LinePath {
+            stresses,
+            path: lines.path,
+            ordered,
+            run: if lines.path == SlidingPath::FromFarAway { ordered } else { lines.run(plane.points) },
+            edges,
+            times,
+            back: None,
+            is_smooth: plane.is_smooth,
+            rest: self.at_rest(depth.material),
+            is_swept: self.is_swept(),
+        }
+    }
+
+    /// The lines of a plane, y ascending, with the states on edges of contact that belong to them.
+    fn numbered_lines(&self, depth: Depth, search: &PathSearch<'_>, kept: Kept) -> NumberedLines {
         let (cell, lines) = (self.grid().cell(), &search.lines);
         let plane = self.line_plane(lines, depth, search.radii[0], kept);
-        let (rest, is_swept) = (self.at_rest(depth.material), self.is_swept());
         let edges = if depth == Depth::SURFACE { self.states_on_edges() } else { Vec::new() };
-        let period = lines.period();
+        let period = lines.period_across();
         let number = |line: usize| {
             let y = lines.y(plane.first_place(cell, line)?);
             Some((period.map_or(y, |period| y.rem_euclid(period)), line, Vec::new()))
@@ -246,16 +341,7 @@ impl StressField {
             let nearest = all.iter_mut().min_by(|a, b| away(a.0).total_cmp(&away(b.0)));
             nearest.into_iter().for_each(|(_, _, own)| own.push((place, state)));
         }
-        let along = |(_, line, edges): &NumberedLine| -> Vec<LineValue> {
-            let mut stresses = plane.line(cell, *line);
-            let ordered = stresses.places.len();
-            edges.iter().for_each(|&(place, state)| stresses.push(place, state, kept));
-            let (path, is_smooth, columns) = (lines.path, plane.is_smooth, plane.points.columns);
-            let own = LinePath { stresses: &stresses, path, ordered, columns, is_smooth, rest, is_swept };
-            measures.iter().map(|measure| measure.along(&own)).collect()
-        };
-        let values = all.par_iter().map(along).collect();
-        SearchedLines { depth, y: all.iter().map(|own| own.0).collect(), values, is_smooth: plane.is_smooth }
+        NumberedLines { plane, lines: all }
     }
 
     /// The largest value of a measure, by its number, on a plane.
@@ -268,7 +354,7 @@ impl StressField {
     fn between_lines(&self, plane: &SearchedLines, measure: usize, line: usize, search: &PathSearch<'_>) -> Best {
         let n = plane.y.len();
         let Some(own) = plane.values.get(line).map(|own| own[measure]) else {
-            return Best { value: 0.0, depth: plane.depth, place: [0.0; 2], y: 0.0, beyond: 0.0 };
+            return Best { value: 0.0, depth: plane.depth, place: [0.0; 2], y: 0.0, beyond: 0.0, gain: 1.0 };
         };
         let is_closed = search.lines.is_closed();
         let beside = if plane.is_smooth && n >= 3 && (is_closed || (0 < line && line + 1 < n)) {
@@ -280,7 +366,7 @@ impl StressField {
             .map_or((0.0, 0.0), |(t, value)| (value - own.value, t));
         let step = search
             .lines
-            .period()
+            .period_across()
             .map_or_else(|| plane.y.get(1).map_or(0.0, |y| y - plane.y[0]), |period| period / n as f64);
         let moved = offset * step;
         let [ex, ey] = search.direction;
@@ -291,6 +377,7 @@ impl StressField {
             place,
             y: plane.y[line] + moved,
             beyond: own.beyond,
+            gain: own.gain,
         }
     }
 
@@ -316,7 +403,10 @@ impl StressField {
             .collect();
         for start in starts {
             let best = self.between_depths(&mut deep, start, measure, search)?;
-            all.push(best);
+            all.push(match measure {
+                PathMeasure::Range(_) if (search.goes_on)() => self.finely(best.depth, measure, search),
+                _ => best,
+            });
         }
         Some(all)
     }
@@ -346,7 +436,7 @@ impl StressField {
                 return None;
             }
             let depth = Depth { z: next, material: known[at].depth.material };
-            let best = self.best(&self.searched_lines(depth, &[measure], search), 0, search);
+            let best = self.best(&self.own_lines(depth, &[measure], search), 0, search);
             let place = known.partition_point(|own| own.depth.z < next);
             known.insert(place, best);
             at = match best.value > known[if place <= at { at + 1 } else { at }].value {
@@ -361,7 +451,7 @@ impl StressField {
     /// Estimated error of a value; `None` without a coarser grid.
     fn error(&self, best: &Best, measure: PathMeasure, search: &PathSearch<'_>) -> Option<f64> {
         let coarser = search.coarser?;
-        let plane = coarser.searched_lines(best.depth, &[measure], search);
+        let plane = coarser.searched_lines(best.depth, &[measure], search, (search.pass.coarser_back, false));
         let coarse = coarser.beside(&plane, best.y, search);
         let state = self.stresses_at(&self.depth_response(best.depth, SEARCH_REACH), &[best.place]);
         let size = state.first().map_or(0.0, |state| self.size_of_waves(best.depth, state));
@@ -374,14 +464,15 @@ impl StressField {
         };
         let ringing = if is_near { self.regions().ringing() } else { 0.0 };
         let left = if is_near { 0.0 } else { LEFT_OPEN * best.value.abs() };
-        Some(CHANGE_SAFETY * (best.value - coarse).abs() + measure.rise(open * size + ringing + best.beyond) + left)
+        let rise = best.gain * measure.rise(open * size + ringing + best.beyond);
+        Some(CHANGE_SAFETY * (best.value - coarse).abs() + rise + left)
     }
 
     /// The largest value of the only measure of a plane beside a line at y.
     fn beside(&self, plane: &SearchedLines, y: f64, search: &PathSearch<'_>) -> f64 {
         let away = |own: &f64| {
             let away = own - y;
-            search.lines.period().map_or(away, |period| away - period * (away / period).round()).abs()
+            search.lines.period_across().map_or(away, |period| away - period * (away / period).round()).abs()
         };
         let n = plane.y.len();
         let Some(mut line) = (0..n).min_by(|&a, &b| away(&plane.y[a]).total_cmp(&away(&plane.y[b]))) else {
@@ -397,9 +488,39 @@ impl StressField {
     }
 }
 
+impl NumberedLines {
+    /// Stresses along a line, by its place among them, with those on edges of contact behind the others, and where those lie on the path.
+    fn stresses(
+        &self,
+        field: &StressField,
+        number: usize,
+        lines: &SlidingLines,
+        kept: Kept,
+    ) -> (LineStresses, Vec<f64>) {
+        let (_, line, edges) = &self.lines[number];
+        let mut stresses = self.plane.line(field.grid().cell(), *line);
+        let positions = edges.iter().map(|&(place, _)| match lines.path {
+            SlidingPath::FromFarAway => between_places(&stresses.places, place),
+            _ => lines.position(place, *line, self.plane.points),
+        });
+        let positions = positions.collect();
+        edges.iter().for_each(|&(place, state)| stresses.push(place, state, kept));
+        (stresses, positions)
+    }
+}
+
+/// Where a place lies among others on a straight line: the number of the one before it and the part of the way to the next.
+fn between_places(places: &[[f64; 2]], [x, y]: [f64; 2]) -> f64 {
+    let (Some([first_x, first_y]), Some([last_x, last_y])) = (places.first(), places.last()) else { return 0.0 };
+    let along = [last_x - first_x, last_y - first_y];
+    let part = ((x - first_x) * along[0] + (y - first_y) * along[1]) / (along[0] * along[0] + along[1] * along[1]);
+    let last = places.len().saturating_sub(1) as f64;
+    if part.is_finite() { (part * last).clamp(0.0, last) } else { 0.0 }
+}
+
 /// Measures of a material.
 fn measures(durability: Durability, sought: PathSought) -> Vec<PathMeasure> {
-    let range = durability.fatigue.filter(|_| sought.fatigue).map(|_| PathMeasure::Range);
+    let range = durability.fatigue.filter(|_| sought.fatigue).map(|law| PathMeasure::Range(law.exponent()));
     let limits = durability
         .endurance
         .filter(|_| sought.endurance)

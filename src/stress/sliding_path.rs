@@ -2,8 +2,9 @@
 //!
 //! The counterbody slides along **e**: in its own frame a point of the body moves along a straight line, y across **e** and z
 //! constant. On a lattice the line closes where **e** is the direction of a lattice vector m₁**a**₁ + m₂**a**₂: then it is one period
-//! long. In any other direction it comes as near as one likes to every place of the plane, and all of them count. At an isolated
-//! contact it comes from far away and goes there, from rest to rest.
+//! long. In any other direction it comes as near as one likes to every place of the plane: all points of the body at a depth are
+//! damaged alike, by the mean over the lines of the nearest direction that closes within a few cells. At an isolated contact it comes
+//! from far away and goes there, from rest to rest.
 //!
 //! Lines are sampled by rows and columns: rows follow one another along the cell vector **a** that **e** is nearest to, and in each row
 //! the columns, along the other one **b**, are shifted by the slope of **e**, so that a column is a part of a line. A path crosses the cell |m| times
@@ -15,6 +16,8 @@ use serde::{Deserialize, Serialize};
 
 /// Tolerance of the whole multiples of a direction.
 const WHOLE_TOLERANCE: f64 = 1e-9;
+/// Most cells that a line crosses before it closes, of the direction that stands for one that never closes.
+const MOST_TURNS: i32 = 32;
 /// Columns of a whole turn of an isolated contact that lie before the window, at most, when they are sheared: the rest lies behind.
 const BEHIND: f64 = 0.75;
 
@@ -77,7 +80,25 @@ impl SlidingLines {
                 let [m, n] = [multiples[advance], multiples[1 - advance]];
                 of(SlidingPath::LatticeVector(multiples), f64::from(n) / f64::from(m), m, n)
             }
-            None => of(SlidingPath::WholePlane, 0.0, 1, 0),
+            None => {
+                let [m, n] = nearest_ratio(slope);
+                of(SlidingPath::WholePlane, f64::from(n) / f64::from(m), m, n)
+            }
+        }
+    }
+
+    /// Length of a line until it closes, a length.
+    pub fn length(&self) -> f64 {
+        self.turns as f64 * self.lengths()[2]
+    }
+
+    /// Distance after which a point of the body has met what it meets, a length: the lattice vector, or where the path never closes the
+    /// side of a square as large as the cell. `None` of an isolated contact, which a point meets once.
+    pub fn period(&self) -> Option<f64> {
+        match self.path {
+            SlidingPath::LatticeVector(_) => Some(self.length()),
+            SlidingPath::WholePlane => Some(self.cell.area().sqrt()),
+            SlidingPath::FromFarAway => None,
         }
     }
 
@@ -113,8 +134,13 @@ impl SlidingLines {
     }
 
     /// Distance after which lines repeat, across **e**, a length; `None` where they do not.
-    pub fn period(&self) -> Option<f64> {
+    pub fn period_across(&self) -> Option<f64> {
         self.is_closed().then(|| self.apart(1.0).abs() / self.turns as f64)
+    }
+
+    /// Number of samples of a line from one end to the other, of those that [`Self::samples`] puts one behind the other.
+    pub fn run(&self, points: LinePoints) -> usize {
+        self.turns * points.rows
     }
 
     /// y of lines a fraction of **b** apart.
@@ -130,15 +156,35 @@ impl SlidingLines {
     /// Rows and columns of the samples of a line, from one end to the other, all of the cell.
     pub fn samples(&self, line: usize, points: LinePoints) -> Vec<[usize; 2]> {
         let LinePoints { rows, columns } = points;
-        if self.path == SlidingPath::WholePlane {
-            return (0..rows).flat_map(|row| (0..columns).map(move |column| [row, column])).collect();
-        }
-        let step = columns / self.turns;
-        let part = |turn: usize| {
-            let moved = i64::from(self.across) * (turn * step) as i64;
-            (line as i64 + moved).rem_euclid(columns as i64) as usize
+        let own = match self.path {
+            SlidingPath::WholePlane => 0..columns / self.turns,
+            _ => line..line + 1,
         };
-        (0..self.turns).flat_map(|turn| (0..rows).map(move |row| [row, part(turn)])).collect()
+        let turns = own.flat_map(|line| (0..self.turns).map(move |turn| (line, turn)));
+        turns.flat_map(|turn| (0..rows).map(move |row| [row, self.column(turn, columns)])).collect()
+    }
+
+    /// Column of a turn of a line.
+    fn column(&self, (line, turn): (usize, usize), columns: usize) -> usize {
+        let moved = i64::from(self.across) * (turn * (columns / self.turns)) as i64;
+        (line as i64 + moved).rem_euclid(columns as i64) as usize
+    }
+
+    /// Where a place of a cell lies among the samples of a line: the number of the sample before it and the part of the way to the next.
+    pub fn position(&self, place: [f64; 2], line: usize, points: LinePoints) -> f64 {
+        let LinePoints { rows, columns } = points;
+        let parts = self.cell.parts(place);
+        let u = parts[self.advance].rem_euclid(1.0);
+        let column = (parts[1 - self.advance] - self.shift(u)) * columns as f64;
+        let away = |own: usize| {
+            let away = (column - own as f64) / columns as f64;
+            (away - away.round()).abs()
+        };
+        let lines = if self.path == SlidingPath::WholePlane { 0..columns / self.turns } else { line..line + 1 };
+        let turns = lines.flat_map(|line| (0..self.turns).map(move |turn| (line, turn))).enumerate();
+        let nearest =
+            turns.min_by(|(_, a), (_, b)| away(self.column(*a, columns)).total_cmp(&away(self.column(*b, columns))));
+        nearest.map_or(0.0, |(number, _)| (number * rows) as f64 + u * rows as f64)
     }
 
     /// Fraction of **b** by which the columns of a row are shifted, at the fraction u of **a** of the row: nothing in the middle of a
@@ -154,6 +200,22 @@ impl SlidingLines {
         let own = [u, v + self.shift(u)];
         [own[self.advance], own[1 - self.advance]]
     }
+}
+
+/// m and n, without a common factor, 0 < m ≤ 32, of the ratio n/m that misses a slope by the least distance after m cells.
+fn nearest_ratio(slope: f64) -> [i32; 2] {
+    let whole = |m: i32| (slope * f64::from(m)).round() as i32;
+    let off = |m: i32| (slope * f64::from(m) - f64::from(whole(m))).abs();
+    let is_reduced = |m: &i32| (2..=*m).all(|k| m % k != 0 || whole(*m) % k != 0);
+    let best = (1..=MOST_TURNS).filter(is_reduced).min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap_or(1);
+    [best, whole(best)]
+}
+
+/// Distance after which a point of the body has met what it meets under a counterbody that slides along a direction of any length, a
+/// length; `None` of an isolated contact.
+pub(crate) fn period_along(cell: Cell, [x, y]: [f64; 2]) -> Option<f64> {
+    let length = x.hypot(y);
+    SlidingLines::new(cell, [x / length, y / length]).period()
 }
 
 #[cfg(test)]
@@ -212,7 +274,16 @@ mod tests {
             }
             assert!(met.iter().all(|&times| times == 1), "{multiples:?}: {met:?}");
             let length = direction[0].hypot(direction[1]);
-            assert!((own.period().unwrap() * length / cell.area() - 1.0).abs() < 1e-12, "{multiples:?}");
+            assert!((own.period_across().unwrap() * length / cell.area() - 1.0).abs() < 1e-12, "{multiples:?}");
+            assert!((own.period().unwrap() / length - 1.0).abs() < 1e-12, "{multiples:?}");
+            for line in 0..count {
+                for (number, [row, column]) in own.samples(line, points).into_iter().enumerate() {
+                    let place =
+                        cell.point(own.fractions((row as f64 + 0.25) / 6.0, column as f64 / points.columns as f64));
+                    let position = own.position(place, line, points);
+                    assert!((position - number as f64 - 0.25).abs() < 1e-9, "{multiples:?}: {position}, {number}");
+                }
+            }
         }
     }
 }

@@ -23,6 +23,13 @@ fn without_a_case_a_coating_that_tires_is_followed_to_its_end() {
     let life = file(&desk);
     let first = &life["first"];
     assert!(first["interface"] == 1 && first["name"] == "TiN/tool steel" && number(first, "/z") == 2.0, "{first}");
+    assert!(
+        first["kind"] == "delamination" && number(first, "/distance") == 40.0 * number(first, "/passes"),
+        "{first}"
+    );
+    for own in [&life["criteria"][2], &life["events"][1], &life["wear"][1]] {
+        assert!((number(own, "/distance") / number(own, "/passes") - 40.0).abs() < 1e-12, "{own}");
+    }
     assert_eq!(life["criteria"].as_array().unwrap().len(), 3);
     let events = life["events"].as_array().unwrap();
     assert!(events[0]["what"] == "delamination" && number(&events[0], "/thickness") == 0.0 && events.len() > 2);
@@ -34,7 +41,9 @@ fn without_a_case_a_coating_that_tires_is_followed_to_its_end() {
         assert!(desk.path("out").join(name).is_file(), "{name}");
     }
     assert!(!desk.path("out/unfinished-life").exists());
-    for words in ["first damage at", "delamination", "passes until damage 1", "loads solved"] {
+    for words in
+        ["first damage at", "after sliding", "delamination", "distance (", "passes until damage 1", "loads solved"]
+    {
         assert!(answer.out.contains(words), "\"{words}\" does not stand in\n{}", answer.out);
     }
     assert!(answer.out.lines().all(|line| line.chars().count() <= 80), "wider than a terminal:\n{}", answer.out);
@@ -230,4 +239,84 @@ fn a_counterbody_that_fails_is_warned_of_since_only_the_body_is_followed() {
     let passes = number(&first, "/first/passes");
     let (longer, followed) = life(&format!("life.passes={}", 1.01 * passes));
     assert!(longer.err.contains(warning) && followed["end"] == "passes", "{}", longer.err);
+}
+
+/// A ball on a coated disc that wear both.
+const BALL: &str = r#"
+[lattice]
+kind = "isolated"
+size = 100.0
+[[levels]]
+shape = "sphere"
+radius = 3000.0
+[[layers]]
+name = "soft layer"
+thickness = 0.02
+young = 100.0
+poisson = 0.3
+wear = 1e-5
+[substrate]
+name = "base"
+young = 210.0
+poisson = 0.3
+[counterbody]
+name = "ball"
+young = 210.0
+poisson = 0.3
+wear = 1e-7
+[load]
+force = 100
+[friction]
+coefficient = 0.2
+[units]
+length = "µm"
+pressure = "GPa"
+[grid]
+points = 40
+[life]
+passes = 2000
+tolerance = 0.1
+"#;
+
+#[test]
+fn a_ball_that_wears_needs_the_length_of_its_track_and_has_a_scar() {
+    let desk = Desk::new();
+    desk.write("case.toml", BALL);
+    let track = ["life.distance", "circumference", "life.stroke"];
+    desk.percoat(&["life", "case.toml"]).complains(2, &track);
+    desk.percoat(&["life", "case.toml", "--set", "life.distance=1e4", "--set", "life.stroke=1e4"])
+        .complains(2, &["`life.stroke` and `life.distance`", "there and back"]);
+    let answer = desk.percoat(&["life", "case.toml", "-o", "out", "--set", "life.distance=1e4"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let life = file(&desk);
+    let last = life["wear"].as_array().unwrap().last().unwrap();
+    assert!(last["body"].is_null() && last["counterbody"].is_null() && number(last, "/distance") == 2e7, "{last}");
+    assert!((number(last, "/specific_rate") / 1e-7 - 1.0).abs() < 1e-2, "{last}");
+    // k s P in µm³.
+    assert!((number(last, "/scar/volume") / (1e-7 * 2e7 * 100.0) - 1.0).abs() < 1e-2, "{last}");
+    assert!(number(last, "/scar/diameter") > 0.0 && number(last, "/scar/depth") > 0.0);
+    let text = answer.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in [
+        "the scar of the counterbody has a diameter of",
+        "a specific wear rate of",
+        "mm³/(N·m)",
+        "µm³",
+        "its groove is",
+    ] {
+        assert!(text.contains(words), "\"{words}\" does not stand in\n{}", answer.out);
+    }
+    // Without a law of fatigue the layer that is worn through is what happens first.
+    let first = &life["first"];
+    assert!(first["kind"] == "worn_through" && first["name"] == "soft layer" && first["range"].is_null(), "{first}");
+    assert!(text.contains("first event: soft layer") && text.contains("is worn through after"), "{}", answer.out);
+    assert_eq!(number(&life["events"][0], "/depth"), 0.02);
+    assert!(answer.err.contains("base is uncovered and has no `wear`"), "{}", answer.err);
+    let csv = fs::read_to_string(desk.path("out/life.csv")).unwrap();
+    for column in ["scar_diameter", "scar_depth", "scar_volume", "specific_rate", "groove", "distance"] {
+        assert!(csv.lines().next().unwrap().split(',').any(|own| own == column), "{column}");
+    }
+    let report = desk.percoat(&["report", "out"]);
+    assert_eq!(report.code, 0, "{}", report.err);
+    let page = fs::read_to_string(desk.path("out/report.html")).unwrap();
+    assert!(page.contains("is worn through after") && page.contains("specific wear rate"));
 }

@@ -1,12 +1,12 @@
 //! Lives: damage pass after pass, what comes off, wear in between, from one state to the next.
 
-use percoat::life::{Beginning, EventKind, LifeEnd, LifeError, LifeState, LifeTask};
+use percoat::life::{Beginning, EventKind, First, FirstKind, LifeEnd, LifeError, LifeState, LifeTask};
 use percoat::reading::FatiguePart;
 use percoat::run::{Sampling, WearPath};
 use percoat::spectral::Wear;
 use percoat::{
     Bodies, Cell, Durability, Fatigue, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load,
-    Material, MeanStress, Problem, Settings, Shape, Solver,
+    Material, MeanStress, Problem, Settings, Shape, Solver, StressFields,
 };
 use std::sync::Arc;
 
@@ -43,6 +43,7 @@ fn task(bodies: impl Into<Bodies>, passes: Option<f64>) -> LifeTask {
         mean: MeanStress::Confined,
         passes,
         distance: None,
+        stroke: None,
         tolerance: 1e-2,
     }
 }
@@ -155,8 +156,10 @@ fn a_life_without_fatigue_is_a_path_of_wear() {
     assert!(begun.record.fatigue.is_none() && state.events.is_empty() && state.passes == 4.0);
     let last = state.course.last().unwrap();
     // k s P with s = 4 periods of 1 and P = 0.01, on a cell of the area 1.
-    assert!((last.counterbody / (0.2 * 4.0 * 0.01) - 1.0).abs() < 1e-10, "{}", last.counterbody);
-    assert_eq!((last.body, last.removed), (0.0, 0.0));
+    let mean = last.counterbody.unwrap();
+    assert!((mean / (0.2 * 4.0 * 0.01) - 1.0).abs() < 1e-10, "{mean}");
+    assert_eq!((last.body, last.removed, last.distance), (Some(0.0), 0.0, Some(4.0)));
+    assert_eq!((last.scar, last.specific_rate), (None, None), "a periodic system has no scar");
     let mut solver = Solver::new(Arc::clone(&task.problem), [32; 2], Settings::default()).unwrap();
     let wear = Wear::of(&task.problem);
     let path = WearPath::new(task.load, wear, 4.0, 2e-2).unwrap();
@@ -260,4 +263,187 @@ fn a_detachment_is_one_event() {
     for pair in state.events.windows(2) {
         assert!(pair[1].passes > pair[0].passes * (1.0 + 1e-4), "{pair:?}");
     }
+}
+
+/// On a lattice a distance of two periods in a pass does twice the damage: the distance to failure is that of the surface.
+#[test]
+fn the_distance_to_failure_does_not_depend_on_what_is_called_a_pass() {
+    let of = |distance: Option<f64>, stroke: Option<f64>| {
+        let base = task(coated(0.08, Some(1e4), Some(1e4), Some(1e5)), None);
+        let task = LifeTask { distance, stroke, ..base };
+        let (begun, state) = followed(&task);
+        let first = First::of(&task, &begun, &state).unwrap();
+        assert_eq!(first.passes, state.events[0].passes);
+        first
+    };
+    let [one, two, part] = [None, Some(2.0), Some(0.25)].map(|distance| of(distance, None));
+    assert_eq!(one.distance, Some(one.passes));
+    for other in [two, part] {
+        assert!((other.distance.unwrap() / one.distance.unwrap() - 1.0).abs() < 1e-12, "{other:?}");
+    }
+    // There and back over many periods the balls do what they do one way, and a little more where they turn.
+    let there_and_back = of(None, Some(200.0));
+    let ratio = there_and_back.distance.unwrap() / one.distance.unwrap();
+    println!("there and back {ratio}");
+    assert!(there_and_back.kind == one.kind && 0.9 < ratio && ratio < 1.0 + 1e-9, "{ratio}");
+    let short = LifeTask { stroke: Some(0.5), ..task(coated(0.08, Some(1e4), None, None), None) };
+    assert_eq!(short.check(), Err(LifeError::ShortStroke { stroke: 0.5, period: 1.0 }));
+    let both = LifeTask { distance: Some(3.0), ..short };
+    assert_eq!(both.check(), Err(LifeError::DistanceAndStroke));
+}
+
+/// A ball of the radius 1 in a window under a force, with friction along x; `wear` of the body and of the ball.
+fn alone(size: f64, points: usize, wear: [f64; 2], base: LifeTask) -> LifeTask {
+    let own = |wear: f64| Durability { wear: (wear > 0.0).then_some(wear), ..Durability::default() };
+    let layer = Layer::new(young(3.0, 0.25), 0.02, Interface::Bonded).unwrap().with_durability(own(wear[0]), None);
+    let body = HalfSpace::new(vec![layer.unwrap()], young(1.0, 0.3));
+    let bodies = Bodies::from(body).with_rigid_durability(own(wear[1])).unwrap();
+    let lattice = Lattice::new(Cell::window([size; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+    let ball = Indenters::new(lattice, vec![Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap()]).unwrap();
+    let problem = Problem::new(ball, bodies).sliding(Friction::new(0.1, [1.0, 0.0]).unwrap()).unwrap();
+    let (load, sampling) = (Load::Force(0.005), Sampling::Points([points; 2]));
+    LifeTask { problem: Arc::new(problem), load, sampling, ..base }
+}
+
+/// There the shear of an interface goes from 0 to −a, b and 0, back to a, −b and 0: rainflow of both has the range 2b and twice a, a and b
+/// by the stresses at the points of the path.
+#[test]
+fn to_and_fro_the_shear_of_both_directions_counts() {
+    let base = task(coated(0.1, None, None, None), None);
+    let of = |stroke: Option<f64>| {
+        let body = coated(0.1, None, Some(1e3), None);
+        let lattice = Lattice::new(Cell::window([1.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+        let ball = Indenters::new(lattice, vec![Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap()]).unwrap();
+        let problem = Problem::new(ball, body).sliding(Friction::new(0.4, [1.0, 0.0]).unwrap()).unwrap();
+        let (load, sampling) = (Load::Force(0.02), Sampling::Points([96; 2]));
+        LifeTask { problem: Arc::new(problem), load, sampling, stroke, ..base.clone() }
+    };
+    let begun = of(None).beginning(&|_| true, &|| true).unwrap();
+    let fields = StressFields::new(begun.step.finest(), MeanStress::Confined);
+    let places: Vec<[f64; 2]> = (0..=2000).map(|k| [f64::from(k) * 5e-4 - 0.5, 0.0]).collect();
+    let depth = percoat::body::Depth { z: 0.1, material: 1 };
+    let shear: Vec<f64> = fields.body().points(depth, &places).iter().map(|own| own.xz).collect();
+    let [least, most] = [f64::min, f64::max].map(|of| shear.iter().copied().fold(0.0, of));
+    let [a, b] = [least.abs().min(most.abs()), least.abs().max(most.abs())];
+    assert!(b > 1.2 * a && a > 0.0, "{a} {b}");
+    let one_way = begun.record.fatigue.unwrap().first.range;
+    let both = of(Some(2.0)).beginning(&|_| true, &|| true).unwrap().record.fatigue.unwrap().first.range;
+    let known = ((2.0 * b).powi(6) + 2.0 * a.powi(6)).powf(1.0 / 6.0);
+    println!("one way {one_way} {}, both {both} {known}", a + b);
+    assert!((one_way / (a + b) - 1.0).abs() < 1e-3, "{one_way} {}", a + b);
+    assert!((both / known - 1.0).abs() < 1e-3, "{both} {known}");
+    // The track is shorter than the contact is wide.
+    let short = of(Some(0.05));
+    let (begun, state) = followed(&short);
+    assert!(short.warnings(&begun, &state).iter().any(|own| own.contains("fretting")));
+}
+
+/// How a ball wears is a matter of the distance that it slides, and not of the window.
+#[test]
+fn the_scar_of_a_ball_does_not_depend_on_the_window() {
+    let base = task(coated(0.1, None, None, None), Some(8.0));
+    let of = |size: f64, points: usize| {
+        let task = alone(size, points, [0.0, 0.5], LifeTask { distance: Some(0.5), tolerance: 2e-2, ..base.clone() });
+        assert_eq!(LifeTask { distance: None, ..task.clone() }.check(), Err(LifeError::NoDistance));
+        assert_eq!(task.check(), Ok(()));
+        *followed(&task).1.course.last().unwrap()
+    };
+    let [narrow, wide] = [of(0.8, 64), of(1.2, 96)];
+    for own in [narrow, wide] {
+        let scar = own.scar.unwrap();
+        // k s P, exactly, and the specific rate is k.
+        assert!((scar.volume / (0.5 * 4.0 * 0.005) - 1.0).abs() < 1e-9, "{own:?}");
+        assert!((own.specific_rate.unwrap() / 0.5 - 1.0).abs() < 1e-9 && own.distance == Some(4.0), "{own:?}");
+        assert_eq!((own.body, own.counterbody), (None, None));
+        // A cap of a worn ball: V = πd⁴/64R; elastic deformation adds to its width.
+        let cap = std::f64::consts::PI * scar.diameter.powi(4) / 64.0 / scar.volume;
+        assert!(0.95 < cap && cap < 1.4, "{cap}");
+    }
+    let [one, other] = [narrow, wide].map(|own| own.scar.unwrap());
+    assert!((one.diameter / other.diameter - 1.0).abs() < 1e-2, "{one:?} {other:?}");
+    assert!((one.depth / other.depth - 1.0).abs() < 1e-2, "{one:?} {other:?}");
+}
+
+/// A contact that grows to the border of its window goes on in wider ones, to what a window has that is wide from the first.
+#[test]
+fn a_window_grows_with_the_scar() {
+    let base = task(coated(0.1, None, None, None), Some(60.0));
+    let of = |size: f64, points: usize| {
+        let base = LifeTask { distance: Some(1.0), tolerance: 5e-2, ..base.clone() };
+        followed(&alone(size, points, [0.0, 0.5], base)).1
+    };
+    let [narrow, wide] = [of(0.36, 48), of(1.44, 96)];
+    assert_eq!((narrow.end, narrow.passes), (Some(LifeEnd::Passes), 60.0));
+    assert!(narrow.doubled > 0 && wide.doubled == 0, "{} {}", narrow.doubled, wide.doubled);
+    let [one, other] = [&narrow, &wide].map(|own| own.course.last().unwrap().scar.unwrap());
+    println!("{one:?} {other:?}");
+    // Every second sample of the window before is left: a volume errs by the square of its spacing over the radius of the scar.
+    assert!((one.volume / (0.5 * 60.0 * 0.005) - 1.0).abs() < 2e-2, "{one:?}");
+    assert!((one.diameter / other.diameter - 1.0).abs() < 3e-2 && (one.depth / other.depth - 1.0).abs() < 3e-2);
+}
+
+/// A layer that sliding wears through is the first event, before the fatigue of the unworn surfaces, and has its thickness as depth; that
+/// its substrate has no coefficient of wear is said.
+#[test]
+fn a_layer_that_is_worn_through_comes_first() {
+    let durability = Durability { wear: Some(1e-3), fatigue: Some(law(1e12)), ..Durability::default() };
+    let layer = Layer::new(young(3.0, 0.25), 0.02, Interface::Bonded).unwrap().with_durability(durability, None);
+    let body = HalfSpace::new(vec![layer.unwrap()], young(1.0, 0.3));
+    let task = LifeTask { sampling: Sampling::Points([32; 2]), tolerance: 0.1, ..task(body, Some(2500.0)) };
+    let (begun, state) = followed(&task);
+    let first = First::of(&task, &begun, &state).unwrap();
+    assert!(first.kind == FirstKind::WornThrough && (first.passes / 2000.0 - 1.0).abs() < 1e-5, "{first:?}");
+    assert!(begun.record.fatigue.as_ref().unwrap().first.passes > first.passes);
+    assert!((state.events[0].depth - 0.02).abs() < 1e-15, "{:?}", state.events);
+    let warnings = task.warnings(&begun, &state);
+    assert!(warnings.iter().any(|own| own.contains("has no `wear`")), "{warnings:?}");
+    // Without passes wear is left out, and that is said with when the layer would be gone.
+    let unworn = LifeTask { passes: None, ..task };
+    let (begun, state) = followed(&unworn);
+    let warnings = unworn.warnings(&begun, &state);
+    assert!(warnings.iter().any(|own| own.contains("worn through after 2000")), "{warnings:?}");
+}
+
+/// The groove of an isolated contact is counted where it is deepest: the layer is left below it, and no groove is deeper than that.
+#[test]
+fn a_groove_in_a_layer_is_not_warned_of() {
+    let base = task(coated(0.1, None, None, None), Some(15.0));
+    let task = alone(0.6, 48, [0.05, 0.0], LifeTask { distance: Some(1.0), tolerance: 5e-2, ..base });
+    let (begun, state) = followed(&task);
+    let last = state.course.last().unwrap();
+    assert!(last.body_depth > 0.5 * last.thickness && last.thickness > 0.0, "{last:?}");
+    let warnings = task.warnings(&begun, &state);
+    assert!(warnings.iter().all(|own| !own.contains("groove")), "{warnings:?}");
+    // Of one pass k ∫∫p along and across the track is taken off, whatever its length.
+    assert!((last.groove.unwrap() / (15.0 * 0.05 * 0.005) - 1.0).abs() < 1e-6, "{last:?}");
+}
+
+/// While a groove widens its edge takes in rows of samples, each of which carries a peak until it is worn: read from row to row the largest
+/// pressure falls smoothly, and its rise and fall is stated.
+#[test]
+fn the_largest_pressure_over_a_groove_does_not_ring() {
+    let wears = Durability { wear: Some(0.05), fatigue: Some(law(1e12)), ..Durability::default() };
+    let body = HalfSpace::new(vec![], young(1.0, 0.3)).with_substrate_durability(wears).unwrap();
+    let of = |points: usize| {
+        let lattice = Lattice::new(Cell::window([0.8; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+        let ball = Indenters::new(lattice, vec![Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap()]).unwrap();
+        let problem = Problem::new(ball, body.clone()).sliding(Friction::new(0.1, [1.0, 0.0]).unwrap()).unwrap();
+        let (load, sampling) = (Load::Force(0.005), Sampling::Points([points; 2]));
+        let base = task(coated(0.1, None, None, None), Some(40.0));
+        followed(&LifeTask { problem: Arc::new(problem), load, distance: Some(1.0), sampling, ..base }).1
+    };
+    let state = of(48);
+    assert_eq!(state.end, Some(LifeEnd::Passes));
+    let rows: Vec<_> = state.course.iter().filter(|row| row.max_pressure_error.is_some()).collect();
+    for row in &rows {
+        println!("{} {} ± {:?}", row.passes, row.max_pressure, row.max_pressure_error);
+    }
+    assert!(rows.len() > 6, "{} rows", rows.len());
+    // The last state ends with the passes, in the middle of a row.
+    for three in rows[..rows.len() - 2].windows(3) {
+        let between = 0.5 * (three[0].max_pressure + three[2].max_pressure);
+        let off = (three[1].max_pressure / between - 1.0).abs();
+        assert!(off < 0.03, "{off}: {three:?}");
+    }
+    assert!(rows.iter().any(|row| row.max_pressure_error.unwrap() > 0.03 * row.max_pressure), "nothing rings");
 }

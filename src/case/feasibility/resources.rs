@@ -234,7 +234,10 @@ fn of_life(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictu
     let tire = case.problem().half_space().durabilities().filter(|own| own.fatigue.is_some()).count() as u64;
     let damage = DAMAGE.map(|bytes| bytes * tire * DAMAGE_LINES.min(samples));
     let contact = working.max(READING * samples).max(stress);
-    let solving = PROGRAM + grids + heights + (STEP + WORN) * samples + damage[0] + contact;
+    // The way back has a contact and stresses of its own.
+    let back = case.life.is_some_and(|own| own.stroke.is_some());
+    let back = if back { grids + STEP * samples + stress } else { 0 };
+    let solving = PROGRAM + grids + heights + (STEP + WORN) * samples + damage[0] + contact + back;
     let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
     let disk = COMPARISON + WORN * samples + damage[1] + if pictures { 2 * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: 2 * disk }

@@ -18,7 +18,7 @@ pub use comparison::{differences, readings, stresses};
 pub use fatigue::lives;
 pub use hertz::hertz;
 pub use largest::largest_stresses;
-pub use life::{events, left};
+pub use life::{events, headline, left};
 pub use plastic::plastic;
 pub use strength::{limits, utilisations};
 pub(super) use text::lines;
@@ -126,14 +126,14 @@ pub fn limited(case: &Case, found: &Limits, width: usize) -> String {
 /// The text of `percoat life`: lives of all that tires, events, and what is left.
 pub fn life(case: &Case, file: &LifeFile, width: usize) -> String {
     let (mut text, units) = (heading(case), case.units());
-    match lives(&file.steps, &units) {
-        Some(lives) => text += &format!("\n{}\n", lives.fitted(width)),
-        None => text += "\nno fatigue law is given\n",
+    text += &format!("\n{}", lines(&headline(file, &units), width));
+    if let Some(lives) = lives(&file.steps, &units) {
+        text += &format!("\n{}\n", lives.table.fitted(width));
     }
     if let Some(events) = events(&file.events, &units).filter(|_| file.end.is_some()) {
         text += &format!("\n{}\n", events.fitted(width));
     }
-    if let Some(left) = left(&file.wear, file.end, &units) {
+    if let Some(left) = left(file, &units) {
         text += &format!("\n{}", lines(&left, width));
     }
     if let Some(last) = file.steps.last() {

@@ -67,7 +67,7 @@ impl Bases {
         let limits = "endurance = { torsion = 0.4, bending = 0.5 }";
         let spectrum = "hurst = 0.5, shortest = 0.3, longest = 1.0, rolloff = 0.6, rms_slope = 0.2";
         let texts = [
-            format!("{plain}{BODY}{uniform}friction = {{ coefficient = 0.1 }}\n"),
+            format!("{plain}{BODY}{uniform}friction = {{ coefficient = 0.1 }}\nlife = {{ passes = 10 }}\n"),
             linear.clone(),
             linear.replace("mean_pressure =", "penetration ="),
             linear.replace("mean_pressure =", "force ="),
