@@ -56,7 +56,7 @@ fn as_few(runs: usize, [n1, n2]: [usize; 2]) -> f64 {
     let all = choose(n1 + n2, n1);
     let both = |a: usize, b: usize| (choose(n1 - 1, a) + choose(n2 - 1, b) - all).exp();
     let exactly = |runs: usize| match runs / 2 {
-        half if runs % 2 == 0 => 2.0 * both(half - 1, half - 1),
+        half if runs.is_multiple_of(2) => 2.0 * both(half - 1, half - 1),
         half => both(half, half - 1) + both(half - 1, half),
     };
     (2..=runs).map(exactly).sum::<f64>().min(1.0)
