@@ -10,7 +10,7 @@ use percoat::{
     Settings, Shape, Solver, Step, StressFields, StressReading,
 };
 
-const NO_BOND: InterfaceStrength = InterfaceStrength { normal: None, shear: None };
+const NO_BOND: InterfaceStrength = InterfaceStrength { normal: None, shear: None, friction: 0.0 };
 
 fn material(young: f64, poisson: f64) -> Material {
     Material::from_young(young, poisson).unwrap()
