@@ -8,13 +8,14 @@
 //! exceeds value plus error of the whole.
 
 use super::constants::{
-    CHANGE_SAFETY, DEEP_OPENING_ERROR, DEEP_SHEAR_ERROR, DEEP_TENSION_ERROR, EXACT_ERROR, SHALLOW_ERROR,
+    CHANGE_SAFETY, DEEP_OPENING_ERROR, DEEP_SHEAR_ERROR, DEEP_TENSION_ERROR, EXACT_ERROR, SHALLOW, SHALLOW_ERROR,
 };
 use super::crest::Crest;
 use super::field::StressField;
 use super::measure::StressMeasure;
 use super::peak::{Peak, Rival};
 use super::tensor::StressState;
+use std::f64::consts::PI;
 
 /// Contenders for the maxima of several measures, each with its measure.
 pub(super) type Contenders = Vec<(StressMeasure, Contender)>;
@@ -64,6 +65,14 @@ pub(super) struct NearSurface {
     pub is_exact_below: bool,
 }
 
+impl NearSurface {
+    /// How far stresses may ring at a depth, a pressure: waves that the grid lacks have (1 + qz)e^{−qz} of their pressure at most.
+    fn ringing_at(&self, depth: f64) -> f64 {
+        let s = PI * SHALLOW * depth / self.depth;
+        self.ringing * (1.0 + s) * (-s).exp()
+    }
+}
+
 impl Contender {
     /// Estimated error of the value, from the coarser grid and the `resolution`, the samples along the radius of the smallest
     /// spot; near the `surface` the series converges slowly, and may ring.
@@ -90,7 +99,7 @@ impl Contender {
             false if surface.is_exact_below => EXACT_ERROR,
             false => deep / resolution.powi(2),
         };
-        let ringing = if is_near { surface.ringing } else { 0.0 };
+        let ringing = if is_near { surface.ringing_at(position[2]) } else { 0.0 };
         CHANGE_SAFETY * (value - coarse).abs() + measure.rise(&self.state, open * self.size + ringing)
     }
 }

@@ -104,7 +104,7 @@ impl Maxima {
     /// open: 0.015 n⁻² for τ₁, von Mises and shears, 0.01 n⁻² for the opening stress of an interface, 0.1 n⁻² for a tension, within
     /// two samples of the surface 0.2 n⁻¹. The size of the stress is √(Σσᵢⱼ²) of the stresses of the waves at the position: mean and
     /// residual stresses do not depend on the grid. For a stress on the surface the error is that of its [`Crest`]; beside a jump of a
-    /// given pressure the waves of the grid ring, and within two samples of the surface 0.09 of the largest jump is added. Under discs, whose
+    /// given pressure the waves of the grid ring, and within two samples of the surface 0.09 of the largest jump is added, less with the depth. Under discs, whose
     /// waves are known, 10⁻⁵ takes the place of the parts that fall with n⁻².
     /// `tests/library/stated_errors.rs` shows that these errors hold.
     ///

@@ -39,6 +39,10 @@ impl Bases {
         let values: Vec<u8> = (0..64u32).flat_map(|k| f64::from(k * k % 7).to_le_bytes()).collect();
         let npy = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &values].concat();
         std::fs::write(folder.path().join("surface.npy"), npy).unwrap();
+        // The same along one side of the cell.
+        let values: Vec<u8> = (0..64u32).flat_map(|k| f64::from((k / 8).pow(2) % 7).to_le_bytes()).collect();
+        let npy = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &values].concat();
+        std::fs::write(folder.path().join("lines.npy"), npy).unwrap();
         let own = "[[material]]\nname = \"own\"\nyoung = 210.0\npoisson = 0.3\n";
         std::fs::write(folder.path().join("own.toml"), own).unwrap();
         let linear = RICH.replace("\"log\"", "\"linear\"");
@@ -74,6 +78,7 @@ impl Bases {
             format!("{plain}{BODY}{graded}"),
             format!("surface = {{ heights = \"surface.npy\", period = 20.0 }}\n{BODY}"),
             format!("surface = {{ heights = \"surface.npy\", pixel = 0.5 }}\n{BODY}"),
+            format!("surface = {{ heights = \"lines.npy\", period = 20.0 }}\nstress = {{}}\n{BODY}"),
             format!("surface = {{ period = 1.0, random = {{ {spectrum} }} }}\n{BODY}"),
             elastic,
             graded_above,
