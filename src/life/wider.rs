@@ -85,17 +85,17 @@ mod tests {
             let wide = spread(&depths, [n; 2], None);
             let groove: Vec<f64> = (0..n * n).map(|k| linear((0.0, small(k / n, k % n).1))).collect();
             let longer = spread(&groove, [n; 2], Some(0));
-            for k in 0..n * n {
+            for (k, (wide, longer)) in wide.iter().zip(&longer).enumerate() {
                 let (x, y) = large(k / n, k % n);
                 let is_inner = |own: f64| own > -0.5 && own < 0.5 - 1.0 / n as f64;
                 if is_inner(x) && is_inner(y) {
-                    assert!((wide[k] - linear((x, y))).abs() < 1e-12, "{n}: {x}, {y}");
+                    assert!((wide - linear((x, y))).abs() < 1e-12, "{n}: {x}, {y}");
                 }
                 if is_inner(y) {
-                    assert!((longer[k] - linear((0.0, y))).abs() < 1e-12, "{n}: {x}, {y}");
+                    assert!((longer - linear((0.0, y))).abs() < 1e-12, "{n}: {x}, {y}");
                 }
                 if x.abs() > 0.5 + 1.0 / n as f64 {
-                    assert_eq!(wide[k], 0.0);
+                    assert_eq!(*wide, 0.0);
                 }
             }
         }
