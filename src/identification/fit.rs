@@ -204,9 +204,15 @@ fn doubts<E: Send>(
         let estimates = changes.iter().enumerate().map(|(k, by)| search.free.value(k, place[k] + by)).collect();
         (value.abs() * most > grid * curve.at(largest).0).then_some(Missing { value, error, estimates })
     };
-    let offset = missing(Quantity::Offset, &|_| 1.0, 1.0).map(Doubt::Offset);
-    let frame = missing(Quantity::FrameCompliance, &|i| forces[i], largest).map(Doubt::FrameCompliance);
-    [systematic, offset, frame].into_iter().flatten().collect()
+    let offset = missing(Quantity::Offset, &|_| 1.0, 1.0);
+    let frame = missing(Quantity::FrameCompliance, &|i| forces[i], largest);
+    // One makes up for the other: the one that explains more is told.
+    let certain = |own: &Option<Missing>| own.as_ref().map_or(0.0, |own| (own.value / own.error).abs());
+    let better = match certain(&offset) >= certain(&frame) {
+        true => offset.map(Doubt::Offset),
+        false => frame.map(Doubt::FrameCompliance),
+    };
+    [systematic, better].into_iter().flatten().collect()
 }
 
 impl fmt::Display for Identification {
