@@ -292,7 +292,7 @@ fn alone(seed: u64, cases: usize) -> Vec<Alone> {
         let solve = |points: usize, load: Load| {
             let mut solver = Solver::new(problem.clone(), [points; 2], Settings::default()).unwrap();
             let step = solver.solve(load);
-            step.report.stop.solved().then(|| (solver, step))
+            step.report.stop.solved().then_some((solver, step))
         };
         let mut load = Load::Penetration(depth);
         let Some((_, first)) = solve(points, load) else { continue };
