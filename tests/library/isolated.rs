@@ -182,7 +182,11 @@ fn the_largest_stresses_are_those_of_the_free_field() {
                 let maxima = field.maxima([a; 2]);
                 let of = |peak: Peak, measure: fn(&StressState) -> f64| (peak, measure);
                 let materials = maxima.materials.iter().chain(&maxima.faces).flat_map(|own| {
-                    [of(own.tau1, StressState::tau1), of(own.tension, StressState::s1), of(own.mises, StressState::mises)]
+                    [
+                        of(own.tau1, StressState::tau1),
+                        of(own.tension, StressState::s1),
+                        of(own.mises, StressState::mises),
+                    ]
                 });
                 let interfaces = maxima.interfaces.iter().flat_map(|own| {
                     let shear = |state: &StressState| state.xz.hypot(state.yz);
