@@ -33,6 +33,7 @@ class Check(Record):
     first_touch_error: Optional[list[Optional[float]]]
     first_touch_quantity: Optional[str]
     sublayer_error: Optional[float]
+    library_strengths: list[Record]
     surface: Optional[Record]
     warnings: list[str]
     text: str

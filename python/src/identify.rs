@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// What was found as a dict, the arrays of the curve and its fit, the table, and the warnings.
 type Found<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, String, Vec<String>);
 
-/// What is `asked` of a case: its numbers that are free, and what the instrument is known to add as `offset=0.002`. Their values from a curve,
+/// The numbers of a case that are `asked` for, and what the instrument is known to add as `offset=0.002`. Their values from a curve,
 /// the path of a table or columns with their names: a dict with the keys of
 /// `identification.json`, arrays of the curve and its fit, the table of the command line in lines of `width` letters, and warnings.
 #[pyfunction]

@@ -206,6 +206,8 @@ pub fn columns<'py>(py: Python<'py>, rows: Vec<PyRef<'py, Row>>) -> PyResult<Bou
 /// The keys with lists of values, and `KEY=VALUE` of those with one value, in their order. Without a text among these they are
 /// set in the source instead, as the values that they are.
 fn axes(set: &Bound<'_, PyDict>, source: &mut Source) -> PyResult<(Vec<Axis>, Vec<String>)> {
+    let keys = set.keys().iter().map(|key| text(&key, "what is swept over")).collect::<PyResult<Vec<String>>>()?;
+    sweep::keys_once(keys.iter().map(String::as_str)).map_err(refused)?;
     let (mut axes, mut single, mut fixed) = (Vec::new(), Vec::new(), Vec::new());
     for (key, values) in set.iter() {
         let key = text(&key, "what is swept over")?;

@@ -58,7 +58,7 @@ pub enum NotKnown {
     Twice(String),
 }
 
-/// What an instrument is known to add, by texts `offset=0.0025` and `frame_compliance=1e-4` in the units of the case.
+/// Known additions of an instrument, by texts `offset=0.0025` and `frame_compliance=1e-4` in the units of the case.
 ///
 /// # Errors
 /// [`NotKnown`] for other texts, and for a name that is there twice.
@@ -89,7 +89,7 @@ pub struct IdentificationTask<'a> {
     parameters: Vec<Parameter>,
     /// Numbers that are taken as known, and by which what is found is differentiated.
     fixed: Vec<Parameter>,
-    /// What the instrument is known to add; 0 of what is free.
+    /// Known additions of the instrument; 0 of what is free.
     instrument: Instrument,
 }
 

@@ -17,7 +17,7 @@ section! {
         pub passes: Option<f64> = Key::new(&[SIZE], "1e7").otherwise("only to the first failure"),
         /// distance that the counterbody slides in one pass, of a disc the circumference of the track
         pub distance: Option<f64> = Key::new(&[SIZE], "20.0").unit(Unit::Length).otherwise(
-            "the period along the direction of sliding; needed where the counterbody of an isolated contact wears",
+            "the period along the direction of sliding; this or `stroke` is needed where the counterbody of an isolated contact wears",
         ),
         /// stroke of a counterbody that goes to and fro, instead of `distance`: there and back is one pass
         pub stroke: Option<f64> = Key::new(&[SIZE], "2.0").unit(Unit::Length).otherwise("one way only"),

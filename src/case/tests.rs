@@ -63,7 +63,10 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
                  counterbody = { rigid = true, layers = [{ thickness = 1, young = 1, poisson = 0.3 }] }\nload = { mean_pressure = 1e-3 }\n";
     let ball = "lattice = { kind = \"isolated\", size = 2 }\nsurface = { radius = 3, random = { hurst = 0.8, shortest = 0.5, rms_slope = 0.1 } }\n\
                 substrate = { young = 1, poisson = 0.3 }\nload = { force = 1 }\ngrid = { points = 16 }\n";
-    let texts = [RICH, &other, isolated, rigid, ball];
+    let to_and_fro = "lattice = { kind = \"isolated\", size = 2 }\nlevels = [{ shape = \"sphere\", radius = 1 }]\n\
+                      substrate = { young = 1, poisson = 0.3, wear = 1e-3 }\nload = { force = 1e-3 }\nfriction = { coefficient = 0.1 }\n\
+                      life = { passes = 10, stroke = 5 }\n";
+    let texts = [RICH, &other, isolated, rigid, ball, to_and_fro];
     let texts = texts.into_iter().chain(surfaces.iter().chain(&bodies).map(String::as_str));
     for text in embedded::all().iter().map(|(_, text)| *text).chain(texts) {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };

@@ -89,7 +89,7 @@ pub enum Command {
         /// Keys to be found, as layers.0.young,substrate.young; `offset`: the error of the zero of penetration; `frame_compliance`: that of the instrument's frame
         #[arg(long, required = true, value_name = "KEY,…", value_delimiter = ',')]
         free: Vec<String>,
-        /// What the instrument is known to add, in the units of the case: offset=LENGTH,frame_compliance=LENGTH PER FORCE
+        /// Known additions of the instrument, in the units of the case: offset=LENGTH,frame_compliance=LENGTH PER FORCE
         #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',')]
         known: Vec<String>,
         #[command(flatten)]

@@ -152,7 +152,9 @@ impl LoadedDisc {
 /// said without rounding: a trace of pressure outside of the disc would be a contact spot of its own.
 fn covered(radius: f64, corners: &[[f64; 2]], area: f64) -> f64 {
     let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
-    let encloses = edges().all(|(a, b)| a[0] * b[1] - a[1] * b[0] >= 0.0);
+    // Cells may be left-handed.
+    let turns = |sign: f64| edges().all(|(a, b)| sign * (a[0] * b[1] - a[1] * b[0]) >= 0.0);
+    let encloses = turns(1.0) || turns(-1.0);
     let nearest = edges().map(|(a, b)| distance_to_edge(*a, *b)).fold(f64::INFINITY, f64::min);
     let farthest = corners.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max);
     if farthest <= radius {

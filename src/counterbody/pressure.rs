@@ -191,9 +191,8 @@ mod tests {
             LoadedDisc { centre: [0.9, 0.95], radius: 0.31, pressure: 0.7 },
             LoadedDisc { centre: [0.4, 0.4], radius: 1e-3, pressure: 5.0 },
         ];
-        for cell in
-            [Cell::square(1.0).unwrap(), Cell::new([1.0, 0.2], [0.4, 0.9]).unwrap(), Cell::hexagonal(1.0).unwrap()]
-        {
+        let oblique = [([1.0, 0.2], [0.4, 0.9]), ([0.4, 0.9], [1.0, 0.2])].map(|(a1, a2)| Cell::new(a1, a2).unwrap());
+        for cell in [Cell::square(1.0).unwrap(), Cell::hexagonal(1.0).unwrap()].into_iter().chain(oblique) {
             let given = GivenPressure::discs(cell, discs.clone()).unwrap();
             for points in [[5, 4], [64, 64], [50, 81]] {
                 let grid = Grid::new(cell, points).unwrap();

@@ -47,7 +47,7 @@ impl<'a> Archive<'a> {
 
     fn index(&self, name: &str) -> Option<usize> {
         let name = format!("{}{}", self.folder, name.trim_start_matches("./").trim_start_matches('/'));
-        self.zip.index_for_name(&name)
+        self.zip.index_for_name(&name).or_else(|| self.zip.index_for_name(&name.replace('/', "\\")))
     }
 
     /// The content of a member of at most `most` bytes.

@@ -12,13 +12,13 @@ const PREFIX: usize = 64;
 /// Fewest bytes of a datum: `<Datum/>`.
 const SHORTEST: usize = 8;
 
-/// A `main.xml` without the content of its list of heights, and that content; `None` where it has no list.
-pub fn apart(main: &str) -> Option<(String, &str)> {
+/// A `main.xml` without the content of its list of heights, and that content; `None` where it has no list, or more than `most` bytes beside it.
+pub fn apart(main: &str, most: usize) -> Option<(String, &str)> {
     let is_open = |at: &usize| has_before(main, *at, "<") && main[at + LIST.len()..].trim_start().starts_with('>');
     let open = main.match_indices(LIST).map(|(at, _)| at).find(is_open)?;
     let start = open + main[open..].find('>')? + 1;
     let (close, _) = main.rmatch_indices(LIST).find(|(at, _)| has_before(main, *at, "</"))?;
-    let end = main[..close].rfind("</").filter(|end| *end >= start)?;
+    let end = main[..close].rfind("</").filter(|end| *end >= start && start + main.len() - *end <= most)?;
     Some(([&main[..start], &main[end..]].concat(), &main[start..end]))
 }
 

@@ -28,7 +28,7 @@ impl Length {
         }
     }
 
-    /// It in metres; `None` without a known unit.
+    /// The length in metres; `None` without a known unit.
     pub fn metres(&self) -> Option<f64> {
         Some(self.value * unit::factor(self.unit.as_deref()?, "m").ok()?)
     }
@@ -136,7 +136,9 @@ impl Header {
         match about {
             About::Channel => self.has_channel = true,
             About::Format => self.is_spip |= value.trim().eq_ignore_ascii_case("ASCII"),
-            About::Voids => self.voids = counted(),
+            About::Voids => {
+                self.voids = amount.filter(|n| n.fract() == 0.0 && (1.0..=1e12).contains(n)).map(|n| n as usize);
+            }
             About::Bit2nm => {
                 let Some(factor) = amount.filter(|x| x.is_finite() && *x > 0.0) else {
                     return Err(Fault::new(

@@ -8,8 +8,10 @@ const FEWEST: usize = 6;
 /// Refuses a table of two columns or of two lines of which the first rises or falls throughout, as the places of a profile do.
 pub fn refuse(table: &Heights) -> Result<(), Fault> {
     let Heights { points: [lines, numbers], values } = table;
-    let columns = *numbers == 2 && is_ordered(values.iter().step_by(2));
-    let rows = *lines == 2 && is_ordered(values[..*numbers].iter());
+    // A surface that does not change along one axis may have two equal lines.
+    let columns =
+        *numbers == 2 && is_ordered(values.iter().step_by(2)) && values.chunks_exact(2).any(|line| line[0] != line[1]);
+    let rows = *lines == 2 && is_ordered(values[..*numbers].iter()) && values[..*numbers] != values[*numbers..];
     match (columns, rows) {
         (true, _) => Err(fault(&format!("{lines} lines of two numbers, of which the first rise or fall throughout"))),
         (_, true) => {

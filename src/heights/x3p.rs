@@ -71,7 +71,7 @@ pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, 
     let main = archive.member(MAIN, LONGEST_WITH_HEIGHTS)?;
     let text = whole_text(&main)?;
     let text = text.trim_start_matches('\u{feff}');
-    let apart = datums::apart(text);
+    let apart = datums::apart(text, LONGEST);
     let matrix = Matrix::read(apart.as_ref().map_or(text, |(head, _)| head))?;
     archive.verify(&main, &matrix.checksum)?;
     let unit = || HeightsUnit::Known("m".to_owned());
@@ -108,7 +108,7 @@ impl Matrix {
     fn read(main: &str) -> Result<Self, Fault> {
         if main.len() > LONGEST {
             return Err(broken(format_args!(
-                "its main.xml has {} bytes without heights, at most {LONGEST} belong there",
+                "its main.xml has {} bytes, at most {LONGEST} belong there beside heights",
                 main.len()
             )));
         }

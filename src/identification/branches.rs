@@ -1,10 +1,10 @@
-//! What a record of elastic loading is not: a force that falls, and a hold under which the penetration goes on.
+//! Signs that a record is not elastic loading: a force that falls, and a hold under which the penetration goes on.
 //!
 //! Noise of a record x₁, x₂, … is read off its second differences: σ = median|xᵢ₊₁ − 2xᵢ + xᵢ₋₁|/(0.6745 √6), which a few turns do not
 //! change. A fall below the largest force before is none of noise where it exceeds √2 σ z with z of the probability α/n² of each pair.
 //! In a hold the penetration rises by more than the force explains: δ is concave in P, so that elastic contact has dδ/dP ≤ δ/P.
 
-use super::MeasurementError;
+use super::measurement_error::MeasurementError;
 
 /// Median of |x| of a normal distribution of the deviation 1.
 const MEDIAN: f64 = 0.6745;
@@ -64,7 +64,10 @@ fn hold(forces: &[f64], penetrations: &[f64], [noise, scatter]: [f64; 2]) -> Opt
             let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
             let [first, last] = [start..start + third, end - third..end];
             let rise = |of: &[f64]| mean(&of[last.clone()]) - mean(&of[first.clone()]);
-            let slope = mean(&penetrations[last.clone()]).abs() / mean(&forces[last.clone()]);
+            // Where a zero was missed δ/P is no bound of the slope: from the least penetration on it is.
+            let top = mean(&penetrations[last.clone()]);
+            let least = penetrations.iter().copied().fold(f64::INFINITY, f64::min);
+            let slope = top.abs().max(top - least) / mean(&forces[last.clone()]);
             let error = (2.0 / third as f64).sqrt() * scatter.hypot(slope * noise);
             let (risen, explained) = (rise(penetrations), slope * rise(forces).abs());
             if risen.abs() - explained > ADDED[1] * error + ADDED[0] * size(penetrations) {

@@ -21,12 +21,11 @@ pub(super) struct Covariance {
 
 impl Covariance {
     /// The covariance of parameters that the curve determines, at t with the Jacobian there and the variance s² of a residual. `radii` are those of the contact
-    /// at the minimum, lengths.
+    /// at the minimum, lengths. `most_uncertain` is the largest relative standard error with which a parameter is stated.
     ///
     /// # Errors
     /// [`IdentificationError::NoInfluence`], and [`IdentificationError::Undetermined`] for parameters that change all penetrations in
     /// proportion, and for the one of the largest relative error where that is beyond `most_uncertain`.
-    /// `most_uncertain` is the largest relative standard error with which a parameter is stated.
     pub(super) fn new<E>(
         free: FreeParameters<'_>,
         (place, jacobian): (&[f64], &[Vec<f64>]),

@@ -24,9 +24,9 @@ pub enum Doubt {
 /// A number of the instrument that the residuals ask for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Missing {
-    /// Its value, to first order: a length, or a length per force.
+    /// Value, to first order: a length, or a length per force.
     pub value: f64,
-    /// Its standard error.
+    /// Standard error of the value.
     pub error: f64,
     /// The parameters with it, to first order.
     pub estimates: Vec<f64>,

@@ -92,7 +92,7 @@ impl Identification {
     /// the model has a problem at the values of the parameters alone, and at these and then those of `fixed`.
     ///
     /// # Errors
-    /// Those of [`Identification::new_with_progress`].
+    /// Errors of [`Identification::new_with_progress`].
     pub fn with_fixed<E: Send>(
         model: &Model<'_, E>,
         (parameters, fixed): (&[Parameter], &[Parameter]),
@@ -156,7 +156,8 @@ impl Identification {
         let estimates: Vec<Estimate> = (0..count).map(estimate).collect();
         let at = AtMinimum { residuals, jacobian, covariance: &covariance, are_known: measured.deviations().is_some() };
         let doubts = doubts(search, &at, (&found.place, curve), &lengths);
-        let sensitivities = Sensitivity::all(search, (&found.place, jacobian), &covariance, (fixed, &estimates));
+        let values: Vec<f64> = estimates.iter().map(|estimate| estimate.value).collect();
+        let sensitivities = Sensitivity::all(search, (&found.place, jacobian), &covariance, (fixed, &values));
         Ok(Self {
             estimates,
             correlation: (0..count)
@@ -177,7 +178,7 @@ impl Identification {
     }
 }
 
-/// What of a minimum says that its standard errors do not hold: beyond chance, and beyond the error of the fitted penetrations, `lengths`
+/// Signs at a minimum that its standard errors do not hold: beyond chance, and beyond the error of the fitted penetrations, `lengths`
 /// of the residuals, by the grid.
 fn doubts<E: Send>(
     search: &Search<'_, E>,

@@ -15,6 +15,7 @@ mod early;
 mod error;
 mod fit;
 mod least_squares;
+mod measurement_error;
 mod parameter;
 mod pattern;
 mod search;
@@ -26,12 +27,11 @@ pub use curve::{CurveError, MOST_NODES};
 pub use doubt::{Doubt, Missing};
 pub use error::{IdentificationError, NoValue, Undetermined};
 pub use fit::{Estimate, Identification};
+pub use measurement_error::MeasurementError;
 pub use parameter::{Parameter, Quantity};
 pub use pattern::{LEVEL, Pattern};
 pub use search::{Listener, Model, Trial};
 pub use sensitivity::Sensitivity;
-
-use crate::notation::number;
 
 /// A measured indentation curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +43,7 @@ pub struct Measurement {
     instrument: Instrument,
 }
 
-/// What an instrument adds to penetrations where it is known: a zero that was missed by δ₀, and C_f P of a frame of the compliance C_f.
+/// Known additions of an instrument to penetrations: a zero that was missed by δ₀, and C_f P of a frame of the compliance C_f.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Instrument {
     /// δ₀, a length.
@@ -57,53 +57,6 @@ impl Instrument {
     pub fn adds(&self, force: f64) -> f64 {
         self.offset + self.frame_compliance * force
     }
-}
-
-/// What is wrong with a measured curve.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum MeasurementError {
-    /// Another number of penetrations, or of deviations, than of forces.
-    #[error("{0} forces, but {1} penetrations or deviations: give one of each for every point")]
-    Unequal(usize, usize),
-    /// A force that is not above 0.
-    #[error("point {}: the force must be above 0 and finite, not {}", .0 + 1, number(*.1))]
-    Force(usize, f64),
-    /// A penetration that is not finite.
-    #[error("point {}: the penetration must be finite, not {}", .0 + 1, number(*.1))]
-    Penetration(usize, f64),
-    /// A force that falls.
-    #[error(
-        "points {} to {}: the force falls from {} to {}: unloading is not to be fitted, what has yielded stays behind; give the loading alone, \
-         by rising force where the points are in no order of time",
-        .from + 1, .to + 1, number(.forces[0]), number(.forces[1])
-    )]
-    Unloading {
-        /// Index of the point of the largest force before it.
-        from: usize,
-        /// Index of the point of the least force behind it.
-        to: usize,
-        /// Their forces.
-        forces: [f64; 2],
-    },
-    /// A penetration that changes under one force.
-    #[error(
-        "points {} to {}: the penetration changes by {} while the force stays at {}: in a hold the body creeps, or the instrument drifts; \
-         leave these points out",
-        .from + 1, .to + 1, number(*.by), number(*.force)
-    )]
-    Hold {
-        /// Index of its first point.
-        from: usize,
-        /// Index of its last point.
-        to: usize,
-        /// The force.
-        force: f64,
-        /// The change, a length.
-        by: f64,
-    },
-    /// A deviation that is not above 0.
-    #[error("point {}: the standard deviation must be above 0 and finite, not {}", .0 + 1, number(*.1))]
-    Deviation(usize, f64),
 }
 
 impl Measurement {
@@ -142,7 +95,7 @@ impl Measurement {
         Self { instrument, ..self }
     }
 
-    /// What the instrument is known to add to the penetrations.
+    /// Known additions of the instrument to the penetrations.
     pub fn instrument(&self) -> Instrument {
         self.instrument
     }

@@ -2,7 +2,6 @@
 
 use super::covariance::Covariance;
 use super::error::NoValue;
-use super::fit::Estimate;
 use super::parameter::Parameter;
 use super::search::{Model, Search};
 
@@ -16,19 +15,18 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// The sensitivities by the numbers `fixed` at the minimum of a search, whose model takes their values behind those found; `place` and
+    /// The sensitivities by the numbers `fixed` at the minimum of a search, whose model takes their values behind those `found`; `place` and
     /// `jacobian` are t of the parameters and the Jacobian at the minimum.
     pub(super) fn all<E: Send>(
         search: &Search<'_, E>,
         (place, jacobian): (&[f64], &[Vec<f64>]),
         covariance: &Covariance,
-        (fixed, estimates): (&[Parameter], &[Estimate]),
+        (fixed, found): (&[Parameter], &[f64]),
     ) -> Result<Vec<Self>, NoValue<E>> {
         if fixed.is_empty() {
             return Ok(Vec::new());
         }
-        let found: Vec<f64> = estimates.iter().map(|own| own.value).collect();
-        let problem = |values: &[f64]| (search.model.problem)(&[&found, values].concat());
+        let problem = |values: &[f64]| (search.model.problem)(&[found, values].concat());
         let model = Model { problem: &problem, points: search.model.points, settings: search.model.settings };
         let mut beside = Search::new(&model, fixed, search.measured);
         beside.windows = search.windows.clone();

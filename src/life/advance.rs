@@ -135,7 +135,7 @@ impl LifeTask {
         Ok(next)
     }
 
-    /// What follows a contact that is not solved: a wider window where it reaches the border of its own, else the end.
+    /// State after a contact that is not solved: a wider window where it reaches the border of its own, else the end.
     fn without_contact(&self, state: LifeState, stop: Stop) -> LifeState {
         let wider = if stop == Stop::AtBorder { self.in_wider_window(state.clone()) } else { None };
         match wider {

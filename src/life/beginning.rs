@@ -60,13 +60,22 @@ impl LifeTask {
         self.read(step, solver, goes_on)
     }
 
-    /// What a step on the surfaces of a solver does in a pass.
-    pub(super) fn read(&self, step: Step, solver: &Solver, goes_on: &dyn Fn() -> bool) -> Result<Beginning, LifeError> {
+    /// Damage in a pass by a step on the surfaces of a solver.
+    pub(super) fn read(
+        &self,
+        mut step: Step,
+        solver: &Solver,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Result<Beginning, LifeError> {
         let reading = step.reading();
         let fields = StressFields::new(step.finest(), self.mean);
         let sought = PathSought { fatigue: true, endurance: false };
         let found = if reading.touches() && self.problem.bodies().tire() {
             let back = self.way_back(solver, &step)?;
+            // A way back that was not solved is no answer.
+            if let Some(stop) = back.as_ref().map(|back| back.report.stop).filter(|stop| !stop.solved()) {
+                step.report.stop = stop;
+            }
             let pass = Pass { way: self.way(), back: back.as_ref().or(self.stroke.map(|_| &step)) };
             PathReading::of_pass(&step, &reading, &fields, (sought, &pass), goes_on).ok_or(LifeError::Interrupted)?
         } else {

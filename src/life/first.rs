@@ -1,4 +1,4 @@
-//! What happens to a body first, of any kind.
+//! The first event of a life, of any kind.
 
 use super::beginning::Beginning;
 use super::event::EventKind;
@@ -26,7 +26,7 @@ pub enum FirstKind {
 pub struct First {
     /// Kind of the event.
     pub kind: FirstKind,
-    /// What fails, or is worn through.
+    /// The part that fails, or is worn through.
     #[serde(flatten)]
     pub part: FatiguePart,
     /// Passes until then; infinite where nothing ever fails.

@@ -25,7 +25,7 @@ pub(super) struct Groove {
     peaks: [f64; 2],
 }
 
-/// What a groove has borne.
+/// Mean pressure over a groove.
 #[derive(Debug)]
 pub(super) struct MeanPressure {
     /// Mean of the pressure, sample by sample, a₂ fastest.

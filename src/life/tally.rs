@@ -1,4 +1,4 @@
-//! What is left and worn in a state, and what has come off.
+//! Thickness left, depths worn and volumes that have come off in a state.
 
 use super::beginning::Beginning;
 use super::event::{Course, Event, EventKind, Scar};
@@ -41,7 +41,7 @@ impl LifeTask {
         LifeState { end: Some(end), ..state }
     }
 
-    /// What is left and worn in a state, with the last contact that is known.
+    /// Thickness left and depths worn in a state, with the last contact that is known.
     fn row(&self, state: &LifeState) -> Course {
         let last = state.course.last();
         let mean = |side: Side| (!self.problem.cell().is_isolated()).then(|| state.mean_worn(side));

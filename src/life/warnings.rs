@@ -73,7 +73,7 @@ impl LifeTask {
         })
     }
 
-    /// That surfaces wear, but not up to a number of passes.
+    /// Warning that surfaces wear, but not up to a number of passes.
     fn wear_left_out(&self, begun: &Beginning) -> Option<String> {
         if !self.wears() || self.passes.is_some() {
             return None;

@@ -61,7 +61,7 @@ pub struct Check {
     pub surface: Option<Roughness>,
     /// The strengths that are numbers of the library.
     pub library_strengths: Vec<LibraryStrength>,
-    /// These strengths in sentences.
+    /// Strengths of the library in sentences.
     pub library: Vec<String>,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,

@@ -192,18 +192,18 @@ fn doubt(doubt: &Doubt, found: &Identification, units: &Units) -> String {
     }
 }
 
-/// What a number of the instrument would change, and how it is freed.
+/// Sentence on what a number of the instrument would change, and how it is freed.
 fn with_it(own: &Missing, found: &Identification, name: &str) -> String {
     let names = found.estimates.iter().map(|own| own.parameter.name.as_str());
     let changed: Vec<String> =
         names.zip(&own.estimates).map(|(name, value)| format!("{name} about {}", number(*value))).collect();
     format!(
-        "with it {}; free `{name}`, or state it by --known {name}=…, if it is not the model that fails",
+        "with it {}; free `{name}`, or state it as known (`--known {name}=…`, in Python `known`), if it is not the model that fails",
         changed.join(" and ")
     )
 }
 
-/// That the elastic fit exceeds the hardness of a surface, and from which force on; `None` without a hardness, and below it.
+/// Warning that the elastic fit exceeds the hardness of a surface, and from which force on; `None` without a hardness, and below it.
 fn beyond_hardness(measured: &Measurement, found: &Identification, case: &Case) -> Option<String> {
     let (hardness, side) = case.problem().bodies().hardness()?;
     let points = measured.forces().iter().zip(&found.peaks);

@@ -36,7 +36,7 @@ pub struct LifeFile {
     pub distance: Option<f64>,
     /// The path along which points of the body meet the stresses; `None` where nothing tires.
     pub path: Option<SlidingPath>,
-    /// What happens first, of any kind; `None` where nothing tires and nothing is worn through.
+    /// The first event, of any kind; `None` where nothing tires and nothing is worn through.
     pub first: Option<First>,
     /// The life of each material and interface that tires, under the unworn surfaces.
     pub criteria: Vec<LifeCriterion>,

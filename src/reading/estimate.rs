@@ -212,7 +212,7 @@ impl Grids<'_> {
 
     /// An error of a largest pressure; none where that is given, or the hardness, which no pressure exceeds.
     fn unless_known(&self, pressure: f64, error: impl FnOnce() -> Option<f64>) -> Option<f64> {
-        if self.is_given || pressure >= self.hardness { Some(0.0) } else { error() }
+        if self.is_given || self.hardness.is_finite() && pressure >= self.hardness { Some(0.0) } else { error() }
     }
 
     /// Samples along the radius of the largest and of the smallest contact, at least one: the penetration is as certain as the

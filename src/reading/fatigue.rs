@@ -131,7 +131,7 @@ impl FatigueReading {
     }
 }
 
-/// What a pass of the counterbody is.
+/// A pass of the counterbody.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Pass<'a> {
     /// Length of one way over a lattice, a length; `None`: one period. A point comes past an isolated contact once in one way.
@@ -163,7 +163,7 @@ impl PathReading {
         Self::of_pass(step, reading, fields, (sought, &Pass::default()), goes_on)
     }
 
-    /// What is `sought` of a step in a pass, as [`Self::of_while`].
+    /// The reading `sought` of a step in a pass, as [`Self::of_while`].
     pub fn of_pass(
         step: &Step,
         reading: &Reading,

@@ -151,7 +151,7 @@ pub(super) fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<Str
     ))
 }
 
-/// Those of a step: at the surfaces, and at the materials beneath by what reaches them.
+/// Sentences of a step: at the surfaces, and at the materials beneath by what reaches them.
 fn strains(problem: &Problem, &(step, record): &Numbered) -> Vec<Strain> {
     let reading = &record.reading;
     let of_body = |body: &HalfSpace| -> Vec<Strain> {

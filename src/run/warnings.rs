@@ -83,7 +83,7 @@ fn is_told(stop: Stop) -> bool {
     matches!(stop, Stop::Unresolved | Stop::AtBorder | Stop::BeyondHardness)
 }
 
-/// What a path presses into a softer body that slides away below the counterbody.
+/// Warning of what a path presses into a softer body that slides away below the counterbody.
 fn dropped(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let (_, before) = steps.split_last()?;
     let is_pressed_in = |step: &StepRecord| step.plastic.is_some_and(|own| own.is_pressed_in());

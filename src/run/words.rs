@@ -1,4 +1,4 @@
-//! What sentences about steps share: their numbers, ratios, and from where on strains are not small.
+//! Parts that sentences about steps share: their numbers, ratios, and from where on strains are not small.
 
 use super::StepRecord;
 

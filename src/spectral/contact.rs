@@ -43,7 +43,7 @@ impl Contact {
         Self { indented, ..self }
     }
 
-    /// It under another pressure, closed wherever that presses.
+    /// The contact under another pressure, closed wherever that presses.
     pub(super) fn with_pressure(&self, pressure: Vec<f64>) -> Self {
         let closed = |(gap, p): (&f64, &f64)| if *p > 0.0 { 0.0 } else { *gap };
         let gap = Arc::new(self.gap.iter().zip(&pressure).map(closed).collect());

@@ -213,7 +213,7 @@ impl FarTables {
 }
 
 /// Sides of a window along x and y, lengths.
-fn sides(window: Cell) -> [f64; 2] {
+pub(super) fn sides(window: Cell) -> [f64; 2] {
     let [a1, a2] = window.vectors();
     [a1[0], a2[1]]
 }

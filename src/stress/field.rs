@@ -4,11 +4,11 @@ use super::constants::SHALLOW;
 use super::depth_response::DepthResponse;
 use super::far_field::FarField;
 use super::far_plane::FarPlane;
+use super::loaded_window::LoadedWindow;
 use super::mean_states::{across, mean_states};
 use super::regions::Regions;
 use super::series::{Response, Series};
 use super::series_grid::spread;
-use super::surroundings::LoadedWindow;
 use super::tables::Tables;
 use super::tensor::StressState;
 use crate::body::{Bodies, Depth, HalfSpace, InteriorTable, MeanStress, Side};
@@ -25,7 +25,7 @@ use std::sync::Arc;
 
 pub(super) use crate::body::REACH;
 
-/// What a surface bears beside its samples: traction, Dundurs' β of the materials that meet there, and whether the pressure is that of a
+/// Facts about a surface beside its samples: traction, Dundurs' β of the materials that meet there, and whether the pressure is that of a
 /// contact.
 struct SurfaceTraction<'a> {
     /// The discs of a given pressure; none of any other.

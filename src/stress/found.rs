@@ -58,11 +58,11 @@ pub(super) struct FoundStresses {
     pub ringing: f64,
     /// Whether the waves of the pressure are known, so that below the surface the samples leave nothing open.
     pub is_exact_below: bool,
-    /// What waves that are left out may add, over the stresses.
+    /// Stress that waves left out may add, over the stresses.
     pub left_out: f64,
     /// The states at rest of each material, which those around an isolated contact approach far away; none of a periodic system.
     pub at_rest: Vec<StressState>,
-    /// What was found in the windows around that of an isolated contact, from the inner one outward.
+    /// Contenders in the windows around that of an isolated contact, from the inner one outward.
     pub around: Vec<Self>,
 }
 

@@ -40,6 +40,7 @@ mod field;
 mod fields;
 mod found;
 mod line_plane;
+mod loaded_window;
 pub mod maxima;
 mod mean_states;
 mod measure;
@@ -71,6 +72,8 @@ pub use crest::Crest;
 pub(crate) use far_tables::FarTables;
 pub use field::StressField;
 pub use fields::StressFields;
+#[cfg(feature = "cli")]
+pub(crate) use loaded_window::bytes_around;
 pub(crate) use path_search::{PassOver, PathPeak, PathPeaks, PathSought, transmitted};
 pub use peak::{Peak, Rival};
 pub use plane::DepthPlane;
@@ -79,7 +82,5 @@ pub use section::{SurfaceLine, VerticalSection};
 pub use sliding_path::SlidingPath;
 pub(crate) use sliding_path::period_along;
 pub(crate) use strength_peaks::StrengthPeaks;
-#[cfg(feature = "cli")]
-pub(crate) use surroundings::bytes_around;
 pub(crate) use tables::Tables;
 pub use tensor::StressState;

@@ -487,9 +487,10 @@ mod tests {
         assert!((twice - 1.0).abs() < 1e-13, "{twice}");
         let pressed = cycle(|_, cosine| StressState { xz: 2.0 + cosine, ..StressState::default() });
         let range = |path: SlidingPath, is_swept: bool| along(PathMeasure::Range(6.0), &pressed, path, is_swept);
-        assert!(
-            (range(CLOSED, true) - 2.0).abs() < 1e-13 && (range(SlidingPath::FromFarAway, true) - 3.0).abs() < 1e-13
-        );
+        // From far away τ₁ rises from 0 to 3, falls to 1 and rises again: a cycle of 3 and one of 2.
+        let both = (3f64.powi(6) + 2f64.powi(6)).powf(1.0 / 6.0);
+        let from_far = range(SlidingPath::FromFarAway, true);
+        assert!((range(CLOSED, true) - 2.0).abs() < 1e-13 && (from_far - both).abs() < 1e-13, "{from_far}");
         assert!((range(CLOSED, false) - 3.0).abs() < 1e-13);
     }
 
@@ -523,7 +524,9 @@ mod tests {
             let own = LinePath { times, back: Some(&back), ..path_of(&there, CLOSED, true) };
             let known = 4f64.powi(4) + 2.0 * times * 3f64.powi(4);
             let found = measure.along(&own).value;
-            assert!((found / known.powf(0.25) - 1.0).abs() < 1e-12, "{found}");
+            // Where the ways join the last samples are a step h before the extremes: 1.5 (1 − cos h) less of a range, twice.
+            let step = TAU / 96.0;
+            assert!((found / known.powf(0.25) - 1.0).abs() < 0.75 * step * step, "{found}");
         }
         let mut states = wave(1.0);
         states.push(StressState { yz: 3.0, ..StressState::default() });

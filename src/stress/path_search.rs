@@ -46,7 +46,7 @@ impl PathSought {
     pub const ALL: Self = Self { fatigue: true, endurance: true };
 }
 
-/// What a pass is, on the path of a body.
+/// A pass on the path of a body.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct PassOver<'a> {
     /// Length of one way of the counterbody over a lattice, a length; `None`: one period. Past an isolated contact a point comes once.

@@ -42,7 +42,7 @@ pub(super) struct Series {
     pub waves: Arc<Waves>,
     /// Coefficient c of each wave of the samples, a pressure.
     sampled: Vec<Complex64>,
-    /// Those of the discs themselves, whatever the samples see of them; `None` of another pressure.
+    /// Coefficients of the discs themselves, whatever the samples see of them; `None` of another pressure.
     exact: Option<Vec<Complex64>>,
 }
 

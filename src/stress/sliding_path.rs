@@ -174,7 +174,8 @@ impl SlidingLines {
     pub fn position(&self, place: [f64; 2], line: usize, points: LinePoints) -> f64 {
         let LinePoints { rows, columns } = points;
         let parts = self.cell.parts(place);
-        let u = parts[self.advance].rem_euclid(1.0);
+        // Of a tiny negative number the remainder is rounded to 1.
+        let u = Some(parts[self.advance].rem_euclid(1.0)).filter(|u| *u < 1.0).unwrap_or(0.0);
         let column = (parts[1 - self.advance] - self.shift(u)) * columns as f64;
         let away = |own: usize| {
             let away = (column - own as f64) / columns as f64;

@@ -8,16 +8,16 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Tables that are kept: those of both bodies on the grids of a step and of its errors, and as many that replace them.
 const KEPT: usize = 8;
-/// Tables that are kept of windows around that of an isolated contact: of up to eight windows as many as [`KEPT`] needs of one. Their
-/// grids have few samples.
-const KEPT_AROUND: usize = 32;
+/// Tables that are kept of the windows around that of an isolated contact, up to twelve, each with two bodies on two grids. Their grids have few
+/// samples.
+const KEPT_AROUND: usize = 48;
 
 /// Tables of the interior that the stress fields of one run share.
 #[derive(Debug)]
 pub(crate) struct Tables {
     /// Number of tables of each kind that are kept.
     kept: usize,
-    /// Those of the windows around that of an isolated contact.
+    /// Tables of the windows around that of an isolated contact.
     around: OnceLock<Arc<Tables>>,
     interiors: Mutex<Vec<Entry>>,
     far: Mutex<Vec<Arc<FarTables>>>,

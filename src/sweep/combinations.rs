@@ -166,6 +166,11 @@ pub fn keys_once<'a>(keys: impl IntoIterator<Item = &'a str>) -> Result<(), Comb
 
 /// A value by which equal ones are found: a number whatever its spelling, or the text.
 fn value_of(text: &str) -> String {
+    if let Ok(whole) = text.parse::<i64>()
+        && whole.unsigned_abs() > 1 << 53
+    {
+        return whole.to_string();
+    }
     text.parse::<f64>().map_or_else(|_| text.to_owned(), |number| format!("{:e}", number + 0.0))
 }
 

@@ -93,7 +93,7 @@ impl<'a> Study<'a> {
     /// Kept fields are gathered in `folder`.
     ///
     /// # Errors
-    /// Those of `done`, and of writing fields.
+    /// Errors of `done`, and of writing fields.
     pub fn run<E: From<OutputError>>(
         &self,
         known: &HashSet<usize>,

@@ -1,4 +1,4 @@
-//! What is said where hardness ends an answer: refused, in the table, in warnings, in the summary and in the report.
+//! Words where hardness ends an answer: refused, in the table, in warnings, in the summary and in the report.
 
 use crate::program::{Desk, Folder};
 

@@ -556,7 +556,7 @@ fn without_load_what_is_left_is_the_penetration() {
     }
 }
 
-/// What the loading step has left wrong is in the stated errors of the steps after it, against a grid of four times the points.
+/// Errors that the loading step has left are in the stated errors of the steps after it, against a grid of four times the points.
 #[test]
 fn errors_of_loading_are_inherited_by_unloading() {
     let window = Cell::window([1.0; 2]).unwrap();
@@ -647,7 +647,7 @@ fn the_end_of_the_elastic_answer_is_said() {
     assert_eq!(said(thin_on_soft(0.002, Some(1.0), Some(0.5)), force).0, None);
 }
 
-/// What is pressed into a coating beyond a tenth of it, and layers on a rigid base that are nearly pressed through.
+/// Depths pressed into a coating beyond a tenth of it, and layers on a rigid base that are nearly pressed through.
 #[test]
 fn layers_that_are_pressed_too_deep_are_told() {
     let cell = Cell::square(1.0).unwrap();

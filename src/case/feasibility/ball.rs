@@ -128,7 +128,7 @@ mod tests {
             (
                 &["load.force=5"],
                 "at load.force = 5.0000 the contact radius of level 1 will have about 5.5 samples, by the formulas of a single contact: \
-                 radii and peak pressures are rough below 10; raise grid.points, or lower lattice.size to 9.4980: the window is 19.16 \
+                 radii and peak pressures are rough below 10; raise grid.points, or lower lattice.size to 8.4569: the window is 21.52 \
                  times as wide as the contact at the highest load, with levels[0].radius in µm, and load.force in mN"
                     .to_owned(),
             ),

@@ -21,7 +21,7 @@ pub struct LibraryStrength {
     pub value: f64,
     /// Lowest and highest value of its sources, in the pressure unit of the case.
     pub range: Option<[f64; 2]>,
-    /// What was measured, such as the kind of test.
+    /// Quantity measured, such as the kind of test.
     pub what: Option<&'static str>,
     /// Where the number comes from.
     pub source: Option<&'static str>,
@@ -49,7 +49,7 @@ impl LibraryStrength {
         all
     }
 
-    /// Those of a section with a material; `factor` is a GPa in the pressure unit of the case.
+    /// Strengths of a section with a material; `factor` is a GPa in the pressure unit of the case.
     fn of_section(section: &Value, factor: f64) -> Vec<Self> {
         let Some(name) = section["material"].as_str() else { return Vec::new() };
         let Some(material) = library().iter().find(|own| own.name == name) else { return Vec::new() };

@@ -42,7 +42,7 @@ pub fn events(events: &[Event], units: &Units) -> Option<Table> {
     Some(Table::new(&header, rows, 0))
 }
 
-/// What happens first, of any kind, in a line; of surfaces that only wear how far they were followed.
+/// The first event, of any kind, in a line; of surfaces that only wear how far they were followed.
 pub fn headline(file: &LifeFile, units: &Units) -> String {
     let slid = |first: &First| {
         let slid = first.distance.map(|slid| units.length().with_unit(slid, number));
