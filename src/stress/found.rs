@@ -7,6 +7,7 @@ use super::measure::StressMeasure;
 use super::peak::Peak;
 use super::tensor::StressState;
 use crate::body::{HalfSpace, InterfaceId};
+use crate::lattice::Cell;
 
 /// Contenders for the maxima, in the order of the maxima.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -44,6 +45,35 @@ impl ContenderLists {
     }
 }
 
+/// Measures that are not followed beyond the window of an isolated contact: small ones, deeper than the window is wide around the load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Faint {
+    /// The largest of them, a pressure.
+    pub most: f64,
+    /// Depth below which they lie, a length.
+    pub depth: f64,
+    /// The force on the contact.
+    pub force: f64,
+    pub window: Cell,
+}
+
+impl Faint {
+    /// The most that a stress at the place of a peak on the border of the window may be elsewhere at its depth, a pressure; `None` of a peak that is
+    /// followed, or not on the border.
+    fn bound(&self, peak: Peak, measure: StressMeasure) -> Option<f64> {
+        let [x, y, z] = peak.position;
+        let is_faint = !measure.is_delamination() && peak.value < self.most && z > self.depth;
+        (is_faint && is_on_border(&self.window, [x, y])).then(|| self.force / (z * z))
+    }
+}
+
+/// Part of a side of a window that counts as its border.
+const BORDER: f64 = 0.05;
+
+fn is_on_border(window: &Cell, place: [f64; 2]) -> bool {
+    window.fractions(place).iter().any(|s| !(BORDER..=1.0 - BORDER).contains(s))
+}
+
 /// The contenders for the measures that were sought, and what their errors depend on.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct FoundStresses {
@@ -62,6 +92,8 @@ pub(super) struct FoundStresses {
     pub left_out: f64,
     /// The states at rest of each material, which those around an isolated contact approach far away; none of a periodic system.
     pub at_rest: Vec<StressState>,
+    /// Measures that are not followed beyond the window; `None` where all are.
+    pub faint: Option<Faint>,
     /// Contenders in the windows around that of an isolated contact, from the inner one outward.
     pub around: Vec<Self>,
 }
@@ -71,13 +103,21 @@ impl FoundStresses {
     pub fn stated(&self, contenders: &Contenders, measure: StressMeasure) -> Option<Peak> {
         let peak = stated(contenders, measure, self.shallow_depth)?;
         // Far away the measure comes arbitrarily near to that of the body at rest.
-        let rest = self.rest(peak, measure);
+        let rest = self
+            .rest(peak, measure)
+            .max(self.faint.and_then(|faint| faint.bound(peak, measure)).unwrap_or(f64::NEG_INFINITY));
         Some(Peak { error: peak.error.map(|error| error.max(rest - peak.value)), ..peak })
     }
 
     /// A measure of the body at rest, in the material of a peak; minus infinity where no load leaves it so.
     fn rest(&self, peak: Peak, measure: StressMeasure) -> f64 {
         self.at_rest.get(peak.material.number - 1).map_or(f64::NEG_INFINITY, |rest| measure.of(rest))
+    }
+
+    /// The largest stress found in any material, a pressure.
+    pub fn largest(&self) -> f64 {
+        let peaks = self.contenders.materials.iter().flatten().map(|(_, contender)| contender.peak.value);
+        peaks.filter(|value| value.is_finite()).fold(0.0, f64::max)
     }
 
     /// The contenders in the window and around it.
@@ -87,16 +127,17 @@ impl FoundStresses {
         all
     }
 
-    /// Of each material, with the interface below it, whether the largest contender of any measure lies where a place x, y is on a
-    /// border, and exceeds the measure at rest.
-    pub fn largest_on_border(&self, is_on_border: impl Fn([f64; 2]) -> bool) -> Vec<bool> {
+    /// Of each material, with the interface below it, whether the largest contender of any measure lies on the
+    /// border of a window, exceeds the measure at rest, and is not faint.
+    pub fn largest_on_border(&self, window: &Cell) -> Vec<bool> {
         let everywhere = self.everywhere();
         let is_there = |contenders: &Contenders| {
             contenders.iter().any(|(measure, Contender { peak, .. })| {
                 let [x, y, _] = peak.position;
                 let is_largest =
                     || contenders.iter().all(|(of, other)| of != measure || other.peak.value <= peak.value);
-                peak.value > self.rest(*peak, *measure) && is_on_border([x, y]) && is_largest()
+                let is_followed = self.faint.is_none_or(|faint| faint.bound(*peak, *measure).is_none());
+                peak.value > self.rest(*peak, *measure) && is_on_border(window, [x, y]) && is_followed && is_largest()
             })
         };
         let of_interface = |number: usize| everywhere.interfaces.get(number).is_some_and(|(_, own)| is_there(own));

@@ -9,6 +9,7 @@ use crate::body::HalfSpace;
 use crate::body::InteriorTable;
 use crate::lattice::{Cell, Grid};
 use crate::numeric::fourier::fast_points;
+use crate::numeric::sums;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -53,6 +54,11 @@ impl LoadedWindow {
         }
         let extent = Extent { sides: sides(grid.cell()), points: grid.points(), half_size };
         Self { grid: Arc::clone(grid), pressure: pressure.to_vec(), extent }
+    }
+
+    /// The force, a pressure times a squared length.
+    pub fn force(&self) -> f64 {
+        sums::mean(&self.pressure) * self.grid.cell().area()
     }
 }
 

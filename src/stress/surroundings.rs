@@ -10,11 +10,13 @@
 //!
 //! **Where it ends.** Beyond half the size of the contact and what its [stiff layers reach](crate::body::HalfSpace::bending_reach)
 //! measures of stress only approach those of a body at rest. The search ends in the first window that is as wide and on whose border no
-//! measure is larger than both, inside and at rest. Where one at rest is larger, as σ_zz = 0 than a compression, the error covers it.
+//! measure is larger than both, inside and at rest. Where one at rest is larger, as σ_zz = 0 than a compression, the error covers it. What
+//! is largest beyond the window because it lies deeper than that is wide is followed from a thousandth of the largest stress on; where it is
+//! fainter, its error is P/z² of the force P at its depth z, more than any stress there.
 
 use super::far_field::FarField;
 use super::field::StressField;
-use super::found::FoundStresses;
+use super::found::{Faint, FoundStresses};
 use super::loaded_window::{MOST_WINDOWS, passed};
 use super::measure::Sought;
 use super::series::Series;
@@ -23,8 +25,8 @@ use super::window_waves::window_waves;
 use crate::lattice::{Cell, Grid};
 use std::sync::Arc;
 
-/// Part of a side of a window that counts as its border.
-const BORDER: f64 = 0.05;
+/// Part of the largest stress below which a measure deep under the window is not followed beyond it.
+const FAINT: f64 = 1e-3;
 
 impl StressField {
     /// The field in the window of a number from 1 around an isolated contact, outside of the window of the number before it; `None` of
@@ -59,12 +61,18 @@ impl StressField {
         let mut found = self.found(radii, sought, &all, goes_on)?;
         let Some(loaded) = &self.loaded else { return Some(found) };
         found.at_rest = (1..=self.materials()).map(|material| self.at_rest(material)).collect();
+        found.faint = (sought == Sought::All).then(|| Faint {
+            most: FAINT * found.largest(),
+            depth: loaded.extent.margin(0),
+            force: loaded.force(),
+            window: self.grid().cell(),
+        });
         let (extent, reach) = (&loaded.extent, loaded.extent.reach(self.half_space()));
         let mut window = self.grid().cell();
         for number in 1..=MOST_WINDOWS {
             let wanted = match extent.margin(number - 1) < reach {
                 true => all.clone(),
-                false => found.largest_on_border(|place| is_on_border(&window, place)),
+                false => found.largest_on_border(&window),
             };
             if !wanted.contains(&true) {
                 break;
@@ -84,8 +92,4 @@ impl StressField {
         let residual = self.half_space().residual_stresses().nth(material - 1).unwrap_or(0.0);
         StressState { xx: residual, yy: residual, ..StressState::default() }
     }
-}
-
-fn is_on_border(window: &Cell, place: [f64; 2]) -> bool {
-    window.fractions(place).iter().any(|s| !(BORDER..=1.0 - BORDER).contains(s))
 }
