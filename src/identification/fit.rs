@@ -108,6 +108,9 @@ impl Identification {
         curve::check(&search.problem(&start, None).map_err(IdentificationError::Model)?)?;
         let mut early = EarlyCheck::new(measured);
         let found = least_squares::minimise(start, |t| {
+            if early.refusal.is_some() {
+                return Err(NoValue::Stopped);
+            }
             let linearised = search.trial(t, progress)?;
             if early.is_hopeless(search.free, t, &linearised) { Err(NoValue::Stopped) } else { Ok(linearised) }
         });

@@ -58,12 +58,16 @@ pub(super) struct Faint {
 }
 
 impl Faint {
+    /// Whether a measure is not followed.
+    fn is(&self, peak: Peak, measure: StressMeasure) -> bool {
+        !measure.is_delamination() && peak.value < self.most && peak.position[2] > self.depth
+    }
+
     /// The most that a stress at the place of a peak on the border of the window may be elsewhere at its depth, a pressure; `None` of a peak that is
     /// followed, or not on the border.
     fn bound(&self, peak: Peak, measure: StressMeasure) -> Option<f64> {
         let [x, y, z] = peak.position;
-        let is_faint = !measure.is_delamination() && peak.value < self.most && z > self.depth;
-        (is_faint && is_on_border(&self.window, [x, y])).then(|| self.force / (z * z))
+        (self.is(peak, measure) && is_on_border(&self.window, [x, y])).then(|| self.force / (z * z))
     }
 }
 
@@ -127,17 +131,18 @@ impl FoundStresses {
         all
     }
 
-    /// Of each material, with the interface below it, whether the largest contender of any measure lies on the
-    /// border of a window, exceeds the measure at rest, and is not faint.
-    pub fn largest_on_border(&self, window: &Cell) -> Vec<bool> {
+    /// Of each material, with the interface below it, whether larger values of a measure may lie outside of a window: where the largest one
+    /// lies on its border, or in layers that bend, `bends`, is no larger than the measure at rest, and is not faint.
+    pub fn may_be_larger_outside(&self, window: &Cell, bends: bool) -> Vec<bool> {
         let everywhere = self.everywhere();
         let is_there = |contenders: &Contenders| {
             contenders.iter().any(|(measure, Contender { peak, .. })| {
                 let [x, y, _] = peak.position;
+                let is_followed = self.faint.is_none_or(|faint| !faint.is(*peak, *measure));
                 let is_largest =
                     || contenders.iter().all(|(of, other)| of != measure || other.peak.value <= peak.value);
-                let is_followed = self.faint.is_none_or(|faint| faint.bound(*peak, *measure).is_none());
-                peak.value > self.rest(*peak, *measure) && is_on_border(window, [x, y]) && is_followed && is_largest()
+                let rises = if peak.value > self.rest(*peak, *measure) { is_on_border(window, [x, y]) } else { bends };
+                rises && is_followed && is_largest()
             })
         };
         let of_interface = |number: usize| everywhere.interfaces.get(number).is_some_and(|(_, own)| is_there(own));

@@ -10,7 +10,8 @@
 //!
 //! **Where it ends.** Beyond half the size of the contact and what its [stiff layers reach](crate::body::HalfSpace::bending_reach)
 //! measures of stress only approach those of a body at rest. The search ends in the first window that is as wide and on whose border no
-//! measure is larger than both, inside and at rest. Where one at rest is larger, as σ_zz = 0 than a compression, the error covers it. What
+//! measure is larger than both, inside and at rest. Where one at rest is larger, as σ_zz = 0 than a compression, the search goes on as far as
+//! the stiffer layers bend at all, and the error covers it. What
 //! is largest beyond the window because it lies deeper than that is wide is followed from a thousandth of the largest stress on; where it is
 //! fainter, its error is P/z² of the force P at its depth z, more than any stress there.
 
@@ -68,11 +69,12 @@ impl StressField {
             window: self.grid().cell(),
         });
         let (extent, reach) = (&loaded.extent, loaded.extent.reach(self.half_space()));
+        let faint_reach = self.half_space().faint_bending_reach();
         let mut window = self.grid().cell();
         for number in 1..=MOST_WINDOWS {
             let wanted = match extent.margin(number - 1) < reach {
                 true => all.clone(),
-                false => found.largest_on_border(&window),
+                false => found.may_be_larger_outside(&window, extent.margin(number - 1) < faint_reach),
             };
             if !wanted.contains(&true) {
                 break;
