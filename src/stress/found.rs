@@ -6,7 +6,7 @@ use super::field::StressField;
 use super::measure::StressMeasure;
 use super::peak::Peak;
 use super::tensor::StressState;
-use crate::body::{HalfSpace, InterfaceId};
+use crate::body::{HalfSpace, InterfaceId, Strength};
 use crate::lattice::Cell;
 
 /// Contenders for the maxima, in the order of the maxima.
@@ -45,29 +45,43 @@ impl ContenderLists {
     }
 }
 
-/// Measures that are not followed beyond the window of an isolated contact: small ones, deeper than the window is wide around the load.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Faint {
-    /// The largest of them, a pressure.
+/// How far measures are followed beyond the window of an isolated contact. Those by which strengths are judged are followed as far as they can be
+/// larger.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Following {
+    /// Strengths of the materials, from the surface down.
+    pub strengths: Vec<Strength>,
+    /// The largest stress that is not followed where it lies deep, a pressure.
     pub most: f64,
-    /// Depth below which they lie, a length.
+    /// Depth below which stresses lie deep, a length.
     pub depth: f64,
     /// The force on the contact.
     pub force: f64,
     pub window: Cell,
 }
 
-impl Faint {
-    /// Whether a measure is not followed.
-    fn is(&self, peak: Peak, measure: StressMeasure) -> bool {
-        !measure.is_delamination() && peak.value < self.most && peak.position[2] > self.depth
+impl Following {
+    /// Whether a strength is judged by a measure at a peak.
+    fn is_judged(&self, peak: Peak, measure: StressMeasure) -> bool {
+        let strength = self.strengths.get(peak.material.number - 1);
+        match measure {
+            StressMeasure::Delamination(_) => true,
+            StressMeasure::Tension => strength.is_some_and(|own| own.tensile.is_some()),
+            StressMeasure::Mises => strength.is_some_and(|own| own.yielding.is_some()),
+            StressMeasure::Tau1 | StressMeasure::Opening | StressMeasure::Shear => false,
+        }
+    }
+
+    /// Whether a measure is not followed: a small one that lies deep.
+    fn is_faint(&self, peak: Peak, measure: StressMeasure) -> bool {
+        peak.value < self.most && peak.position[2] > self.depth && !self.is_judged(peak, measure)
     }
 
     /// The most that a stress at the place of a peak on the border of the window may be elsewhere at its depth, a pressure; `None` of a peak that is
     /// followed, or not on the border.
     fn bound(&self, peak: Peak, measure: StressMeasure) -> Option<f64> {
         let [x, y, z] = peak.position;
-        (self.is(peak, measure) && is_on_border(&self.window, [x, y])).then(|| self.force / (z * z))
+        (self.is_faint(peak, measure) && is_on_border(&self.window, [x, y])).then(|| self.force / (z * z))
     }
 }
 
@@ -96,8 +110,8 @@ pub(super) struct FoundStresses {
     pub left_out: f64,
     /// The states at rest of each material, which those around an isolated contact approach far away; none of a periodic system.
     pub at_rest: Vec<StressState>,
-    /// Measures that are not followed beyond the window; `None` where all are.
-    pub faint: Option<Faint>,
+    /// How far measures are followed beyond the window of an isolated contact; `None` of a periodic system.
+    pub following: Option<Following>,
     /// Contenders in the windows around that of an isolated contact, from the inner one outward.
     pub around: Vec<Self>,
 }
@@ -109,7 +123,7 @@ impl FoundStresses {
         // Far away the measure comes arbitrarily near to that of the body at rest.
         let rest = self
             .rest(peak, measure)
-            .max(self.faint.and_then(|faint| faint.bound(peak, measure)).unwrap_or(f64::NEG_INFINITY));
+            .max(self.following.as_ref().and_then(|own| own.bound(peak, measure)).unwrap_or(f64::NEG_INFINITY));
         Some(Peak { error: peak.error.map(|error| error.max(rest - peak.value)), ..peak })
     }
 
@@ -132,17 +146,21 @@ impl FoundStresses {
     }
 
     /// Of each material, with the interface below it, whether larger values of a measure may lie outside of a window: where the largest one
-    /// lies on its border, or in layers that bend, `bends`, is no larger than the measure at rest, and is not faint.
-    pub fn may_be_larger_outside(&self, window: &Cell, bends: bool) -> Vec<bool> {
+    /// lies on its border, or is no larger than the measure at rest where layers still bend, `bends`: for measures by which strengths are judged,
+    /// and for others.
+    pub fn may_be_larger_outside(&self, window: &Cell, bends: [bool; 2]) -> Vec<bool> {
         let everywhere = self.everywhere();
         let is_there = |contenders: &Contenders| {
             contenders.iter().any(|(measure, Contender { peak, .. })| {
-                let [x, y, _] = peak.position;
-                let is_followed = self.faint.is_none_or(|faint| !faint.is(*peak, *measure));
+                let Some(following) = &self.following else { return false };
+                let ([x, y, _], is_judged) = (peak.position, following.is_judged(*peak, *measure));
                 let is_largest =
                     || contenders.iter().all(|(of, other)| of != measure || other.peak.value <= peak.value);
-                let rises = if peak.value > self.rest(*peak, *measure) { is_on_border(window, [x, y]) } else { bends };
-                rises && is_followed && is_largest()
+                let rises = match peak.value > self.rest(*peak, *measure) {
+                    true => is_on_border(window, [x, y]),
+                    false => bends[usize::from(!is_judged)],
+                };
+                rises && !following.is_faint(*peak, *measure) && is_largest()
             })
         };
         let of_interface = |number: usize| everywhere.interfaces.get(number).is_some_and(|(_, own)| is_there(own));

@@ -25,6 +25,9 @@ const MOST_POINTS: f64 = 512.0;
 /// Half the size of the contact, times this, is the distance beyond which its stresses decay on a bare body.
 const CONTACT_REACH: f64 = 0.5;
 
+/// Half the size of the contact, times this, is near.
+const NEAR: f64 = 8.0;
+
 /// The pressure on the grid of the window of an isolated contact.
 #[derive(Debug)]
 pub(super) struct LoadedWindow {
@@ -92,6 +95,11 @@ impl Extent {
     /// Distance from the load from which on stresses only decay, a length.
     pub fn reach(&self, half_space: &HalfSpace) -> f64 {
         half_space.bending_reach() + CONTACT_REACH * self.half_size[0].max(self.half_size[1])
+    }
+
+    /// Distance from the load up to which measures that are no larger than at rest are followed where no strength is judged by them, a length.
+    pub fn near(&self) -> f64 {
+        NEAR * self.half_size[0].max(self.half_size[1])
     }
 
     /// The wavenumber q₁ of the cut in the window of a number from 1, and the samples along its sides that hold the waves up to twice

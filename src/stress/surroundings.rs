@@ -11,13 +11,13 @@
 //! **Where it ends.** Beyond half the size of the contact and what its [stiff layers reach](crate::body::HalfSpace::bending_reach)
 //! measures of stress only approach those of a body at rest. The search ends in the first window that is as wide and on whose border no
 //! measure is larger than both, inside and at rest. Where one at rest is larger, as σ_zz = 0 than a compression, the search goes on as far as
-//! the stiffer layers bend at all, and the error covers it. What
+//! the stiffer layers bend at all, by which no strength is judged eight times half the size of the contact, and the error covers it. What
 //! is largest beyond the window because it lies deeper than that is wide is followed from a thousandth of the largest stress on; where it is
 //! fainter, its error is P/z² of the force P at its depth z, more than any stress there.
 
 use super::far_field::FarField;
 use super::field::StressField;
-use super::found::{Faint, FoundStresses};
+use super::found::{Following, FoundStresses};
 use super::loaded_window::{MOST_WINDOWS, passed};
 use super::measure::Sought;
 use super::series::Series;
@@ -62,7 +62,8 @@ impl StressField {
         let mut found = self.found(radii, sought, &all, goes_on)?;
         let Some(loaded) = &self.loaded else { return Some(found) };
         found.at_rest = (1..=self.materials()).map(|material| self.at_rest(material)).collect();
-        found.faint = (sought == Sought::All).then(|| Faint {
+        found.following = Some(Following {
+            strengths: self.half_space().strengths().collect(),
             most: FAINT * found.largest(),
             depth: loaded.extent.margin(0),
             force: loaded.force(),
@@ -70,11 +71,12 @@ impl StressField {
         });
         let (extent, reach) = (&loaded.extent, loaded.extent.reach(self.half_space()));
         let faint_reach = self.half_space().faint_bending_reach();
+        let reaches = [faint_reach, faint_reach.min(extent.near())];
         let mut window = self.grid().cell();
         for number in 1..=MOST_WINDOWS {
             let wanted = match extent.margin(number - 1) < reach {
                 true => all.clone(),
-                false => found.may_be_larger_outside(&window, extent.margin(number - 1) < faint_reach),
+                false => found.may_be_larger_outside(&window, reaches.map(|reach| extent.margin(number - 1) < reach)),
             };
             if !wanted.contains(&true) {
                 break;
