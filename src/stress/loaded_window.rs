@@ -28,6 +28,9 @@ const CONTACT_REACH: f64 = 0.5;
 /// Half the size of the contact, times this, is near.
 const NEAR: f64 = 8.0;
 
+/// The shorter side of the window, times this, is deep.
+const DEEP: f64 = 4.0;
+
 /// The pressure on the grid of the window of an isolated contact.
 #[derive(Debug)]
 pub(super) struct LoadedWindow {
@@ -95,6 +98,11 @@ impl Extent {
     /// Distance from the load from which on stresses only decay, a length.
     pub fn reach(&self, half_space: &HalfSpace) -> f64 {
         half_space.bending_reach() + CONTACT_REACH * self.half_size[0].max(self.half_size[1])
+    }
+
+    /// Depth below which faint measures are not followed, a length: four windows.
+    pub fn deep(&self) -> f64 {
+        DEEP * self.sides[0].min(self.sides[1])
     }
 
     /// Distance from the load up to which measures that are no larger than at rest are followed where no strength is judged by them, a length.

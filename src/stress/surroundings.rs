@@ -13,7 +13,7 @@
 //! measure is larger than both, inside and at rest. Where one at rest is larger, as σ_zz = 0 than a compression, the search goes on as far as
 //! the stiffer layers bend at all, by which no strength is judged eight times half the size of the contact, and the error covers it. What
 //! is largest beyond the window because it lies deeper than that is wide is followed from a thousandth of the largest stress on; where it is
-//! fainter, its error is P/z² of the force P at its depth z, more than any stress there.
+//! fainter, and deeper than four windows, its error is P/z² of the force P at its depth z, more than any stress there.
 
 use super::far_field::FarField;
 use super::field::StressField;
@@ -65,7 +65,7 @@ impl StressField {
         found.following = Some(Following {
             strengths: self.half_space().strengths().collect(),
             most: FAINT * found.largest(),
-            depth: loaded.extent.margin(0),
+            depth: loaded.extent.deep(),
             force: loaded.force(),
             window: self.grid().cell(),
         });
