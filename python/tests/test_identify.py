@@ -157,7 +157,12 @@ def test_poissons_ratio_stays_within_its_bounds(curve: tuple[Any, Any]) -> None:
         (([1.0, 2.0], [0.1, 0.2]), ["offset", "offset"], percoat.CaseError, "`offset` is there twice"),
         (([1.0, 2.0], [0.1]), ["substrate.young"], percoat.CaseError, "2 forces, but 1 penetrations"),
         (([1.0, 0.0], [0.1, 0.2]), ["substrate.young"], percoat.CaseError, "point 2: the force must be above 0"),
-        (([1.0, 2.0, 1.5], [0.1, 0.2, 0.15]), ["substrate.young"], percoat.CaseError, "points 2 to 3: the force falls"),
+        (
+            ([*range(1, 11), 8, 6, 4], [0.1 * k for k in [*range(1, 11), 9, 8, 7]]),
+            ["substrate.young"],
+            percoat.CaseError,
+            "points 10 to 13: the force falls",
+        ),
         (([1.0, 2.0], [0.1, np.nan]), ["substrate.young"], percoat.CaseError, "point 2: the penetration must be finite"),
         (([1.0], [0.1]), ["substrate.young"], percoat.CaseError, "more points than parameters"),
         (([[1.0]], [0.1]), ["substrate.young"], percoat.CaseError, "a number for each point"),

@@ -74,7 +74,6 @@ def test_pairs_are_zipped() -> None:
         ("0.1:0.4:3:log", [0.1, 0.2, 0.4]),
         ("0.1,0.2", [0.1, 0.2]),
         (iter([0.1, 0.2]), [0.1, 0.2]),
-        ([0.1, 0.1], [0.1, 0.1]),
         ([1.0 / 3.0, 1e-2 / 3.0], [1.0 / 3.0, 1e-2 / 3.0]),
     ],
     ids=lambda value: type(value).__name__ if not isinstance(value, str) else value,
@@ -86,6 +85,18 @@ def test_values_in_every_form(values: Any, expected: Any) -> None:
     # A geometric value is that of a power, known to roundings.
     exact = np.array_equal(column, expected)
     assert exact or (isinstance(values, str) and np.allclose(column, expected, rtol=1e-15, atol=0.0))
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"layers.0.thickness": [0.1, 0.2, 0.1]},
+        {"layers.0.thickness": [0.1, 0.2], "layers[0].thickness": [0.3, 0.4]},
+    ],
+)
+def test_what_is_given_twice_is_refused(values: dict[str, Any]) -> None:
+    with pytest.raises(percoat.CaseError, match="twice"):
+        percoat.sweep("fig2", {**SMALL, **values})
 
 
 def test_columns_have_the_types_of_their_numbers() -> None:

@@ -1,13 +1,15 @@
 //! The pressure in the window of an isolated contact, and the windows around it in which its stresses are searched, each twice as wide as the
 //! one before: [`super::surroundings`].
 
-#[cfg(any(feature = "cli", test))]
+#[cfg(feature = "cli")]
 use super::far_tables::FarTables;
 use super::far_tables::sides;
 use crate::body::HalfSpace;
-#[cfg(any(feature = "cli", test))]
+#[cfg(feature = "cli")]
 use crate::body::InteriorTable;
-use crate::lattice::{Cell, Grid};
+#[cfg(feature = "cli")]
+use crate::lattice::Cell;
+use crate::lattice::Grid;
 use crate::numeric::fourier::fast_points;
 use crate::numeric::sums;
 use std::f64::consts::PI;
@@ -137,7 +139,7 @@ pub(super) fn passed(ratio: f64) -> f64 {
 }
 
 /// Memory of the search around a window as far as stiff layers make it go, bytes, where contact fills half of the window.
-#[cfg(any(feature = "cli", test))]
+#[cfg(feature = "cli")]
 pub(crate) fn bytes_around(window: Cell, half_space: &HalfSpace, slides: bool) -> usize {
     /// Bytes of a sample of the series: its wave, and the rows of a plane.
     const SAMPLE: usize = 92;

@@ -22,6 +22,7 @@ fn law() -> Fatigue {
 }
 
 /// A law so steep that of the cycles along a path the longest alone counts.
+#[cfg(feature = "validate")]
 fn steep() -> Fatigue {
     Fatigue::new(0.3, 1e6, 500.0).unwrap()
 }

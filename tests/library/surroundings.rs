@@ -36,7 +36,7 @@ fn a_stiff_coating_cracks_at_one_load_whatever_the_window() {
         let outer = layer(0.2, 0.22).with_strengths(cracks, NO_BOND).unwrap();
         HalfSpace::new(vec![outer, layer(0.8, 0.3)], material(1.0, 0.38))
     };
-    for (window, points) in [(3.0, 64), (4.0, 64), (6.0, 96), (12.0, 192)] {
+    for (window, points) in [(3.0, 64), (6.0, 96)] {
         let found = limits(under_a_ball(body(), 50.0, window), 0.5, points);
         let [low, high] = found.limits[0].interval();
         assert!(found.converged(), "{window}: {found:?}");
