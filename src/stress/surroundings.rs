@@ -11,7 +11,7 @@
 //! **Where it ends.** Beyond half the size of the contact and what its [stiff layers reach](crate::body::HalfSpace::bending_reach)
 //! measures of stress only approach those of a body at rest. The search ends in the first window that is as wide and on whose border no
 //! measure is larger than both, inside and at rest. Where one at rest is larger, as σ_zz = 0 than a compression, the search goes on as far as
-//! the stiffer layers bend at all, by which no strength is judged eight times half the size of the contact, and the error covers it. What
+//! the stiffer layers bend at all, by which no strength is judged eight times half the size of the contact, and the error covers that at rest. What
 //! is largest beyond the window because it lies deeper than that is wide is followed from a thousandth of the largest stress on; where it is
 //! fainter, and deeper than four windows, its error is P/z² of the force P at its depth z, more than any stress there.
 
