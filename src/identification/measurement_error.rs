@@ -2,7 +2,7 @@
 
 use crate::notation::number;
 
-/// What is wrong with a measured curve.
+/// Fault of a measured curve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeasurementError {
     /// Another number of penetrations, or of deviations, than of forces.

@@ -77,7 +77,7 @@ impl Following {
         peak.value < self.most && peak.position[2] > self.depth && !self.is_judged(peak, measure)
     }
 
-    /// The most that a stress at the place of a peak on the border of the window may be elsewhere at its depth, a pressure; `None` of a peak that is
+    /// The error of a peak on the border of the window, P/z² of the force P at its depth z, a pressure: on a bare body twice the largest stress there; `None` of a peak that is
     /// followed, or not on the border.
     fn bound(&self, peak: Peak, measure: StressMeasure) -> Option<f64> {
         let [x, y, z] = peak.position;

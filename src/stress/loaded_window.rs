@@ -91,7 +91,7 @@ impl Extent {
         [margin, margin.max(self.half_size[0]).max(self.half_size[1])]
     }
 
-    /// What the waves that are left out of the window of a number from 1 may add at the border of the one before it, over the stresses there.
+    /// Stress that the waves left out of the window of a number from 1 may add at the border of the one before it, over the stresses there.
     pub fn left_out(&self, number: u32) -> f64 {
         let (most, _) = self.cut(number);
         (-(self.margin(number - 1) * most / (2.0 * STEEPNESS)).powi(2)).exp()

@@ -11,9 +11,10 @@
 //! **Where it ends.** Beyond half the size of the contact and what its [stiff layers reach](crate::body::HalfSpace::bending_reach)
 //! measures of stress only approach those of a body at rest. The search ends in the first window that is as wide and on whose border no
 //! measure is larger than both, inside and at rest. Where one at rest is larger, as σ_zz = 0 than a compression, the search goes on as far as
-//! the stiffer layers bend at all, by which no strength is judged eight times half the size of the contact, and the error covers that at rest. What
+//! the stiffer layers bend at all (where no strength is judged by the measure, eight times half the size of the contact at most), and the error
+//! covers the measure at rest. What
 //! is largest beyond the window because it lies deeper than that is wide is followed from a thousandth of the largest stress on; where it is
-//! fainter, and deeper than four windows, its error is P/z² of the force P at its depth z, more than any stress there.
+//! fainter, and deeper than four windows, its error is P/z² of the force P at its depth z, twice the largest stress there on a bare body.
 
 use super::far_field::FarField;
 use super::field::StressField;
