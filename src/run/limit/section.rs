@@ -16,7 +16,7 @@ const DEEPEST_COATING: f64 = 8.0;
 
 impl LimitStep {
     /// Sections of the stresses in each body at the limit, through the place that fails: along the direction of sliding, or along x
-    /// without friction, a contact's width to both sides and deep enough to show the place; through the nearest point of the window where an
+    /// without friction, a contact's width to both sides and deep enough to show the place; through the middle of the window where an
     /// isolated contact fails outside of it. `None` where the limit has no place.
     pub fn sections(&self, run: &Run) -> Option<Vec<VerticalSection>> {
         let Self { limit, step, .. } = self;
@@ -24,8 +24,8 @@ impl LimitStep {
         // The window of the step may be larger than that of the case.
         let (bodies, cell) = (run.problem.bodies(), step.grid().cell());
         let direction = run.problem.direction();
-        // Stresses around the window of an isolated contact have no section.
-        let [x, y] = cell.nearest_point([x, y]);
+        // Stresses around the window of an isolated contact have no section: that through its middle shows the contact.
+        let [x, y] = if cell.contains([x, y]) { [x, y] } else { cell.point([0.5; 2]) };
         let reading = step.reading();
         let radius = (reading.contact_area / (PI * reading.contact_spots.max(1) as f64)).sqrt();
         let reach = (HALF_LENGTH * radius).min(0.5 * cell.reduced().longer_side());
