@@ -15,6 +15,7 @@ use super::field::StressField;
 use super::measure::StressMeasure;
 use super::peak::{Peak, Rival};
 use super::tensor::StressState;
+use crate::lattice::Cell;
 use std::f64::consts::PI;
 
 /// Contenders for the maxima of several measures, each with its measure.
@@ -31,7 +32,15 @@ pub(super) struct Contender {
     pub state: StressState,
     /// √(Σσᵢⱼ²) of the stresses of the waves at the position, without mean and residual stresses, a pressure.
     pub size: f64,
+    /// The largest size of these stresses on the border of the window of an isolated contact, on the planes where the value was looked for, a
+    /// pressure; zero in a periodic cell.
+    pub border: f64,
+    /// Whether the value lies on that border.
+    pub is_on_border: bool,
 }
+
+/// Part of a side of a window that counts as its border.
+const BORDER: f64 = 0.05;
 
 /// The stress field on the next coarser grid, from which errors are estimated.
 #[derive(Debug)]
@@ -74,6 +83,18 @@ impl NearSurface {
 }
 
 impl Contender {
+    /// The contender with the largest size of stresses on the `border` of a window in which it was looked for; none of a periodic cell.
+    pub fn in_window(self, window: Cell, border: f64) -> Self {
+        let [x, y, _] = self.peak.position;
+        let is_on_border = || window.fractions([x, y]).iter().any(|s| !(BORDER..=1.0 - BORDER).contains(s));
+        Self { border, is_on_border: window.is_isolated() && is_on_border(), ..self }
+    }
+
+    /// Whether the value lies on the border of the last window, where the largest size of stresses is `border`, a pressure.
+    pub fn is_still_on(&self, border: f64) -> bool {
+        self.is_on_border && self.border == border
+    }
+
     /// Estimated error of the value, from the coarser grid and the `resolution`, the samples along the radius of the smallest
     /// spot; near the `surface` the series converges slowly, and may ring.
     pub fn error(

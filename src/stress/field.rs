@@ -4,7 +4,7 @@ use super::constants::SHALLOW;
 use super::depth_response::DepthResponse;
 use super::far_field::FarField;
 use super::far_plane::FarPlane;
-use super::loaded_window::LoadedWindow;
+use super::loaded_window::{LoadedWindow, MOST_WINDOWS};
 use super::mean_states::{across, mean_states};
 use super::regions::Regions;
 use super::series::{Response, Series};
@@ -21,7 +21,7 @@ use crate::spectral::Contact;
 use ndarray::ArrayView2;
 use std::f64::consts::PI;
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 pub(super) use crate::body::REACH;
 
@@ -49,6 +49,8 @@ pub struct StressField {
     far: Option<FarField>,
     /// The pressure in the window of an isolated contact; `None` in a periodic cell.
     pub(super) loaded: Option<Arc<LoadedWindow>>,
+    /// The fields in the windows around it, made when they are asked for.
+    pub(super) around: [OnceLock<Option<Box<Self>>>; MOST_WINDOWS as usize],
     /// The window inside of which the field does not hold, of one around the window of the contact.
     hole: Option<Cell>,
     half_space: HalfSpace,
@@ -139,6 +141,7 @@ impl StressField {
         let regions = Regions::new(&series_grid, &spread, line);
         Self {
             loaded: grid.cell().is_isolated().then(|| Arc::new(LoadedWindow::new(grid, pressure))),
+            around: Default::default(),
             hole: None,
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
@@ -172,6 +175,7 @@ impl StressField {
         let tables = Arc::clone(self.tables.around());
         Self {
             loaded: self.loaded.clone(),
+            around: Default::default(),
             hole: Some(hole),
             half_space: self.half_space.clone(),
             interiors: tables.interiors(&series_grid, &self.half_space, self.slides()),

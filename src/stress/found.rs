@@ -7,7 +7,6 @@ use super::measure::StressMeasure;
 use super::peak::Peak;
 use super::tensor::StressState;
 use crate::body::{HalfSpace, InterfaceId, Strength};
-use crate::lattice::Cell;
 
 /// Contenders for the maxima, in the order of the maxima.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -45,19 +44,15 @@ impl ContenderLists {
     }
 }
 
-/// How far measures are followed beyond the window of an isolated contact. Those by which strengths are judged are followed as far as they can be
-/// larger.
+/// How far measures are followed beyond the window of an isolated contact.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Following {
     /// Strengths of the materials, from the surface down.
     pub strengths: Vec<Strength>,
-    /// The largest stress that is not followed where it lies deep, a pressure.
-    pub most: f64,
+    /// The largest stress that is faint, a pressure.
+    pub faint: f64,
     /// Depth below which stresses lie deep, a length.
     pub depth: f64,
-    /// The force on the contact.
-    pub force: f64,
-    pub window: Cell,
 }
 
 impl Following {
@@ -72,24 +67,22 @@ impl Following {
         }
     }
 
-    /// Whether a measure is not followed: a small one that lies deep.
-    fn is_faint(&self, peak: Peak, measure: StressMeasure) -> bool {
-        peak.value < self.most && peak.position[2] > self.depth && !self.is_judged(peak, measure)
-    }
-
-    /// The error of a peak on the border of the window, P/z² of the force P at its depth z, a pressure: on a bare body twice the largest stress there; `None` of a peak that is
-    /// followed, or not on the border.
-    fn bound(&self, peak: Peak, measure: StressMeasure) -> Option<f64> {
-        let [x, y, z] = peak.position;
-        (self.is_faint(peak, measure) && is_on_border(&self.window, [x, y])).then(|| self.force / (z * z))
+    /// Whether a larger value of a measure is looked for outside of the window on whose `border` stresses have the largest size, a pressure,
+    /// where it is not faint: from a value that is largest on the border and larger than that at rest, unless it is faint and deep; from a
+    /// lesser one where a strength is judged by it.
+    fn goes_on(&self, own: &Contender, measure: StressMeasure, [rest, border]: [f64; 2]) -> bool {
+        let ([_, _, z], is_judged) = (own.peak.position, self.is_judged(own.peak, measure));
+        border > self.faint
+            && match own.peak.value > rest {
+                true => own.is_still_on(border) && (is_judged || own.peak.value >= self.faint || z <= self.depth),
+                false => is_judged,
+            }
     }
 }
 
-/// Part of a side of a window that counts as its border.
-const BORDER: f64 = 0.05;
-
-fn is_on_border(window: &Cell, place: [f64; 2]) -> bool {
-    window.fractions(place).iter().any(|s| !(BORDER..=1.0 - BORDER).contains(s))
+/// The largest size of stresses on the border of the last window in which a measure was looked for, a pressure.
+fn border(contenders: &Contenders, measure: StressMeasure) -> Option<f64> {
+    contenders.iter().rev().find(|(of, _)| *of == measure).map(|(_, last)| last.border)
 }
 
 /// The contenders for the measures that were sought, and what their errors depend on.
@@ -120,16 +113,19 @@ impl FoundStresses {
     /// The largest of some contenders by a measure; `None` where it was not sought.
     pub fn stated(&self, contenders: &Contenders, measure: StressMeasure) -> Option<Peak> {
         let peak = stated(contenders, measure, self.shallow_depth)?;
-        // Far away the measure comes arbitrarily near to that of the body at rest.
-        let rest = self
-            .rest(peak, measure)
-            .max(self.following.as_ref().and_then(|own| own.bound(peak, measure)).unwrap_or(f64::NEG_INFINITY));
-        Some(Peak { error: peak.error.map(|error| error.max(rest - peak.value)), ..peak })
+        let beyond = self.beyond(contenders, peak, measure).unwrap_or(f64::NEG_INFINITY);
+        Some(Peak { error: peak.error.map(|error| error.max(beyond - peak.value)), ..peak })
     }
 
-    /// A measure of the body at rest, in the material of a peak; minus infinity where no load leaves it so.
-    fn rest(&self, peak: Peak, measure: StressMeasure) -> f64 {
-        self.at_rest.get(peak.material.number - 1).map_or(f64::NEG_INFINITY, |rest| measure.of(rest))
+    /// The largest value that a measure may have beyond the last window in which it was looked for: that of the body at rest under the largest
+    /// stresses on the border; `None` in a periodic system, and where a `peak` inside is larger than at rest.
+    fn beyond(&self, contenders: &Contenders, peak: Peak, measure: StressMeasure) -> Option<f64> {
+        let rest = self.at_rest.get(peak.material.number - 1)?;
+        let (at_rest, border) = (measure.of(rest), border(contenders, measure)?);
+        let is_own = |own: &Contender| own.peak.position == peak.position && own.peak.value == peak.value;
+        let is_on_border =
+            || contenders.iter().any(|(of, own)| *of == measure && is_own(own) && own.is_still_on(border));
+        (peak.value <= at_rest || is_on_border()).then(|| at_rest + measure.rise(rest, border))
     }
 
     /// The largest stress found in any material, a pressure.
@@ -145,22 +141,17 @@ impl FoundStresses {
         all
     }
 
-    /// Of each material, with the interface below it, whether larger values of a measure may lie outside of a window: where the largest one
-    /// lies on its border, or is no larger than the measure at rest where layers still bend, `bends`: for measures by which strengths are judged,
-    /// and for others.
-    pub fn may_be_larger_outside(&self, window: &Cell, bends: [bool; 2]) -> Vec<bool> {
-        let everywhere = self.everywhere();
+    /// Of each material, with the interface below it, whether a larger value of a measure is looked for outside of the last window.
+    pub fn may_be_larger_outside(&self) -> Vec<bool> {
+        let (everywhere, Some(following)) = (self.everywhere(), &self.following) else { return Vec::new() };
         let is_there = |contenders: &Contenders| {
-            contenders.iter().any(|(measure, Contender { peak, .. })| {
-                let Some(following) = &self.following else { return false };
-                let ([x, y, _], is_judged) = (peak.position, following.is_judged(*peak, *measure));
+            contenders.iter().any(|(measure, own)| {
+                let rest =
+                    self.at_rest.get(own.peak.material.number - 1).map_or(f64::INFINITY, |rest| measure.of(rest));
+                let border = border(contenders, *measure).unwrap_or(0.0);
                 let is_largest =
-                    || contenders.iter().all(|(of, other)| of != measure || other.peak.value <= peak.value);
-                let rises = match peak.value > self.rest(*peak, *measure) {
-                    true => is_on_border(window, [x, y]),
-                    false => bends[usize::from(!is_judged)],
-                };
-                rises && !following.is_faint(*peak, *measure) && is_largest()
+                    || contenders.iter().all(|(of, other)| of != measure || other.peak.value <= own.peak.value);
+                following.goes_on(own, *measure, [rest, border]) && is_largest()
             })
         };
         let of_interface = |number: usize| everywhere.interfaces.get(number).is_some_and(|(_, own)| is_there(own));
@@ -206,7 +197,7 @@ impl FoundStresses {
         }
         for (number, around) in (1..).zip(&mut self.around) {
             let Some(coarser) = coarser.around(number) else { break };
-            *around = std::mem::take(around).with_errors(&coarser, goes_on)?;
+            *around = std::mem::take(around).with_errors(coarser, goes_on)?;
         }
         Some(self)
     }

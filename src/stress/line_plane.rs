@@ -68,6 +68,10 @@ pub(super) struct LineStresses {
     pub tau1: Vec<f64>,
     pub shear: Vec<[f64; 2]>,
     pub stress: Vec<StressState>,
+    /// Numbers of samples before and behind the window of an isolated contact.
+    pub outside: [usize; 2],
+    /// Numbers of the first samples in the next window.
+    pub seams: Vec<usize>,
 }
 
 /// A row of K components that a field of waves and a smooth far field make.
@@ -207,6 +211,13 @@ impl StressField {
     }
 }
 
+/// The sum of values of some lines, each with a weight; `None` where they are not kept.
+fn sum<const K: usize>(weights: &[(f64, usize)], value: impl Fn(usize) -> Option<[f64; K]>) -> Option<[f64; K]> {
+    let add = |sum: [f64; K], (weight, own): (f64, [f64; K])| std::array::from_fn(|k| sum[k] + weight * own[k]);
+    let own = weights.iter().map(|&(weight, line)| Some((weight, value(line)?)));
+    own.collect::<Option<Vec<_>>>().filter(|own| !own.is_empty()).map(|own| own.into_iter().fold([0.0; K], add))
+}
+
 /// Columns, from the first on, that reach into the window of an isolated contact: half of them where they are not shifted.
 fn used_columns(lines: &SlidingLines, LinePoints { columns, .. }: LinePoints, is_isolated: bool) -> usize {
     if is_isolated && !lines.is_sheared() { columns.div_ceil(2) } else { columns }
@@ -247,7 +258,58 @@ impl LineStresses {
     }
 }
 
+impl LineStresses {
+    /// Adds samples behind the others.
+    pub fn append(&mut self, other: Self) {
+        self.places.extend(other.places);
+        self.tau1.extend(other.tau1);
+        self.shear.extend(other.shear);
+        self.stress.extend(other.stress);
+    }
+
+    /// Adds samples of the next window at both ends.
+    pub fn lengthen(&mut self, mut before: Self, behind: Self) {
+        let [first, last] = [before.places.len(), before.places.len() + self.places.len()];
+        let seams = self.seams.iter().map(|seam| seam + first);
+        before.seams = std::iter::once(first).chain(seams).chain([last]).collect();
+        before.outside = [self.outside[0] + first, self.outside[1] + behind.places.len()];
+        before.append(std::mem::take(self));
+        before.append(behind);
+        *self = before;
+    }
+}
+
 impl LinePlane {
+    /// Number, 0 or 1, of the cell vector along which rows follow one another.
+    pub fn advance(&self) -> usize {
+        self.lines.advance
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// The sum of the samples of some lines in a row, each with a weight; `None` where one of them lies beyond the window of an isolated
+    /// contact.
+    pub fn combined(&self, cell: Cell, row: usize, weights: &[(f64, usize)]) -> Option<LineStresses> {
+        let (mut place, kept) = ([0.0; 2], self.rows.get(row)?);
+        for &(weight, line) in weights {
+            let own = self.place(cell, [row, line])?;
+            place = [0, 1].map(|k| place[k] + weight * own[k]);
+        }
+        Some(LineStresses {
+            places: vec![place],
+            tau1: sum(weights, |line| kept.tau1.get(line).map(|own| [*own])).map(|[own]| own).into_iter().collect(),
+            shear: sum(weights, |line| kept.shear.get(line).copied()).into_iter().collect(),
+            stress: sum(weights, |line| kept.stress.get(line).copied())
+                .map(StressState::from_stresses)
+                .into_iter()
+                .collect(),
+            ..LineStresses::default()
+        })
+    }
+
     /// Number of lines.
     pub fn count(&self) -> usize {
         self.lines.count(self.points)

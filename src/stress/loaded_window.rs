@@ -11,7 +11,6 @@ use crate::body::InteriorTable;
 use crate::lattice::Cell;
 use crate::lattice::Grid;
 use crate::numeric::fourier::fast_points;
-use crate::numeric::sums;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -26,9 +25,6 @@ pub(super) const MOST_WINDOWS: u32 = 12;
 const MOST_POINTS: f64 = 512.0;
 /// Half the size of the contact, times this, is the distance beyond which its stresses decay on a bare body.
 const CONTACT_REACH: f64 = 0.5;
-
-/// Half the size of the contact, times this, is near.
-const NEAR: f64 = 8.0;
 
 /// The shorter side of the window, times this, is deep.
 const DEEP: f64 = 4.0;
@@ -62,11 +58,6 @@ impl LoadedWindow {
         }
         let extent = Extent { sides: sides(grid.cell()), points: grid.points(), half_size };
         Self { grid: Arc::clone(grid), pressure: pressure.to_vec(), extent }
-    }
-
-    /// The force, a pressure times a squared length.
-    pub fn force(&self) -> f64 {
-        sums::mean(&self.pressure) * self.grid.cell().area()
     }
 }
 
@@ -105,11 +96,6 @@ impl Extent {
     /// Depth below which faint measures are not followed, a length: four windows.
     pub fn deep(&self) -> f64 {
         DEEP * self.sides[0].min(self.sides[1])
-    }
-
-    /// Distance from the load up to which measures that are no larger than at rest are followed where no strength is judged by them, a length.
-    pub fn near(&self) -> f64 {
-        NEAR * self.half_size[0].max(self.half_size[1])
     }
 
     /// The wavenumber q₁ of the cut in the window of a number from 1, and the samples along its sides that hold the waves up to twice

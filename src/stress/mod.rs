@@ -39,6 +39,7 @@ mod far_tables;
 mod field;
 mod fields;
 mod found;
+mod line_around;
 mod line_plane;
 mod loaded_window;
 pub mod maxima;

@@ -127,14 +127,16 @@ impl LinePath<'_> {
         self.path == SlidingPath::FromFarAway || !self.is_swept
     }
 
-    /// Samples before and behind one along its line; `None` at the border of a window, on edges of contact, and near the surface.
+    /// Samples before and behind one along its line; `None` at the borders of windows, on edges of contact, and near the surface in the window.
     fn along(&self, k: usize) -> Option<[usize; 2]> {
-        let run = self.run;
-        if !self.is_smooth || k >= self.ordered || run < 3 {
+        let (run, [before, behind]) = (self.run, self.stresses.outside);
+        let is_outside = k < before || k + behind >= self.ordered;
+        if !(self.is_smooth || is_outside) || k >= self.ordered || run < 3 {
             return None;
         }
         let (from, own) = (k / run * run, k % run);
-        let is_border = self.path == SlidingPath::FromFarAway && (own == 0 || own + 1 == run);
+        let is_at_seam = || self.stresses.seams.iter().any(|&seam| k == seam || k + 1 == seam);
+        let is_border = self.path == SlidingPath::FromFarAway && (own == 0 || own + 1 == run || is_at_seam());
         (!is_border).then(|| [from + (own + run - 1) % run, from + (own + 1) % run])
     }
 
@@ -413,6 +415,7 @@ mod tests {
             tau1: states.iter().map(StressState::tau1).collect(),
             shear: states.iter().map(|own| [own.xz, own.yz]).collect(),
             stress: states.to_vec(),
+            ..LineStresses::default()
         };
         measure.along(&path_of(&stresses, path, is_swept)).value
     }
@@ -514,7 +517,7 @@ mod tests {
             places: (0..states.len()).map(|k| [k as f64, 0.0]).collect(),
             tau1: states.iter().map(StressState::tau1).collect(),
             shear: states.iter().map(|own| [own.xz, own.yz]).collect(),
-            stress: Vec::new(),
+            ..LineStresses::default()
         };
         let wave =
             |sign: f64| cycle(|_, cosine| StressState { yz: sign * (0.5 + 1.5 * cosine), ..StressState::default() });

@@ -15,6 +15,7 @@ use super::constants::{
     CHANGE_SAFETY, DEEP_SHEAR_ERROR, EXACT_ERROR, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES, SHALLOW_ERROR,
 };
 use super::field::StressField;
+use super::line_around::PlaneAround;
 use super::line_plane::{Kept, LinePlane, LineStresses};
 use super::path_measure::{LinePath, LineValue, PathMeasure};
 use super::plane_search::SEARCH_REACH;
@@ -126,6 +127,8 @@ type NumberedLine = (f64, usize, Vec<([f64; 2], StressState)>);
 struct NumberedLines {
     plane: LinePlane,
     lines: Vec<NumberedLine>,
+    /// The planes around the window of an isolated contact, on which lines go on.
+    around: Vec<PlaneAround>,
 }
 
 /// The largest value of a measure on a plane, between the lines too.
@@ -341,7 +344,7 @@ impl StressField {
             let nearest = all.iter_mut().min_by(|a, b| away(a.0).total_cmp(&away(b.0)));
             nearest.into_iter().for_each(|(_, _, own)| own.push((place, state)));
         }
-        NumberedLines { plane, lines: all }
+        NumberedLines { plane, lines: all, around: self.planes_around(search.direction, depth, kept) }
     }
 
     /// The largest value of a measure, by its number, on a plane.
@@ -453,7 +456,8 @@ impl StressField {
         let coarser = search.coarser?;
         let plane = coarser.searched_lines(best.depth, &[measure], search, (search.pass.coarser_back, false));
         let coarse = coarser.beside(&plane, best.y, search);
-        let state = self.stresses_at(&self.depth_response(best.depth, SEARCH_REACH), &[best.place]);
+        let field = self.holding(best.place);
+        let state = field.stresses_at(&field.depth_response(best.depth, SEARCH_REACH), &[best.place]);
         let size = state.first().map_or(0.0, |state| self.size_of_waves(best.depth, state));
         let resolution = self.regions().least_resolution();
         let is_near = best.depth.z < self.shallow_depth();
@@ -464,7 +468,7 @@ impl StressField {
         };
         let ringing = if is_near { self.regions().ringing() } else { 0.0 };
         let left = if is_near { 0.0 } else { LEFT_OPEN * best.value.abs() };
-        let rise = best.gain * measure.rise(open * size + ringing + best.beyond);
+        let rise = best.gain * measure.rise((open + self.left_out_of_lines()) * size + ringing + best.beyond);
         Some(CHANGE_SAFETY * (best.value - coarse).abs() + rise + left)
     }
 
@@ -497,13 +501,20 @@ impl NumberedLines {
         lines: &SlidingLines,
         kept: Kept,
     ) -> (LineStresses, Vec<f64>) {
-        let (_, line, edges) = &self.lines[number];
-        let mut stresses = self.plane.line(field.grid().cell(), *line);
+        let (y, line, edges) = &self.lines[number];
+        let mut hole = field.grid().cell();
+        let mut stresses = self.plane.line(hole, *line);
         let positions = edges.iter().map(|&(place, _)| match lines.path {
             SlidingPath::FromFarAway => between_places(&stresses.places, place),
             _ => lines.position(place, *line, self.plane.points),
         });
-        let positions = positions.collect();
+        let positions: Vec<f64> = positions.collect();
+        for plane in &self.around {
+            plane.lengthen(&mut stresses, *y, hole);
+            hole = plane.cell();
+        }
+        let before = stresses.outside[0] as f64;
+        let positions = positions.into_iter().map(|position| position + before).collect();
         edges.iter().for_each(|&(place, state)| stresses.push(place, state, kept));
         (stresses, positions)
     }

@@ -33,6 +33,18 @@ pub(super) struct Candidate {
     pub step: f64,
 }
 
+/// The largest samples of a plane.
+#[derive(Debug)]
+pub(super) struct PlaneSamples {
+    /// The largest sample by each measure.
+    pub best: Vec<(StressMeasure, Candidate)>,
+    /// The largest size of the stresses of the waves on the border of the window of an isolated contact, a pressure; zero in a periodic cell.
+    pub border: f64,
+}
+
+/// Of a row the column and the value of the largest sample by each measure, and the largest size of stresses on the border.
+type RowSamples = (Vec<(usize, f64)>, f64);
+
 /// Columns of a plane that are searched.
 struct SearchedColumns {
     /// Number of all columns.
@@ -84,13 +96,8 @@ impl StressField {
         depths
     }
 
-    /// The largest sample of a plane by each measure.
-    pub(super) fn candidates(
-        &self,
-        depth: Depth,
-        radius: f64,
-        measures: &[StressMeasure],
-    ) -> Vec<(StressMeasure, Candidate)> {
+    /// The largest samples of a plane by some measures.
+    pub(super) fn candidates(&self, depth: Depth, radius: f64, measures: &[StressMeasure]) -> PlaneSamples {
         let grid = self.series_grid();
         let lengths = grid.cell().vectors().map(|[x, y]| x.hypot(y));
         let points = [0, 1].map(|k| {
@@ -102,26 +109,40 @@ impl StressField {
         let largest_of_rows = self.largest_of_rows(depth, &Transform::new(points), start, measures);
         let [n1, n2] = points.map(|n| n as f64);
         let candidate = |(index, &measure): (usize, &StressMeasure)| {
-            let of_rows = || largest_of_rows.iter().map(|row| row[index]);
+            let of_rows = || largest_of_rows.iter().map(|(row, _)| row[index]);
             let (i, value) = first_largest(of_rows().map(|(_, value)| value)).unwrap_or((0, f64::NEG_INFINITY));
             let j = of_rows().nth(i).map_or(0, |(j, _)| j);
             let place = grid.cell().point([start[0] + i as f64 / n1, start[1] + j as f64 / n2]);
             (measure, Candidate { value, depth, place, step: 0.5 * (lengths[0] / n1).min(lengths[1] / n2) })
         };
-        measures.iter().enumerate().map(candidate).collect()
+        PlaneSamples {
+            best: measures.iter().enumerate().map(candidate).collect(),
+            border: largest_of_rows.iter().map(|(_, border)| *border).fold(0.0, f64::max),
+        }
     }
 
-    /// Index and value of the largest of each measure in each row of a plane.
+    /// The largest samples of each row of a plane.
     fn largest_of_rows(
         &self,
         depth: Depth,
         transform: &Transform,
         start: [f64; 2],
         measures: &[StressMeasure],
-    ) -> Vec<Vec<(usize, f64)>> {
+    ) -> Vec<RowSamples> {
         // Around an isolated contact only its window is searched, the first half of the rows and columns.
-        let part = if self.grid().cell().is_isolated() { 2 } else { 1 };
+        let is_isolated = self.grid().cell().is_isolated();
+        let part = if is_isolated { 2 } else { 1 };
         let (rows, columns) = (transform.points()[0].div_ceil(part), transform.points()[1].div_ceil(part));
+        let border = |i: usize, state: &dyn Fn(usize) -> StressState| -> f64 {
+            let of = |columns: &mut dyn Iterator<Item = usize>| {
+                columns.map(|j| self.size_of_waves(depth, &state(j))).fold(0.0, f64::max)
+            };
+            match (is_isolated, i == 0 || i + 1 == rows) {
+                (false, _) => 0.0,
+                (true, true) => of(&mut (0..columns)),
+                (true, false) => of(&mut [0, columns - 1].into_iter()),
+            }
+        };
         let (response, found) = (self.depth_response(depth, PLANE_REACH), RunningMaxima::new(measures));
         let searched = SearchedColumns { count: columns, beside_hole: self.beside_hole(transform, start) };
         if depth == Depth::SURFACE {
@@ -129,12 +150,14 @@ impl StressField {
             let surface = SurfaceStresses::new(&Arc::new(response), |_| 1.0);
             let fields = self.series.on_plane_from(start, transform, Vec::new(), &surface);
             return fields.map_first(rows, |i, row| {
-                searched.largest(&found, i, |j| StressState::on_surface(row.map(|component| component[j]), traction))
+                let state = |j: usize| StressState::on_surface(row.map(|component| component[j]), traction);
+                (searched.largest(&found, i, state), border(i, &state))
             });
         }
         let fields = self.series.on_plane_from(start, transform, Vec::new(), &StressComponents(&response));
         fields.map_first(rows, |i, row| {
-            searched.largest(&found, i, |j| StressState::from_stresses(row.map(|component| component[j])))
+            let state = |j: usize| StressState::from_stresses(row.map(|component| component[j]));
+            (searched.largest(&found, i, state), border(i, &state))
         })
     }
 

@@ -17,7 +17,7 @@ use super::found::{ContenderLists, FoundStresses};
 use super::maxima::Maxima;
 use super::measure::{MATERIAL_MEASURES, Sought, StressMeasure};
 use super::peak::Peak;
-use super::plane_search::{Candidate, SEARCH_REACH};
+use super::plane_search::{Candidate, PlaneSamples, SEARCH_REACH};
 use super::tensor::StressState;
 use crate::body::{Depth, Layer, Strength};
 
@@ -36,15 +36,14 @@ struct Search<'a> {
 /// The largest samples of a plane.
 #[derive(Debug)]
 struct SearchedPlane {
-    /// The largest sample by each measure.
-    best: Vec<(StressMeasure, Candidate)>,
+    samples: PlaneSamples,
     /// Contenders on the plane, where it is a face; none inside a material.
     on_face: Contenders,
 }
 
 impl SearchedPlane {
     fn candidate(&self, measure: StressMeasure) -> &Candidate {
-        &of_measure(&self.best, measure).expect("every plane was searched for it").1
+        &of_measure(&self.samples.best, measure).expect("every plane was searched for it").1
     }
 }
 
@@ -142,6 +141,8 @@ impl StressField {
             along.chain(inside.iter().filter(is_there)).copied().collect::<Contenders>()
         }));
         own.extend(inside);
+        let border = planes.iter().map(|plane| plane.samples.border).fold(0.0, f64::max);
+        own.iter_mut().for_each(|(_, own)| *own = own.in_window(self.grid().cell(), border));
         all.materials.push(own);
         if strength.is_some() {
             let lower = planes.last().map(|plane| plane.on_face.clone()).unwrap_or_default();
@@ -160,7 +161,7 @@ impl StressField {
         is_face: bool,
         crests: &[(StressMeasure, Crest)],
     ) -> SearchedPlane {
-        let best = self.candidates(depth, radius, measures);
+        let samples = self.candidates(depth, radius, measures);
         let of = |(measure, candidate): &(StressMeasure, Candidate)| {
             let contender = match of_measure(crests, *measure) {
                 Some(&(_, crest)) => self.crest_contender(candidate.depth, crest),
@@ -169,10 +170,10 @@ impl StressField {
                     self.contender(&best, state)
                 }
             };
-            (*measure, contender)
+            (*measure, contender.in_window(self.grid().cell(), samples.border))
         };
-        let on_face = if is_face { best.iter().map(of).collect() } else { Vec::new() };
-        SearchedPlane { best, on_face }
+        let on_face = if is_face { samples.best.iter().map(of).collect() } else { Vec::new() };
+        SearchedPlane { samples, on_face }
     }
 
     /// Contenders inside a material: the largest sample near the surface, and the local maxima below; `None` when `goes_on` returns
@@ -291,14 +292,22 @@ impl StressField {
             error: None,
             rival: None,
         };
-        Contender { peak, crest: None, state, size: self.size_of_waves(depth, &state) }
+        Contender {
+            peak,
+            crest: None,
+            state,
+            size: self.size_of_waves(depth, &state),
+            border: 0.0,
+            is_on_border: false,
+        }
     }
 
     /// The contender of a crest of the surface.
     fn crest_contender(&self, depth: Depth, crest: Crest) -> Contender {
         let Peak { position: [x, y, _], .. } = crest.peak;
         let state = self.stresses_at(&self.depth_response(depth, SEARCH_REACH), &[[x, y]])[0];
-        Contender { peak: crest.peak, crest: Some(crest), state, size: self.size_of_waves(depth, &state) }
+        let size = self.size_of_waves(depth, &state);
+        Contender { peak: crest.peak, crest: Some(crest), state, size, border: 0.0, is_on_border: false }
     }
 
     /// √(Σσᵢⱼ²) of a state without its mean and residual stresses, a pressure.

@@ -9,12 +9,11 @@
 //! leave e^{−β′²} of the stresses, and a grid of some hundred samples holds them, however wide the window is.
 //!
 //! **Where it ends.** Beyond half the size of the contact and what its [stiff layers reach](crate::body::HalfSpace::bending_reach)
-//! measures of stress only approach those of a body at rest. The search ends in the first window that is as wide and on whose border no
-//! measure is larger than both, inside and at rest. Where one at rest is larger, as σ_zz = 0 than a compression, the search goes on as far as
-//! the stiffer layers bend at all (where no strength is judged by the measure, eight times half the size of the contact at most), and the error
-//! covers the measure at rest. What
-//! is largest beyond the window because it lies deeper than that is wide is followed from a thousandth of the largest stress on; where it is
-//! fainter, and deeper than four windows, its error is P/z² of the force P at its depth z, twice the largest stress there on a bare body.
+//! stresses only decay: none beyond a window is larger than the largest one on its border, b. The search ends in the first window that is as
+//! wide and on whose border no measure is larger than both, inside and at rest. Where one at rest is larger, as σ_zz = 0 than a
+//! compression, and a strength is judged by the measure, the search goes on until b is a thousandth of the largest stress. A value that is
+//! stated from a border, or is no larger than at rest, has an error that covers the measure at rest raised by b. So have faint ones, less
+//! than a thousandth of the largest stress, that lie deeper than four windows and by which no strength is judged: they are not followed.
 
 use super::far_field::FarField;
 use super::field::StressField;
@@ -27,13 +26,18 @@ use super::window_waves::window_waves;
 use crate::lattice::{Cell, Grid};
 use std::sync::Arc;
 
-/// Part of the largest stress below which a measure deep under the window is not followed beyond it.
+/// Part of the largest stress below which stresses on the border of a window, and measures deep under it, are not followed beyond it.
 const FAINT: f64 = 1e-3;
 
 impl StressField {
     /// The field in the window of a number from 1 around an isolated contact, outside of the window of the number before it; `None` of
     /// a periodic system.
-    pub(super) fn around(&self, number: u32) -> Option<Self> {
+    pub(super) fn around(&self, number: u32) -> Option<&Self> {
+        let own = self.around.get(number as usize - 1)?;
+        own.get_or_init(|| self.made_around(number).map(Box::new)).as_deref()
+    }
+
+    fn made_around(&self, number: u32) -> Option<Self> {
         let loaded = self.loaded.as_ref()?;
         let (most, points) = loaded.extent.cut(number);
         let [window, hole] = [number, number - 1].map(|number| Cell::window(loaded.extent.sides(number)));
@@ -63,21 +67,13 @@ impl StressField {
         let mut found = self.found(radii, sought, &all, goes_on)?;
         let Some(loaded) = &self.loaded else { return Some(found) };
         found.at_rest = (1..=self.materials()).map(|material| self.at_rest(material)).collect();
-        found.following = Some(Following {
-            strengths: self.half_space().strengths().collect(),
-            most: FAINT * found.largest(),
-            depth: loaded.extent.deep(),
-            force: loaded.force(),
-            window: self.grid().cell(),
-        });
         let (extent, reach) = (&loaded.extent, loaded.extent.reach(self.half_space()));
-        let faint_reach = self.half_space().faint_bending_reach();
-        let reaches = [faint_reach, faint_reach.min(extent.near())];
-        let mut window = self.grid().cell();
+        let (strengths, faint) = (self.half_space().strengths().collect(), FAINT * found.largest());
+        found.following = Some(Following { strengths, faint, depth: extent.deep() });
         for number in 1..=MOST_WINDOWS {
             let wanted = match extent.margin(number - 1) < reach {
                 true => all.clone(),
-                false => found.may_be_larger_outside(&window, reaches.map(|reach| extent.margin(number - 1) < reach)),
+                false => found.may_be_larger_outside(),
             };
             if !wanted.contains(&true) {
                 break;
@@ -87,7 +83,6 @@ impl StressField {
             (around.resolution, around.is_exact_below) = (found.resolution, found.is_exact_below);
             around.left_out = extent.left_out(number);
             found.around.push(around);
-            window = wide.grid().cell();
         }
         Some(found)
     }

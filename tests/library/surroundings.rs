@@ -6,9 +6,10 @@ use common::{Random, one_level};
 use percoat::body::{InterfaceStrength, Strength};
 use percoat::run::Limits;
 use percoat::{
-    Cell, Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, Material, MeanStress, Problem, Run, Sampling,
-    Settings, Shape, Solver, Step, StressFields, StressReading,
+    Cell, Durability, Endurance, Fatigue, Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, Material,
+    MeanStress, Problem, Run, Sampling, Settings, Shape, Solver, Step, StressFields, StressReading,
 };
+use std::f64::consts::PI;
 
 const NO_BOND: InterfaceStrength = InterfaceStrength { normal: None, shear: None, friction: 0.0 };
 
@@ -78,7 +79,8 @@ fn stresses(step: &Step) -> Vec<([f64; 2], bool)> {
     let interfaces = found.interfaces.iter().flat_map(|own| [own.normal, own.shear]);
     let [x, y] = [0, 1];
     let is_inside = |place: [f64; 3]| step.grid().cell().contains([place[x], place[y]]);
-    materials.chain(interfaces).map(|peak| ([peak.value, peak.error.unwrap()], is_inside(peak.position))).collect()
+    let error = |own: Option<f64>| own.unwrap_or_else(|| panic!("{}: {found:?}", step.report));
+    materials.chain(interfaces).map(|peak| ([peak.value, error(peak.error)], is_inside(peak.position))).collect()
 }
 
 /// Random coated contacts in windows of 1.15 to `widest` contact widths against one of `widest`: the numbers compared, those that differ
@@ -105,20 +107,18 @@ fn compared(seed: u64, count: usize, widest: f64) -> ([usize; 3], f64) {
             let points = (2.0 * (16.0 * widths).ceil()) as usize;
             stepped(slides(under_a_ball(body.clone(), radius, 2.0 * widths)), points, Load::Force(force))
         };
+        println!("{words} mu {friction}");
         let reference = stresses(&at(widest));
         let mut narrow = 1.15 * (widest / 1.15).powf(random.unit().powi(2));
-        // Friction moves the contact: where it has no room the window grows.
+        // Friction moves the contact: where it has no room, on the coarser grid neither, the window grows.
         let mut step = at(narrow);
-        while !step.report.stop.solved() {
-            assert!(narrow < 1.6, "{words}, μ = {friction}, {narrow}: {}", step.report);
+        while !step.report.stop.solved() || step.coarser().is_empty() {
+            assert!(narrow < 3.0, "{words}, μ = {friction}, {narrow}: {}", step.report);
             narrow *= 1.1;
             step = at(narrow);
         }
-        let largest = reference.iter().map(|own| own.0[0]).fold(0.0, f64::max);
         for (number, (one, other)) in stresses(&step).iter().zip(&reference).enumerate() {
-            // A faint tension beyond a window in which an interface is compressed is not looked for.
-            let faint = if one.0[0] < 0.0 { 1e-3 * largest } else { 0.0 };
-            let away = (one.0[0] - other.0[0]).abs() / (one.0[1] + other.0[1] + faint);
+            let away = (one.0[0] - other.0[0]).abs() / (one.0[1] + other.0[1]);
             counts[0] += 1;
             counts[1] += usize::from(away > 1.0);
             counts[2] += usize::from(!one.1);
@@ -157,5 +157,41 @@ fn a_largest_compression_covers_the_body_at_rest() {
     let found = StressReading::of(&step, &reading, &StressFields::new(step.finest(), MeanStress::HalfSpace));
     let normal = found.interfaces[0].normal;
     assert!(normal.value < 0.0 && normal.value + normal.error.unwrap() >= 0.0, "{normal:?}");
-    assert!(normal.error.unwrap() < 0.02 * reading.max_pressure, "{normal:?}");
+    // No stress around the window is larger than on its border: 3P/(2πR²) under a point force, at the distance R = (1.5² + 0.7²)^½.
+    assert!(normal.error.unwrap() < 3.0 * 0.3 / (2.0 * PI * (1.5f64.powi(2) + 0.7f64.powi(2))), "{normal:?}");
+}
+
+/// A stiff coating bends and is drawn several contact radii away: a point that passes the contact meets that too, and its ranges and endurance
+/// are those of a window that holds it.
+#[test]
+fn a_pass_does_not_end_at_the_window() {
+    let (law, endurance) = (Fatigue::new(0.3, 1e6, 8.0).unwrap(), Endurance::new(0.2, 0.3).unwrap());
+    let tires = Durability { fatigue: Some(law), endurance: Some(endurance), ..Durability::default() };
+    let layer = |h: f64, nu: f64| {
+        let own = Layer::new(material(60.0, nu), h, Interface::Bonded).unwrap();
+        own.with_durability(tires, Some(law)).unwrap()
+    };
+    let body = HalfSpace::new(vec![layer(0.2, 0.22), layer(0.8, 0.3)], material(1.0, 0.38));
+    let body = body.with_substrate_durability(tires).unwrap();
+    for (friction, direction) in [(0.0, [1.0, 0.0]), (0.2, [1.0, 0.0]), (0.0, [0.8, 0.6])] {
+        let of = |window: f64, points: usize| {
+            let sliding = Friction::new(friction, direction).unwrap();
+            let problem = under_a_ball(body.clone(), 50.0, window).sliding(sliding).unwrap();
+            let run = Run::new(problem, vec![Load::Force(0.5)], Sampling::Points([points; 2]));
+            let step = run.solve(&mut ()).unwrap().steps.into_iter().next().unwrap();
+            let lives = step.fatigue.unwrap().lives;
+            let ranges = lives.iter().map(|own| [own.range, own.range * own.error.unwrap() / law.exponent()]);
+            let utilisations = step.strength.iter().map(|own| [own.value, own.error.unwrap()]);
+            ranges.chain(utilisations).collect::<Vec<[f64; 2]>>()
+        };
+        let (narrow, wide) = (of(3.0, 64), of(12.0, 256));
+        assert_eq!(narrow.len(), 5 + 6, "{narrow:?}");
+        for (number, ([one, of_one], [other, of_other])) in narrow.iter().zip(&wide).enumerate() {
+            println!("{friction} {number}: {one} ± {of_one}, {other} ± {of_other}");
+        }
+        for (number, ([one, of_one], [other, of_other])) in narrow.iter().zip(&wide).enumerate() {
+            assert!((one - other).abs() <= of_one + of_other, "{number}: {one} ± {of_one}, {other} ± {of_other}");
+            assert!(*of_one < 0.08 * one, "{number}: {one} ± {of_one}");
+        }
+    }
 }
