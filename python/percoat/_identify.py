@@ -46,7 +46,7 @@ class Identification:
         Array (k, k), in the order of ``values``.
     sensitivities
         By the names of what was taken as known, its derivatives: ``sensitivities["substrate.poisson"]["substrate.young"]`` is the
-        change of the modulus found over that of Poisson's ratio.
+        change of the modulus found over that of Poisson's ratio. A number that cannot be varied is missing, and a warning says why.
     force, penetration, penetration_error
         The measured curve (n,) in the units of the case; ``penetration_error`` is ``None`` where deviations are unknown.
     fitted, fitted_error

@@ -38,6 +38,10 @@ impl Case {
     #[pyo3(signature = (case, set = None))]
     pub fn new(case: &Bound<'_, PyAny>, set: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let (values, texts) = settings(set)?;
+        let typed = texts.iter().map(|text| text.split_once('=').map_or(text.as_str(), |(key, _)| key));
+        if let Some(key) = case::given_twice(values.iter().map(|(key, _)| key.as_str()).chain(typed)) {
+            return Err(refused(format!("set has `{}` twice: give one value", key.trim())));
+        }
         if let (Ok(known), true, true) = (case.cast::<Self>(), values.is_empty(), texts.is_empty()) {
             return Ok(known.get().clone());
         }

@@ -8,6 +8,7 @@ use super::keys::Keys;
 use super::node::{Entry, Node, Table, Value};
 use super::span::Span;
 use super::suggestions::nearest;
+use std::collections::HashSet;
 
 /// Most parts of a path; the longest of a case has four.
 const DEEPEST: usize = 16;
@@ -58,6 +59,15 @@ pub(super) fn replace(
 ) -> Result<(), Refusal> {
     let place = Span::new(source, key.len() + 1..usize::MAX);
     set_in_table(root, keys, "", &steps(key, source)?, Node::of(value, place))
+}
+
+/// The first of some dotted keys that is there twice, also where it is spelt in two ways: `layers.0.young`, `layers[0].young`.
+pub fn given_twice<'a>(keys: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let mut seen = HashSet::new();
+    keys.into_iter().find(|key| {
+        let parts = key.replace(']', "");
+        !seen.insert(parts.split(['.', '[']).map(str::trim).collect::<Vec<_>>().join("."))
+    })
 }
 
 fn split(text: &str, source: usize) -> Result<(&str, &str), Refusal> {
@@ -238,6 +248,14 @@ mod tests {
         assert_eq!(value(&root, &["layers", "0", "poisson"]), Some(&Value::Float(0.2)));
         let root = set(case, "grid.points=[64, 32]").unwrap();
         assert_eq!(value(&root, &["grid", "points", "1"]), Some(&Value::Integer(32)));
+    }
+
+    #[test]
+    fn a_key_is_there_twice_whatever_its_spelling() {
+        assert_eq!(given_twice(["layers.0.young", "layers.1.young", "layers. 0 .poisson"]), None);
+        for other in ["layers.0.young", "layers[0].young", " layers.0 .young "] {
+            assert_eq!(given_twice(["title", "layers.0.young", other]), Some(other));
+        }
     }
 
     #[test]

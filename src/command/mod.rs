@@ -62,12 +62,16 @@ fn run(arguments: &Arguments) -> u8 {
 
 fn carry_out(command: &Command) -> Result<Ending, Failure> {
     match command {
-        Command::Solve { case, changes, options, common } => solve::run(case.as_deref(), &changes.set, options, common),
-        Command::Compare { case, changes, common } => compare::run(case.as_deref(), &changes.set, common),
-        Command::Limit { case, changes, common } => limit::run(case.as_deref(), &changes.set, common),
-        Command::Life { case, changes, options, common } => life::run(case.as_deref(), &changes.set, options, common),
+        Command::Solve { case, changes, options, common } => {
+            solve::run(case.as_deref(), changes.once()?, options, common)
+        }
+        Command::Compare { case, changes, common } => compare::run(case.as_deref(), changes.once()?, common),
+        Command::Limit { case, changes, common } => limit::run(case.as_deref(), changes.once()?, common),
+        Command::Life { case, changes, options, common } => {
+            life::run(case.as_deref(), changes.once()?, options, common)
+        }
         Command::Identify { data, case, free, known, changes, common } => {
-            identify::run((data, case), (free, known), &changes.set, common)
+            identify::run((data, case), (free, known), changes.once()?, common)
         }
         Command::Sweep { case, set, options, common } => sweep::run(case, set, options, common),
         Command::Merge { folders, output, pictures, saying } => {
@@ -75,10 +79,10 @@ fn carry_out(command: &Command) -> Result<Ending, Failure> {
         }
         Command::Report { folder, output, quiet } => report::run(folder, output.as_deref(), *quiet),
         Command::Kernel { case, wavenumber, depth, traction, changes } => {
-            kernel::run(case.as_deref(), wavenumber, depth, *traction, &changes.set)
+            kernel::run(case.as_deref(), wavenumber, depth, *traction, changes.once()?)
         }
-        Command::Check { case, output, changes, .. } => check::run(case, output.as_deref(), &changes.set),
-        Command::Cases { name, changes } => cases::run(name.as_deref(), &changes.set),
+        Command::Check { case, output, changes, .. } => check::run(case, output.as_deref(), changes.once()?),
+        Command::Cases { name, changes } => cases::run(name.as_deref(), changes.once()?),
         Command::Materials { name, file } => materials::run(name.as_deref(), file.as_deref()),
         Command::Explain { schema: true, .. } => explain::schema(),
         Command::Explain { markdown: true, .. } => explain::table(),

@@ -1,6 +1,9 @@
 //! Options of several commands.
 
+use super::ending::Failure;
 use super::pictures::PictureOptions;
+use crate::case::given_twice;
+use crate::plain;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -49,6 +52,19 @@ pub struct Changes {
     /// Change a value of the case, as in layers.0.thickness=0.2 (repeatable)
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+}
+
+impl Changes {
+    /// The changes, each of another key.
+    pub fn once(&self) -> Result<&[String], Failure> {
+        match given_twice(self.set.iter().map(|text| text.split_once('=').map_or(text.as_str(), |(key, _)| key))) {
+            Some(key) => Err(Failure::Refused(format!(
+                "--set gives `{}` twice: give one value; percoat sweep takes several, --set KEY=V1,V2,…",
+                plain::line(key.trim())
+            ))),
+            None => Ok(&self.set),
+        }
+    }
 }
 
 /// Options of output and printing of a validation.

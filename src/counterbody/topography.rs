@@ -1,6 +1,6 @@
 //! One period of a measured or generated topography, or the roughness of a ball.
 
-use super::roughness::{RunOut, Spectrum, apex};
+use super::roughness::{RunOut, Spectrum, above_waves, apex};
 use super::{CounterbodyError, Shape};
 use crate::lattice::{Cell, LatticeError};
 use crate::notation::number;
@@ -128,6 +128,17 @@ impl Topography {
         let highest = on_grid.indexed_iter().map(|(at, _)| height(at)).fold(f64::NEG_INFINITY, f64::max);
         let apex = apex(self.cell, smooth.view())?.max(highest);
         Ok(Array2::from_shape_fn(on_grid.dim(), |at| apex - height(at)))
+    }
+
+    /// Estimated height by which a kinked surface with these samples exceeds the apex of the sum of waves, a length ≥ 0; next to nothing for
+    /// a smooth one.
+    pub fn apex_error(&self) -> f64 {
+        let Some(radius) = self.ball else { return above_waves(self.heights(), |_, _| 0.0) };
+        let (ball, [n1, n2]) = (Shape::Sphere { radius }, self.points().map(|n| n as f64));
+        above_waves(self.heights(), |i, j| {
+            let [x, y] = self.cell.point([i as f64 / n1, j as f64 / n2]);
+            ball.profile(x.hypot(y))
+        })
     }
 }
 

@@ -5,12 +5,13 @@
 
 use super::covariance::Covariance;
 use super::pattern::Pattern;
+use super::sensitivity::NoDerivative;
 use super::student::{self, Quantile};
 
 /// Part of a column that must not be one of the parameters', for its number to be told.
 const APART: f64 = 1e-3;
 
-/// Why the standard errors of a fit may not hold.
+/// Why the standard errors of a fit may not hold, or what of it is missing.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Doubt {
     /// Residuals are no scatter over the force.
@@ -19,6 +20,8 @@ pub enum Doubt {
     Offset(Missing),
     /// The compliance of a frame would explain them, and is neither known nor to be found.
     FrameCompliance(Missing),
+    /// The model has no penetrations beside the values of numbers that were taken as known.
+    NoDerivative(NoDerivative),
 }
 
 /// A number of the instrument that the residuals ask for.

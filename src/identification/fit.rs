@@ -10,7 +10,7 @@ use super::least_squares::{self, End, Linearised, Minimum};
 use super::parameter::{Parameter, Quantity};
 use super::pattern::Pattern;
 use super::search::{Listener, Model, Search};
-use super::sensitivity::Sensitivity;
+use super::sensitivity::{Differentiated, Sensitivity};
 use super::student::{self, Quantile};
 use crate::notation::number;
 use std::fmt;
@@ -53,9 +53,9 @@ pub struct Identification {
     pub radii: [f64; 2],
     /// Largest pressure of the elastic fit under each measured force, the mean one under a tip, whose largest is infinite.
     pub peaks: Vec<f64>,
-    /// Derivatives of the parameters by what was taken as known.
+    /// Derivatives of the parameters by what was taken as known; of what has none [`Doubt::NoDerivative`] says why.
     pub sensitivities: Vec<Sensitivity>,
-    /// Why the standard errors may not hold; empty where nothing says so.
+    /// Why the standard errors may not hold, and which derivatives are missing; empty where nothing says so.
     pub doubts: Vec<Doubt>,
     /// Steps of the search.
     pub steps: usize,
@@ -67,7 +67,7 @@ impl Identification {
     /// # Errors
     /// [`IdentificationError`] for a model of another contact, for values that it refuses, where the search does not converge, and where
     /// the curve does not determine a parameter.
-    pub fn new<E: Send>(
+    pub fn new<E: Send + fmt::Display>(
         model: &Model<'_, E>,
         parameters: &[Parameter],
         measured: &Measurement,
@@ -79,7 +79,7 @@ impl Identification {
     ///
     /// # Errors
     /// Those of [`Identification::new`], and [`IdentificationError::Stopped`].
-    pub fn new_with_progress<E: Send>(
+    pub fn new_with_progress<E: Send + fmt::Display>(
         model: &Model<'_, E>,
         parameters: &[Parameter],
         measured: &Measurement,
@@ -93,7 +93,7 @@ impl Identification {
     ///
     /// # Errors
     /// Errors of [`Identification::new_with_progress`].
-    pub fn with_fixed<E: Send>(
+    pub fn with_fixed<E: Send + fmt::Display>(
         model: &Model<'_, E>,
         (parameters, fixed): (&[Parameter], &[Parameter]),
         measured: &Measurement,
@@ -131,7 +131,7 @@ impl Identification {
     }
 
     /// Values, standard errors and fitted curve at the minimum that a search has found.
-    fn at<E: Send>(
+    fn at<E: Send + fmt::Display>(
         search: &Search<'_, E>,
         fixed: &[Parameter],
         found: &Minimum<IndentationCurve, NoValue<E>>,
@@ -158,9 +158,12 @@ impl Identification {
         let lengths = search.lengths(residuals);
         let estimates: Vec<Estimate> = (0..count).map(estimate).collect();
         let at = AtMinimum { residuals, jacobian, covariance: &covariance, are_known: measured.deviations().is_some() };
-        let doubts = doubts(search, &at, (&found.place, curve), &lengths);
+        let mut doubts = doubts(search, &at, (&found.place, curve), &lengths);
         let values: Vec<f64> = estimates.iter().map(|estimate| estimate.value).collect();
-        let sensitivities = Sensitivity::all(search, (&found.place, jacobian), &covariance, (fixed, &values));
+        let place = &found.place;
+        let at = Differentiated { search, place, values: &values, jacobian, covariance: &covariance };
+        let (sensitivities, missing) = at.by(fixed);
+        doubts.extend(missing.into_iter().map(Doubt::NoDerivative));
         Ok(Self {
             estimates,
             correlation: (0..count)
@@ -174,7 +177,7 @@ impl Identification {
             model_error: curve.error(),
             radii,
             peaks: measured.forces().iter().map(|&force| curve.peak(force)).collect(),
-            sensitivities: sensitivities.map_err(IdentificationError::Refused)?,
+            sensitivities,
             doubts,
             steps: found.steps,
         })

@@ -31,7 +31,7 @@ pub use measurement_error::MeasurementError;
 pub use parameter::{Parameter, Quantity};
 pub use pattern::{LEVEL, Pattern};
 pub use search::{Listener, Model, Trial};
-pub use sensitivity::Sensitivity;
+pub use sensitivity::{NoDerivative, Sensitivity};
 
 /// A measured indentation curve.
 #[derive(Debug, Clone, PartialEq)]

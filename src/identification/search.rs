@@ -72,11 +72,14 @@ impl<'a, E: Send> Search<'a, E> {
         (self.model.problem)(&values)
     }
 
-    /// The problem at t, and its difference quotients; one-sided where values on one side are refused.
+    /// The problem at t, and its difference quotients; one-sided where values on one side are refused, and the error where those on both are.
     fn perturbed(&self, t: &[f64]) -> Result<Perturbed, E> {
         let problem = self.problem(t, None)?;
         let quotient = |k: usize| {
-            let sides = [STEP, -STEP].map(|by| self.problem(t, Some((k, by))).ok().map(|own| (by, own)));
+            let sides = match [STEP, -STEP].map(|by| self.problem(t, Some((k, by))).map(|own| (by, own))) {
+                [Err(error), Err(_)] => return Err(error),
+                sides => sides.map(Result::ok),
+            };
             let whole = match &sides {
                 [Some(_), Some(_)] => 2.0 * STEP,
                 _ => STEP,
@@ -86,10 +89,10 @@ impl<'a, E: Send> Search<'a, E> {
             if let [(weight, _)] = parts[..] {
                 parts.push((-weight, problem.clone()));
             }
-            parts
+            Ok(parts)
         };
         let of_model = (0..t.len()).filter(|&k| self.free.all[k].is_of_model());
-        let quotients = of_model.map(quotient).collect();
+        let quotients = of_model.map(quotient).collect::<Result<_, _>>()?;
         Ok(Perturbed { problem, quotients })
     }
 

@@ -189,6 +189,11 @@ fn doubt(doubt: &Doubt, found: &Identification, units: &Units) -> String {
             let size = format!("{}{unit}", with_error(own.value, Some(own.error)));
             format!("the frame seems to have a compliance of {size}: {}", with_it(own, found, "frame_compliance"))
         }
+        Doubt::NoDerivative(own) => format!(
+            "what was found has no derivative by {}, which the model does not allow to be varied: {}; how far an error of it is carried is unknown",
+            own.names.join(", "),
+            own.reason
+        ),
     }
 }
 

@@ -4,6 +4,7 @@ use super::contact::edge;
 use super::counted::CountedArea;
 use super::rough::mean_gap;
 use super::{Errors, LevelErrors, LevelReading, Reading, RoughReading};
+use crate::counterbody::Topography;
 use crate::load::Load;
 use crate::spectral::{Contact, Step};
 
@@ -97,7 +98,8 @@ impl Step {
             let exponents: Vec<f64> = levels.iter().map(|level| level.shape().exponent()).collect();
             let is_given = self.problem().counterbody().pressure().is_some();
             let hardness = self.finest().hardness();
-            let grids = Grids { fine: &reading, coarser: &coarser, load: self.load, is_given, hardness };
+            let apex = self.problem().counterbody().topography().map_or(0.0, Topography::apex_error);
+            let grids = Grids { fine: &reading, coarser: &coarser, load: self.load, is_given, hardness, apex };
             let of_levels: Vec<LevelErrors> =
                 exponents.iter().enumerate().map(|(index, &exponent)| grids.level_errors(index, exponent)).collect();
             reading.errors = grids.errors(&of_levels, &exponents);
@@ -162,6 +164,8 @@ struct Grids<'a> {
     is_given: bool,
     /// Hardness of the softer surface; infinite without one.
     hardness: f64,
+    /// Height by which a kinked topography may exceed its apex, a length.
+    apex: f64,
 }
 
 impl Grids<'_> {
@@ -189,6 +193,13 @@ impl Grids<'_> {
         let stored = if fine.levels.is_empty() { depth } else { energy_law(largest) };
         let [stored, safety] = if by_load { [stored, safety] } else { [load_law(largest), safety::MEAN_PRESSURE] };
         let energy = self.error(safety, fine.elastic_energy * stored, &|reading| Some(reading.elastic_energy));
+        let [force, penetration, energy] = match by_load {
+            true => [force, penetration.map(|error| error + self.apex), energy],
+            false => {
+                let [more_force, more_energy] = self.by_apex();
+                [force.map(|error| error + more_force), penetration, energy.map(|error| error + more_energy)]
+            }
+        };
         let loaded = fine.levels.iter().zip(exponents).filter(|(level, _)| level.load > 0.0);
         let sharpest = loaded.map(|(_, &exponent)| exponent).fold(2.0, f64::min);
         let peak = fine.grid_peak() * peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest);
@@ -208,6 +219,17 @@ impl Grids<'_> {
                 own.map(|error| error.max(beyond))
             }),
         }
+    }
+
+    /// Changes of force and elastic energy U under a prescribed penetration δ that counts from another apex: dU/dδ = F, and of F ~ δᵐ with
+    /// U = Fδ/(m + 1) it is dF/dδ = m F/δ.
+    fn by_apex(&self) -> [f64; 2] {
+        let Reading { force, penetration, elastic_energy, .. } = *self.fine;
+        if self.apex == 0.0 || !(elastic_energy > 0.0 && penetration > 0.0) {
+            return [0.0; 2];
+        }
+        let exponent = (force * penetration / elastic_energy - 1.0).max(1.0);
+        [self.apex * exponent * force / penetration, self.apex * force]
     }
 
     /// An error of a largest pressure; none where that is given, or the hardness, which no pressure exceeds.

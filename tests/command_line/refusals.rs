@@ -29,6 +29,27 @@ fn an_option_without_effect_is_refused_with_the_reason() {
     assert!(desk.names().is_empty());
 }
 
+/// Whichever command, and whichever of the two spellings of a list.
+#[test]
+fn a_key_that_is_set_twice_is_refused() {
+    let desk = Desk::new();
+    let [first, other] = ["--set=layers.0.thickness=0.3", "--set=layers[0].thickness=0.4"];
+    for command in [
+        &["solve", "fig2"][..],
+        &["compare", "fig2"],
+        &["limit", "fig2"],
+        &["life", "fig2"],
+        &["kernel", "fig2", "--wavenumber=1"],
+        &["check", "fig2"],
+        &["cases", "fig2"],
+        &["sweep", "fig2", "--set=grid.points=16,32"],
+    ] {
+        desk.percoat(&[command, &[first, other]].concat()).complains(2, &["`layers[0].thickness`", "twice"]);
+        desk.percoat(&[command, &[first, first]].concat()).complains(2, &["`layers.0.thickness`", "twice"]);
+    }
+    assert!(desk.names().is_empty());
+}
+
 #[test]
 fn cases_prints_a_changed_case_that_runs_as_the_override_would() {
     let desk = Desk::new();

@@ -404,3 +404,53 @@ fn a_hopeless_search_is_given_up_at_its_start() {
     assert!(own.at_start && own.name == "substrate" && trials <= 3, "{own}, {trials} trials");
     assert!(own.to_string().starts_with("at the first values of the search"), "{own}");
 }
+
+/// A radius that the model takes at its value alone has no derivative; what was found stays, and so do the derivatives by the others. Where the
+/// model takes none of them, none is there.
+#[test]
+fn a_fit_is_kept_where_derivatives_are_missing() {
+    let measured = curve(12, 0.0, 4, &|_| 0.0);
+    let own = |name: &str, quantity, start| Parameter { name: name.to_owned(), quantity, start };
+    let free = [own("young", Quantity::Positive, 100.0)];
+    let fixed = [
+        own("poisson", Quantity::Bounded([0.0, 0.5]), 0.3),
+        own("radius", Quantity::Positive, 10.0),
+        own("offset", Quantity::Offset, 0.0),
+    ];
+    let fit = |takes: &(dyn Fn(&[f64]) -> bool + Sync)| {
+        let problem = |values: &[f64]| match takes(values) {
+            true => {
+                let nu = values.get(1).copied().unwrap_or(0.3);
+                let lattice = Lattice::new(Cell::window([4.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+                let level = Level::new(Shape::Paraboloid { radius: 10.0 }, 0.0).unwrap();
+                let body = HalfSpace::new(vec![], Material::from_young(values[0], nu)?);
+                Ok(Problem::new(Indenters::new(lattice, vec![level]).unwrap(), body))
+            }
+            false => Err(MaterialError::Hardness(-1.0)),
+        };
+        let model =
+            Model { problem: &problem, points: 48, settings: Settings { tolerance: 1e-9, ..Settings::default() } };
+        Identification::with_fixed(&model, (&free, &fixed), &measured, &mut |_| ControlFlow::Continue(())).unwrap()
+    };
+    let whole = fit(&|_| true);
+    let names = |own: &Identification| own.sensitivities.iter().map(|own| own.fixed.name.clone()).collect::<Vec<_>>();
+    assert!(whole.doubts.is_empty() && names(&whole) == ["poisson", "radius", "offset"], "{:?}", whole.doubts);
+    for (takes, known, missing) in [
+        (
+            &(|values: &[f64]| values.get(2).is_none_or(|radius| *radius == 10.0)) as &(dyn Fn(&[f64]) -> bool + Sync),
+            2,
+            vec!["radius"],
+        ),
+        (&|values: &[f64]| values.len() == 1, 0, vec!["poisson", "radius", "offset"]),
+    ] {
+        let own = fit(takes);
+        assert_eq!((&own.estimates, own.rms, own.sensitivities.len()), (&whole.estimates, whole.rms, known));
+        let [Doubt::NoDerivative(none)] = &own.doubts[..] else { panic!("{:?}", own.doubts) };
+        assert!(none.names == missing && none.reason.contains("a hardness must be positive"), "{none:?}");
+        if known == 2 {
+            assert_eq!(own.sensitivities[0].fixed.name, "poisson");
+            let [part, all] = [&own, &whole].map(|own| own.sensitivities[0].derivatives[0]);
+            assert!((part / all - 1.0).abs() < 1e-6, "{part} {all}");
+        }
+    }
+}
