@@ -1,6 +1,6 @@
 //! The contact problem: a counterbody, rigid or elastic, above a layered elastic half-space, at rest or sliding.
 
-use crate::body::{Bodies, HalfSpace, Interface, Side};
+use crate::body::{Bodies, CompositeHardness, HalfSpace, Interface, Side};
 use crate::counterbody::Counterbody;
 use crate::friction::{Friction, FrictionError};
 use crate::lattice::Cell;
@@ -12,6 +12,7 @@ pub struct Problem {
     counterbody: Counterbody,
     bodies: Bodies,
     friction: Option<Friction>,
+    composite: Option<CompositeHardness>,
 }
 
 impl Problem {
@@ -19,7 +20,7 @@ impl Problem {
     /// [`Topography`](crate::counterbody::Topography)), or the load of a [`GivenPressure`](crate::counterbody::GivenPressure), on a [`HalfSpace`], rigid, or of [`Bodies`] of which both are elastic; in
     /// one unit of length.
     pub fn new(counterbody: impl Into<Counterbody>, bodies: impl Into<Bodies>) -> Self {
-        Self { counterbody: counterbody.into(), bodies: bodies.into(), friction: None }
+        Self { counterbody: counterbody.into(), bodies: bodies.into(), friction: None, composite: None }
     }
 
     /// The problem with friction.
@@ -44,6 +45,30 @@ impl Problem {
         self.bodies.hardness().filter(|_| self.counterbody.pressure().is_none())
     }
 
+    /// The problem with a hardness of the coating and its substrate together: each load meets that of its own penetration.
+    #[must_use]
+    pub fn with_composite_hardness(self, composite: CompositeHardness) -> Self {
+        Self { composite: Some(composite), ..self }
+    }
+
+    /// Hardness of the coating and its substrate together; `None` where the coating has its own at any depth.
+    pub fn composite_hardness(&self) -> Option<&CompositeHardness> {
+        self.composite.as_ref()
+    }
+
+    /// The problem with the composite hardness of a penetration, a length.
+    #[must_use]
+    pub(crate) fn at_depth(&self, penetration: f64) -> Self {
+        let hardness = self.composite.map(|composite| composite.at(penetration));
+        hardness.map_or_else(
+            || self.clone(),
+            |hardness| Self {
+                bodies: self.bodies.with_body(self.half_space().with_surface_hardness(hardness)),
+                ..self.clone()
+            },
+        )
+    }
+
     /// Whether the softer body moves away below the counterbody, which slides with friction: what is pressed in leaves the contact. Without
     /// friction, also at a coefficient of zero, the loads of a path follow one another at one place.
     pub fn is_swept(&self) -> bool {
@@ -54,7 +79,7 @@ impl Problem {
     /// The same problem without hardness: elastic under any pressure.
     #[must_use]
     pub fn without_hardness(&self) -> Self {
-        Self { bodies: self.bodies.without_hardness(), ..self.clone() }
+        Self { bodies: self.bodies.without_hardness(), composite: None, ..self.clone() }
     }
 
     /// The same problem on another body.

@@ -186,9 +186,17 @@ impl HalfSpace {
     /// It without hardness: elastic under any pressure.
     #[must_use]
     pub fn without_hardness(&self) -> Self {
-        let layers = self.layers.iter().map(Layer::without_hardness).collect();
+        let layers = self.layers.iter().map(|layer| layer.of_hardness(None)).collect();
         let substrate_durability = Durability { hardness: None, ..self.substrate_durability };
         Self { layers, substrate_durability, ..self.clone() }
+    }
+
+    /// The half-space with another hardness of its surface layer, a pressure.
+    pub(crate) fn with_surface_hardness(&self, hardness: f64) -> Self {
+        let of = |(index, layer): (usize, &Layer)| {
+            if index == 0 { layer.of_hardness(Some(hardness)) } else { layer.clone() }
+        };
+        Self { layers: self.layers.iter().enumerate().map(of).collect(), ..self.clone() }
     }
 
     /// Residual stresses of all materials, in the order of [`Self::materials`]: that of the substrate is zero.

@@ -121,9 +121,9 @@ impl Layer {
         self.interface_fatigue
     }
 
-    /// It without hardness.
-    pub(super) fn without_hardness(&self) -> Self {
-        Self { durability: Durability { hardness: None, ..self.durability }, ..*self }
+    /// The layer with another hardness, a pressure, or without one.
+    pub(super) fn of_hardness(&self, hardness: Option<f64>) -> Self {
+        Self { durability: Durability { hardness, ..self.durability }, ..*self }
     }
 
     /// It with another thickness, a length above zero.

@@ -15,6 +15,7 @@
 //! assert_eq!(case.load.values(), [0.01]);
 //! ```
 
+mod composite_hardness;
 mod counterbody;
 mod durability;
 mod elastic_counterbody;
@@ -56,6 +57,7 @@ mod units;
 mod value;
 mod writer;
 
+pub use composite_hardness::{CompositeHardnessSection, CompositeLaw};
 pub use durability::{EnduranceSection, FatigueSection};
 pub use elastic_counterbody::CounterbodySection;
 pub use error::CaseError;

@@ -1,5 +1,6 @@
 //! The whole case.
 
+use super::composite_hardness::COMPOSITE_HARDNESS;
 use super::counterbody::{self, CounterbodySections};
 use super::elastic_counterbody::{self, COUNTERBODY};
 use super::error::{CaseError, Refusal};
@@ -25,8 +26,8 @@ use super::surface::SURFACE;
 use super::units::UNITS;
 use super::writer::written;
 use super::{
-    CounterbodySection, FrictionSection, LatticeSection, LayerSection, LevelSection, LifeSection, LoadSection,
-    LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection, UnitsSection,
+    CompositeHardnessSection, CounterbodySection, FrictionSection, LatticeSection, LayerSection, LevelSection,
+    LifeSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection, UnitsSection,
 };
 use crate::body::{Bodies, HalfSpace, MeanStress};
 use crate::comparison::ComparisonTask;
@@ -85,6 +86,10 @@ section! { whole
         /// sliding friction of the indenters
         pub friction: Option<FrictionSection> =
             Key::new(&[Form::Table(&FRICTION)], "{ coefficient = 0.3 }").otherwise("no friction"),
+        /// hardness of a coating and its substrate together, over the depth of the contact
+        pub composite_hardness: Option<CompositeHardnessSection> =
+            Key::new(&[Form::Table(&COMPOSITE_HARDNESS)], "{ law = \"area\", constant = 0.5 }")
+                .otherwise("each surface has its own"),
         /// names for axes, tables and captions; numbers are not converted
         pub units: Option<UnitsSection> =
             Key::new(&[Form::Table(&UNITS)], "{ length = \"µm\", pressure = \"GPa\" }").otherwise("no names"),
@@ -290,6 +295,15 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         problem = own.slide(&section, &places, (problem, settings), &solver_section)?;
         friction = Some(own);
     }
+    let composite_hardness = root.section("composite_hardness")?;
+    let composite_hardness = match composite_hardness {
+        Some(section) => {
+            let own = CompositeHardnessSection::read_table(&section)?;
+            problem = own.harden(&section, &load, problem)?;
+            Some(own)
+        }
+        None => None,
+    };
     Ok(Case {
         title,
         materials: materials::path(&root, source)?,
@@ -297,6 +311,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         grid: sampling,
         solver: settings,
         friction,
+        composite_hardness,
         units: root.section("units")?.as_ref().map(UnitsSection::read_table).transpose()?,
         stress: root
             .section("stress")?

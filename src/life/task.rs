@@ -60,6 +60,9 @@ pub enum LifeError {
          that goes to and fro"
     )]
     NoDistance,
+    /// The hardness is that of the coating and its substrate together.
+    #[error("`composite_hardness` is that of one loading, not of passes that wear or tire: leave it out")]
+    CompositeHardness,
     /// A distance and a stroke.
     #[error("`life.distance` and `life.stroke` both say how far the counterbody slides in a pass: give one of them")]
     DistanceAndStroke,
@@ -93,6 +96,9 @@ impl LifeTask {
     /// [`LifeError::NothingTires`], [`LifeError::Penetration`], [`LifeError::Wear`], [`LifeError::NoDistance`],
     /// [`LifeError::DistanceAndStroke`] and [`LifeError::ShortStroke`].
     pub fn check(&self) -> Result<(), LifeError> {
+        if self.problem.composite_hardness().is_some() {
+            return Err(LifeError::CompositeHardness);
+        }
         if self.distance.is_some() && self.stroke.is_some() {
             return Err(LifeError::DistanceAndStroke);
         }

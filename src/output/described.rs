@@ -123,7 +123,12 @@ pub(super) fn bodies(units: &Units, problem: &Problem) -> String {
         }
     };
     let most = bodies.hardness().map_or(String::new(), |(hardness, side)| {
-        format!("\npressure: at most {}, the hardness of the surface of the {side}", pressure(units, hardness))
+        let composite = problem.composite_hardness().filter(|_| side == Side::Body);
+        let composite = composite.map_or(String::new(), |own| format!(" where nothing is penetrated; {own}"));
+        format!(
+            "\npressure: at most {}, the hardness of the surface of the {side}{composite}",
+            pressure(units, hardness)
+        )
     });
     format!("{own}{above}{most}")
 }

@@ -18,6 +18,9 @@ use std::fmt;
 pub struct PlasticReading {
     /// Hardness H of the softer surface, a pressure.
     pub hardness: f64,
+    /// Penetration of which H is the [composite hardness](crate::body::CompositeHardness), a length; `None` where H does not depend on it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hardness_depth: Option<f64>,
     /// Area where the pressure is H in this step, a length squared.
     #[serde(deserialize_with = "serialised::number")]
     pub area: f64,
@@ -81,6 +84,7 @@ impl PlasticReading {
         let [area, depth, volume, permanent_depth] = own.values;
         Some(Self {
             hardness: step.finest().hardness(),
+            hardness_depth: step.problem().composite_hardness().map(|_| step.penetration()),
             area,
             area_error: error(0, own.uncertainty),
             depth,

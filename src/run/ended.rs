@@ -99,7 +99,8 @@ fn yielding(own: &Utilisation) -> String {
 /// Depth pressed in and thickness of the layers of the softer body, lengths, where that is beyond a tenth of it.
 fn pressed_beyond(problem: &Problem, step: &StepRecord) -> Option<[f64; 2]> {
     let PlasticReading { depth, .. } = *step.plastic.as_ref()?;
-    let (_, softer) = problem.hardness()?;
+    // A composite hardness has the substrate in it.
+    let (_, softer) = problem.hardness().filter(|_| problem.composite_hardness().is_none())?;
     let body = match softer {
         Side::Body => Some(problem.bodies().body()),
         Side::Counterbody => problem.bodies().counterbody(),

@@ -124,6 +124,14 @@ impl GridLevel {
         self.unknowns = unknowns;
     }
 
+    /// Gives the surface another hardness, a pressure, which the pressure of earlier loads does not exceed either.
+    pub fn harden(&mut self, hardness: f64) {
+        self.hardness = hardness;
+        if self.unknowns.pressure.iter().any(|&p| p > hardness) {
+            Arc::make_mut(&mut self.unknowns.pressure).iter_mut().for_each(|p| *p = p.min(hardness));
+        }
+    }
+
     /// Drops the pressure of earlier loads.
     pub fn forget(&mut self) {
         self.unknowns = Unknowns::new(self.surface.grid().len());

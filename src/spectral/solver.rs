@@ -31,6 +31,9 @@ const COARSER_KEPT: usize = 2;
 /// on coated bodies: read off 250 random contacts, see `tests/library/stated_errors.rs`.
 const STIFFNESS_WEIGHTS: [f64; COARSER_KEPT] = [0.75, 0.2];
 const JOINING_WEIGHT: f64 = 2.0;
+/// Change of the penetration, over it, at which its composite hardness is known, and most penetrations that are tried.
+const DEPTH_TOLERANCE: f64 = 1e-6;
+const MOST_DEPTHS: usize = 100;
 
 /// A contact problem on its nested grids, with the pressures that it keeps from load to load.
 #[derive(Debug)]
@@ -151,7 +154,41 @@ impl Solver {
         progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
     ) -> Step {
         // Everything on the threads that share the work, where no pass has to wake them.
-        rayon::scope(|_| self.solve_on_levels(load, progress))
+        rayon::scope(|_| match self.problem.composite_hardness().is_some() {
+            true => self.solve_at_its_depth(load, progress),
+            false => self.solve_on_levels(load, progress),
+        })
+    }
+
+    /// Solves a load at the composite hardness of its own penetration, δ = δ(H(δ)). From the surface down δ grows towards the least such depth
+    /// where the substrate is softer; where it is harder δ swings about the only one, and half of each step is taken.
+    fn solve_at_its_depth(
+        &mut self,
+        load: Load,
+        progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
+    ) -> Step {
+        let (mut depth, mut before, mut convolutions) = (0.0, 0.0, 0.0);
+        for _ in 0..MOST_DEPTHS {
+            self.harden(depth);
+            let step = self.solve_on_levels(load, progress);
+            let change = step.penetration() - depth;
+            convolutions += step.convolutions;
+            if change.abs() <= DEPTH_TOLERANCE * step.penetration() || !step.report.stop.solved() {
+                return Step { convolutions, ..step };
+            }
+            depth += if change * before < 0.0 { 0.5 * change } else { change };
+            before = change;
+        }
+        let step = self.solve_on_levels(load, progress);
+        self.forget();
+        Step { report: Report { stop: Stop::IterationLimit, ..step.report }, convolutions, ..step }
+    }
+
+    /// Gives the surface the composite hardness of a penetration, a length.
+    pub(super) fn harden(&mut self, penetration: f64) {
+        self.problem = Arc::new(self.problem.at_depth(penetration));
+        let hardness = self.problem.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness);
+        self.levels.iter_mut().for_each(|level| level.harden(hardness));
     }
 
     fn solve_on_levels(&mut self, load: Load, progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send)) -> Step {

@@ -48,3 +48,44 @@ fn a_penetration_that_takes_all_of_the_surface_to_its_hardness_is_refused() {
         assert_eq!(answer.out, "");
     }
 }
+
+/// The thin coating takes the hardness of the steel as its penetration grows, in check, table, summary and report; resumed and refused.
+#[test]
+fn a_composite_hardness_is_stated_with_its_law_and_depth() {
+    let desk = Desk::new();
+    let thin = THIN.replace("[20.0, 60.0]", "[100.0, 150.0]");
+    desk.write("thin.toml", &format!("{thin}composite_hardness = {{ law = \"korsunsky\", constant = 3.0 }}\n"));
+    let check = desk.percoat(&["check", "thin.toml"]);
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words(&check.out).contains("composite hardness by Korsunsky and others (1998), k = 3"), "{}", check.out);
+    let answer = desk.percoat(&["solve", "thin.toml", "-o", "run", "--no-pictures"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    assert!(words(&answer.out).contains("composite hardness of the penetration: where"), "{}", answer.out);
+    assert!(!answer.err.contains("not theirs alone"), "{}", answer.err);
+    let folder = Folder(desk.path("run"));
+    let steps = folder.steps();
+    let of = |step: usize, key: &str| steps[step]["plastic"][key].as_f64().unwrap();
+    // By two loads the hardness of coating and substrate in the law, and the second one by hand.
+    let part = |step: usize| 1.0 / (1.0 + 3.0 * (of(step, "hardness_depth") / 0.25).powi(2));
+    for (step, own) in steps.iter().enumerate() {
+        assert_eq!(own["penetration"].as_f64().unwrap(), of(step, "hardness_depth"));
+        assert!(of(step, "depth") > 0.0, "{own}");
+        let [coating, substrate] = [24.0, 2.12];
+        let known = substrate + part(step) * (coating - substrate);
+        assert!((of(step, "hardness") / known - 1.0).abs() < 1e-4, "{own}, {known}");
+    }
+    assert!(of(1, "hardness") < of(0, "hardness"), "{}", answer.out);
+    let report = desk.percoat(&["report", "run"]);
+    assert_eq!(report.code, 0, "{}", report.err);
+    assert!(folder.text("report.html").contains("omposite hardness"));
+    for (set, says) in [
+        ("load.force=[150.0, 100.0]", "the loads fall"),
+        ("lattice={kind=\"square\",period=12.0}", "no isolated contact"),
+        ("layers=[{material=\"TiN\",thickness=0.1},{material=\"TiN\",thickness=0.15}]", "has 2 layers"),
+        ("substrate={young=210,poisson=0.3}", "no hardness of the substrate"),
+    ] {
+        let refused = desk.percoat(&["check", "thin.toml", "--set", set]);
+        assert_eq!(refused.code, 2, "{set}: {}", refused.out);
+        assert!(words(&refused.err).contains(says), "{set}: {}", refused.err);
+    }
+}

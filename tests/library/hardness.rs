@@ -1,6 +1,7 @@
 //! Hardness: 0 ≤ p ≤ H in all modes, by other algorithms and closed forms; what is pressed in stays on a load path.
 
 use ndarray::Array2;
+use percoat::body::{CompositeHardness, HardnessLaw};
 use percoat::reading::PlasticReading;
 use percoat::run::{AllAtHardness, PathEnd, RunError, WearPath};
 use percoat::spectral::Wear;
@@ -690,6 +691,78 @@ fn a_path_goes_on_from_its_checkpoint_as_without_it() {
         for index in saved + 1..4 {
             let (reading, pressure, _) = whole(&mut again, loads[index]);
             assert!(reading == steps[index].0 && pressure == steps[index].1, "{index} after {saved}");
+        }
+    }
+}
+
+/// A layer 0.1 thick with the modulus of the substrate, whose hardnesses are those given.
+fn hard_layer([layer, substrate]: [f64; 2]) -> HalfSpace {
+    let own = Layer::new(young(1.0, 0.3), 0.1, Interface::Bonded).unwrap().with_durability(hard(layer), None).unwrap();
+    HalfSpace::new(vec![own], young(1.0, 0.3)).with_substrate_durability(hard(substrate)).unwrap()
+}
+
+fn pressed_by_a_ball(body: HalfSpace, composite: Option<(HardnessLaw, f64)>) -> Solver {
+    let counterbody = ball(Cell::window([2.0; 2]).unwrap(), Shape::Paraboloid { radius: 1.0 });
+    let mut problem = Problem::new(counterbody, body);
+    if let Some((law, constant)) = composite {
+        let own = CompositeHardness::of(problem.half_space(), law, constant).unwrap();
+        problem = problem.with_composite_hardness(own);
+    }
+    Solver::new(problem, [64; 2], Settings { tolerance: 1e-10, ..Settings::default() }).unwrap()
+}
+
+/// By hand: below the hardness a ball has δ = 0.25 R where a = 0.5 R, and H = H_s + φ(2.5)(H_c − H_s).
+#[test]
+fn an_elastic_contact_meets_the_composite_hardness_of_hertz() {
+    let force = 4.0 / 3.0 * 0.5f64.powi(3) / (1.0 - 0.3 * 0.3);
+    let constant = 0.5 / 2.5;
+    for (law, constant, part) in [
+        (HardnessLaw::Area, 0.5, constant * (2.0 - constant)),
+        (HardnessLaw::Korsunsky, 0.4, 1.0 / (1.0 + 0.4 * 2.5 * 2.5)),
+    ] {
+        let step = pressed_by_a_ball(hard_layer([3.0, 1.0]), Some((law, constant))).solve(Load::Force(force));
+        let own = PlasticReading::of(&step).unwrap();
+        // δ on 32 samples a diameter errs by some 1e-3, and dH/dδ · δ is below 2.
+        assert!((own.hardness_depth.unwrap() / 0.25 - 1.0).abs() < 2e-3, "{own:?}");
+        assert!((own.hardness - (1.0 + 2.0 * part)).abs() < 4e-3 && !own.is_pressed_in(), "{law:?}: {own:?}");
+    }
+}
+
+/// The fixed point by bisection over loads with a hardness of their own: soft and hard substrates, both laws, by force and by penetration;
+/// with the same start from earlier loads and after a checkpoint.
+#[test]
+fn what_yields_has_the_hardness_of_its_own_penetration() {
+    for (law, constant, hardness) in [
+        (HardnessLaw::Area, 0.5, [0.2, 0.08]),
+        (HardnessLaw::Area, 1.0, [0.1, 0.3]),
+        (HardnessLaw::Korsunsky, 0.3, [0.2, 0.08]),
+        (HardnessLaw::Korsunsky, 0.1, [0.12, 0.3]),
+    ] {
+        let body = hard_layer(hardness);
+        let composite = CompositeHardness::of(&body, law, constant).unwrap();
+        let penetration_at =
+            |hardness: f64, load: Load| pressed_by_a_ball(hard_layer([hardness, 9.0]), None).solve(load).penetration();
+        for load in [Load::Force(0.05), Load::Penetration(0.2)] {
+            let mut solver = pressed_by_a_ball(body.clone(), Some((law, constant)));
+            let step = solver.solve(load);
+            assert!(step.report.stop.solved(), "{law:?}: {}", step.report);
+            let own = PlasticReading::of(&step).unwrap();
+            let [mut low, mut high] = [0.0, 0.6];
+            for _ in 0..24 {
+                let depth = 0.5 * (low + high);
+                match penetration_at(composite.at(depth), load) > depth {
+                    true => low = depth,
+                    false => high = depth,
+                }
+            }
+            assert!((own.hardness_depth.unwrap() / low - 1.0).abs() < 1e-5, "{law:?} {hardness:?}: {own:?}, {low}");
+            assert!((own.hardness / composite.at(low) - 1.0).abs() < 1e-5, "{law:?}: {own:?}");
+            assert!(own.is_pressed_in() && step.pressure().iter().all(|&p| p <= own.hardness), "{own:?}");
+            let checkpoint = solver.checkpoint(&step);
+            let mut other = pressed_by_a_ball(body.clone(), Some((law, constant)));
+            let restored = other.restore(load, checkpoint).unwrap();
+            let again = PlasticReading::of(&restored).unwrap();
+            assert!((again.hardness / own.hardness - 1.0).abs() < 1e-5, "{again:?}, {own:?}");
         }
     }
 }

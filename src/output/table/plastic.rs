@@ -24,13 +24,17 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
                 own.material
             )
         });
-        let words = format!("hardness {hardness}: no pressure reaches it, the largest is {part:.0} % of it{beneath}");
+        let at = if last.hardness_depth.is_some() { " at the penetration of the last step" } else { "" };
+        let words =
+            format!("hardness {hardness}{at}: no pressure reaches it, the largest is {part:.0} % of it{beneath}");
         return Some((words, None));
     }
     let shown = if pressed.len() > DETAILED { &pressed[pressed.len() - 1..] } else { &pressed[..] };
     let load = units.load().suited(shown.iter().map(|(step, _)| step.reading.load(units.quantity())));
     let area = units.area().suited(shown.iter().map(|(_, own)| own.area));
     let length = units.length().suited(shown.iter().flat_map(|(_, own)| [own.depth, own.permanent_depth]));
+    let pressure = units.pressure().suited(shown.iter().map(|(_, own)| own.hardness));
+    let is_composite = last.hardness_depth.is_some();
     let header = [
         load.headed(units.quantity().name()),
         area.headed("area at the hardness"),
@@ -38,19 +42,27 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
         length.headed("largest depth pressed in"),
         length.headed("permanent depth"),
     ];
+    let header: Vec<String> = header.into_iter().chain(is_composite.then(|| pressure.headed("hardness"))).collect();
     let row = |(step, own): &(&StepRecord, &PlasticReading)| {
         let part = own.area / step.reading.contact_area;
-        vec![
+        let row = [
             in_unit(&load, step.reading.load(units.quantity()), step.reading.load_error(units.quantity())),
             in_unit(&area, own.area, own.area_error),
             if part.is_finite() { format!("{:.0} %", 100.0 * part) } else { "–".to_owned() },
             in_unit(&length, own.depth, own.depth_error),
             in_unit(&length, own.permanent_depth, own.permanent_depth_error),
-        ]
+        ];
+        row.into_iter().chain(is_composite.then(|| in_unit(&pressure, own.hardness, None))).collect()
+    };
+    let (of, assumption) = match is_composite {
+        false => (format!("hardness {hardness}"), "the hardness does not depend on the depth"),
+        true => (
+            "composite hardness of the penetration".to_owned(),
+            "by a law of indentation tests with pyramids, whose depth is taken for the penetration",
+        ),
     };
     let words = format!(
-        "hardness {hardness}: where the pressure reaches it the surface is pressed in for good (without pile-up; the hardness does not \
-         depend on the depth)"
+        "{of}: where the pressure reaches it the surface is pressed in for good (without pile-up; {assumption})"
     );
     Some((words, Some(Table::new(&header, shown.iter().map(row).collect(), 0))))
 }
