@@ -47,6 +47,8 @@ mod roughness;
 mod run;
 #[path = "library/sliding.rs"]
 mod sliding;
+#[path = "library/sliding_edges.rs"]
+mod sliding_edges;
 #[path = "library/sliding_stress.rs"]
 mod sliding_stress;
 #[path = "library/solver.rs"]

@@ -78,6 +78,8 @@ impl StressArchive {
             let section = field.section(&cut.line, &cut.depths(half_space));
             clock.turn(Phase::Output);
             add_states(arrays, &format!("{prefix}section"), section.states.shape(), section.states.iter())?;
+            let near = section.depths.iter().flat_map(|&depth| field.near_edge(depth, &cut.line.places()));
+            add_flags(arrays, &format!("{prefix}section"), section.states.shape(), near)?;
             sections.push(section);
         }
         let points = request.points_at(half_space);
@@ -87,6 +89,8 @@ impl StressArchive {
                 points.iter().map(|&(place, depth)| field.points(depth, &[place])[0]).collect();
             clock.turn(Phase::Output);
             add_states(arrays, &format!("{prefix}points"), &[states.len()], states.iter())?;
+            let near = points.iter().flat_map(|&(place, depth)| field.near_edge(depth, &[place]));
+            add_flags(arrays, &format!("{prefix}points"), &[states.len()], near)?;
         }
         Ok(())
     }
@@ -196,6 +200,17 @@ fn add_states<'a>(
         let values = states.clone().map(|state| component(state, c));
         arrays.add(&format!("{place}_{name}"), shape, values)
     })
+}
+
+/// Adds 1 where no error is known of the stresses, beside an edge of contact, and 0 elsewhere.
+fn add_flags(
+    arrays: &mut StepArrays,
+    place: &str,
+    shape: &[usize],
+    near_edge: impl Iterator<Item = bool>,
+) -> Result<(), OutputError> {
+    let values: Vec<f64> = near_edge.map(|near| f64::from(u8::from(near))).collect();
+    arrays.add(&format!("{place}_near_edge"), shape, values.into_iter())
 }
 
 /// Component `c` in the order of [`COMPONENTS`].

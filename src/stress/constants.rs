@@ -23,9 +23,6 @@ pub(super) const EXACT_EDGES: usize = 8;
 pub(super) const EDGE_ERROR: f64 = 0.3;
 /// Least error of the cusp that a traction makes at the trailing edge, times n, over the stress 2μp that leads to it.
 pub(super) const CUSP_ERROR: f64 = 0.2;
-/// Error of the cusp where coupling ends the pressure like d^{½+η}, which is read as a square root, over |η| n^{|η|−½} and the
-/// stress that leads to the cusp (`validation/sliding-wave`).
-pub(super) const EXPONENT_ERROR: f64 = 3.0;
 /// Usual tension at an edge over the largest pressure: (1 − 2ν)/3 at Hertz' contact.
 pub(super) const USUAL_TENSION: f64 = 0.13;
 /// Safety factor of the error of a largest surface stress, with which nineteen of twenty stated errors hold.
@@ -34,6 +31,15 @@ pub(super) const CREST_SAFETY: f64 = 1.5;
 /// so that with twice the spacing the ratio is 2^{1.5} − 1. Under a counterbody that slides they fall as n^{−1.2} where an edge lies
 /// awkwardly between the samples (`validation/sliding-sphere`), with the ratio 2^{1.2} − 1 = 1.3, which [`CREST_SAFETY`] covers.
 pub(super) const CHANGE_OVER_ERROR: f64 = 1.8;
+
+/// Part of the changes by the [`OTHER_WIDTHS`], and of the waves unlike those of the surface material, in the error at an edge where the
+/// cusp of a traction makes at least [`CUSP_PART`] of the stress: what smoothing leaves there is mostly [`CUSP_ERROR`]
+/// (`tests/library/sliding_edges.rs`).
+pub(super) const CUSP_SPREAD: f64 = 0.4;
+/// Part of the change from the next coarser grid in that error.
+pub(super) const CUSP_CHANGE: f64 = 0.2;
+/// Least part of the stress 2μp in one at a sliding edge for these factors; below it the edge is nearly one at rest.
+pub(super) const CUSP_PART: f64 = 0.5;
 
 /// Depth in spacings down to which the series converges slowly.
 pub(super) const SHALLOW: f64 = 2.0;

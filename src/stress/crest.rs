@@ -8,7 +8,8 @@
 //! Fields are processed row by row and not kept, except for the band of samples near edges.
 
 use super::constants::{
-    CHANGE_OVER_ERROR, CREST_SAFETY, CUSP_ERROR, EDGE_ERROR, EXACT_EDGES, EXPONENT_ERROR, OTHER_WIDTHS, USUAL_TENSION,
+    CHANGE_OVER_ERROR, CREST_SAFETY, CUSP_CHANGE, CUSP_ERROR, CUSP_PART, CUSP_SPREAD, EDGE_ERROR, EXACT_EDGES,
+    OTHER_WIDTHS, USUAL_TENSION,
 };
 use super::cubic::CubicInterpolation;
 use super::field::{REACH, StressField};
@@ -27,8 +28,10 @@ use std::sync::Arc;
 pub struct Crest {
     /// Value and position.
     pub peak: Peak,
-    /// Uncertainty of the value as estimated from this grid alone, a pressure.
+    /// Error of the value as estimated from this grid alone, a pressure.
     pub uncertainty: f64,
+    /// Part of the change from the next coarser grid that is added to it.
+    pub of_change: f64,
     /// Scale of relative errors, a pressure: the value itself, or the usual tension at an edge, 0.13 of the largest pressure, where
     /// that is more (incompressible materials have no tension at the edge).
     pub scale: f64,
@@ -38,7 +41,12 @@ impl Crest {
     /// Estimated relative error; `coarser` is the largest value of the measure on the surface of the next coarser grid.
     pub fn error(&self, coarser: Option<f64>) -> f64 {
         let change = coarser.map_or(0.0, |value| (value - self.peak.value).abs());
-        CREST_SAFETY * (self.uncertainty + change / CHANGE_OVER_ERROR) / self.scale
+        (self.uncertainty + self.of_change * change) / self.scale
+    }
+
+    /// A crest with the usual safety: `changes` by other widths and the like, a pressure.
+    pub(super) fn with_safety(peak: Peak, changes: f64, scale: f64) -> Self {
+        Self { peak, uncertainty: CREST_SAFETY * changes, of_change: CREST_SAFETY / CHANGE_OVER_ERROR, scale }
     }
 }
 
@@ -179,17 +187,24 @@ impl StressField {
         let unlike = if kind == Location::Edge { smoothed_pressure.abs() * smoothed.unlike } else { 0.0 };
         let [tx, ty] = self.traction();
         let cusp = 2.0 * tx.hypot(ty) * pressed;
-        let eta = self.edge_exponent().abs();
         let few = |edge: &EdgePoint| {
             let (own, n) = (value_of(edge), edge.resolution);
-            let turned = EXPONENT_ERROR * eta * n.powf(eta - 0.5);
-            own + EDGE_ERROR / (n * n) * usual.max(own.abs()) + (CUSP_ERROR / n + turned) * cusp - value
+            own + EDGE_ERROR / (n * n) * usual.max(own.abs()) + CUSP_ERROR / n * cusp - value
         };
         let few = largest(edges.iter().map(few));
         let direction = state.s1_direction();
         let (position, material) = ([place[0], place[1], 0.0], self.half_space().material_id(1));
         let peak = Peak { value, position, material, direction, error: None, rival: None };
-        Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) }
+        let scale = usual.max(value.abs());
+        if kind == Location::Edge && cusp >= CUSP_PART * value.abs() {
+            return Crest {
+                peak,
+                uncertainty: CUSP_SPREAD * (spread + unlike) + CREST_SAFETY * few,
+                of_change: CUSP_CHANGE,
+                scale,
+            };
+        }
+        Crest::with_safety(peak, spread + unlike + few, scale)
     }
 
     /// Points of edges beside the samples where contact ends, without their stresses; and the samples near edges, with p̃

@@ -104,7 +104,7 @@ impl StressField {
         let material = self.half_space().material_id(1);
         let direction = state.s1_direction();
         let peak = Peak { value, position: [x, y, 0.0], material, direction, error: None, rival: None };
-        Crest { peak, uncertainty: spread + point.side.map_or(0.0, at_edge), scale }
+        Crest::with_safety(peak, spread + point.side.map_or(0.0, at_edge), scale)
     }
 }
 

@@ -21,6 +21,7 @@
 //! - **paths**: the stresses that points of the body meet while the counterbody slides ([`SlidingPath`]);
 //! - **maxima** over each material and each face ([`maxima`]).
 
+mod beyond_window;
 mod chord;
 mod climb;
 mod constants;

@@ -46,7 +46,7 @@ pub(super) struct LineValue {
     pub value: f64,
     /// Place x, y where the stresses are most extreme, lengths.
     pub place: [f64; 2],
-    /// By how much stresses beyond the window of an isolated contact may change it, a pressure.
+    /// By how much stresses farther from an isolated contact than the samples may change it, a pressure.
     pub beyond: f64,
     /// Rise of the value where those of all cycles rise by one.
     pub gain: f64,
@@ -59,6 +59,8 @@ pub(super) struct LinePath<'a> {
     pub path: SlidingPath,
     /// Number of the samples that follow one another; others stand behind them, on edges of contact.
     pub ordered: usize,
+    /// Numbers of the samples that are farthest from an isolated contact, before and behind it.
+    pub border: [usize; 2],
     /// Number of those from one end of a line to the other: fewer where all of a plane is one path.
     pub run: usize,
     /// Of each sample behind the ordered ones the number of that before it on the path, with the part of the way to the next.
@@ -251,9 +253,8 @@ impl LinePath<'_> {
         if !self.comes_from_rest() {
             return LineValue { value: range, gain, ..high };
         }
-        // Where the extreme is that of rest, stresses beyond the window may pass it by as much as they differ from it at its border.
-        let ends = [tau1.first(), tau1.get(self.ordered.saturating_sub(1))];
-        let away = ends.into_iter().flatten().map(|end| (end - rest).abs()).fold(0.0, f64::max);
+        // Where the extreme is that of rest, stresses farther away may pass it by as much as they differ from it at the farthest samples.
+        let away = self.at_border(|k| (tau1[k] - rest).abs());
         let is_extreme = rest > 0.0 && (rest >= most || rest <= least);
         let place = if rest > most { low.place } else { high.place };
         LineValue { value: range, place, beyond: if is_extreme { away } else { 0.0 }, gain }
@@ -342,19 +343,19 @@ impl LinePath<'_> {
         LineValue { value: endurance.crossland(0.5 * length, pressed), place, beyond, gain: 1.0 }
     }
 
-    /// Whether a sample is the first or the last of the window of an isolated contact.
+    /// Whether a sample is one of the farthest from an isolated contact.
     fn is_at_border(&self, k: usize) -> bool {
-        k == 0 || k + 1 == self.ordered
+        self.border.contains(&k)
     }
 
-    /// The larger of the values at the border of the window.
+    /// The larger of the values at the samples that are farthest from an isolated contact.
     fn at_border(&self, value: impl Fn(usize) -> f64) -> f64 {
-        [0, self.ordered.saturating_sub(1)].into_iter().map(value).fold(0.0, f64::max)
+        self.border.into_iter().map(value).fold(0.0, f64::max)
     }
 
-    /// Whether a value may rise beyond the window above the `most` on the path: where that is the value at rest or at the border.
+    /// Whether a value may rise farther away above the `most` on the path: where that is the value at rest or at the farthest samples.
     fn may_rise_beyond(&self, most: f64, value: impl Fn(usize) -> f64, at_rest: f64) -> bool {
-        most <= at_rest.max(value(0)).max(value(self.ordered.saturating_sub(1)))
+        most <= self.border.into_iter().map(value).fold(at_rest, f64::max)
     }
 
     fn dang_van(&self, endurance: Endurance) -> LineValue {
@@ -423,7 +424,8 @@ mod tests {
     fn path_of(stresses: &LineStresses, path: SlidingPath, is_swept: bool) -> LinePath<'_> {
         let (run, rest) = (stresses.places.len(), StressState::default());
         let (ordered, edges, times, back, is_smooth) = (run, Vec::new(), 1.0, None, true);
-        LinePath { stresses, path, ordered, run, edges, times, back, is_smooth, rest, is_swept }
+        let border = [0, run - 1];
+        LinePath { stresses, path, ordered, border, run, edges, times, back, is_smooth, rest, is_swept }
     }
 
     const CLOSED: SlidingPath = SlidingPath::LatticeVector([1, 0]);

@@ -11,6 +11,7 @@
 //! Within two samples of the surface the values are those of the samples. On the surface the states just outside the edges of contact
 //! belong to the lines nearest to them.
 
+use super::beyond_window::{FollowedLine, far_states};
 use super::constants::{
     CHANGE_SAFETY, DEEP_SHEAR_ERROR, EXACT_ERROR, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES, SHALLOW_ERROR,
 };
@@ -32,6 +33,8 @@ const MAX_PLANES: usize = 8;
 const LEAST_RISE: f64 = 2e-5;
 /// Part of a value that the search between planes, lines and places leaves open, with sixteen places to a radius.
 const LEFT_OPEN: f64 = 2e-4;
+/// The same of utilisations, which are not read once more on denser lines and places.
+const LEFT_OPEN_OF_UTILISATIONS: f64 = 8e-4;
 
 /// Which measures are searched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -239,7 +242,7 @@ impl StressField {
                 if !(search.goes_on)() {
                     return None;
                 }
-                stated.push((best, self.error(&best, measure, search)));
+                stated.push(self.stated(best, measure, search));
             }
             peaks.push(largest(&stated));
         }
@@ -254,7 +257,7 @@ impl StressField {
         let depth = Depth { z: self.half_space().faces(number).1, material: number };
         let measure = PathMeasure::ShearRange(law.exponent());
         let best = self.finely(depth, measure, search);
-        Some(largest(&[(best, self.error(&best, measure, search))]))
+        Some(largest(&[self.stated(best, measure, search)]))
     }
 
     /// Measures along all lines of a plane on the grid of the search.
@@ -276,13 +279,7 @@ impl StressField {
         search: &PathSearch<'_>,
         (back, finely): (Option<&Self>, bool),
     ) -> SearchedLines {
-        let has = |wanted: fn(&PathMeasure) -> bool| measures.iter().any(wanted);
-        let kept = Kept {
-            tau1: has(|own| matches!(own, PathMeasure::Range(_))),
-            shear: has(|own| matches!(own, PathMeasure::ShearRange(_))),
-            stress: has(|own| matches!(own, PathMeasure::Crossland(_) | PathMeasure::DangVan(_))),
-            finely,
-        };
+        let kept = Kept::of(measures, finely);
         let (lines, times) = (&search.lines, search.times);
         let all = self.numbered_lines(depth, search, kept);
         let back = back.map(|back| (back, back.numbered_lines(depth, search, kept)));
@@ -313,6 +310,7 @@ impl StressField {
             stresses,
             path: lines.path,
             ordered,
+            border: [0, ordered.saturating_sub(1)],
             run: if lines.path == SlidingPath::FromFarAway { ordered } else { lines.run(plane.points) },
             edges,
             times,
@@ -451,6 +449,48 @@ impl StressField {
         Some(known[at])
     }
 
+    /// A value with the path beyond the window of an isolated contact, and its error.
+    fn stated(&self, best: Best, measure: PathMeasure, search: &PathSearch<'_>) -> (Best, Option<f64>) {
+        let followed = (best.beyond > 0.0).then(|| self.followed(&best, measure, search)).flatten();
+        let (rise, beyond) = followed.unwrap_or((0.0, best.beyond));
+        let error = self.error(&Best { beyond, ..best }, measure, search);
+        (Best { value: best.value + rise, beyond, ..best }, error)
+    }
+
+    /// Rise of a value by the path beyond the window of an isolated contact, and by how much stresses farther away may change it, a
+    /// pressure.
+    fn followed(&self, best: &Best, measure: PathMeasure, search: &PathSearch<'_>) -> Option<(f64, f64)> {
+        let kept = Kept::of(&[measure], false);
+        let follow = |field: &Self| {
+            let all = field.numbered_lines(best.depth, search, kept);
+            let (stresses, edges) = all.stresses(field, all.nearest(best.y)?, &search.lines, kept);
+            let far =
+                far_states(&field.far_fields(), best.depth, &stresses.places[..stresses.places.len() - edges.len()]);
+            Some((all.plane, FollowedLine::new((stresses, edges), &far, kept)?))
+        };
+        let (own, back) = (follow(self)?, search.pass.back.and_then(|back| Some((back, follow(back)?))));
+        let value = |is_far: bool| {
+            let back = back.as_ref().map(|(field, line)| field.followed_path(line, best.depth, is_far, search));
+            let own = self.followed_path(&own, best.depth, is_far, search);
+            measure.along(&LinePath { back: back.as_ref(), ..own })
+        };
+        let [within, far] = [false, true].map(value);
+        Some((far.value - within.value, far.beyond))
+    }
+
+    /// The path along a followed line of a plane, within the window or beyond it too.
+    fn followed_path<'a>(
+        &self,
+        (plane, line): &'a (LinePlane, FollowedLine),
+        depth: Depth,
+        is_far: bool,
+        search: &PathSearch<'_>,
+    ) -> LinePath<'a> {
+        let (stresses, edges) = line.stresses(is_far);
+        let path = self.line_path((plane, depth), stresses, edges.clone(), (&search.lines, search.times));
+        if is_far { LinePath { border: line.border, ..path } } else { path }
+    }
+
     /// Estimated error of a value; `None` without a coarser grid.
     fn error(&self, best: &Best, measure: PathMeasure, search: &PathSearch<'_>) -> Option<f64> {
         let coarser = search.coarser?;
@@ -467,9 +507,13 @@ impl StressField {
             false => DEEP_SHEAR_ERROR / resolution.powi(2),
         };
         let ringing = if is_near { self.regions().ringing() } else { 0.0 };
-        let left = if is_near { 0.0 } else { LEFT_OPEN * best.value.abs() };
+        let left = match measure {
+            _ if is_near => 0.0,
+            PathMeasure::Crossland(_) | PathMeasure::DangVan(_) => LEFT_OPEN_OF_UTILISATIONS,
+            PathMeasure::Range(_) | PathMeasure::ShearRange(_) => LEFT_OPEN,
+        };
         let rise = best.gain * measure.rise((open + self.left_out_of_lines()) * size + ringing + best.beyond);
-        Some(CHANGE_SAFETY * (best.value - coarse).abs() + rise + left)
+        Some(CHANGE_SAFETY * (best.value - coarse).abs() + rise + left * best.value.abs())
     }
 
     /// The largest value of the only measure of a plane beside a line at y.
@@ -492,7 +536,27 @@ impl StressField {
     }
 }
 
+impl Kept {
+    /// The stresses that some measures need.
+    fn of(measures: &[PathMeasure], finely: bool) -> Self {
+        let has = |wanted: fn(&PathMeasure) -> bool| measures.iter().any(wanted);
+        Self {
+            tau1: has(|own| matches!(own, PathMeasure::Range(_))),
+            shear: has(|own| matches!(own, PathMeasure::ShearRange(_))),
+            stress: has(|own| matches!(own, PathMeasure::Crossland(_) | PathMeasure::DangVan(_))),
+            finely,
+        }
+    }
+}
+
 impl NumberedLines {
+    /// The number of the line nearest to y, across the sliding, of an isolated contact; `None` without lines.
+    fn nearest(&self, y: f64) -> Option<usize> {
+        let away = |line: &NumberedLine| (line.0 - y).abs();
+        let numbered = self.lines.iter().enumerate();
+        numbered.min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b))).map(|(number, _)| number)
+    }
+
     /// Stresses along a line, by its place among them, with those on edges of contact behind the others, and where those lie on the path.
     fn stresses(
         &self,

@@ -13,7 +13,8 @@
 //! σ_αβ = A√d μ [2 (**e**·**n**)(n_α n_β + ν t_α t_β) + (**e**·**t**)(n_α t_β + t_α n_β)],
 //!
 //! a cusp of tension at the trailing edge, **e**·**n** = −1 (in a plane across the edge, the Hilbert transform of √d). Its
-//! smoothed form is replaced in the same way, with A from the pressure.
+//! smoothed form is replaced in the same way, with A from the pressure. Coupled friction has p = A dˢ, s = ½ − η **e**·**n** with the η of the materials that meet
+//! at the surface, and the cusp of [`super::smoothed_edge`] on both sides.
 //!
 //! Near an edge, the smoothing leaves e^{−W²/2} of the shortest waves of the grid, W = [`EDGE_WIDTH`], which carry the
 //! discretisation error. The steps of an edge on the grid excite longer waves too: the width near edges grows against the
@@ -23,10 +24,11 @@
 use super::constants::{BLEND, EDGE_WIDTH, OPEN_WIDTH, WIDTH_GROWTH};
 use super::depth_response::DepthResponse;
 use super::far_plane::FarPlane;
-use super::field::StressField;
+use super::field::{REACH, StressField};
 use super::series::Response;
 use super::smoothed_edge::SmoothedEdge;
 use super::tensor::StressState;
+use crate::body::Depth;
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
 
@@ -44,7 +46,7 @@ pub(super) struct SmoothedSurface {
     pub open: SurfaceStresses,
     /// Width of the Gaussian near edges, a length.
     width: f64,
-    seen: &'static SmoothedEdge,
+    seen: SmoothedEdge,
     /// ν of the surface material.
     poisson: f64,
     /// μ **e**: the traction over the pressure.
@@ -151,7 +153,7 @@ impl SmoothedSurface {
             edge: SurfaceStresses::new(surface, |q| fourth(q * width)),
             open: SurfaceStresses::new(surface, |q| fourth(q * open)),
             width,
-            seen: SmoothedEdge::shared(),
+            seen: SmoothedEdge::new(field.edge_exponent()),
             poisson,
             traction: field.traction(),
             unlike,
@@ -162,7 +164,14 @@ impl SmoothedSurface {
     pub fn edge_seen(&self, [p, gx, gy]: [f64; 3]) -> (f64, [f64; 2]) {
         let slope = gx.hypot(gy);
         let normal = if slope > 0.0 { [-gx / slope, -gy / slope] } else { [1.0, 0.0] };
-        (if p > 0.0 { self.seen.distance(p / (slope * self.width)) } else { self.seen.distance(0.0) }, normal)
+        let ratio = if p > 0.0 { p / (slope * self.width) } else { 0.0 };
+        (self.seen.distance(ratio, self.along(normal)), normal)
+    }
+
+    /// Component of the normal of an edge along the sliding, −1 to 1; 0 without traction.
+    fn along(&self, [nx, ny]: [f64; 2]) -> f64 {
+        let [tx, ty] = self.traction;
+        if self.slides() { (tx * nx + ty * ny) / tx.hypot(ty) } else { 0.0 }
     }
 
     /// Whether the edge is near enough for the stress to differ from the series itself.
@@ -176,7 +185,7 @@ impl SmoothedSurface {
         let (nu, [tx, ty]) = (self.poisson, self.traction);
         let (along, across) = (tx * nx + ty * ny, ty * nx - tx * ny);
         let change = four[3] - p;
-        let cusp = if self.slides() { smoothed * self.seen.cusp(u) } else { 0.0 };
+        let cusp = if self.slides() { smoothed * self.seen.cusp(u, self.along([nx, ny])) } else { 0.0 };
         // Coefficients of n n, t t and n t + t n, with t = (−n_y, n_x).
         let normal = change + 2.0 * along * cusp;
         let lateral = 2.0 * nu * change + 2.0 * nu * along * cusp;
@@ -207,7 +216,7 @@ impl SmoothedSurface {
     /// Sharpened σ_xx, σ_yy, σ_xy and p near an edge, and the weight of the series away from edges beside them.
     pub fn sharp(&self, near: [f64; 3], edge: [f64; 4]) -> ([f64; 4], f64) {
         let (u, normal) = self.edge_seen(near);
-        let p = near[0] * self.seen.sharp(u);
+        let p = near[0] * self.seen.sharp(u, self.along(normal));
         let [xx, yy, xy] = self.sharpened(edge, near[0], (u, p), normal);
         // Rises smoothly from 0 to 1.
         let t = ((u.abs() - BLEND[0]) / (BLEND[1] - BLEND[0])).clamp(0.0, 1.0);
@@ -226,6 +235,19 @@ impl SmoothedSurface {
         let (u, [nx, ny]) = self.edge_seen(near);
         let step = self.width * u.clamp(-1.5, 1.5);
         ([x + step * nx, y + step * ny], u)
+    }
+}
+
+impl StressField {
+    /// Whether stresses at the points (x, y) of a depth, lengths, lie so near to an edge of contact that no error is known of them: within three
+    /// widths of the smoothing of an edge, and within two samples of the surface.
+    pub fn near_edge(&self, depth: Depth, places: &[[f64; 2]]) -> Vec<bool> {
+        if depth.z >= self.shallow_depth() || !self.regions().have_edges() {
+            return vec![false; places.len()];
+        }
+        let response = Arc::new(self.depth_response(Depth::SURFACE, REACH));
+        let smoothed = SmoothedSurface::new(self, &response, 1.0);
+        self.at(places, &smoothed.near).into_iter().map(|near| smoothed.sees_edge(near)).collect()
     }
 }
 
