@@ -7,26 +7,21 @@ use super::groove::{Groove, MeanPressure};
 use super::rates::Rates;
 use super::state::{LifeEnd, LifeState};
 use super::task::{LifeError, LifeTask};
+use super::worn_path::WornSince;
 use crate::body::Side;
 use crate::problem::Problem;
 use crate::reading::{FatiguePart, contact_radii};
 use crate::run::{PathEnd, WearPath};
 use crate::spectral::{Solver, Step, Stop, Wear};
 use ndarray::Axis;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// Part of the thickness that the first layer had at first, which is gone when the half-space is laid out anew.
 const RELAID: f64 = 0.05;
-/// Relative change of the largest pressure by wear after which damage is computed anew, and that of a step.
-const REREAD: f64 = 0.02;
+/// Relative change of the largest pressure in a step of wear.
 const IN_STEP: f64 = 0.04;
-/// Accepted steps of wear from one state to the next, at most.
-const WEAR_STEPS: usize = 8;
-/// The same over a groove, from one row of samples to the next.
-const GROOVE_STEPS: usize = 60;
-/// Relative change of the largest pressure over a groove, beyond that of a row, at which it is read anew at the latest.
-const IN_GROOVE: f64 = 0.3;
+/// Distance over all so far that is slid on at most for the mean over a row of samples.
+const ROW: f64 = 10.0;
 /// Part of the passes so far within which a failure is due at once: damage while surfaces wear is known no better.
 const NOW: f64 = 1e-4;
 /// Most failures from one solution of the contact to the next.
@@ -87,6 +82,9 @@ impl LifeTask {
         if !stop.solved() {
             return Ok(self.without_contact(next, stop));
         }
+        if next.doubled > 0 {
+            next.damage.widen(&contact.planes);
+        }
         let reading = contact.record.fatigue.as_ref();
         let rates = Rates::new(original, gone, &contact.planes, reading, next.damage.y());
         let pending = std::mem::take(&mut next.pending);
@@ -114,8 +112,9 @@ impl LifeTask {
             last
         };
         let rates = match mean {
-            Some(MeanPressure { pressure, swing }) => {
-                let over = self.read(contact.step.with_mean_pressure(pressure), &solver, goes_on)?;
+            Some(MeanPressure { pressure, back, swing }) => {
+                let back = contact.back.as_ref().zip(back).map(|(own, back)| own.with_mean_pressure(back));
+                let over = self.read(contact.step.with_mean_pressure(pressure), back, goes_on)?;
                 let rates = Rates::new(original, gone, &over.planes, over.record.fatigue.as_ref(), next.damage.y());
                 next.damage.add(&rates, next.passes - begun, before);
                 next.bears(&over, swing);
@@ -200,8 +199,8 @@ impl LifeTask {
                 failure.depth - removed,
             ),
             FailurePlace::Material(number) => {
-                let (slice, depth) = (state.damage.slice(failure.place, removed), failure.depth - removed);
-                let what = if depth > slice { EventKind::Detachment } else { EventKind::SurfaceWear };
+                let ([slice, thin], depth) = (state.damage.slice(failure.place, removed), failure.depth - removed);
+                let what = if depth > thin { EventKind::Detachment } else { EventKind::SurfaceWear };
                 (FatiguePart::Material(original.material_id(number)), what, depth.max(slice))
             }
         };
@@ -268,42 +267,36 @@ impl LifeTask {
             return Ok(None);
         }
         let first = (state.step > 0.0).then_some(state.step);
-        let (begun, tires) = (contact.record.reading.grid_peak(), rates.is_any());
+        let tires = rates.is_any();
         let change = if tires { IN_STEP } else { f64::INFINITY };
         let before = state.largest_worn(Side::Body) + state.largest_worn(Side::Counterbody);
         let path = WearPath { first, change, before, ..WearPath::new(self.load, *wear, whole, self.tolerance)? };
-        let (mut steps, mut slid) = (0, 0.0);
-        let mut groove = if tires { Groove::new(&contact.step, wear) } else { None };
-        let followed = path.slide(solver, &mut |step, end| {
-            steps += 1;
-            slid = step.distance;
-            let has_changed = match &mut groove {
-                Some(groove) => {
-                    groove.add(step, end);
-                    let is_far = (step.max_pressure / begun - 1.0).abs() > IN_GROOVE;
-                    groove.has_widened() || steps >= GROOVE_STEPS || is_far
-                }
-                None => steps >= WEAR_STEPS || (tires && (step.max_pressure / begun - 1.0).abs() > REREAD),
-            };
-            let ends = has_changed || !goes_on();
-            if ends { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        })?;
-        if !goes_on() {
-            return Err(LifeError::Interrupted);
-        }
+        let mut worn = WornSince::new(self, contact, wear, tires)?;
+        let followed = worn.slide(&path, solver, goes_on)?;
+        let slid = worn.slid;
         // Where no step was accepted the length that is tried next stays.
         state.step = if followed.next > 0.0 { followed.next } else { state.step };
-        if let PathEnd::Unsolved(stop) = followed.end {
-            state.stop = Some(stop);
-        }
+        state.stop = match followed.end {
+            PathEnd::Unsolved(stop) => Some(stop),
+            _ => worn.stop,
+        };
         let passes = if slid >= whole { until - state.passes } else { slid / distance };
-        let mean = groove.and_then(Groove::mean);
-        if mean.is_none() {
+        if !worn.groove.as_ref().is_some_and(Groove::has_begun) {
             // The other half is done at the rates of the worn surfaces.
             state.damage.add(rates, 0.5 * passes, removed);
             state.pending = 0.5 * passes;
         }
         state.passes = if slid >= whole { until } else { state.passes + passes };
+        self.keep_worn(state, solver, wear, removed);
+        if state.stop.is_none() && state.passes >= last && worn.is_between_rows() {
+            let on = WearPath { first: Some(state.step), distance: ROW * last * distance, ..path };
+            worn.slide(&on, solver, goes_on)?;
+        }
+        Ok(worn.groove.and_then(Groove::mean))
+    }
+
+    /// Keeps what a solver has worn off and pressed in, of a body that was lower by `removed` before.
+    fn keep_worn(&self, state: &mut LifeState, solver: &Solver, wear: &Wear, removed: f64) {
         for (own, side) in state.worn.iter_mut().zip([Side::Body, Side::Counterbody]) {
             if let Some(worn) = solver.worn().filter(|_| wear.coefficient(side) > 0.0) {
                 add(own, worn.depth(side).iter());
@@ -315,7 +308,6 @@ impl LifeTask {
         let is_isolated = self.problem.cell().is_isolated();
         state.lowered = if is_isolated { state.largest_worn(Side::Body) } else { state.mean_worn(Side::Body) };
         self.worn_through(state, removed);
-        Ok(mean)
     }
 }
 

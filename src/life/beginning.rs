@@ -12,6 +12,8 @@ use std::sync::Arc;
 pub struct Beginning {
     /// The step that was solved.
     pub step: Step,
+    /// That on the way back of a counterbody that goes to and fro with friction; `None` where it is the same.
+    pub back: Option<Step>,
     /// Its record, with the lives of what tires.
     pub record: StepRecord,
     /// Range of τ₁ on planes of the materials that tire.
@@ -56,26 +58,29 @@ impl LifeTask {
 
     /// The contact of the surfaces of a solver, with what it does in a pass.
     pub(super) fn contact(&self, solver: &mut Solver, goes_on: &dyn Fn() -> bool) -> Result<Beginning, LifeError> {
-        let step = solver.solve(self.load);
-        self.read(step, solver, goes_on)
+        let mut step = solver.solve(self.load);
+        let back = match step.reading().touches() {
+            true => self.way_back(step.problem(), step.grid().points())?.over(step.surface())?,
+            false => None,
+        };
+        // A way back that was not solved is no answer.
+        if let Some(stop) = back.as_ref().map(|back| back.report.stop).filter(|stop| !stop.solved()) {
+            step.report.stop = stop;
+        }
+        self.read(step, back, goes_on)
     }
 
-    /// Damage in a pass by a step on the surfaces of a solver.
+    /// Damage in a pass by a step, and by that on the way back where it is another one.
     pub(super) fn read(
         &self,
-        mut step: Step,
-        solver: &Solver,
+        step: Step,
+        back: Option<Step>,
         goes_on: &dyn Fn() -> bool,
     ) -> Result<Beginning, LifeError> {
         let reading = step.reading();
         let fields = StressFields::new(step.finest(), self.mean);
-        let sought = PathSought { fatigue: true, endurance: false };
+        let sought = PathSought { fatigue: true, endurance: false, map: true };
         let found = if reading.touches() && self.problem.bodies().tire() {
-            let back = self.way_back(solver, &step)?;
-            // A way back that was not solved is no answer.
-            if let Some(stop) = back.as_ref().map(|back| back.report.stop).filter(|stop| !stop.solved()) {
-                step.report.stop = stop;
-            }
             let pass = Pass { way: self.way(), back: back.as_ref().or(self.stroke.map(|_| &step)) };
             PathReading::of_pass(&step, &reading, &fields, (sought, &pass), goes_on).ok_or(LifeError::Interrupted)?
         } else {
@@ -83,18 +88,6 @@ impl LifeTask {
         };
         drop(fields);
         let record = StepRecord { fatigue: found.fatigue, ..StepRecord::new(&step, reading) };
-        Ok(Beginning { step, record, planes: found.planes, change: None, end: None })
-    }
-
-    /// The contact of the surfaces of a solver on the way back of a counterbody that goes to and fro; `None` where it is that of the way
-    /// there, `step`.
-    fn way_back(&self, solver: &Solver, step: &Step) -> Result<Option<Step>, LifeError> {
-        let friction = self.problem.friction().filter(|own| self.stroke.is_some() && own.coefficient() > 0.0);
-        let Some(friction) = friction else { return Ok(None) };
-        // What is held one way is held the other way.
-        let Ok(problem) = solver.problem().as_ref().clone().sliding(friction.reversed()) else { return Ok(None) };
-        let back = Solver::new(Arc::new(problem), step.grid().points(), self.settings)?;
-        let gap = solver.surface().initial_gap().to_owned();
-        Ok(Some(back.with_gap(gap)?.solve(self.load)))
+        Ok(Beginning { step, back, record, planes: found.planes, change: None, end: None })
     }
 }

@@ -2,8 +2,9 @@
 //!
 //! In the frame of the original surface the damage D(y, Z) of a material grows in each pass by Q(y, z), the damage of the law of fatigue
 //! at the depth z = Z − r below the present surface, r what has come off ([`Rates`]): D = ∫ Q dN. It is kept at nodes, equally far apart
-//! over the depth of each material, on the lines y of the path under the unworn contact; what has come off is dropped. Of an interface
-//! the largest damage counts.
+//! over the depth of each material, on the lines y of the path under the unworn contact, and where the window of an isolated contact
+//! grows on those of the wider one; what has come off is dropped. Where a node fails below the surface, the depth that fails first is that
+//! of the parabola through its damage and that of the nodes beside it. Of an interface the largest damage counts.
 
 use super::rates::Rates;
 use crate::body::{Durability, HalfSpace};
@@ -17,6 +18,8 @@ const NODES: f64 = 64.0;
 const MOST_NODES: f64 = 512.0;
 /// Part of the distance of nodes within which one is at the surface, and of the damage within which it has failed.
 const SURFACE: f64 = 1e-6;
+/// Distances of nodes below the first one down to which what fails is wear of the surface.
+const UNRESOLVED: f64 = 1.5;
 const FAILED: f64 = 1e-9;
 
 /// Damage of a body.
@@ -92,6 +95,25 @@ impl Damage {
         &self.y
     }
 
+    /// Follows the lines of `planes` that lie beyond its own too, those of a wider window, without damage until then. They had less than
+    /// the outermost of its lines: ranges fall with the distance from a contact.
+    pub fn widen(&mut self, planes: &[RangePlane]) {
+        let (Some(plane), &[first, second, ..], &[.., before, last]) = (planes.first(), &self.y[..], &self.y[..])
+        else {
+            return;
+        };
+        // Planes on fewer or more points of the same window end half a distance of lines elsewhere, or less.
+        let (lower, upper) = (first - 0.5 * (second - first), last + 0.5 * (last - before));
+        let left: Vec<f64> = plane.y().filter(|y| *y < lower).collect();
+        let right: Vec<f64> = plane.y().filter(|y| *y > upper).collect();
+        let none = [&left, &right].map(|lines| vec![0.0; lines.len()]);
+        for own in &mut self.materials {
+            let wider = |node: &[f64]| [&none[0], node, &none[1]].concat();
+            own.damage = own.damage.chunks(self.y.len()).flat_map(wider).collect();
+        }
+        self.y = [&left[..], &self.y, &right].concat();
+    }
+
     /// Adds the damage of some passes on a surface `removed` below the original one.
     pub fn add(&mut self, rates: &Rates, passes: f64, removed: f64) {
         for own in &mut self.materials {
@@ -118,13 +140,15 @@ impl Damage {
             .reduce(|a, b| if b.passes < a.passes || (b.passes == a.passes && b.depth > a.depth) { b } else { a })
     }
 
-    /// Depth of the layer that comes off at least when a material fails at a depth: to the next node below the surface.
-    pub fn slice(&self, place: FailurePlace, removed: f64) -> f64 {
-        let FailurePlace::Material(number) = place else { return 0.0 };
+    /// Depth of the layer that comes off at least when a material fails at a depth, to the next node below the surface, and the largest
+    /// depth at which this is wear of the surface, one node and a half deeper: nodes resolve no thinner fragments.
+    pub fn slice(&self, place: FailurePlace, removed: f64) -> [f64; 2] {
+        let FailurePlace::Material(number) = place else { return [0.0; 2] };
         let own = self.materials.iter().find(|own| own.material == number);
-        own.map_or(0.0, |own| {
+        own.map_or([0.0; 2], |own| {
             let next = ((removed - own.top) / own.spacing + 1e-9).floor() + 1.0;
-            (own.top + next * own.spacing).min(own.bottom) - removed
+            let slice = (own.top + next * own.spacing).min(own.bottom) - removed;
+            [slice, slice + UNRESOLVED * own.spacing]
         })
     }
 }
@@ -165,26 +189,61 @@ impl MaterialDamage {
         }
     }
 
+    /// Damage at a node on a line, which is none where none was done.
+    fn done(&self, node: usize, line: usize, lines: usize) -> f64 {
+        let kept = node.checked_sub(self.gone).and_then(|node| self.damage.get(node * lines + line));
+        kept.copied().unwrap_or(0.0)
+    }
+
     fn next_failure(&self, rates: &Rates, removed: f64, lines: usize) -> Option<Failure> {
-        let nodes = self.count(removed + rates.deepest(self.material)?);
-        let mut next: Option<Failure> = None;
-        for node in self.first(removed)..nodes {
-            let depth = self.depth(node);
-            let done = |line: usize| {
-                let kept = node.checked_sub(self.gone).and_then(|node| self.damage.get(node * lines + line));
-                kept.copied().unwrap_or(0.0)
-            };
-            let rates = rates.at(self.material, (depth - removed).max(0.0)).into_iter().flatten().enumerate();
+        let nodes = self.first(removed)..self.count(removed + rates.deepest(self.material)?);
+        let mut next: Option<(f64, usize, usize)> = None;
+        for node in nodes.clone() {
+            let depth = self.depth(node) - removed;
+            let rates = rates.at(self.material, depth.max(0.0)).into_iter().flatten().enumerate();
             // What failed at this depth has made the surface, and fails no more.
-            let is_surface = depth - removed < SURFACE * self.spacing;
-            let lasts = |(line, rate): &(usize, f64)| *rate > 0.0 && !(is_surface && done(*line) > 1.0 - FAILED);
-            let passes = rates.filter(lasts).map(|(line, rate)| ((1.0 - done(line)) / rate).max(0.0));
-            let passes = passes.fold(f64::INFINITY, f64::min);
-            // Of failures at the same time the deepest: it takes the others with it.
-            if passes.is_finite() && next.is_none_or(|next| passes <= next.passes) {
-                next = Some(Failure { place: FailurePlace::Material(self.material), passes, depth });
+            let is_surface = depth < SURFACE * self.spacing;
+            for (line, rate) in rates.filter(|(_, rate)| *rate > 0.0) {
+                let done = self.done(node, line, lines);
+                let passes = ((1.0 - done) / rate).max(0.0);
+                // Of failures at the same time the deepest: it takes the others with it.
+                let is_next = next.is_none_or(|(least, last, _)| passes < least || (passes == least && node > last));
+                if is_next && passes.is_finite() && !(is_surface && done > 1.0 - FAILED) {
+                    next = Some((passes, node, line));
+                }
             }
         }
-        next
+        let (passes, node, line) = next?;
+        let (passes, depth) = if nodes.start < node && node + 1 < nodes.end && passes > 0.0 {
+            self.between_nodes(rates, removed, (passes, node), (line, lines))
+        } else {
+            (passes, self.depth(node))
+        };
+        Some(Failure { place: FailurePlace::Material(self.material), passes, depth })
+    }
+
+    /// Passes and depth of the failure beside a node that fails after some `passes`, by the parabola through its damage then, which is 1,
+    /// and that of the nodes beside it.
+    fn between_nodes(
+        &self,
+        rates: &Rates,
+        removed: f64,
+        (passes, node): (f64, usize),
+        (line, lines): (usize, usize),
+    ) -> (f64, f64) {
+        let rate = |depth: f64| {
+            let own = rates.at(self.material, depth - removed).and_then(|mut own| own.nth(line));
+            own.unwrap_or(0.0)
+        };
+        let then = |node: usize| self.done(node, line, lines) + passes * rate(self.depth(node));
+        let [above, below] = [node - 1, node + 1].map(|node| 1.0 - then(node));
+        let bend = above + below;
+        if !(bend > 0.0 && above >= 0.0 && below >= 0.0) {
+            return (passes, self.depth(node));
+        }
+        let moved = 0.5 * (above - below) / bend;
+        let depth = (self.depth(node) + moved * self.spacing).min(self.bottom);
+        let beyond = 0.5 * bend * moved * moved;
+        ((passes - beyond / rate(depth)).max(0.0), depth)
     }
 }

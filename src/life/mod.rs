@@ -13,8 +13,9 @@
 //!   where a layer is gone.
 //! - Only the first failure has an error: later ones err by as much at least.
 //! - A counterbody that goes to and fro wears by the pressure of the way there; damage is done by both ways.
-//! - Damage over a groove that widens is that of the mean pressure from one row of samples at its edge to the next.
-//! - Where contact reaches the border of the window of an isolated contact, life goes on in one twice as large, on as many samples.
+//! - Damage over a groove that widens is that of the mean pressure from one row of samples at its edge to the next, on both ways.
+//! - Where contact reaches the border of the window of an isolated contact, life goes on in one twice as large, on as many samples, and
+//!   damage on its lines too.
 //!
 //! A [`LifeState`] is all that the rest of a life depends on: [`LifeTask::advance`] leads from one to the next, with one solution of the
 //! contact, and can begin anywhere.
@@ -30,7 +31,9 @@ mod state;
 mod tally;
 mod task;
 mod warnings;
+mod way_back;
 mod wider;
+mod worn_path;
 
 pub use beginning::Beginning;
 pub use damage::Damage;

@@ -1,17 +1,15 @@
 //! Damage that one pass does on the present surface, over depth.
 //!
-//! Between the planes of a step the range of τ₁ is a cubic in depth with the slopes of parabolas through three planes, none of which is
-//! steeper than three times the flatter of its secants, so that a rise at the surface raises nothing below it (Hyman, SIAM J. Sci. Stat.
-//! Comput. 4 (1983) 645).
+//! Between the planes of a step the range of τ₁ is a cubic in depth with limited slopes ([`limited_cubic`](crate::numeric::limited_cubic)),
+//! so that a rise at the surface raises nothing below it. A map of damage has planes until that is the range.
 
 use crate::body::{Durability, Fatigue, HalfSpace};
+use crate::numeric::limited_cubic::{between, slopes};
 use crate::reading::{FatiguePart, FatigueReading};
 use crate::stress::RangePlane;
 
 /// Part of a depth by which rounding may set it below the deepest plane.
 const ROUNDING: f64 = 1e-9;
-/// Most slope over the flatter secant.
-const STEEPEST: f64 = 3.0;
 
 /// Damage that one pass does on the present surface.
 #[derive(Debug, Clone)]
@@ -91,53 +89,16 @@ impl MaterialRates {
         planes.sort_by(|a, b| a.depth.z.total_cmp(&b.depth.z));
         planes.dedup_by(|a, b| a.depth.z == b.depth.z);
         let depths: Vec<f64> = planes.iter().map(|plane| plane.depth.z).collect();
-        let range = |plane: usize, line: usize| planes[plane].lines[line][1];
-        let slope = |plane: usize, line: usize| {
-            let secant = |a: usize| (range(a + 1, line) - range(a, line)) / (depths[a + 1] - depths[a]);
-            let last = planes.len() - 1;
-            match plane {
-                _ if last == 0 => 0.0,
-                _ if last == 1 => secant(0),
-                0 => end_slope([secant(0), secant(1)], [depths[1] - depths[0], depths[2] - depths[1]]),
-                own if own == last => {
-                    let apart = [depths[last] - depths[last - 1], depths[last - 1] - depths[last - 2]];
-                    end_slope([secant(last - 1), secant(last - 2)], apart)
-                }
-                own => inner_slope(
-                    [secant(own - 1), secant(own)],
-                    [depths[own] - depths[own - 1], depths[own + 1] - depths[own]],
-                ),
+        let count = planes.first().map_or(0, |plane| plane.lines.len());
+        let mut lines = vec![vec![[0.0; 2]; count]; planes.len()];
+        for line in 0..count {
+            let ranges: Vec<f64> = planes.iter().map(|plane| plane.lines[line][1]).collect();
+            for (plane, slope) in slopes(&depths, &ranges).into_iter().enumerate() {
+                lines[plane][line] = [ranges[plane], slope];
             }
-        };
-        let on = |plane: usize| {
-            (0..planes[plane].lines.len()).map(|line| [range(plane, line), slope(plane, line)]).collect::<Vec<_>>()
-        };
-        let lines = (0..planes.len()).map(on).collect();
+        }
         (!planes.is_empty()).then_some(Self { material, law, depths, lines })
     }
-}
-
-/// Slope of the parabola through three places in the middle one, from the secants before and after it and their lengths.
-fn inner_slope([before, after]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
-    limited((b * before + a * after) / (a + b), before.abs().min(after.abs()))
-}
-
-/// Slope of that parabola in its first place, from the first secant on; not against it.
-fn end_slope([first, second]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
-    let slope = limited(((2.0 * a + b) * first - a * second) / (a + b), first.abs());
-    if slope * first > 0.0 { slope } else { 0.0 }
-}
-
-fn limited(slope: f64, flatter: f64) -> f64 {
-    let most = STEEPEST * flatter;
-    if most.is_finite() { slope.clamp(-most, most) } else { 0.0 }
-}
-
-/// The cubic with value and slope at both ends `apart` at a part t of the way, not below 0.
-fn between([[a, p], [b, q]]: [[f64; 2]; 2], apart: f64, t: f64) -> f64 {
-    let (s, u) = (t * t * (3.0 - 2.0 * t), 1.0 - t);
-    let linear = if s == 0.0 { a } else { a + s * (b - a) };
-    (linear + apart * t * u * (u * p - t * q)).max(0.0)
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ pub mod closed_line;
 pub mod fourier;
 pub mod lanes;
 pub mod least_squares;
+pub mod limited_cubic;
 pub mod linear;
 pub mod paraboloid;
 pub mod quadrature;

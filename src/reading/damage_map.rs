@@ -39,7 +39,7 @@ impl DamageMap {
     /// its materials has a law of fatigue.
     pub fn of(step: &Step, reading: &Reading, field: &StressField) -> Option<Self> {
         let (direction, radii) = (step.problem().direction(), contact_radii(step, reading));
-        let sought = PathSought { fatigue: true, endurance: false };
+        let sought = PathSought { fatigue: true, endurance: false, map: true };
         let found = field.path_peaks_while(direction, radii, sought, None, &|| true)?;
         Self::new(field.half_space(), &found.planes)
     }

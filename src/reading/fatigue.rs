@@ -121,7 +121,7 @@ impl FatigueReading {
     /// The fatigue by a step that has contact and whose `reading` is known, by its stress `fields`; `None` where nothing has a law of
     /// fatigue.
     pub fn of(step: &Step, reading: &Reading, fields: &StressFields) -> Option<Self> {
-        let sought = PathSought { fatigue: true, endurance: false };
+        let sought = PathSought { fatigue: true, endurance: false, map: false };
         PathReading::of_while(step, reading, fields, sought, &|| true).and_then(|own| own.fatigue)
     }
 

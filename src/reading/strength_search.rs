@@ -39,7 +39,7 @@ pub(crate) fn utilisations_while(
         let judged = own.into_iter().filter_map(|criterion| Utilisation::by_peak(bodies, criterion, peak(criterion)?));
         all.extend(judged);
     }
-    let sought = PathSought { fatigue: false, endurance: true };
+    let sought = PathSought { fatigue: false, endurance: true, map: false };
     all.extend(PathReading::of_while(step, reading, fields, sought, goes_on)?.utilisations);
     Some(all)
 }

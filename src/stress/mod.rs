@@ -52,6 +52,7 @@ mod peak;
 mod plane;
 mod plane_search;
 mod rainflow;
+mod range_map;
 mod range_plane;
 mod regions;
 mod search;

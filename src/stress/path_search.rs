@@ -20,6 +20,7 @@ use super::line_around::PlaneAround;
 use super::line_plane::{Kept, LinePlane, LineStresses};
 use super::path_measure::{LinePath, LineValue, PathMeasure};
 use super::plane_search::SEARCH_REACH;
+use super::range_map::completed;
 use super::range_plane::{RangePlane, on_common_lines};
 use super::sliding_path::{SlidingLines, SlidingPath};
 use super::tensor::StressState;
@@ -43,11 +44,13 @@ pub(crate) struct PathSought {
     pub fatigue: bool,
     /// Those of endurance limits.
     pub endurance: bool,
+    /// Planes of the ranges between which damage is known.
+    pub map: bool,
 }
 
 impl PathSought {
-    /// All of them.
-    pub const ALL: Self = Self { fatigue: true, endurance: true };
+    /// All measures, without a map.
+    pub const ALL: Self = Self { fatigue: true, endurance: true, map: false };
 }
 
 /// A pass on the path of a body.
@@ -201,8 +204,12 @@ impl StressField {
                 let values = own.values.iter().zip(&own.y).map(|(line, &y)| [y, line[0].value]);
                 RangePlane { depth: own.depth, lines: values.collect(), period: lines.period_across() }
             };
-            let tires = measures.iter().any(|own| matches!(own, PathMeasure::Range(_)));
-            planes.extend(own.into_iter().filter(|_| tires).map(ranges));
+            if let Some(law) = durability.fatigue.filter(|_| sought.fatigue) {
+                let own = own.into_iter().map(ranges).collect();
+                let measure = [PathMeasure::Range(law.exponent())];
+                let read = |depth: Depth| goes_on().then(|| ranges(self.own_lines(depth, &measure, &search)));
+                planes.extend(if sought.map { completed(own, law.exponent(), &read)? } else { own });
+            }
             if let Some(layer) = self.half_space().layers().get(number - 1) {
                 let fatigue = transmitted(layer).filter(|_| sought.fatigue);
                 interfaces.push(match fatigue {
