@@ -194,7 +194,7 @@ impl HalfSpace {
     /// The half-space with another hardness of its surface layer, a pressure.
     pub(crate) fn with_surface_hardness(&self, hardness: f64) -> Self {
         let of = |(index, layer): (usize, &Layer)| {
-            if index == 0 { layer.of_hardness(Some(hardness)) } else { layer.clone() }
+            if index == 0 { layer.of_hardness(Some(hardness)) } else { *layer }
         };
         Self { layers: self.layers.iter().enumerate().map(of).collect(), ..self.clone() }
     }

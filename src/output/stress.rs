@@ -210,7 +210,7 @@ fn add_flags(
     near_edge: impl Iterator<Item = bool>,
 ) -> Result<(), OutputError> {
     let values: Vec<f64> = near_edge.map(|near| f64::from(u8::from(near))).collect();
-    arrays.add(&format!("{place}_near_edge"), shape, values.into_iter())
+    arrays.add(&format!("{place}_near_edge"), shape, values)
 }
 
 /// Component `c` in the order of [`COMPONENTS`].

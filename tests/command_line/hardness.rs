@@ -54,7 +54,7 @@ fn a_penetration_that_takes_all_of_the_surface_to_its_hardness_is_refused() {
 fn a_composite_hardness_is_stated_with_its_law_and_depth() {
     let desk = Desk::new();
     let thin = THIN.replace("[20.0, 60.0]", "[100.0, 150.0]");
-    desk.write("thin.toml", &format!("{thin}composite_hardness = {{ law = \"korsunsky\", constant = 3.0 }}\n"));
+    desk.write("thin.toml", format!("{thin}composite_hardness = {{ law = \"korsunsky\", constant = 3.0 }}\n"));
     let check = desk.percoat(&["check", "thin.toml"]);
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words(&check.out).contains("composite hardness by Korsunsky and others (1998), k = 3"), "{}", check.out);
