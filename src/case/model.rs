@@ -86,7 +86,7 @@ section! { whole
         /// sliding friction of the indenters
         pub friction: Option<FrictionSection> =
             Key::new(&[Form::Table(&FRICTION)], "{ coefficient = 0.3 }").otherwise("no friction"),
-        /// hardness of a coating and its substrate together, over the depth of the contact
+        /// hardness of a coating and its substrate together
         pub composite_hardness: Option<CompositeHardnessSection> =
             Key::new(&[Form::Table(&COMPOSITE_HARDNESS)], "{ law = \"area\", constant = 0.5 }")
                 .otherwise("each surface has its own"),

@@ -66,7 +66,11 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
     let to_and_fro = "lattice = { kind = \"isolated\", size = 2 }\nlevels = [{ shape = \"sphere\", radius = 1 }]\n\
                       substrate = { young = 1, poisson = 0.3, wear = 1e-3 }\nload = { force = 1e-3 }\nfriction = { coefficient = 0.1 }\n\
                       life = { passes = 10, stroke = 5 }\n";
-    let texts = [RICH, &other, isolated, rigid, ball, to_and_fro];
+    let composite = "lattice = { kind = \"isolated\", size = 2 }\nlevels = [{ shape = \"sphere\", radius = 1 }]\n\
+                     layers = [{ thickness = 0.1, young = 2, poisson = 0.3, hardness = 0.2 }]\n\
+                     substrate = { young = 1, poisson = 0.3, hardness = 0.1 }\nload = { force = 1e-3 }\n\
+                     composite_hardness = { law = \"korsunsky\", constant = 1 }\n";
+    let texts = [RICH, &other, isolated, rigid, ball, to_and_fro, composite];
     let texts = texts.into_iter().chain(surfaces.iter().chain(&bodies).map(String::as_str));
     for text in embedded::all().iter().map(|(_, text)| *text).chain(texts) {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };

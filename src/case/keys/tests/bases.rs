@@ -102,6 +102,12 @@ impl Bases {
                 "lattice = {{ kind = \"isolated\", size = 2.0 }}\nsurface = {{ heights = \"surface.npy\", radius = 3.0 }}\n{}",
                 BODY.replace("mean_pressure", "force")
             ),
+            format!(
+                "lattice = {{ kind = \"isolated\", size = 2.0 }}\nlevels = [{{ shape = \"sphere\", radius = 1.0 }}]\n{}{}\
+                 composite_hardness = {{ law = \"area\", constant = 0.5 }}\n",
+                BODY.replace("mean_pressure", "force").replace("poisson = 0.3", "poisson = 0.3, hardness = 0.1"),
+                layer("young = 2.0, poisson = 0.2, hardness = 0.2")
+            ),
             BODY.to_owned(),
         ];
         Self { folder, cases: texts.iter().map(|text| text.parse().unwrap()).collect() }
