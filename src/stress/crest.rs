@@ -187,9 +187,11 @@ impl StressField {
         let unlike = if kind == Location::Edge { smoothed_pressure.abs() * smoothed.unlike } else { 0.0 };
         let [tx, ty] = self.traction();
         let cusp = 2.0 * tx.hypot(ty) * pressed;
+        let eta = self.edge_exponent().abs();
         let few = |edge: &EdgePoint| {
             let (own, n) = (value_of(edge), edge.resolution);
-            own + EDGE_ERROR / (n * n) * usual.max(own.abs()) + CUSP_ERROR / n * cusp - value
+            let turned = EXPONENT_ERROR * eta * n.powf(eta - 0.5);
+            own + EDGE_ERROR / (n * n) * usual.max(own.abs()) + (CUSP_ERROR / n + turned) * cusp - value
         };
         let few = largest(edges.iter().map(few));
         let direction = state.s1_direction();

@@ -96,7 +96,8 @@ impl StressField {
         Self::of_samples(contact.grid(), contact.pressures(), bodies.on(Some(side)), &surface, mean, tables)
     }
 
-    /// Stress field under any `pressure` on a `half_space`, axes along a₁ and a₂, and under the traction of `friction`.
+    /// Stress field under any `pressure` on a `half_space`, axes along a₁ and a₂, and under the traction of `friction`. Of coupled friction
+    /// the pressure is taken to end with its exponents, of any other like a square root.
     ///
     /// # Errors
     /// [`NotOnGrid`] unless the pressure has one value per sample of the grid.

@@ -35,7 +35,7 @@ fn coated(ratio: f64) -> Result<HalfSpace, StudyError> {
 /// The field of a load of unit pressure, and that of unit traction in +x too.
 fn fields(grid: &Arc<Grid>, pressure: ArrayView2<'_, f64>, ratio: f64) -> Result<[StressField; 2], StudyError> {
     let half_space = coated(ratio)?;
-    let friction = Friction::new(1.0, [1.0, 0.0])?;
+    let friction = Friction::new(1.0, [1.0, 0.0])?.uncoupled();
     let field = |friction| StressField::under(grid, pressure, &half_space, friction, MeanStress::HalfSpace);
     Ok([field(None)?, field(Some(&friction))?])
 }
