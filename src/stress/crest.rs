@@ -9,7 +9,7 @@
 
 use super::constants::{
     CHANGE_OVER_ERROR, CREST_SAFETY, CUSP_CHANGE, CUSP_ERROR, CUSP_PART, CUSP_SPREAD, EDGE_ERROR, EXACT_EDGES,
-    OTHER_WIDTHS, USUAL_TENSION,
+    EXPONENT_ERROR, OTHER_WIDTHS, USUAL_TENSION,
 };
 use super::cubic::CubicInterpolation;
 use super::field::{REACH, StressField};
