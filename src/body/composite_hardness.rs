@@ -11,10 +11,12 @@
 //! 171–183). Both come from pyramids under a load; here δ is the penetration of the counterbody.
 
 use super::HalfSpace;
+use serde::Serialize;
 use std::fmt;
 
 /// Law by which the hardness of a coating goes over to that of its substrate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum HardnessLaw {
     /// By the area that the coating bears, of Jönsson and Hogmark.
     Area,
@@ -76,14 +78,10 @@ impl CompositeHardness {
         substrate + part * (coating - substrate)
     }
 
-    /// Thickness of the coating, a length.
-    pub fn thickness(&self) -> f64 {
-        self.thickness
-    }
-
-    /// Law and constant.
-    pub fn law(&self) -> (HardnessLaw, f64) {
-        (self.law, self.constant)
+    /// The depth, a length, of the largest hardness: zero, or without end on a harder substrate.
+    pub(crate) fn hardest(&self) -> f64 {
+        let [coating, substrate] = self.hardness;
+        if coating < substrate { f64::INFINITY } else { 0.0 }
     }
 }
 

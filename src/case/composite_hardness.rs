@@ -9,15 +9,7 @@ use crate::body::{CompositeHardness, HardnessLaw};
 use crate::load::Load;
 use crate::problem::Problem;
 
-words! {
-    /// Laws of the composite hardness.
-    pub enum CompositeLaw {
-        /// By the area that the coating bears, of Jönsson and Hogmark (1984).
-        Area = "area",
-        /// By the work of indentation, of Korsunsky and others (1998).
-        Korsunsky = "korsunsky",
-    }
-}
+words! { HardnessLaw { Area = "area", Korsunsky = "korsunsky", } }
 
 section! {
     /// Hardness of one layer and its substrate together, which falls from that of the layer to that of the substrate as the penetration grows
@@ -25,7 +17,7 @@ section! {
     #[derive(Copy)]
     pub struct CompositeHardnessSection = COMPOSITE_HARDNESS {
         /// law: the part of the area that the layer bears, by Jönsson and Hogmark, or that of Korsunsky and others
-        pub law: CompositeLaw = Key::new(&[Form::Word(CompositeLaw::WORDS)], "\"area\""),
+        pub law: HardnessLaw = Key::new(&[Form::Word(HardnessLaw::WORDS)], "\"area\""),
         /// constant of the law: C of the area, about 1 for a layer that deforms with the substrate and 0.5 for one that cracks; k of Korsunsky, which is fitted to measured hardness
         pub constant: f64 = Key::new(&[Form::Number(Range::Size)], "0.5"),
     }
@@ -56,11 +48,7 @@ impl CompositeHardnessSection {
             let message = "the loads fall, and the hardness is that of a growing depth";
             return refuse(message.to_owned(), "give loads that rise, or leave the section out");
         }
-        let law = match self.law {
-            CompositeLaw::Area => HardnessLaw::Area,
-            CompositeLaw::Korsunsky => HardnessLaw::Korsunsky,
-        };
-        match CompositeHardness::of(problem.half_space(), law, self.constant) {
+        match CompositeHardness::of(problem.half_space(), self.law, self.constant) {
             Ok(own) => Ok(problem.with_composite_hardness(own)),
             Err(error) => refuse(error.to_string(), "give one layer, and a `hardness` of it and of the substrate"),
         }

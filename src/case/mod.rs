@@ -57,7 +57,7 @@ mod units;
 mod value;
 mod writer;
 
-pub use composite_hardness::{CompositeHardnessSection, CompositeLaw};
+pub use composite_hardness::CompositeHardnessSection;
 pub use durability::{EnduranceSection, FatigueSection};
 pub use elastic_counterbody::CounterbodySection;
 pub use error::CaseError;

@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub struct Beginning {
     /// The step that was solved.
     pub step: Step,
-    /// That on the way back of a counterbody that goes to and fro with friction; `None` where it is the same.
+    /// The step on the way back of a counterbody that goes to and fro with friction; `None` where the way there stands for both.
     pub back: Option<Step>,
     /// Its record, with the lives of what tires.
     pub record: StepRecord,

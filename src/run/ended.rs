@@ -42,7 +42,7 @@ pub(super) fn ended(problem: &Problem, steps: &[Numbered]) -> Option<String> {
             .map(|part| format!("the penetration is {} of the thickness of the layers", ratio(part))),
     );
     Some(format!(
-        "the elastic answer has ended in step {list}: {}; what is stated beyond that is of bodies that do not yield inside",
+        "the elastic answer has ended in step {list}: {}; the numbers of these steps are those of bodies that stay elastic inside",
         why.join("; ")
     ))
 }

@@ -49,7 +49,7 @@ pub struct StressField {
     far: Option<FarField>,
     /// The pressure in the window of an isolated contact; `None` in a periodic cell.
     pub(super) loaded: Option<Arc<LoadedWindow>>,
-    /// The fields in the windows around it, made when they are asked for.
+    /// Fields in the windows around that of an isolated contact, each made when it is asked for first.
     pub(super) around: [OnceLock<Option<Box<Self>>>; MOST_WINDOWS as usize],
     /// The window inside of which the field does not hold, of one around the window of the contact.
     hole: Option<Cell>,
@@ -141,7 +141,7 @@ impl StressField {
         });
         let regions = Regions::new(&series_grid, &spread, line);
         Self {
-            loaded: grid.cell().is_isolated().then(|| Arc::new(LoadedWindow::new(grid, pressure))),
+            loaded: grid.cell().is_isolated().then(|| Arc::new(LoadedWindow::new(grid, pressure, half_space))),
             around: Default::default(),
             hole: None,
             grid: Arc::clone(grid),

@@ -68,15 +68,11 @@ impl Following {
     }
 
     /// Whether a larger value of a measure is looked for outside of the window on whose `border` stresses have the largest size, a pressure,
-    /// where it is not faint: from a value that is largest on the border and larger than that at rest, unless it is faint and deep; from a
-    /// lesser one where a strength is judged by it.
+    /// where it is not faint: from a value that is no larger than that at rest, or lies on the border, unless it is faint and deep and no strength is judged by it.
     fn goes_on(&self, own: &Contender, measure: StressMeasure, [rest, border]: [f64; 2]) -> bool {
-        let ([_, _, z], is_judged) = (own.peak.position, self.is_judged(own.peak, measure));
-        border > self.faint
-            && match own.peak.value > rest {
-                true => own.is_still_on(border) && (is_judged || own.peak.value >= self.faint || z <= self.depth),
-                false => is_judged,
-            }
+        let Peak { value, position: [_, _, z], .. } = own.peak;
+        let is_followed = || value >= self.faint || z <= self.depth || self.is_judged(own.peak, measure);
+        border > self.faint && (value <= rest || own.is_still_on(border) && is_followed())
     }
 }
 
@@ -141,8 +137,8 @@ impl FoundStresses {
         all
     }
 
-    /// Of each material, with the interface below it, whether a larger value of a measure is looked for outside of the last window.
-    pub fn may_be_larger_outside(&self) -> Vec<bool> {
+    /// Of each material, and of the interface below it, whether a larger value of a measure is looked for outside of the last window.
+    pub fn may_be_larger_outside(&self) -> Vec<[bool; 2]> {
         let (everywhere, Some(following)) = (self.everywhere(), &self.following) else { return Vec::new() };
         let is_there = |contenders: &Contenders| {
             contenders.iter().any(|(measure, own)| {
@@ -156,7 +152,7 @@ impl FoundStresses {
         };
         let of_interface = |number: usize| everywhere.interfaces.get(number).is_some_and(|(_, own)| is_there(own));
         let materials = everywhere.materials.iter().enumerate();
-        materials.map(|(number, contenders)| is_there(contenders) || of_interface(number)).collect()
+        materials.map(|(number, contenders)| [is_there(contenders), of_interface(number)]).collect()
     }
 
     /// The largest utilisation of an interface by its contenders; `None` without a strength.

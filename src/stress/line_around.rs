@@ -9,7 +9,7 @@
 
 use super::field::StressField;
 use super::line_plane::{Kept, LinePlane, LineStresses};
-use super::loaded_window::{Extent, MOST_WINDOWS};
+use super::loaded_window::MOST_WINDOWS;
 use crate::body::Depth;
 use crate::lattice::Cell;
 
@@ -26,14 +26,13 @@ impl StressField {
     /// Number of windows around that of an isolated contact up to the distance from which stresses only decay; none of a periodic system.
     pub(super) fn windows_around(&self) -> u32 {
         let Some(loaded) = self.loaded.as_ref().filter(|_| !self.has_hole()) else { return 0 };
-        let reach = loaded.extent.reach(self.half_space());
-        (1..=MOST_WINDOWS).take_while(|number| loaded.extent.margin(number - 1) < reach).count() as u32
+        (1..=MOST_WINDOWS).take_while(|number| loaded.extent.margin(number - 1) < loaded.reach).count() as u32
     }
 
     /// Part of the stresses that the waves left out around the window may add to those of a line.
     pub(super) fn left_out_of_lines(&self) -> f64 {
         let around = self.loaded.as_ref().filter(|_| self.windows_around() > 0);
-        around.map_or(0.0, |loaded| Extent::left_out(&loaded.extent, 1))
+        around.map_or(0.0, |loaded| loaded.extent.left_out(1))
     }
 
     /// The field of the window around which holds a place, lengths, or of the last one.
@@ -61,7 +60,7 @@ impl StressField {
 }
 
 impl PlaneAround {
-    /// Its window.
+    /// Window of the plane.
     pub fn cell(&self) -> Cell {
         self.cell
     }

@@ -36,6 +36,8 @@ pub(super) struct LoadedWindow {
     /// One value per sample, a₂ fastest.
     pub pressure: Vec<f64>,
     pub extent: Extent,
+    /// Distance from the load from which on stresses only decay, a length.
+    pub reach: f64,
 }
 
 /// Size of a window and of what is loaded in it.
@@ -50,14 +52,15 @@ pub(super) struct Extent {
 }
 
 impl LoadedWindow {
-    pub fn new(grid: &Arc<Grid>, pressure: &[f64]) -> Self {
+    pub fn new(grid: &Arc<Grid>, pressure: &[f64], half_space: &HalfSpace) -> Self {
         let mut half_size = [0.0f64; 2];
         for (index, _) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
             let place = grid.cell().point(grid.fractions(index));
             half_size.iter_mut().zip(place).for_each(|(half, x)| *half = half.max(x.abs()));
         }
         let extent = Extent { sides: sides(grid.cell()), points: grid.points(), half_size };
-        Self { grid: Arc::clone(grid), pressure: pressure.to_vec(), extent }
+        let reach = extent.reach(half_space);
+        Self { grid: Arc::clone(grid), pressure: pressure.to_vec(), extent, reach }
     }
 }
 

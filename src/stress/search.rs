@@ -64,25 +64,31 @@ impl StressField {
         self.found_everywhere(radii, Sought::All, goes_on).map(Maxima::new)
     }
 
-    /// The contenders for what is `sought` in the cell or the window, in those materials and on the interfaces below them that are `wanted`;
+    /// The contenders for what is `sought` in the cell or the window, in those materials, and on those interfaces below them, that are `wanted`;
     /// `None` when `goes_on` returns false.
     pub(super) fn found(
         &self,
         radii: [f64; 2],
         sought: Sought,
-        wanted: &[bool],
+        wanted: &[[bool; 2]],
         goes_on: &dyn Fn() -> bool,
     ) -> Option<FoundStresses> {
         let strengths: Vec<Strength> = self.half_space().strengths().collect();
         let of_surface = sought.in_material(strengths[0]);
         let crests = if of_surface.is_empty() || self.has_hole() { Vec::new() } else { self.crests_of(&of_surface) };
         let (search, mut contenders) = (Search { radii, sought, crests: &crests, goes_on }, ContenderLists::default());
-        for ((material, &strength), &is_wanted) in (1..).zip(&strengths).zip(wanted) {
-            if !is_wanted {
-                contenders.add_none(self.half_space(), material);
-                continue;
+        for ((material, &strength), wanted) in (1..).zip(&strengths).zip(wanted) {
+            match wanted {
+                [false, false] => contenders.add_none(self.half_space(), material),
+                [false, true] => {
+                    self.add_contenders(material, &[], &search, &mut contenders)?;
+                    // The upper face of the layer.
+                    contenders.faces.push(Vec::new());
+                }
+                [true, _] => {
+                    self.add_contenders(material, &sought.in_material(strength), &search, &mut contenders)?;
+                }
             }
-            self.add_contenders(material, &sought.in_material(strength), &search, &mut contenders)?;
         }
         Some(FoundStresses {
             contenders,

@@ -10,10 +10,10 @@
 //!
 //! **Where it ends.** Beyond half the size of the contact and what its [stiff layers reach](crate::body::HalfSpace::bending_reach)
 //! stresses only decay: none beyond a window is larger than the largest one on its border, b. The search ends in the first window that is as
-//! wide and on whose border no measure is larger than both, inside and at rest. Where one at rest is larger, as σ_zz = 0 than a
-//! compression, and a strength is judged by the measure, the search goes on until b is a thousandth of the largest stress. A value that is
-//! stated from a border, or is no larger than at rest, has an error that covers the measure at rest raised by b. So have faint ones, less
-//! than a thousandth of the largest stress, that lie deeper than four windows and by which no strength is judged: they are not followed.
+//! wide and on whose border no measure is larger than both, inside and at rest, or b is a thousandth of the largest stress: where one at rest is
+//! larger, as σ_zz = 0 than a compression, so far. A value that is stated from a border, or is no larger than at rest, has an error that covers
+//! the measure at rest raised by b. So have faint ones, less than a thousandth of the largest stress, that lie deeper than four windows and by
+//! which no strength is judged: they are not followed.
 
 use super::far_field::FarField;
 use super::field::StressField;
@@ -63,11 +63,11 @@ impl StressField {
         sought: Sought,
         goes_on: &dyn Fn() -> bool,
     ) -> Option<FoundStresses> {
-        let all = vec![true; self.materials()];
+        let all = vec![[true; 2]; self.materials()];
         let mut found = self.found(radii, sought, &all, goes_on)?;
         let Some(loaded) = &self.loaded else { return Some(found) };
         found.at_rest = (1..=self.materials()).map(|material| self.at_rest(material)).collect();
-        let (extent, reach) = (&loaded.extent, loaded.extent.reach(self.half_space()));
+        let (extent, reach) = (&loaded.extent, loaded.reach);
         let (strengths, faint) = (self.half_space().strengths().collect(), FAINT * found.largest());
         found.following = Some(Following { strengths, faint, depth: extent.deep() });
         for number in 1..=MOST_WINDOWS {
@@ -75,7 +75,7 @@ impl StressField {
                 true => all.clone(),
                 false => found.may_be_larger_outside(),
             };
-            if !wanted.contains(&true) {
+            if !wanted.as_flattened().contains(&true) {
                 break;
             }
             let wide = self.around(number)?;

@@ -1,7 +1,8 @@
 //! The combinations of a sweep: the product of axes, their pairs, or the rows of a table; and a part of them.
 
 use super::axis::Axis;
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use crate::case::given_twice;
+use std::collections::{BTreeMap, HashSet};
 use std::iter;
 
 /// Most combinations of a sweep.
@@ -157,8 +158,7 @@ impl Group {
 /// # Errors
 /// [`CombinationsError::Twice`].
 pub fn keys_once<'a>(keys: impl IntoIterator<Item = &'a str>) -> Result<(), CombinationsError> {
-    let mut seen = BTreeSet::new();
-    match keys.into_iter().find(|key| !seen.insert(column(key))) {
+    match given_twice(keys) {
         Some(key) => Err(CombinationsError::Twice(key.to_owned())),
         None => Ok(()),
     }

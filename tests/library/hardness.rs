@@ -766,3 +766,14 @@ fn what_yields_has_the_hardness_of_its_own_penetration() {
         }
     }
 }
+
+/// A soft layer alone yields to the border of the window under this load; with the substrate it bears it.
+#[test]
+fn a_soft_coating_on_a_hard_substrate_bears_what_it_would_not_alone() {
+    let (body, load) = (hard_layer([0.02, 0.5]), Load::Force(0.1));
+    let alone = pressed_by_a_ball(body.clone(), None).solve(load);
+    assert!(!alone.report.stop.solved(), "{}", alone.report);
+    let step = pressed_by_a_ball(body, Some((HardnessLaw::Area, 0.3))).solve(load);
+    let own = PlasticReading::of(&step).unwrap();
+    assert!(step.report.stop.solved() && own.hardness > 0.02, "{}: {own:?}", step.report);
+}

@@ -69,8 +69,8 @@ fn stated_errors_of_topographies_hold_and_say_something() {
     }
 }
 
-/// Roofs, vaults and cones whose kink lies between the samples: the surface of the samples is known with the kink at one of them. Penetration counts
-/// from the kink, which the sum of waves misses; the flanks, and with them what the contact does beyond, are the same.
+/// Roofs, vaults and cones whose kink lies between the samples, against the same shape with the kink at a sample of a finer grid. The penetration is
+/// measured from the kink, which the sum of waves through the samples misses; the flanks, which carry the load, are the same in both.
 #[test]
 fn stated_errors_cover_a_kink_that_touches_first_between_the_samples() {
     const FINE: usize = 256;
