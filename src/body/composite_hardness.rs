@@ -78,6 +78,11 @@ impl CompositeHardness {
         substrate + part * (coating - substrate)
     }
 
+    /// Error of the hardness at a depth that has an error, a pressure.
+    pub fn error(&self, depth: f64, error: f64) -> f64 {
+        [-error, error].map(|by| (self.at(depth + by) - self.at(depth)).abs()).into_iter().fold(0.0, f64::max)
+    }
+
     /// The depth, a length, of the largest hardness: zero, or without end on a harder substrate.
     pub(crate) fn hardest(&self) -> f64 {
         let [coating, substrate] = self.hardness;
@@ -121,6 +126,8 @@ mod tests {
         let korsunsky = CompositeHardness::of(&coated(1), HardnessLaw::Korsunsky, 0.25).unwrap();
         assert_eq!([0.0, 1.0].map(|depth| korsunsky.at(depth)), [20.0, 12.0]);
         assert!((korsunsky.at(1e9) - 4.0).abs() < 1e-12 && (area.at(1e9) - 4.0).abs() < 1e-6);
+        // The law is steeper towards the surface: at 0.75 φ = 1/(1 + 0.25·2.25) = 0.64.
+        assert!((korsunsky.error(1.0, 0.25) - (4.0 + 0.64 * 16.0 - 12.0)).abs() < 1e-12);
         assert!(area.to_string().contains("C = 0.5"));
     }
 

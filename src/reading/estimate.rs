@@ -104,6 +104,9 @@ impl Step {
                 exponents.iter().enumerate().map(|(index, &exponent)| grids.level_errors(index, exponent)).collect();
             reading.errors = grids.errors(&of_levels, &exponents);
             reading.levels.iter_mut().zip(of_levels).for_each(|(level, errors)| level.errors = errors);
+            if let Some((composite, error)) = self.problem().composite_hardness().zip(reading.errors.penetration) {
+                reading.err_with_hardness(hardness, composite.error(reading.penetration, error));
+            }
             let (fraction, error) = fractions.best(|own, of| {
                 let coarser = coarser.iter().map(|coarse| Some(of(&coarse.fractions)?.value));
                 estimate(safety::AREA, own.uncertainty, own.value, coarser)
@@ -150,6 +153,15 @@ impl Step {
     /// The contacts on the coarser grids that estimates compare with, the next coarser first.
     fn compared(&self) -> Vec<&Contact> {
         self.coarser().iter().take(CHANGE_WEIGHTS.len()).collect()
+    }
+}
+
+impl Reading {
+    /// Gives the largest pressures that are a hardness, a pressure, its error.
+    fn err_with_hardness(&mut self, hardness: f64, error: f64) {
+        let levels = self.levels.iter_mut().map(|own| (own.max_pressure, &mut own.errors.max_pressure));
+        let all = levels.chain([(self.max_pressure, &mut self.errors.max_pressure)]);
+        all.filter(|(pressure, _)| *pressure >= hardness).for_each(|(_, own)| *own = Some(error));
     }
 }
 

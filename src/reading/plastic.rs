@@ -21,6 +21,9 @@ pub struct PlasticReading {
     /// Penetration of which H is the [composite hardness](crate::body::CompositeHardness), a length; `None` where H does not depend on it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness_depth: Option<f64>,
+    /// Error of a composite hardness by that of the penetration, a pressure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hardness_error: Option<f64>,
     /// Area where the pressure is H in this step, a length squared.
     #[serde(deserialize_with = "serialised::number")]
     pub area: f64,
@@ -85,6 +88,7 @@ impl PlasticReading {
         Some(Self {
             hardness: step.finest().hardness(),
             hardness_depth: step.problem().composite_hardness().map(|_| step.penetration()),
+            hardness_error: None,
             area,
             area_error: error(0, own.uncertainty),
             depth,
@@ -94,6 +98,13 @@ impl PlasticReading {
             permanent_depth,
             permanent_depth_error: error(3, 0.0),
         })
+    }
+
+    /// The reading with the error of a composite hardness by the `error` of the penetration, a length.
+    pub(crate) fn with_error_of_depth(self, step: &Step, error: Option<f64>) -> Self {
+        let composite = step.problem().composite_hardness().zip(error);
+        let hardness_error = composite.map(|(composite, error)| composite.error(step.penetration(), error));
+        Self { hardness_error, ..self }
     }
 
     /// Whether anything is pressed in.

@@ -112,6 +112,7 @@ impl StepRecord {
         let rough = step.rough_reading(&reading);
         let beneath = Beneath::of(step.problem(), &reading, step.grid().points());
         let sliding = Sliding { outer_iterations: report.outer, residual: report.residual };
+        let plastic = PlasticReading::of(step).map(|own| own.with_error_of_depth(step, reading.errors.penetration));
         let record = Self {
             reading,
             stop: report.stop,
@@ -125,7 +126,7 @@ impl StepRecord {
             contact_stiffness_error: None,
             rough,
             tapered: Tapered::of(step.finest()),
-            plastic: PlasticReading::of(step),
+            plastic,
             beneath,
             friction: step.problem().friction().map(|_| sliding),
             stress: None,

@@ -52,7 +52,7 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
             in_unit(&length, own.depth, own.depth_error),
             in_unit(&length, own.permanent_depth, own.permanent_depth_error),
         ];
-        row.into_iter().chain(is_composite.then(|| in_unit(&pressure, own.hardness, None))).collect()
+        row.into_iter().chain(is_composite.then(|| in_unit(&pressure, own.hardness, own.hardness_error))).collect()
     };
     let (of, assumption) = match is_composite {
         false => (format!("hardness {hardness}"), "the hardness does not depend on the depth"),
