@@ -56,17 +56,10 @@ impl Problem {
         self.composite.as_ref()
     }
 
-    /// The problem with the composite hardness of a penetration, a length.
+    /// The problem on a body whose surface has this hardness, a pressure.
     #[must_use]
-    pub(crate) fn at_depth(&self, penetration: f64) -> Self {
-        let hardness = self.composite.map(|composite| composite.at(penetration));
-        hardness.map_or_else(
-            || self.clone(),
-            |hardness| Self {
-                bodies: self.bodies.with_body(self.half_space().with_surface_hardness(hardness)),
-                ..self.clone()
-            },
-        )
+    pub(crate) fn with_surface_hardness(&self, hardness: f64) -> Self {
+        Self { bodies: self.bodies.with_body(self.half_space().with_surface_hardness(hardness)), ..self.clone() }
     }
 
     /// Whether the softer body moves away below the counterbody, which slides with friction: what is pressed in leaves the contact. Without

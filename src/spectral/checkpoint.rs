@@ -81,10 +81,6 @@ impl Solver {
         }
         let solved = report.stop.solved();
         self.set_unknowns(grids);
-        if self.problem().composite_hardness().is_some() {
-            let penetration = self.unknowns().next().map_or(0.0, |finest| finest.penetration);
-            self.harden(penetration);
-        }
         let step = self.step(load, report, convolutions, coarser);
         if !solved {
             self.forget();

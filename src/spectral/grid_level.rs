@@ -7,6 +7,7 @@ use super::iteration::{
 use super::operator::{ElasticOperator, Workspace};
 use super::prolongation::prolonged;
 use super::{Contact, Tangent};
+use crate::body::CompositeHardness;
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::load::{Control, Load};
@@ -20,6 +21,9 @@ use std::sync::Arc;
 /// Most samples, per indenter, of a contact that is no wider than the spacing: an apex between samples may press the four
 /// around it with any load from zero on.
 const MAX_UNRESOLVED: usize = 4;
+/// Least change of the penetration, over it, at which its composite hardness is known, and most penetrations that are tried.
+const DEPTH_TOLERANCE: f64 = 1e-6;
+const MOST_DEPTHS: usize = 100;
 
 /// What was pressed in for good: the surface without it, and the depths, lengths, a₂ fastest.
 pub(super) type Indented = (Arc<Surface>, Arc<Vec<f64>>);
@@ -35,6 +39,8 @@ pub(super) struct GridLevel {
     mask: Option<Vec<bool>>,
     /// Hardness of the softer surface, a pressure; infinite without one, and under a given pressure.
     hardness: f64,
+    /// Law by which the hardness follows from the penetration; `None` where one holds at any.
+    composite: Option<CompositeHardness>,
     operator: BodyOperator,
     /// A given pressure with the mean 1, one value per sample; `None` where contact is solved.
     given: Option<Vec<f64>>,
@@ -97,6 +103,7 @@ impl GridLevel {
             indented: None,
             mask: None,
             hardness: problem.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness),
+            composite: problem.composite_hardness().copied(),
             operator,
             given,
             modulus: bodies.contact_modulus(),
@@ -121,15 +128,10 @@ impl GridLevel {
 
     /// Sets the unknowns from which the next load starts.
     pub fn set_unknowns(&mut self, unknowns: Unknowns) {
-        self.unknowns = unknowns;
-    }
-
-    /// Gives the surface another hardness, a pressure, which the pressure of earlier loads does not exceed either.
-    pub fn harden(&mut self, hardness: f64) {
-        self.hardness = hardness;
-        if self.unknowns.pressure.iter().any(|&p| p > hardness) {
-            Arc::make_mut(&mut self.unknowns.pressure).iter_mut().for_each(|p| *p = p.min(hardness));
+        if let Some(composite) = &self.composite {
+            self.hardness = composite.at(unknowns.penetration);
         }
+        self.unknowns = unknowns;
     }
 
     /// Drops the pressure of earlier loads.
@@ -237,8 +239,12 @@ impl GridLevel {
         -sums::least(pressure.len(), |i| -pressure[i])
     }
 
-    /// The contact of the last load on this grid.
+    /// The contact of the last load on this grid, under the composite hardness that it has met.
     pub fn contact(&self, problem: &Arc<Problem>) -> Contact {
+        let problem = &match self.composite {
+            Some(_) => Arc::new(problem.with_surface_hardness(self.hardness)),
+            None => Arc::clone(problem),
+        };
         let Unknowns { pressure, gap, penetration, .. } = &self.unknowns;
         let indented = self.indented.as_ref().map(|(_, depths)| Arc::clone(depths));
         Contact::new(problem, &self.surface, Arc::clone(pressure), Arc::clone(gap), *penetration).after(indented)
@@ -280,6 +286,61 @@ impl GridLevel {
 
     /// Solves on this grid after adding the change of the next `coarser` one; returns the convolutions times samples too.
     pub fn solve(
+        &mut self,
+        mut coarser: Option<Coarser>,
+        load: Load,
+        settings: Settings,
+        working: &mut Working,
+        progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
+    ) -> (Report, f64) {
+        let Some(composite) = self.composite else {
+            return self.solve_at_hardness(coarser, load, settings, working, progress);
+        };
+        // From the largest hardness on: where the substrate is softer, δ = δ(H(δ)) grows towards the least such depth; where it is harder, δ
+        // swings about the only one, and half of each step is taken. The next coarser grid has found it nearly.
+        let mut depth = coarser.as_ref().map_or(composite.hardest(), |coarser| coarser.after.penetration);
+        let (mut before, mut convolutions) = (0.0, 0.0);
+        let tolerance = settings.tolerance.max(DEPTH_TOLERANCE);
+        let mut tried = 0;
+        loop {
+            self.harden(composite.at(depth));
+            let (mut report, work) = self.solve_at_hardness(coarser.take(), load, settings, working, progress);
+            (tried, convolutions) = (tried + 1, convolutions + work);
+            let penetration = self.unknowns.penetration;
+            let change = penetration - depth;
+            let is_known = change.abs() <= tolerance * penetration;
+            if is_known || tried == MOST_DEPTHS || !report.stop.solved() {
+                self.settle(composite.at(penetration));
+                if !is_known && report.stop.solved() {
+                    report.stop = Stop::IterationLimit;
+                }
+                return (report, convolutions);
+            }
+            depth = penetration - if change * before < 0.0 { 0.5 * change } else { 0.0 };
+            before = change;
+        }
+    }
+
+    /// Gives the surface another hardness, a pressure, which the pressure of earlier loads does not exceed either.
+    fn harden(&mut self, hardness: f64) {
+        self.hardness = hardness;
+        self.set_pressures(|p| p.min(hardness));
+    }
+
+    /// Gives the surface the hardness of its last penetration, nearly that at which it was solved: the pressure that was the hardness is
+    /// this one.
+    fn settle(&mut self, hardness: f64) {
+        let before = self.hardness;
+        self.hardness = hardness;
+        self.set_pressures(|p| if p >= before { hardness } else { p.min(hardness) });
+    }
+
+    fn set_pressures(&mut self, of: impl Fn(f64) -> f64 + Sync) {
+        sums::update(&mut Arc::make_mut(&mut self.unknowns.pressure)[..], |_, p| of(p));
+    }
+
+    /// Solves at the hardness that the surface has.
+    fn solve_at_hardness(
         &mut self,
         coarser: Option<Coarser>,
         load: Load,

@@ -10,7 +10,6 @@ use super::grid_level::{Coarser, GridLevel};
 use super::iteration::{Method, Progress, Report, Settings, Stop, Unknowns, Working};
 use super::worn::Worn;
 use super::{Contact, FieldError, Step, Tangent};
-use crate::body::CompositeHardness;
 use crate::counterbody::Surface;
 use crate::friction::Friction;
 use crate::lattice::{Cell, Grid, LatticeError};
@@ -32,9 +31,6 @@ const COARSER_KEPT: usize = 2;
 /// on coated bodies: read off 250 random contacts, see `tests/library/stated_errors.rs`.
 const STIFFNESS_WEIGHTS: [f64; COARSER_KEPT] = [0.75, 0.2];
 const JOINING_WEIGHT: f64 = 2.0;
-/// Least change of the penetration, over it, at which its composite hardness is known, and most penetrations that are tried.
-const DEPTH_TOLERANCE: f64 = 1e-6;
-const MOST_DEPTHS: usize = 100;
 
 /// A contact problem on its nested grids, with the pressures that it keeps from load to load.
 #[derive(Debug)]
@@ -155,43 +151,7 @@ impl Solver {
         progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
     ) -> Step {
         // Everything on the threads that share the work, where no pass has to wake them.
-        rayon::scope(|_| match self.problem.composite_hardness().is_some() {
-            true => self.solve_at_its_depth(load, progress),
-            false => self.solve_on_levels(load, progress),
-        })
-    }
-
-    /// Solves a load at the composite hardness of its own penetration, δ = δ(H(δ)), from the largest hardness on: where the substrate is softer δ
-    /// grows towards the least such depth; where it is harder δ swings about the only one, and half of each step is taken.
-    fn solve_at_its_depth(
-        &mut self,
-        load: Load,
-        progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
-    ) -> Step {
-        let hardest = self.problem.composite_hardness().map_or(0.0, CompositeHardness::hardest);
-        let (mut depth, mut before, mut convolutions) = (hardest, 0.0, 0.0);
-        let tolerance = self.settings.tolerance.max(DEPTH_TOLERANCE);
-        for _ in 0..MOST_DEPTHS {
-            self.harden(depth);
-            let step = self.solve_on_levels(load, progress);
-            let change = step.penetration() - depth;
-            convolutions += step.convolutions;
-            if change.abs() <= tolerance * step.penetration() || !step.report.stop.solved() {
-                return Step { convolutions, ..step };
-            }
-            depth = step.penetration() - if change * before < 0.0 { 0.5 * change } else { 0.0 };
-            before = change;
-        }
-        let step = self.solve_on_levels(load, progress);
-        self.forget();
-        Step { report: Report { stop: Stop::IterationLimit, ..step.report }, convolutions, ..step }
-    }
-
-    /// Gives the surface the composite hardness of a penetration, a length.
-    pub(super) fn harden(&mut self, penetration: f64) {
-        self.problem = Arc::new(self.problem.at_depth(penetration));
-        let hardness = self.problem.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness);
-        self.levels.iter_mut().for_each(|level| level.harden(hardness));
+        rayon::scope(|_| self.solve_on_levels(load, progress))
     }
 
     fn solve_on_levels(&mut self, load: Load, progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send)) -> Step {

@@ -702,13 +702,17 @@ fn hard_layer([layer, substrate]: [f64; 2]) -> HalfSpace {
 }
 
 fn pressed_by_a_ball(body: HalfSpace, composite: Option<(HardnessLaw, f64)>) -> Solver {
+    pressed_on(64, body, composite)
+}
+
+fn pressed_on(points: usize, body: HalfSpace, composite: Option<(HardnessLaw, f64)>) -> Solver {
     let counterbody = ball(Cell::window([2.0; 2]).unwrap(), Shape::Paraboloid { radius: 1.0 });
     let mut problem = Problem::new(counterbody, body);
     if let Some((law, constant)) = composite {
         let own = CompositeHardness::of(problem.half_space(), law, constant).unwrap();
         problem = problem.with_composite_hardness(own);
     }
-    Solver::new(problem, [64; 2], Settings { tolerance: 1e-10, ..Settings::default() }).unwrap()
+    Solver::new(problem, [points; 2], Settings { tolerance: 1e-10, ..Settings::default() }).unwrap()
 }
 
 /// By hand: below the hardness a ball has δ = 0.25 R where a = 0.5 R, and H = H_s + φ(2.5)(H_c − H_s).
@@ -762,7 +766,42 @@ fn what_yields_has_the_hardness_of_its_own_penetration() {
             let mut other = pressed_by_a_ball(body.clone(), Some((law, constant)));
             let restored = other.restore(load, checkpoint).unwrap();
             let again = PlasticReading::of(&restored).unwrap();
-            assert!((again.hardness / own.hardness - 1.0).abs() < 1e-5, "{again:?}, {own:?}");
+            assert!(again == own && restored.pressure() == step.pressure(), "{again:?}, {own:?}");
+        }
+    }
+}
+
+/// Deep in the layer a small change of δ changes the hardness, and that changes δ once more. Errors on coarse grids hold this against a
+/// grid four times as fine and finer, and each is at least the change from half the points solved alone, with the hardness of that depth.
+#[test]
+fn errors_at_a_composite_hardness_hold_its_feedback() {
+    for (law, constant, hardness, force) in [
+        (HardnessLaw::Area, 0.5, [0.2, 0.08], 0.05),
+        (HardnessLaw::Area, 0.5, [0.2, 0.03], 0.03),
+        (HardnessLaw::Korsunsky, 0.3, [0.15, 0.04], 0.04),
+    ] {
+        let read = |points: usize| {
+            let mut solver = pressed_on(points, hard_layer(hardness), Some((law, constant)));
+            let step = solver.solve(Load::Force(force));
+            assert!(step.report.stop.solved(), "{}", step.report);
+            let (whole, own) = (step.reading(), PlasticReading::of(&step).unwrap());
+            [
+                (whole.penetration, whole.errors.penetration),
+                (whole.contact_area, whole.errors.contact_area),
+                (own.depth, own.depth_error),
+                (own.volume, own.volume_error),
+            ]
+        };
+        let fine = read(320);
+        assert!(fine[3].0 > 0.0, "{law:?}: nothing is pressed in");
+        for points in [48, 60, 64, 80] {
+            let (own, half) = (read(points), read(points / 2));
+            let change = (own[0].0 - half[0].0).abs();
+            assert!(change <= own[0].1.unwrap(), "{law:?} {points}: {own:?}, {change}");
+            for (number, ((value, error), (truth, left))) in own.into_iter().zip(fine).enumerate() {
+                let [error, left] = [error, left].map(Option::unwrap);
+                assert!((value - truth).abs() <= error + left, "{law:?} {points} {number}: {value} ± {error}, {truth}");
+            }
         }
     }
 }
