@@ -1,6 +1,6 @@
 //! The contact problem: a counterbody, rigid or elastic, above a layered elastic half-space, at rest or sliding.
 
-use crate::body::{Bodies, CompositeHardness, HalfSpace, Interface, Side};
+use crate::body::{Bodies, CompositeError, CompositeHardness, HalfSpace, Interface, Side};
 use crate::counterbody::Counterbody;
 use crate::friction::{Friction, FrictionError};
 use crate::lattice::Cell;
@@ -46,9 +46,23 @@ impl Problem {
     }
 
     /// The problem with a hardness of the coating and its substrate together: each load meets that of its own penetration.
-    #[must_use]
-    pub fn with_composite_hardness(self, composite: CompositeHardness) -> Self {
-        Self { composite: Some(composite), ..self }
+    ///
+    /// # Errors
+    /// [`CompositeError::Counterbody`] for a counterbody that is softer than either: the laws are those of a body that yields alone.
+    pub fn with_composite_hardness(self, composite: CompositeHardness) -> Result<Self, CompositeError> {
+        let above = self.bodies.surface_durability(Side::Counterbody).hardness;
+        match above.filter(|above| *above < composite.largest()) {
+            Some(above) => Err(CompositeError::Counterbody(above)),
+            None => Ok(Self { composite: Some(composite), ..self }),
+        }
+    }
+
+    /// Largest hardness that any load meets, a pressure, with the side of the softer surface; `None` without one.
+    pub fn largest_hardness(&self) -> Option<(f64, Side)> {
+        match &self.composite {
+            Some(composite) => Some((composite.largest(), Side::Body)),
+            None => self.bodies.hardness(),
+        }
     }
 
     /// Hardness of the coating and its substrate together; `None` where the coating has its own at any depth.

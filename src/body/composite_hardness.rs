@@ -47,6 +47,9 @@ pub enum CompositeError {
     /// A constant that is not positive.
     #[error("the constant of a law must be positive and finite, not {0}")]
     Constant(f64),
+    /// The counterbody may yield before the coating or its substrate.
+    #[error("the counterbody, of hardness {0}, is softer than the coating or its substrate and may yield first")]
+    Counterbody(f64),
 }
 
 impl CompositeHardness {
@@ -76,6 +79,11 @@ impl CompositeHardness {
             HardnessLaw::Korsunsky => 1.0 / (1.0 + self.constant * relative * relative),
         };
         substrate + part * (coating - substrate)
+    }
+
+    /// The largest hardness at any depth, a pressure.
+    pub fn largest(&self) -> f64 {
+        self.hardness[0].max(self.hardness[1])
     }
 
     /// Error of the hardness at a depth that has an error, a pressure.

@@ -5,7 +5,7 @@ use super::keys::{Form, Key, Range};
 use super::load::LoadSection;
 use super::reader::TableAt;
 use super::section::{Words, section, words};
-use crate::body::{CompositeHardness, HardnessLaw};
+use crate::body::{CompositeError, CompositeHardness, HardnessLaw};
 use crate::load::Load;
 use crate::problem::Problem;
 
@@ -48,9 +48,13 @@ impl CompositeHardnessSection {
             let message = "the loads fall, and the hardness is that of a growing depth";
             return refuse(message.to_owned(), "give loads that rise, or leave the section out");
         }
-        match CompositeHardness::of(problem.half_space(), self.law, self.constant) {
-            Ok(own) => Ok(problem.with_composite_hardness(own)),
-            Err(error) => refuse(error.to_string(), "give one layer, and a `hardness` of it and of the substrate"),
-        }
+        let own = CompositeHardness::of(problem.half_space(), self.law, self.constant);
+        own.and_then(|own| problem.with_composite_hardness(own)).or_else(|error| {
+            let help = match error {
+                CompositeError::Counterbody(_) => "leave the section out, or give the counterbody a larger `hardness`",
+                _ => "give one layer, and a `hardness` of it and of the substrate",
+            };
+            refuse(error.to_string(), help)
+        })
     }
 }

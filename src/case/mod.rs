@@ -84,7 +84,7 @@ pub use materials::{
 };
 pub use model::Case;
 pub use named_pipes::Pipes;
-pub use overrides::given_twice;
+pub use overrides::{given_twice, parts};
 pub use source::{PhysicalSizes, Source};
 pub use stress::{CutSection, Origin, StressSection, Toward};
 pub use surface::{ORIENTATION, RandomSection, Sides, Stage, SurfaceSection, Taper, Treated, WantedChannel};

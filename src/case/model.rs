@@ -287,7 +287,6 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let solver_section = root.section_or_empty("solver")?;
     let settings = Settings::read_table(&solver_section)?;
     let mut problem = Problem::new(counterbody, bodies);
-    hardness::bears(&load, &load_section, &problem)?;
     let mut friction = None;
     if let Some(section) = root.section("friction")? {
         let own = FrictionSection::read_table(&section)?;
@@ -304,6 +303,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         }
         None => None,
     };
+    hardness::bears(&load, &load_section, &problem)?;
     Ok(Case {
         title,
         materials: materials::path(&root, source)?,

@@ -64,10 +64,12 @@ pub(super) fn replace(
 /// The first of some dotted keys that is there twice, also where it is spelt in two ways: `layers.0.young`, `layers[0].young`.
 pub fn given_twice<'a>(keys: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let mut seen = HashSet::new();
-    keys.into_iter().find(|key| {
-        let parts = key.replace(']', "");
-        !seen.insert(parts.split(['.', '[']).map(str::trim).collect::<Vec<_>>().join("."))
-    })
+    keys.into_iter().find(|key| !seen.insert(parts(key).collect::<Vec<_>>()))
+}
+
+/// The parts of a dotted key, the same of `layers.0.young` and `layers[0].young`.
+pub fn parts(key: &str) -> impl Iterator<Item = &str> {
+    key.split(['.', '[']).map(|part| part.trim().trim_end_matches(']').trim_end())
 }
 
 fn split(text: &str, source: usize) -> Result<(&str, &str), Refusal> {

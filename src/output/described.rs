@@ -122,9 +122,10 @@ pub(super) fn bodies(units: &Units, problem: &Problem) -> String {
             format!("\ncounterbody: rigid{borne}")
         }
     };
-    let most = bodies.hardness().map_or(String::new(), |(hardness, side)| {
-        let composite = problem.composite_hardness().filter(|_| side == Side::Body);
-        let composite = composite.map_or(String::new(), |own| format!(" where nothing is penetrated; {own}"));
+    let most = problem.largest_hardness().map_or(String::new(), |(hardness, side)| {
+        let composite = problem.composite_hardness();
+        let composite =
+            composite.map_or(String::new(), |own| format!(" or of what lies below it, by the penetration; {own}"));
         format!(
             "\npressure: at most {}, the hardness of the surface of the {side}{composite}",
             pressure(units, hardness)

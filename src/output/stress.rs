@@ -89,7 +89,10 @@ impl StressArchive {
                 points.iter().map(|&(place, depth)| field.points(depth, &[place])[0]).collect();
             clock.turn(Phase::Output);
             add_states(arrays, &format!("{prefix}points"), &[states.len()], states.iter())?;
-            let near = points.iter().flat_map(|&(place, depth)| field.near_edge(depth, &[place]));
+            let near = points.chunk_by(|one, other| one.1 == other.1).flat_map(|own| {
+                let places: Vec<[f64; 2]> = own.iter().map(|&(place, _)| place).collect();
+                field.near_edge(own[0].1, &places)
+            });
             add_flags(arrays, &format!("{prefix}points"), &[states.len()], near)?;
         }
         Ok(())

@@ -98,11 +98,12 @@ impl Step {
             let exponents: Vec<f64> = levels.iter().map(|level| level.shape().exponent()).collect();
             let is_given = self.problem().counterbody().pressure().is_some();
             let hardness = self.finest().hardness();
-            let apex = self.problem().counterbody().topography().map_or(0.0, Topography::apex_error);
+            let apex = self.apex_error();
             let grids = Grids { fine: &reading, coarser: &coarser, load: self.load, is_given, hardness, apex };
             let of_levels: Vec<LevelErrors> =
                 exponents.iter().enumerate().map(|(index, &exponent)| grids.level_errors(index, exponent)).collect();
-            reading.errors = grids.errors(&of_levels, &exponents);
+            let by_apex = grids.by_apex();
+            reading.errors = grids.errors(&of_levels, &exponents, by_apex);
             reading.levels.iter_mut().zip(of_levels).for_each(|(level, errors)| level.errors = errors);
             if let Some((composite, error)) = self.problem().composite_hardness().zip(reading.errors.penetration) {
                 reading.err_with_hardness(hardness, composite.error(reading.penetration, error));
@@ -111,6 +112,7 @@ impl Step {
                 let coarser = coarser.iter().map(|coarse| Some(of(&coarse.fractions)?.value));
                 estimate(safety::AREA, own.uncertainty, own.value, coarser)
             });
+            let error = error + by_apex.area * fraction.value;
             let cell = self.grid().cell();
             reading.contact_fraction_uncertainty = fraction.uncertainty;
             reading.contact_area = fraction.value * cell.area();
@@ -124,7 +126,7 @@ impl Step {
         } else if self.load.is_load_control() && reading.penetration > 0.0 {
             // What earlier loads have left.
             let left = coarser.iter().map(|coarse| Some(coarse.penetration));
-            reading.errors.penetration = Some(of_area(0.0, reading.penetration, left));
+            reading.errors.penetration = Some(of_area(0.0, reading.penetration, left) + self.apex_error());
         }
         reading
     }
@@ -145,9 +147,15 @@ impl Step {
             // The mean gap is that to complete contact, less the penetration.
             let law = reading.penetration.abs() * topography_law(reading.spot_resolution.max(1.0));
             let coarser = coarser.iter().map(|coarse| Some(mean_gap(coarse)));
-            rough.mean_gap_error = Some(estimate(safety::TOPOGRAPHY, law, rough.mean_gap, coarser));
+            let apex = if self.load.is_load_control() { 0.0 } else { self.apex_error() };
+            rough.mean_gap_error = Some(estimate(safety::TOPOGRAPHY, law, rough.mean_gap, coarser) + apex);
         }
         Some(rough)
+    }
+
+    /// Height by which a kinked topography may exceed the apex from which the penetration counts, a length; 0 under indenters.
+    pub(super) fn apex_error(&self) -> f64 {
+        self.problem().counterbody().topography().map_or(0.0, Topography::apex_error)
     }
 
     /// The contacts on the coarser grids that estimates compare with, the next coarser first.
@@ -180,6 +188,16 @@ struct Grids<'a> {
     apex: f64,
 }
 
+/// Changes under a prescribed penetration by the error of the apex from which it counts.
+#[derive(Clone, Copy, Default)]
+struct ByApex {
+    force: f64,
+    energy: f64,
+    /// Over the area.
+    area: f64,
+    pressure: f64,
+}
+
 impl Grids<'_> {
     /// Estimated error of a value of the reading, from the error by its law and the changes from grid to grid; `None` where the
     /// finest grid has no value.
@@ -189,7 +207,7 @@ impl Grids<'_> {
 
     /// Estimated errors of the scalars of the whole contact but that of the fraction in contact, from those of the levels and the
     /// `exponents` of the levels' profiles.
-    fn errors(&self, of_levels: &[LevelErrors], exponents: &[f64]) -> Errors {
+    fn errors(&self, of_levels: &[LevelErrors], exponents: &[f64], by_apex: ByApex) -> Errors {
         let fine = self.fine;
         let by_load = self.load.is_load_control();
         let [largest, smallest] = self.resolutions();
@@ -208,7 +226,7 @@ impl Grids<'_> {
         let [force, penetration, energy] = match by_load {
             true => [force, penetration.map(|error| error + self.apex), energy],
             false => {
-                let [more_force, more_energy] = self.by_apex();
+                let [more_force, more_energy] = [by_apex.force, by_apex.energy];
                 [force.map(|error| error + more_force), penetration, energy.map(|error| error + more_energy)]
             }
         };
@@ -228,20 +246,27 @@ impl Grids<'_> {
             elastic_energy: energy,
             max_pressure: self.unless_known(fine.max_pressure, || {
                 let own = self.error(safety::PEAK, peak, &|reading| reading.finite_peak());
-                own.map(|error| error.max(beyond))
+                own.map(|error| error.max(beyond) + by_apex.pressure)
             }),
         }
     }
 
-    /// Changes of force and elastic energy U under a prescribed penetration δ that counts from another apex: dU/dδ = F, and of F ~ δᵐ with
-    /// U = Fδ/(m + 1) it is dF/dδ = m F/δ.
-    fn by_apex(&self) -> [f64; 2] {
+    /// Changes under a prescribed penetration δ that counts from another apex; none under a load. With dU/dδ = F and F ~ δᵐ the energy is
+    /// U = Fδ/(m + 1) and dF/dδ = m F/δ. The area grows like δ^{2(m − 1)} below one asperity and like the force below many, so like δᵐ at most,
+    /// and the pressure like δ at most.
+    fn by_apex(&self) -> ByApex {
         let Reading { force, penetration, elastic_energy, .. } = *self.fine;
-        if self.apex == 0.0 || !(elastic_energy > 0.0 && penetration > 0.0) {
-            return [0.0; 2];
+        if self.apex == 0.0 || self.load.is_load_control() || !(elastic_energy > 0.0 && penetration > 0.0) {
+            return ByApex::default();
         }
         let exponent = (force * penetration / elastic_energy - 1.0).max(1.0);
-        [self.apex * exponent * force / penetration, self.apex * force]
+        let part = self.apex / penetration;
+        ByApex {
+            force: part * exponent * force,
+            energy: self.apex * force,
+            area: part * exponent,
+            pressure: part * self.fine.grid_peak(),
+        }
     }
 
     /// An error of a largest pressure; none where that is given, or the hardness, which no pressure exceeds.

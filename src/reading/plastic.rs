@@ -96,7 +96,7 @@ impl PlasticReading {
             volume,
             volume_error: error(2, 0.0),
             permanent_depth,
-            permanent_depth_error: error(3, 0.0),
+            permanent_depth_error: error(3, 0.0).map(|error| error + step.apex_error()),
         })
     }
 

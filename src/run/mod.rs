@@ -126,7 +126,7 @@ impl Run {
         }
         let points = self.checked_sampling()?;
         let is_given = self.problem.counterbody().pressure().is_some();
-        let hardness = self.problem.bodies().hardness().filter(|_| !is_given).map(|(hardness, _)| hardness);
+        let hardness = self.problem.largest_hardness().filter(|_| !is_given).map(|(hardness, _)| hardness);
         for load in &self.loads {
             if let (Control::MeanPressure(mean), Some(hardness)) = (load.on(self.problem.cell()), hardness)
                 && mean >= hardness

@@ -11,8 +11,8 @@ use crate::counterbody::roughness::Window;
 use crate::notation::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
-use crate::reading::{FEW_SAMPLES, Reading};
-use crate::spectral::Stop;
+use crate::reading::{Errors, FEW_SAMPLES, Reading};
+use crate::spectral::{MIN_POINTS, Stop};
 use std::f64::consts::PI;
 
 /// Part of load or contact on tapered heights from which on there is a warning.
@@ -47,6 +47,7 @@ pub(super) fn of_judged(
         beyond_hardness(all),
         not_converged(all),
         at_window(problem, all),
+        without_errors(judged),
         few_samples(judged),
         small_spots(judged),
         end.and_then(|end| not_accurate(end, change)),
@@ -108,6 +109,21 @@ fn at_window(problem: &Problem, steps: &[Numbered]) -> Option<String> {
          to twice that or more",
         number(width),
         number(height)
+    ))
+}
+
+/// Steps that no coarser grid has solved too.
+fn without_errors(steps: &[Numbered]) -> Option<String> {
+    let is_alone = |step: &StepRecord| {
+        let is_pressed = step.converged() && !step.is_given() && step.reading.max_pressure > 0.0;
+        is_pressed && step.reading.errors == Errors::default()
+    };
+    let list = list(steps, is_alone)?;
+    Some(format!(
+        "no coarser grid has solved step {list}, so that errors are not known, neither of contact nor of what follows from it: solver.method = \
+         \"preconditioned\" has one from grid.points = {} along each side on, where the load is not beyond its complete contact or its hardness; \
+         raise grid.points, or take a smaller load",
+        2 * MIN_POINTS
     ))
 }
 

@@ -297,18 +297,26 @@ impl GridLevel {
             return self.solve_at_hardness(coarser, load, settings, working, progress);
         };
         // From the largest hardness on: where the substrate is softer, δ = δ(H(δ)) grows towards the least such depth; where it is harder, δ
-        // swings about the only one, and half of each step is taken. The next coarser grid has found it nearly.
+        // swings about the only one, and half of each step is taken, also from a depth whose hardness does not bear the load. The next
+        // coarser grid has found it nearly.
         let mut depth = coarser.as_ref().map_or(composite.hardest(), |coarser| coarser.after.penetration);
         let (mut before, mut convolutions) = (0.0, 0.0);
         let tolerance = settings.tolerance.max(DEPTH_TOLERANCE);
-        let mut tried = 0;
+        let (mut tried, mut iterations) = (0, 0);
+        let mut borne = composite.hardest();
         loop {
             self.harden(composite.at(depth));
             let (mut report, work) = self.solve_at_hardness(coarser.take(), load, settings, working, progress);
-            (tried, convolutions) = (tried + 1, convolutions + work);
+            (tried, iterations, convolutions) = (tried + 1, iterations + report.iterations, convolutions + work);
+            report.iterations = iterations;
             let penetration = self.unknowns.penetration;
             let change = penetration - depth;
             let is_known = change.abs() <= tolerance * penetration;
+            if report.stop == Stop::BeyondHardness && composite.hardest() > depth && tried < MOST_DEPTHS {
+                self.forget();
+                depth = if borne.is_finite() { 0.5 * (depth + borne) } else { 2.0 * depth };
+                continue;
+            }
             if is_known || tried == MOST_DEPTHS || !report.stop.solved() {
                 self.settle(composite.at(penetration));
                 if !is_known && report.stop.solved() {
@@ -316,6 +324,7 @@ impl GridLevel {
                 }
                 return (report, convolutions);
             }
+            borne = depth;
             depth = penetration - if change * before < 0.0 { 0.5 * change } else { 0.0 };
             before = change;
         }

@@ -40,6 +40,7 @@ pub use free_space::{Coupling, FreeSpaceOperator, OfWavenumber};
 pub use iteration::{Certificate, Method, Progress, Report, Route, Settings, Stop, Unknowns};
 pub use layered_operator::LayeredOperator;
 pub use operator::Workspace;
+pub(crate) use solver::MIN_POINTS;
 pub use solver::{Memory, Solver};
 pub use step::Step;
 pub use tangent::Tangent;

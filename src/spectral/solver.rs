@@ -22,7 +22,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// Fewest points of a coarser grid along a lattice vector.
-const MIN_POINTS: usize = 24;
+pub(crate) const MIN_POINTS: usize = 24;
 
 /// Coarser grids that a step keeps beside the finest, for the errors of its readings.
 const COARSER_KEPT: usize = 2;

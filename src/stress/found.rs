@@ -124,12 +124,6 @@ impl FoundStresses {
         (peak.value <= at_rest || is_on_border()).then(|| at_rest + measure.rise(rest, border))
     }
 
-    /// The largest stress found in any material, a pressure.
-    pub fn largest(&self) -> f64 {
-        let peaks = self.contenders.materials.iter().flatten().map(|(_, contender)| contender.peak.value);
-        peaks.filter(|value| value.is_finite()).fold(0.0, f64::max)
-    }
-
     /// The contenders in the window and around it.
     pub fn everywhere(&self) -> ContenderLists {
         let mut all = self.contenders.clone();

@@ -69,13 +69,15 @@ impl StressMeasure {
         matches!(self, Self::Delamination(_))
     }
 
-    /// Rise of the measure of a state when its stresses rise by `by`, a pressure.
+    /// Largest rise of the measure of a state when stresses of the size √(Σσᵢⱼ²) = `by`, a pressure, are added.
     pub fn rise(self, state: &StressState, by: f64) -> f64 {
         match self {
             Self::Delamination(strength) => {
                 let (normal, shear) = (state.zz, state.interface_shear());
                 strength.utilisation(normal + by, shear + by) - strength.utilisation(normal, shear)
             }
+            // √(3/2 s:s) of a deviator no larger than the stresses.
+            Self::Mises => 1.5f64.sqrt() * by,
             _ => by,
         }
     }

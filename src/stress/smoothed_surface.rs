@@ -46,7 +46,7 @@ pub(super) struct SmoothedSurface {
     pub open: SurfaceStresses,
     /// Width of the Gaussian near edges, a length.
     width: f64,
-    seen: SmoothedEdge,
+    seen: Arc<SmoothedEdge>,
     /// ν of the surface material.
     poisson: f64,
     /// μ **e**: the traction over the pressure.
@@ -153,7 +153,7 @@ impl SmoothedSurface {
             edge: SurfaceStresses::new(surface, |q| fourth(q * width)),
             open: SurfaceStresses::new(surface, |q| fourth(q * open)),
             width,
-            seen: SmoothedEdge::new(field.edge_exponent()),
+            seen: field.tables().edges(field.edge_exponent()),
             poisson,
             traction: field.traction(),
             unlike,

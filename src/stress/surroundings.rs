@@ -10,9 +10,9 @@
 //!
 //! **Where it ends.** Beyond half the size of the contact and what its [stiff layers reach](crate::body::HalfSpace::bending_reach)
 //! stresses only decay: none beyond a window is larger than the largest one on its border, b. The search ends in the first window that is as
-//! wide and on whose border no measure is larger than both, inside and at rest, or b is a thousandth of the largest stress: where one at rest is
+//! wide and on whose border no measure is larger than both, inside and at rest, or b is a thousandth of the largest pressure: where one at rest is
 //! larger, as σ_zz = 0 than a compression, so far. A value that is stated from a border, or is no larger than at rest, has an error that covers
-//! the measure at rest raised by b. So have faint ones, less than a thousandth of the largest stress, that lie deeper than four windows and by
+//! the measure at rest raised by b. So have faint ones, less than a thousandth of the largest pressure, that lie deeper than four windows and by
 //! which no strength is judged: they are not followed.
 
 use super::far_field::FarField;
@@ -24,9 +24,10 @@ use super::series::Series;
 use super::tensor::StressState;
 use super::window_waves::window_waves;
 use crate::lattice::{Cell, Grid};
+use crate::numeric::sums;
 use std::sync::Arc;
 
-/// Part of the largest stress below which stresses on the border of a window, and measures deep under it, are not followed beyond it.
+/// Part of the largest pressure below which stresses on the border of a window, and measures deep under it, are not followed beyond it.
 const FAINT: f64 = 1e-3;
 
 impl StressField {
@@ -34,7 +35,11 @@ impl StressField {
     /// a periodic system.
     pub(super) fn around(&self, number: u32) -> Option<&Self> {
         let own = self.around.get(number as usize - 1)?;
-        own.get_or_init(|| self.made_around(number).map(Box::new)).as_deref()
+        if own.get().is_none() {
+            // Not within the lock: threads that wait for it would be those that work on it.
+            let _ = own.set(self.made_around(number).map(Box::new));
+        }
+        own.get()?.as_deref()
     }
 
     fn made_around(&self, number: u32) -> Option<Self> {
@@ -68,7 +73,8 @@ impl StressField {
         let Some(loaded) = &self.loaded else { return Some(found) };
         found.at_rest = (1..=self.materials()).map(|material| self.at_rest(material)).collect();
         let (extent, reach) = (&loaded.extent, loaded.reach);
-        let (strengths, faint) = (self.half_space().strengths().collect(), FAINT * found.largest());
+        let largest = -sums::least(loaded.pressure.len(), |i| -loaded.pressure[i]);
+        let (strengths, faint) = (self.half_space().strengths().collect(), FAINT * largest);
         found.following = Some(Following { strengths, faint, depth: extent.deep() });
         for number in 1..=MOST_WINDOWS {
             let wanted = match extent.margin(number - 1) < reach {

@@ -2,6 +2,7 @@
 
 use super::far_tables::FarTables;
 use super::series_grid::series_grid;
+use super::smoothed_edge::SmoothedEdge;
 use crate::body::{HalfSpace, InteriorTable, LayeredResponse};
 use crate::lattice::{Cell, Grid};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -21,6 +22,8 @@ pub(crate) struct Tables {
     around: OnceLock<Arc<Tables>>,
     interiors: Mutex<Vec<Entry>>,
     far: Mutex<Vec<Arc<FarTables>>>,
+    /// Tables of smoothed edges by η of their exponents.
+    edges: Mutex<Vec<(f64, Arc<SmoothedEdge>)>>,
     /// Grids of pressures with those of their series.
     grids: Mutex<Vec<[Arc<Grid>; 2]>>,
 }
@@ -41,8 +44,8 @@ impl Default for Tables {
 
 impl Tables {
     fn keeping(kept: usize) -> Self {
-        let (around, interiors, far, grids) = Default::default();
-        Self { kept, around, interiors, far, grids }
+        let (around, interiors, far, edges, grids) = Default::default();
+        Self { kept, around, interiors, far, edges, grids }
     }
 
     /// Tables of the windows around that of an isolated contact.
@@ -73,6 +76,17 @@ impl Tables {
         let series = series_grid(grid);
         keep(self.kept, &mut entries, [grid, &series].map(Arc::clone));
         series
+    }
+
+    /// Tables of smoothed edges with the exponents ½ ± η.
+    pub(super) fn edges(&self, eta: f64) -> Arc<SmoothedEdge> {
+        let mut entries = self.edges.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, own)) = entries.iter().find(|(of, _)| *of == eta) {
+            return Arc::clone(own);
+        }
+        let own = Arc::new(SmoothedEdge::new(eta));
+        keep(self.kept, &mut entries, (eta, Arc::clone(&own)));
+        own
     }
 
     /// Tables of the free field around an isolated contact in a window.

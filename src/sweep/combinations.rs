@@ -1,7 +1,7 @@
 //! The combinations of a sweep: the product of axes, their pairs, or the rows of a table; and a part of them.
 
 use super::axis::Axis;
-use crate::case::given_twice;
+use crate::case::{self, given_twice};
 use std::collections::{BTreeMap, HashSet};
 use std::iter;
 
@@ -260,8 +260,7 @@ impl Combinations {
 /// The name of a key's column: `set_layers_0_thickness` for `layers.0.thickness` and `layers[0].thickness`. Lists count from 0
 /// in keys and from 1 in results, where `levels_1_load` is that of the first level.
 pub fn column(key: &str) -> String {
-    let parts = key.replace(']', "");
-    iter::once("set").chain(parts.split(['.', '[']).map(str::trim)).collect::<Vec<_>>().join("_")
+    iter::once("set").chain(case::parts(key)).collect::<Vec<_>>().join("_")
 }
 
 #[cfg(test)]

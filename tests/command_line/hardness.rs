@@ -86,9 +86,30 @@ fn a_composite_hardness_is_stated_with_its_law_and_depth() {
         ("lattice={kind=\"square\",period=12.0}", "no isolated contact"),
         ("layers=[{material=\"TiN\",thickness=0.1},{material=\"TiN\",thickness=0.15}]", "has 2 layers"),
         ("substrate={young=210,poisson=0.3}", "no hardness of the substrate"),
+        ("counterbody={material=\"100Cr6\"}", "may yield first"),
     ] {
         let refused = desk.percoat(&["check", "thin.toml", "--set", set]);
         assert_eq!(refused.code, 2, "{set}: {}", refused.out);
         assert!(words(&refused.err).contains(says), "{set}: {}", refused.err);
     }
+}
+
+/// A coating alone bears less than this load spread over the window; with the substrate, which is harder, it bears it.
+#[test]
+fn a_load_is_judged_by_the_largest_composite_hardness() {
+    let desk = Desk::new();
+    let soft = THIN
+        .replace("[20.0, 60.0]", "150.0")
+        .replace("material = \"TiN\"", "young = 70, poisson = 0.3, hardness = 0.5");
+    desk.write("alone.toml", &soft);
+    let alone = desk.percoat(&["check", "alone.toml"]);
+    alone.complains(2, &["hardness 0.5", "no solution"]);
+    desk.write("both.toml", format!("{soft}composite_hardness = {{ law = \"korsunsky\", constant = 3.0 }}\n"));
+    let check = desk.percoat(&["check", "both.toml"]);
+    assert!(check.out.contains("at most 2.12"), "{}{}", check.out, check.err);
+    let answer = desk.percoat(&["solve", "both.toml", "-o", "run", "--no-pictures"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let steps = Folder(desk.path("run")).steps();
+    let hardness = steps[0]["plastic"]["hardness"].as_f64().unwrap();
+    assert!(steps[0]["converged"] == true && 0.5 < hardness && hardness < 2.12, "{hardness}");
 }

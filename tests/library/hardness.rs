@@ -710,7 +710,7 @@ fn pressed_on(points: usize, body: HalfSpace, composite: Option<(HardnessLaw, f6
     let mut problem = Problem::new(counterbody, body);
     if let Some((law, constant)) = composite {
         let own = CompositeHardness::of(problem.half_space(), law, constant).unwrap();
-        problem = problem.with_composite_hardness(own);
+        problem = problem.with_composite_hardness(own).unwrap();
     }
     Solver::new(problem, [points; 2], Settings { tolerance: 1e-10, ..Settings::default() }).unwrap()
 }
@@ -815,4 +815,22 @@ fn a_soft_coating_on_a_hard_substrate_bears_what_it_would_not_alone() {
     let step = pressed_by_a_ball(body, Some((HardnessLaw::Area, 0.3))).solve(load);
     let own = PlasticReading::of(&step).unwrap();
     assert!(step.report.stop.solved() && own.hardness > 0.02, "{}: {own:?}", step.report);
+}
+
+/// The kink of a roof lies between its samples: the height of it is as little known when nothing is left of the load.
+#[test]
+fn what_is_left_errs_with_a_kink_between_the_samples() {
+    let roof = |i: usize| -0.05 * ((i as f64 + 0.5) / 32.0 - 0.5).abs();
+    let topography =
+        Topography::new(Cell::square(1.0).unwrap(), Array2::from_shape_fn((32, 32), |(i, _)| roof(i))).unwrap();
+    let missed = topography.apex_error();
+    let body = HalfSpace::new(vec![], young(1.0, 0.3)).with_substrate_durability(hard(0.02)).unwrap();
+    let mut solver = Solver::new(Problem::new(topography, body), [96; 2], Settings::default()).unwrap();
+    let loaded = solver.solve(Load::MeanPressure(5e-3));
+    let pressed = PlasticReading::of(&loaded).unwrap();
+    solver.keep_indentation();
+    let left = solver.solve(Load::MeanPressure(0.0)).reading();
+    assert!(missed > 0.0 && pressed.permanent_depth > 0.0, "{missed} {pressed:?}");
+    let errors = [pressed.permanent_depth_error, left.errors.penetration].map(Option::unwrap);
+    assert!(errors.iter().all(|error| *error >= missed), "{errors:?} {missed}");
 }

@@ -351,3 +351,20 @@ fn a_smooth_ball_of_heights_is_a_sphere() {
     assert!((own.0 / other.0 - 1.0).abs() < 1e-6, "{} {}", own.0, other.0);
     assert!(own.1.iter().zip(&other.1).all(|(a, b)| (a - b).abs() < 1e-5 * peak));
 }
+
+/// A narrow window along the sliding direction has few samples across it, and no grid with half of them.
+#[test]
+fn a_step_without_errors_says_so() {
+    let lattice = Lattice::new(Cell::window([3.0, 1.2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+    let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+    let sliding = Problem::new(Indenters::new(lattice, vec![level]).unwrap(), bare())
+        .sliding(Friction::new(0.3, [1.0, 0.0]).unwrap())
+        .unwrap();
+    let of = |points: [usize; 2]| {
+        let run = Run::new(sliding.clone(), vec![Load::Force(0.05)], Sampling::Points(points));
+        let outcome = run.solve(&mut ()).unwrap();
+        let told = outcome.warnings.iter().any(|words| words.contains("no coarser grid has solved step 1"));
+        (outcome.steps[0].reading.errors.penetration.is_some(), told)
+    };
+    assert_eq!([[120, 40], [120, 48]].map(of), [(false, true), (true, false)]);
+}

@@ -100,6 +100,7 @@ fn stated_errors_cover_a_kink_that_touches_first_between_the_samples() {
             for (found, exact, stated) in [
                 (own.mean_pressure, exact.mean_pressure, own.errors.mean_pressure),
                 (own.elastic_energy, exact.elastic_energy, own.errors.elastic_energy),
+                (own.contact_area, exact.contact_area, own.errors.contact_area),
             ] {
                 assert!((found - exact).abs() <= stated.unwrap(), "{name} {n}: {found} {exact} {stated:?}");
             }

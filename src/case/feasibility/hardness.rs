@@ -11,7 +11,7 @@ use crate::problem::Problem;
 /// Refuses the first mean pressure that reaches the hardness of the softer surface, and the first force that does on the cell or
 /// the window; and a given pressure that exceeds it somewhere. One that is the hardness is borne: it displaces elastically.
 pub(in crate::case) fn bears(load: &LoadSection, section: &TableAt<'_>, problem: &Problem) -> Result<(), Refusal> {
-    let Some((hardness, side)) = problem.bodies().hardness() else { return Ok(()) };
+    let Some((hardness, side)) = problem.largest_hardness() else { return Ok(()) };
     if let Some(given) = problem.counterbody().pressure() {
         if given.highest() <= hardness {
             return Ok(());

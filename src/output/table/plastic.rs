@@ -44,7 +44,8 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
     ];
     let header: Vec<String> = header.into_iter().chain(is_composite.then(|| pressure.headed("hardness"))).collect();
     let row = |(step, own): &(&StepRecord, &PlasticReading)| {
-        let part = own.area / step.reading.contact_area;
+        // Two areas, each read with its own error.
+        let part = (own.area / step.reading.contact_area).clamp(0.0, 1.0);
         let row = [
             in_unit(&load, step.reading.load(units.quantity()), step.reading.load_error(units.quantity())),
             in_unit(&area, own.area, own.area_error),

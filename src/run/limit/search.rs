@@ -393,7 +393,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
 /// Largest mean pressure that the hardness bears, which contact does not reach; that under which the highest value of a given pressure is
 /// the hardness. Infinite without hardness.
 fn largest_borne(problem: &Problem) -> f64 {
-    let hardness = problem.bodies().hardness().map_or(f64::INFINITY, |(hardness, _)| hardness);
+    let hardness = problem.largest_hardness().map_or(f64::INFINITY, |(hardness, _)| hardness);
     let over_highest =
         problem.counterbody().pressure().map_or(1.0, |given| given.force() / problem.cell().area() / given.highest());
     hardness * over_highest
