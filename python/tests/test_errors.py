@@ -151,6 +151,15 @@ def test_settings_are_refused_with_key_value_and_place(fig2: dict[str, Any]) -> 
     assert "unknown key `title=a`" in refusal(lambda: percoat.case("fig2", set={"title=a": "b"}))
 
 
+@pytest.mark.parametrize(
+    "settings",
+    [{"levels.0.height": 0.0, "levels[0].height": 1.0}, ["grid.points=64", "grid.points=48"]],
+    ids=["dict", "list"],
+)
+def test_a_key_set_twice_is_refused(settings: Any) -> None:
+    assert "twice: give one value" in refusal(lambda: percoat.case("fig2", set=settings))
+
+
 @pytest.mark.skipif(not REFUSED.is_dir(), reason="the cases are in the repository alone")
 def test_files_are_refused_in_the_words_of_the_command_line(program: Program) -> None:
     # As many as show every kind of refusal, of reading, of syntax and of meaning; each takes the start of a
