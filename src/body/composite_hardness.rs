@@ -83,7 +83,7 @@ impl CompositeHardness {
 
     /// The largest hardness at any depth, a pressure.
     pub fn largest(&self) -> f64 {
-        self.hardness[0].max(self.hardness[1])
+        self.at(self.hardest_depth())
     }
 
     /// Error of the hardness at a depth that has an error, a pressure.
@@ -92,7 +92,7 @@ impl CompositeHardness {
     }
 
     /// The depth, a length, of the largest hardness: zero, or without end on a harder substrate.
-    pub(crate) fn hardest(&self) -> f64 {
+    pub(crate) fn hardest_depth(&self) -> f64 {
         let [coating, substrate] = self.hardness;
         if coating < substrate { f64::INFINITY } else { 0.0 }
     }

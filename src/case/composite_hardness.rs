@@ -48,8 +48,8 @@ impl CompositeHardnessSection {
             let message = "the loads fall, and the hardness is that of a growing depth";
             return refuse(message.to_owned(), "give loads that rise, or leave the section out");
         }
-        let own = CompositeHardness::of(problem.half_space(), self.law, self.constant);
-        own.and_then(|own| problem.with_composite_hardness(own)).or_else(|error| {
+        let composite = CompositeHardness::of(problem.half_space(), self.law, self.constant);
+        composite.and_then(|composite| problem.with_composite_hardness(composite)).or_else(|error| {
             let help = match error {
                 CompositeError::Counterbody(_) => "leave the section out, or give the counterbody a larger `hardness`",
                 _ => "give one layer, and a `hardness` of it and of the substrate",

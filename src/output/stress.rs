@@ -89,9 +89,9 @@ impl StressArchive {
                 points.iter().map(|&(place, depth)| field.points(depth, &[place])[0]).collect();
             clock.turn(Phase::Output);
             add_states(arrays, &format!("{prefix}points"), &[states.len()], states.iter())?;
-            let near = points.chunk_by(|one, other| one.1 == other.1).flat_map(|own| {
-                let places: Vec<[f64; 2]> = own.iter().map(|&(place, _)| place).collect();
-                field.near_edge(own[0].1, &places)
+            let near = points.chunk_by(|one, other| one.1 == other.1).flat_map(|level| {
+                let places: Vec<[f64; 2]> = level.iter().map(|&(place, _)| place).collect();
+                field.near_edge(level[0].1, &places)
             });
             add_flags(arrays, &format!("{prefix}points"), &[states.len()], near)?;
         }

@@ -103,7 +103,7 @@ impl Step {
             let of_levels: Vec<LevelErrors> =
                 exponents.iter().enumerate().map(|(index, &exponent)| grids.level_errors(index, exponent)).collect();
             let by_apex = grids.by_apex();
-            reading.errors = grids.errors(&of_levels, &exponents, by_apex);
+            reading.errors = grids.errors(&of_levels, &exponents);
             reading.levels.iter_mut().zip(of_levels).for_each(|(level, errors)| level.errors = errors);
             if let Some((composite, error)) = self.problem().composite_hardness().zip(reading.errors.penetration) {
                 reading.err_with_hardness(hardness, composite.error(reading.penetration, error));
@@ -207,8 +207,8 @@ impl Grids<'_> {
 
     /// Estimated errors of the scalars of the whole contact but that of the fraction in contact, from those of the levels and the
     /// `exponents` of the levels' profiles.
-    fn errors(&self, of_levels: &[LevelErrors], exponents: &[f64], by_apex: ByApex) -> Errors {
-        let fine = self.fine;
+    fn errors(&self, of_levels: &[LevelErrors], exponents: &[f64]) -> Errors {
+        let (fine, by_apex) = (self.fine, self.by_apex());
         let by_load = self.load.is_load_control();
         let [largest, smallest] = self.resolutions();
         let prescribed = |free: Option<f64>, prescribed: bool| if prescribed { Some(0.0) } else { free };
@@ -223,13 +223,8 @@ impl Grids<'_> {
         let stored = if fine.levels.is_empty() { depth } else { energy_law(largest) };
         let [stored, safety] = if by_load { [stored, safety] } else { [load_law(largest), safety::MEAN_PRESSURE] };
         let energy = self.error(safety, fine.elastic_energy * stored, &|reading| Some(reading.elastic_energy));
-        let [force, penetration, energy] = match by_load {
-            true => [force, penetration.map(|error| error + self.apex), energy],
-            false => {
-                let [more_force, more_energy] = [by_apex.force, by_apex.energy];
-                [force.map(|error| error + more_force), penetration, energy.map(|error| error + more_energy)]
-            }
-        };
+        let [force, penetration, energy] = [(force, by_apex.force), (penetration, self.apex), (energy, by_apex.energy)]
+            .map(|(error, more)| error.map(|error| error + more));
         let loaded = fine.levels.iter().zip(exponents).filter(|(level, _)| level.load > 0.0);
         let sharpest = loaded.map(|(_, &exponent)| exponent).fold(2.0, f64::min);
         let peak = fine.grid_peak() * peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest);

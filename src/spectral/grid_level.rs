@@ -1,6 +1,7 @@
 //! One of the nested grids of a problem: surface, operator and unknowns.
 
 use super::body_operator::BodyOperator;
+use super::depth_search::{DepthSearch, Found};
 use super::iteration::{
     AdmissibleSet, Certificate, ContactProblem, Progress, Report, Settings, Stop, Unknowns, Working,
 };
@@ -21,9 +22,8 @@ use std::sync::Arc;
 /// Most samples, per indenter, of a contact that is no wider than the spacing: an apex between samples may press the four
 /// around it with any load from zero on.
 const MAX_UNRESOLVED: usize = 4;
-/// Least change of the penetration, over it, at which its composite hardness is known, and most penetrations that are tried.
+/// Least change of the penetration, over it, at which its composite hardness is known.
 const DEPTH_TOLERANCE: f64 = 1e-6;
-const MOST_DEPTHS: usize = 100;
 
 /// What was pressed in for good: the surface without it, and the depths, lengths, a₂ fastest.
 pub(super) type Indented = (Arc<Surface>, Arc<Vec<f64>>);
@@ -296,37 +296,23 @@ impl GridLevel {
         let Some(composite) = self.composite else {
             return self.solve_at_hardness(coarser, load, settings, working, progress);
         };
-        // From the largest hardness on: where the substrate is softer, δ = δ(H(δ)) grows towards the least such depth; where it is harder, δ
-        // swings about the only one, and half of each step is taken, also from a depth whose hardness does not bear the load. The next
-        // coarser grid has found it nearly.
-        let mut depth = coarser.as_ref().map_or(composite.hardest(), |coarser| coarser.after.penetration);
-        let (mut before, mut convolutions) = (0.0, 0.0);
         let tolerance = settings.tolerance.max(DEPTH_TOLERANCE);
-        let (mut tried, mut iterations) = (0, 0);
-        let mut borne = composite.hardest();
+        let nearly = coarser.as_ref().map(|coarser| coarser.after.penetration);
+        let mut search = DepthSearch::new(composite, nearly, tolerance);
+        let (mut iterations, mut convolutions) = (0, 0.0);
         loop {
-            self.harden(composite.at(depth));
+            self.harden(search.hardness());
             let (mut report, work) = self.solve_at_hardness(coarser.take(), load, settings, working, progress);
-            (tried, iterations, convolutions) = (tried + 1, iterations + report.iterations, convolutions + work);
+            (iterations, convolutions) = (iterations + report.iterations, convolutions + work);
             report.iterations = iterations;
-            let penetration = self.unknowns.penetration;
-            let change = penetration - depth;
-            let is_known = change.abs() <= tolerance * penetration;
-            if report.stop == Stop::BeyondHardness && composite.hardest() > depth && tried < MOST_DEPTHS {
-                self.forget();
-                depth = if borne.is_finite() { 0.5 * (depth + borne) } else { 2.0 * depth };
-                continue;
-            }
-            if is_known || tried == MOST_DEPTHS || !report.stop.solved() {
-                self.settle(composite.at(penetration));
-                if !is_known && report.stop.solved() {
-                    report.stop = Stop::IterationLimit;
+            match search.found(report.stop, self.unknowns.penetration) {
+                Found::Another => {}
+                Found::NotBorne => self.forget(),
+                Found::End(stop) => {
+                    self.settle(composite.at(self.unknowns.penetration));
+                    return (Report { stop, ..report }, convolutions);
                 }
-                return (report, convolutions);
             }
-            borne = depth;
-            depth = penetration - if change * before < 0.0 { 0.5 * change } else { 0.0 };
-            before = change;
         }
     }
 

@@ -15,6 +15,7 @@ mod by_rows;
 mod checkpoint;
 mod contact;
 mod convolution;
+mod depth_search;
 mod extension;
 mod field_error;
 mod free_space;

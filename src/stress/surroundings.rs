@@ -34,12 +34,12 @@ impl StressField {
     /// The field in the window of a number from 1 around an isolated contact, outside of the window of the number before it; `None` of
     /// a periodic system.
     pub(super) fn around(&self, number: u32) -> Option<&Self> {
-        let own = self.around.get(number as usize - 1)?;
-        if own.get().is_none() {
+        let field = self.around.get(number as usize - 1)?;
+        if field.get().is_none() {
             // Not within the lock: threads that wait for it would be those that work on it.
-            let _ = own.set(self.made_around(number).map(Box::new));
+            let _ = field.set(self.made_around(number).map(Box::new));
         }
-        own.get()?.as_deref()
+        field.get()?.as_deref()
     }
 
     fn made_around(&self, number: u32) -> Option<Self> {

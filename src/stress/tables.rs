@@ -81,12 +81,12 @@ impl Tables {
     /// Tables of smoothed edges with the exponents ½ ± η.
     pub(super) fn edges(&self, eta: f64) -> Arc<SmoothedEdge> {
         let mut entries = self.edges.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, own)) = entries.iter().find(|(of, _)| *of == eta) {
-            return Arc::clone(own);
+        if let Some((_, edges)) = entries.iter().find(|(of, _)| *of == eta) {
+            return Arc::clone(edges);
         }
-        let own = Arc::new(SmoothedEdge::new(eta));
-        keep(self.kept, &mut entries, (eta, Arc::clone(&own)));
-        own
+        let edges = Arc::new(SmoothedEdge::new(eta));
+        keep(self.kept, &mut entries, (eta, Arc::clone(&edges)));
+        edges
     }
 
     /// Tables of the free field around an isolated contact in a window.

@@ -258,11 +258,16 @@ fn a_grid_that_the_penetration_is_beyond_is_no_grid_of_the_step() {
     let [fine, coarse] =
         [48, 24].map(|n| Solver::new(problem.clone(), [n, n], Settings::default()).unwrap().full_contact_penetration());
     assert!(coarse < fine, "{coarse} {fine}");
-    let mut solver = Solver::new(problem, [48, 48], Settings::default()).unwrap();
+    let mut solver = Solver::new(problem.clone(), [48, 48], Settings::default()).unwrap();
     let both = solver.solve(Load::Penetration(0.9 * coarse));
     assert!(both.report.stop.solved() && both.coarser().len() == 1);
     let between = solver.solve(Load::Penetration(0.5 * (coarse + fine)));
     assert!(between.report.stop.solved() && between.coarser().is_empty(), "{}", between.report);
+    // Then no error is known, which a run says.
+    let loads = [0.9 * coarse, 0.5 * (coarse + fine)].map(Load::Penetration).to_vec();
+    let run = percoat::Run::new(problem, loads, percoat::Sampling::Points([48; 2]));
+    let warnings = run.solve(&mut ()).unwrap().warnings;
+    assert!(warnings.iter().any(|words| words.contains("no coarser grid has solved step 2,")), "{warnings:?}");
 }
 
 /// A load that is no number is not solved, also by a flat counterbody that carries any.
