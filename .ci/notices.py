@@ -49,7 +49,7 @@ for package in packages:
     print(f"- {name}: {package['license']}, {package['repository'] or ''}".rstrip(", "))
     for text in texts(Path(package["manifest_path"]).parent):
         owners.setdefault(text, []).append(name)
-for text in texts(Path("src/picture/font")):
+for text in texts(Path("crates/draw/src/font")):
     owners.setdefault(text, []).append("DejaVu Sans")
 for text, names in owners.items():
     print(f"\n{'=' * 100}\n{', '.join(dict.fromkeys(names))}\n\n{text}")

@@ -56,70 +56,24 @@
 //! # }
 //! ```
 
-pub mod body;
+pub use percoat_core::*;
+
 #[cfg(feature = "cli")]
-pub mod case;
+pub use percoat_app::{output, picture, report, sweep};
+#[cfg(feature = "cli")]
+pub use percoat_case::{case, measurements, units};
+#[cfg(feature = "cli")]
+pub use percoat_common::{machine, plain};
+#[cfg(feature = "cli")]
+pub use percoat_draw as draw;
+#[cfg(feature = "validate")]
+pub use percoat_validation as validation;
+
 #[cfg(all(feature = "cli", not(target_family = "wasm")))]
 pub mod command;
-pub mod comparison;
-pub mod counterbody;
-pub mod friction;
-#[cfg(feature = "cli")]
-mod heights;
 /// The examples of the book's page on the library, which are tests of the documentation.
 #[cfg(doctest)]
 #[doc = include_str!("../docs/src/how-to/rust.md")]
 mod how_to_rust {}
-pub mod identification;
-pub mod lattice;
-pub mod life;
-pub mod load;
-pub mod localized;
-#[cfg(feature = "cli")]
-pub mod machine;
-#[cfg(feature = "cli")]
-pub mod measurements;
-mod notation;
-mod numeric;
-#[cfg(feature = "cli")]
-pub mod output;
-#[cfg(feature = "cli")]
-pub mod picture;
-#[cfg(feature = "cli")]
-pub mod plain;
-pub mod problem;
-pub mod reading;
-#[cfg(feature = "cli")]
-pub mod report;
-pub mod run;
-pub mod spectral;
-pub mod stress;
-#[cfg(feature = "cli")]
-pub mod sweep;
 #[doc = include_str!("theory.md")]
 pub mod theory {}
-#[cfg(feature = "cli")]
-pub mod units;
-#[cfg(feature = "validate")]
-#[path = "../validation/mod.rs"]
-pub mod validation;
-
-pub use body::{
-    Bodies, Depth, Durability, Endurance, Fatigue, HalfSpace, Interface, InterfaceStrength, Layer, Material,
-    MaterialError, MeanStress, Strength, Substrate,
-};
-pub use counterbody::{
-    Counterbody, CounterbodyError, GivenPressure, IndenterError, Indenters, Level, LoadedDisc, Shape, Surface,
-    Topography,
-};
-pub use friction::{Friction, FrictionError};
-pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid};
-pub use load::{Load, LoadQuantity};
-pub use problem::Problem;
-pub use reading::{DamageMap, FatigueReading, LevelReading, Life, Reading, StressReading};
-pub use run::{Run, Sampling};
-pub use spectral::{
-    Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver, Step, Stop, Tangent, Wear,
-    WearError, Worn,
-};
-pub use stress::{DepthPlane, SlidingPath, StressField, StressFields, StressState, SurfaceLine, VerticalSection};

@@ -5,6 +5,8 @@ mod common;
 
 #[path = "library/cases_refused.rs"]
 mod cases_refused;
+#[path = "library/checked_states.rs"]
+mod checked_states;
 #[path = "library/detachments.rs"]
 mod detachments;
 #[path = "library/energy.rs"]

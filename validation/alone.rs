@@ -7,12 +7,12 @@
 
 use super::steps::Steps;
 use super::{Check, Data, StudyError, Tolerance};
-use crate::body::{Bodies, HalfSpace, Interface, Layer, Material};
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::lattice::{Cell, Lattice};
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::spectral::Step;
+use percoat_core::body::{Bodies, HalfSpace, Interface, Layer, Material};
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::lattice::{Cell, Lattice};
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::spectral::Step;
 
 /// Side of a window over the contact radius.
 pub const WINDOW: f64 = 2.7;

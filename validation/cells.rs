@@ -3,11 +3,11 @@
 use super::StudyError;
 use super::alone::half_space;
 use super::steps::Steps;
-use crate::body::{Bodies, HalfSpace, Interface::Bonded};
-use crate::counterbody::Topography;
-use crate::lattice::Cell;
-use crate::problem::Problem;
 use ndarray::Array2;
+use percoat_core::body::{Bodies, HalfSpace, Interface::Bonded};
+use percoat_core::counterbody::Topography;
+use percoat_core::lattice::Cell;
+use percoat_core::problem::Problem;
 use std::f64::consts::TAU;
 
 /// Names of the cells, and the numbers of samples and vectors of each.

@@ -1,6 +1,6 @@
 //! Common parts of the figures of the studies.
 
-use crate::picture::{Chart, Curve, Figure, Style};
+use percoat_app::picture::{Chart, Curve, Figure, Style};
 
 /// A curve of colour `colour`.
 pub fn curve(

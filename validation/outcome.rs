@@ -2,7 +2,7 @@
 
 use super::check::Check;
 use super::paper::Claim;
-use crate::picture::Figure;
+use percoat_app::picture::Figure;
 
 /// The error of a study that could not be completed.
 pub type StudyError = Box<dyn std::error::Error + Send + Sync>;

@@ -1,9 +1,9 @@
 //! Random cases, reproducible from a seed.
 
 use super::StudyError;
-use crate::body::{HalfSpace, Interface, Layer, Material};
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::lattice::{Cell, Lattice};
+use percoat_core::body::{HalfSpace, Interface, Layer, Material};
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::lattice::{Cell, Lattice};
 
 /// SplitMix64 (Steele, Lea & Flood 2014).
 #[derive(Debug, Clone)]

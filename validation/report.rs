@@ -4,8 +4,8 @@
 //! studies, quantities, evidence and verdicts. Values may differ in their digits: their tolerances judge them, not the report.
 
 use super::{Check, Evidence, Outcome, Study, StudyError};
-use crate::notation::number;
-use crate::output::table::Table;
+use percoat_app::output::table::Table;
+use percoat_core::notation::number;
 use std::collections::BTreeMap;
 
 /// Columns of a row; Markdown leaves out the first one.

@@ -1,15 +1,15 @@
 //! Load steps of a study, each of which must have converged.
 
 use super::StudyError;
-use crate::body::Bodies;
-use crate::case::{Case, Source};
-use crate::counterbody::{Counterbody, Topography};
-use crate::lattice::Cell;
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::reading::Reading;
-use crate::spectral::{Settings, Solver, Step};
 use ndarray::Array2;
+use percoat_case::case::{Case, Source};
+use percoat_core::body::Bodies;
+use percoat_core::counterbody::{Counterbody, Topography};
+use percoat_core::lattice::Cell;
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::reading::Reading;
+use percoat_core::spectral::{Settings, Solver, Step};
 use std::sync::Arc;
 
 /// Load steps of one problem.

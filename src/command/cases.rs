@@ -2,7 +2,7 @@
 
 use super::ending::{Ending, Failure};
 use super::terminal;
-use crate::case::{Case, embedded};
+use percoat_case::case::{Case, embedded};
 use std::io::Write;
 
 pub fn run(name: Option<&str>, set: &[String]) -> Result<Ending, Failure> {

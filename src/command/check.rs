@@ -4,10 +4,10 @@ use super::ending::{Ending, Failure};
 use super::input::{default_folder, read_case};
 use super::roughness;
 use super::terminal::{self, tell};
-use crate::case::feasibility::Allowed;
-use crate::case::resources::Job;
-use crate::output::Check;
-use crate::plain;
+use percoat_app::output::Check;
+use percoat_case::case::feasibility::Allowed;
+use percoat_case::case::resources::Job;
+use percoat_common::plain;
 use std::io::Write;
 use std::path::Path;
 

@@ -2,11 +2,11 @@
 //! failed; 130 interrupted.
 
 use super::terminal::{self, tell};
-use crate::case::{CaseError, NoCase};
-use crate::output::{FolderError, OutputError};
-use crate::plain;
-use crate::run::RunError;
-use crate::sweep::StudyError;
+use percoat_app::output::{FolderError, OutputError};
+use percoat_app::sweep::StudyError;
+use percoat_case::case::{CaseError, NoCase};
+use percoat_common::plain;
+use percoat_core::run::RunError;
 use std::convert::Infallible;
 use std::fmt;
 use std::path::PathBuf;

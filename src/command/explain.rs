@@ -2,7 +2,7 @@
 
 use super::ending::{Ending, Failure};
 use super::terminal;
-use crate::case;
+use percoat_case::case;
 use std::io::Write;
 
 /// Prints the sections of a case, or the explanation of a key.

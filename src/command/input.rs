@@ -2,8 +2,8 @@
 
 use super::ending::Failure;
 use super::options::Common;
-use crate::case::{Case, NoCase, Source, embedded, find};
-use crate::plain;
+use percoat_case::case::{Case, NoCase, Source, embedded, find};
+use percoat_common::plain;
 use std::path::{Path, PathBuf};
 
 /// The case a command works on, changed by the overrides `set`, and its name.

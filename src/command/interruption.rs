@@ -1,8 +1,8 @@
 //! Ctrl-C, SIGTERM, a hang-up and the end of the time allowed (`ulimit -t`): the command ends at once and prints what it has saved.
 
 use super::terminal::{self, tell};
-use crate::output::{self, OutputError, RunFolder};
-use crate::plain;
+use percoat_app::output::{self, OutputError, RunFolder};
+use percoat_common::plain;
 use std::fmt;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};

@@ -3,7 +3,7 @@
 use super::ending::{Ending, Failure};
 use super::input::read_case;
 use super::terminal;
-use crate::output::{self, Traction};
+use percoat_app::output::{self, Traction};
 use std::io::Write;
 use std::path::Path;
 

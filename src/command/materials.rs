@@ -2,8 +2,10 @@
 
 use super::ending::{Ending, Failure};
 use super::terminal;
-use crate::case::{Certainty, LibraryMaterial, MaterialsError, Property, UnknownMaterial, library, materials_of_file};
-use crate::output::table::Table;
+use percoat_app::output::table::Table;
+use percoat_case::case::{
+    Certainty, LibraryMaterial, MaterialsError, Property, UnknownMaterial, library, materials_of_file,
+};
 use std::io::Write;
 use std::path::Path;
 

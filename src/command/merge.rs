@@ -6,9 +6,9 @@ use super::pictures::PictureOptions;
 use super::results::Results;
 use super::sweep_files::{finish, may_write};
 use super::terminal::tell;
-use crate::output::{SWEEP_LOG, damaged_results, disk};
-use crate::plain;
-use crate::sweep::{Description, Part, PartError, Row, UNFINISHED, join};
+use percoat_app::output::{SWEEP_LOG, damaged_results, disk};
+use percoat_app::sweep::{Description, Part, PartError, Row, UNFINISHED, join};
+use percoat_common::plain;
 use std::path::{Path, PathBuf};
 
 impl From<PartError> for Failure {

@@ -2,9 +2,9 @@
 
 use super::ending::Failure;
 use super::pictures::PictureOptions;
-use crate::case::given_twice;
-use crate::plain;
 use clap::Args;
+use percoat_case::case::given_twice;
+use percoat_common::plain;
 use std::path::PathBuf;
 
 /// Options of the commands that solve a case into a folder.

@@ -1,11 +1,11 @@
 //! The pictures of the commands, and the options on them.
 
 use super::ending::Failure;
-use crate::VerticalSection;
-use crate::localized::isolated;
-use crate::picture::{self, Canvas, Format, Snapshot};
-use crate::run::StepRecord;
 use clap::Args;
+use percoat_app::picture::{self, Canvas, Format, Snapshot};
+use percoat_core::VerticalSection;
+use percoat_core::localized::isolated;
+use percoat_core::run::StepRecord;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -78,7 +78,7 @@ impl PictureOptions {
     pub fn write(&self, folder: &Path, name: &str, draw: impl FnOnce() -> Option<Canvas>) -> Result<(), Failure> {
         let Some(canvas) = self.wanted().then(draw).flatten() else { return Ok(()) };
         for format in self.formats() {
-            canvas.write(folder, name, format)?;
+            picture::write(&canvas, folder, name, format)?;
         }
         Ok(())
     }

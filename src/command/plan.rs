@@ -1,8 +1,8 @@
 //! Names of the files that a command may write, known before anything is solved.
 
 use super::pictures::PictureOptions;
-use crate::case::Case;
-use crate::output::{Plan, Writer, solved_plan};
+use percoat_app::output::{Plan, Writer, solved_plan};
+use percoat_case::case::Case;
 
 /// Files of a result with these names, and pictures with the names `drawn`.
 pub fn plan(writer: Writer, files: &[&str], pictures: &PictureOptions, drawn: &[&str]) -> Plan {

@@ -2,8 +2,8 @@
 
 use super::options::Common;
 use super::terminal::{self, tell};
-use crate::plain;
 use indicatif::{ProgressBar, ProgressStyle};
+use percoat_common::plain;
 use std::fmt;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

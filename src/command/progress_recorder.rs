@@ -5,10 +5,10 @@ use super::options::Common;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
-use crate::output::{Clock, OutputError, Recording};
-use crate::run::{EarlierRun, Recorder, Run, StepRecord};
-use crate::spectral::Checkpoint;
-use crate::{Load, Solver, Step, StressFields, VerticalSection};
+use percoat_app::output::{Clock, OutputError, Recording};
+use percoat_core::run::{EarlierRun, Recorder, Run, StepRecord};
+use percoat_core::spectral::Checkpoint;
+use percoat_core::{Load, Solver, Step, StressFields, VerticalSection};
 
 /// Records a run and shows its progress.
 pub struct ProgressRecorder<'a> {
@@ -67,7 +67,7 @@ impl Recorder for ProgressRecorder<'_> {
         Ok(())
     }
 
-    fn iteration(&mut self, progress: crate::spectral::Progress) -> Result<(), OutputError> {
+    fn iteration(&mut self, progress: percoat_core::spectral::Progress) -> Result<(), OutputError> {
         self.progress.say(format!("iteration {}, ε = {:.1e}", progress.iteration, progress.residual));
         Ok(())
     }

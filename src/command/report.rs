@@ -1,11 +1,11 @@
 //! `percoat report`: a finished result as one HTML page.
 
-use super::ending::{Ending, Failure};
+pub use super::ending::{Ending, Failure};
 use super::interruption;
 use super::terminal;
-use crate::output::{OutputError, Plan, RunFolder, Scope, Writer, disk, make_folder, write_text};
-use crate::plain;
-use crate::report::{self, Page, ReportError};
+use percoat_app::output::{OutputError, Plan, RunFolder, Scope, Writer, disk, make_folder, write_text};
+use percoat_app::report::{self, Page, ReportError};
+use percoat_common::plain;
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};

@@ -4,8 +4,8 @@ use super::ending::Failure;
 use super::interruption;
 use super::options::Saying;
 use super::terminal::{self, tell};
-use crate::output::{Plan, RunFolder, make_folder, write_text};
-use crate::plain;
+use percoat_app::output::{Plan, RunFolder, make_folder, write_text};
+use percoat_common::plain;
 use std::io::Write;
 use std::path::PathBuf;
 

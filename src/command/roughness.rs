@@ -2,10 +2,10 @@
 
 use super::ending::Failure;
 use super::interruption;
-use crate::case::{Case, RandomSection, SurfaceSection};
-use crate::counterbody::roughness::{Radial, Spectrum};
-use crate::output::{Plan, RunFolder, Writer, write_text};
-use crate::picture::{self, Format};
+use percoat_app::output::{Plan, RunFolder, Writer, write_text};
+use percoat_app::picture::{self, Format};
+use percoat_case::case::{Case, RandomSection, SurfaceSection};
+use percoat_core::counterbody::roughness::{Radial, Spectrum};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -20,7 +20,7 @@ pub fn write(case: &Case, folder: &Path) -> Result<(), Failure> {
     let claim = RunFolder::claim(folder, Plan { names, ..Plan::new(Writer::Check) })?;
     write_text(&claim.staging().join("spectrum.csv"), &table(&spectrum.radial()))?;
     if let Some(canvas) = picture::spectrum(&case.title, topography, &case.units(), random.as_ref()) {
-        canvas.write(&claim.staging(), "spectrum", Format::Png)?;
+        picture::write(&canvas, &claim.staging(), "spectrum", Format::Png)?;
     }
     Ok(interruption::publish(claim, folder, false)?)
 }

@@ -9,19 +9,19 @@ use super::progress::Progress;
 use super::progress_recorder::ProgressRecorder;
 use super::results::Results;
 use super::terminal::{self, tell};
-use crate::case::feasibility::Allowed;
-use crate::case::resources::Job;
-use crate::case::{Case, plausibility};
-use crate::machine::Capacity;
-use crate::output::{
+use clap::Args;
+use percoat_app::output::{
     self, CannotGoOn, Clock, Plan, Recording, Summary, damaged_results, disk, is_beside, solved_plan, table,
     write_scalars,
 };
-use crate::picture::Snapshot;
-use crate::plain;
-use crate::run::{EarlierRun, Outcome, Run, Sampling, StepRecord};
-use crate::stress::VerticalSection;
-use clap::Args;
+use percoat_app::picture::Snapshot;
+use percoat_case::case::feasibility::Allowed;
+use percoat_case::case::resources::Job;
+use percoat_case::case::{Case, plausibility};
+use percoat_common::machine::Capacity;
+use percoat_common::plain;
+use percoat_core::run::{EarlierRun, Outcome, Run, Sampling, StepRecord};
+use percoat_core::stress::VerticalSection;
 use std::io::Write;
 use std::path::Path;
 
@@ -82,7 +82,7 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
     let json = || Summary::new(&case, &warnings, outcome.change, &outcome.steps, timing).to_json();
     let beside = || {
         let reading = &outcome.steps.last()?.reading;
-        table::alone(&case, reading, &crate::run::alone(case.problem(), reading)?)
+        table::alone(&case, reading, &percoat_core::run::alone(case.problem(), reading)?)
     };
     let tables = || {
         let text = table::outcome(&case, &outcome.steps, outcome.change, terminal::width());

@@ -5,10 +5,10 @@ use super::pictures::PictureOptions;
 use super::plan::plan;
 use super::results::Results;
 use super::terminal;
-use crate::output::{Plan, Writer};
-use crate::picture;
-use crate::sweep::{self, Description, Row, Status, SweepResult};
-use crate::units::Units;
+use percoat_app::output::{Plan, Writer};
+use percoat_app::picture;
+use percoat_app::sweep::{self, Description, Row, Status, SweepResult};
+use percoat_case::units::Units;
 use std::collections::HashSet;
 use std::path::Path;
 

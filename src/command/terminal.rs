@@ -1,7 +1,7 @@
 //! Standard error and standard output: colours (<https://no-color.org>), and terminals without a cursor.
 
-use crate::plain;
 use clap::{ColorChoice, ValueEnum};
+use percoat_common::plain;
 use std::env;
 use std::ffi::OsString;
 use std::fmt;
@@ -12,7 +12,7 @@ use std::sync::OnceLock;
 /// Prints a line on standard error, hidden characters as their escapes ([`plain`]). A line that cannot be written is no error.
 macro_rules! tell {
     ($($message:tt)*) => {
-        $crate::command::terminal::print_line(&$crate::plain::lines(&format!($($message)*)))
+        $crate::command::terminal::print_line(&percoat_common::plain::lines(&format!($($message)*)))
     };
 }
 pub(super) use tell;

@@ -2,7 +2,7 @@
 
 use super::ending::Failure;
 use super::terminal::tell;
-use crate::machine::{RESERVED, Threads, addresses_left, bytes};
+use percoat_common::machine::{RESERVED, Threads, addresses_left, bytes};
 use std::error::Error;
 use std::thread;
 

@@ -5,11 +5,11 @@ use super::input::read_text;
 use super::options::{Saying, Studies};
 use super::results::Results;
 use super::terminal::{self, tell};
-use crate::output::{Plan, RunFolder, Scope, Writer, disk, make_folder};
-use crate::picture::Format;
-use crate::plain;
-use crate::validation::paper::table;
-use crate::validation::{self, Outcome, Report, STUDIES, Study, differences};
+use percoat_app::output::{Plan, RunFolder, Scope, Writer, disk, make_folder};
+use percoat_app::picture::{self, Format};
+use percoat_common::plain;
+use percoat_validation::paper::table;
+use percoat_validation::{self as validation, Outcome, Report, STUDIES, Study, differences};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -127,7 +127,7 @@ fn write(results: &Results, study: &str, outcome: &Outcome) -> Result<(), Failur
     let folder = results.staging().join(study);
     make_folder(&folder)?;
     for (name, figure) in &outcome.figures {
-        figure.draw().write(&folder, name, Format::Png)?;
+        picture::write(&figure.draw(), &folder, name, Format::Png)?;
     }
     outcome.tables().try_for_each(|(name, data)| results.write(&format!("{study}/{name}"), &data.csv()))
 }

@@ -4,7 +4,7 @@
 //! sums over a grid: stresses inside are of second order, and the radius, read from the gap outside.
 //! Peak pressure and penetration feel the errors of the whole edge together, whose sign changes with where the edge
 //! cuts the samples: of O(N) of them O(√N) is left, and the order is 2.5. The largest tension on the surface stands at
-//! the edge itself; it is read without the square root ([`crate::stress::Crest`]).
+//! the edge itself; it is read without the square root ([`percoat_core::stress::Crest`]).
 //!
 //! A paraboloid with a/l = 0.1 on the hexagonal lattice: what the series of its images leaves out is of the order
 //! (a/l)⁷, below every error measured here. Each error is the worst of several places of the site on the grid, so that
@@ -13,15 +13,15 @@
 use super::draw::{self, curve, slope};
 use super::steps::{Steps, case};
 use super::{Check, Data, Outcome, Study, StudyError};
-use crate::body::{Depth, MeanStress};
-use crate::load::Load;
-use crate::numeric::search::largest;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::stress::StressField;
-use crate::validation::exact::galin::{axis_stresses, paraboloid};
-use crate::validation::exact::hertz::edge_tension;
-use crate::validation::exact::lattice_sums::TRIANGULAR;
-use crate::validation::exact::{Sums, System};
+use crate::exact::galin::{axis_stresses, paraboloid};
+use crate::exact::hertz::edge_tension;
+use crate::exact::lattice_sums::TRIANGULAR;
+use crate::exact::{Sums, System};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::{Depth, MeanStress};
+use percoat_core::load::Load;
+use percoat_core::numeric::search::largest;
+use percoat_core::stress::StressField;
 use std::f64::consts::PI;
 
 pub const STUDY: Study = Study {

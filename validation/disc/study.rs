@@ -5,11 +5,11 @@
 
 use super::draw::{self, curve, linear, slope};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{HalfSpace, Interface, Layer, Material};
-use crate::localized::disc;
-use crate::localized::point::PointKernel;
-use crate::localized::square::Squares;
-use crate::picture::{Axis, Chart, Figure, Style};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::{HalfSpace, Interface, Layer, Material};
+use percoat_core::localized::disc;
+use percoat_core::localized::point::PointKernel;
+use percoat_core::localized::square::Squares;
 use std::f64::consts::PI;
 
 pub const STUDY: Study = Study {

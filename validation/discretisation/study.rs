@@ -3,11 +3,11 @@
 use super::draw::{self, curve};
 use super::random::{Random, half_space, indenters};
 use super::{Check, Data, Outcome, Study, StudyError};
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::problem::Problem;
-use crate::reading::{LevelErrors, Reading};
-use crate::spectral::{Settings, Solver, Stop};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::reading::{LevelErrors, Reading};
+use percoat_core::spectral::{Settings, Solver, Stop};
 use std::sync::Arc;
 
 pub const STUDY: Study = Study {

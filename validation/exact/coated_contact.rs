@@ -11,7 +11,7 @@
 
 use super::coating::Coating;
 use super::gauss_between;
-use crate::numeric::linear;
+use percoat_core::numeric::linear;
 use std::f64::consts::PI;
 
 /// Points of the quadrature over the contact, and more for each thickness in the radius.

@@ -8,7 +8,7 @@
 //! (plane strain with the surface loaded as in Eq. (6) and the interface bonded as in Eq. (3) of Goryacheva & Torskaya
 //! 2019).
 
-use crate::body::{HalfSpace, Interface, Layer, Material, MaterialError};
+use percoat_core::body::{HalfSpace, Interface, Layer, Material, MaterialError};
 
 /// A coating bonded to a substrate with E₂ = 1.
 #[derive(Debug, Clone, PartialEq)]

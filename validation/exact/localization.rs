@@ -16,7 +16,7 @@
 
 use super::galin::{Contact, Term, paraboloid};
 use super::lattice_sums::Sums;
-use crate::numeric::linear;
+use percoat_core::numeric::linear;
 use std::f64::consts::PI;
 
 /// What an indenter of one level feels of its images.
@@ -92,8 +92,8 @@ pub fn shifts(radii: &[f64], sums: &[Vec<f64>], modulus: f64, errors: &[f64]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::validation::exact::System;
-    use crate::validation::exact::lattice_sums::TRIANGULAR;
+    use crate::exact::System;
+    use crate::exact::lattice_sums::TRIANGULAR;
 
     #[test]
     fn the_whole_lattice_gives_the_series_of_its_images() {

@@ -29,7 +29,7 @@ pub use wavy::Wavy;
 /// Abscissae, ascending, and weights of the Gauss–Legendre rule of `n` points on [`from`, `to`].
 fn gauss_between(from: f64, to: f64, n: usize) -> Vec<[f64; 2]> {
     let half = 0.5 * (to - from);
-    crate::numeric::quadrature::gauss(n)
+    percoat_core::numeric::quadrature::gauss(n)
         .into_iter()
         .map(|[x, weight]| [0.5 * (from + to) - half * x, half * weight])
         .collect()

@@ -11,7 +11,7 @@
 
 use super::galin::{Contact, Term, paraboloid};
 use super::lattice_sums::Sums;
-use crate::numeric::linear;
+use percoat_core::numeric::linear;
 use std::f64::consts::PI;
 
 /// Levels of indenters, one of each in the cell, that feel each other's images.

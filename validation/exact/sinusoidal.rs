@@ -8,8 +8,8 @@
 //! (the Boussinesq–Papkovich solution, as in Johnson, Contact Mechanics (1985), §13.2). In the plane of the wave τ₁ is
 //! p̂ ζe^{−ζ} everywhere, at most p̂/e at the depth 1/q.
 
-use crate::body::Material;
-use crate::stress::StressState;
+use percoat_core::body::Material;
+use percoat_core::stress::StressState;
 
 /// State at **x** = (x, y) and the depth z under cos(**q**·**x**), p̂ = 1.
 pub fn state(q: [f64; 2], [x, y]: [f64; 2], z: f64, material: Material) -> StressState {

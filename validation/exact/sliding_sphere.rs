@@ -104,7 +104,7 @@ fn hankel([x, y, z]: [f64; 3]) -> ([f64; 4], [f64; 4]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::validation::exact::hertz::Stresses;
+    use crate::exact::hertz::Stresses;
 
     fn near(found: Stress, expected: Stress, tolerance: f64) {
         assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < tolerance), "{found:?} for {expected:?}");

@@ -10,7 +10,7 @@
 //! that of the wave, w′ = (2/E*) (𝓗p + f(p − p̄)) with 𝓗p ↔ i sgn(k) p̂, and the traction's part of σ_xx on the surface is
 //! 2μ 𝓗p: at the trailing edge, where p = 0, σ_xx is p̄ and its mean besides 2μp* [sin 2ψ₁ + f p̄/p*].
 
-use crate::numeric::search::golden_maximum;
+use percoat_core::numeric::search::golden_maximum;
 use std::f64::consts::PI;
 
 /// The contact of a sliding wave, pressures over p*, angles ψ = πx/λ.
@@ -100,7 +100,7 @@ impl SlidingWave {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::validation::exact::westergaard::Wave;
+    use crate::exact::westergaard::Wave;
 
     /// Values that two independent programs agree on.
     #[test]

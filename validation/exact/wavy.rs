@@ -10,7 +10,7 @@
 //! Egg-box: Johnson, Greenwood & Higginson, Int. J. Mech. Sci. 27 (1985) 383: p* = √2πE*Δ/λ, c = 3/(2π). The hexagonal
 //! ones follow by the same two arguments.
 
-use crate::lattice::{Cell, LatticeError};
+use percoat_core::lattice::{Cell, LatticeError};
 use std::f64::consts::{PI, TAU};
 
 /// K = 4π/(√3 l), the least wavenumber of the hexagonal cell of period l = 1.

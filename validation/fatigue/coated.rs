@@ -1,10 +1,10 @@
 //! Ranges in coatings, at their interfaces and below: under given tractions and under a contact.
 
 use super::lines::{FORCE, Parts, fatigue_durability, friction, peaks, range, solved, young};
-use crate::body::{HalfSpace, Material, MeanStress};
-use crate::spectral::Step;
-use crate::stress::{PathPeaks, PathSought, StressField};
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
+use percoat_core::body::{HalfSpace, Material, MeanStress};
+use percoat_core::spectral::Step;
+use percoat_core::stress::{PathPeaks, PathSought, StressField};
 
 const COATED: &str = include_str!("coated.csv");
 const INTERFACE: &str = include_str!("coated-interface.csv");

@@ -1,17 +1,17 @@
 //! Ranges on wanted lines (y, z): bodies are cut into layers of their own materials with faces at the depths wanted, where planes are
 //! read; between the lines of a plane a parabola.
 
-use crate::body::Interface::Bonded;
-use crate::body::{Durability, Endurance, Fatigue, HalfSpace, Layer, Material};
-use crate::counterbody::Shape;
-use crate::friction::Friction;
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::spectral::Step;
-use crate::stress::{PathPeaks, PathSought, RangePlane, StressField};
-use crate::validation::StudyError;
-use crate::validation::alone::problem;
-use crate::validation::steps::Steps;
+use crate::StudyError;
+use crate::alone::problem;
+use crate::steps::Steps;
+use percoat_core::body::Interface::Bonded;
+use percoat_core::body::{Durability, Endurance, Fatigue, HalfSpace, Layer, Material};
+use percoat_core::counterbody::Shape;
+use percoat_core::friction::Friction;
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::spectral::Step;
+use percoat_core::stress::{PathPeaks, PathSought, RangePlane, StressField};
 use std::f64::consts::PI;
 
 /// A tolerance below the errors of the grid.

@@ -2,7 +2,7 @@
 
 use super::coated::{hertz, under};
 use super::lines::{Parts, fatigue_durability};
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
 
 const PLACES: &str = include_str!("places.csv");
 /// Friction of the rows.

@@ -3,10 +3,10 @@
 use super::lines::{
     FORCE, Parts, endurance_durability, fatigue_durability, peaks, peaks_with_errors, range, solved, young,
 };
-use crate::body::{Durability, Endurance, Fatigue, HalfSpace, Material, MeanStress};
-use crate::reading::FatigueReading;
-use crate::stress::{PathSought, StressField, StressFields};
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
+use percoat_core::body::{Durability, Endurance, Fatigue, HalfSpace, Material, MeanStress};
+use percoat_core::reading::FatigueReading;
+use percoat_core::stress::{PathSought, StressField, StressFields};
 
 const SLIDING: &str = include_str!("sliding.csv");
 const LARGEST: &str = include_str!("largest.csv");
@@ -153,7 +153,8 @@ pub fn endurance(outcome: &mut Outcome) -> Result<Data, StudyError> {
                 let own = found.materials[2 * number + 1];
                 let row = table.rows.iter().find(|row| row[1] == mu && row[2] == z).ok_or("no such row")?;
                 let crossland = row[3] + (3.0 * ratio - 3f64.sqrt()) * row[5];
-                let value = |peak: Option<crate::stress::PathPeak>| peak.map_or(f64::NAN, |peak| peak.value * torsion);
+                let value =
+                    |peak: Option<percoat_core::stress::PathPeak>| peak.map_or(f64::NAN, |peak| peak.value * torsion);
                 let side = points as f64 * spacing;
                 let stated = torsion * own.crossland.and_then(|peak| peak.error).unwrap_or(f64::NAN);
                 let found = [value(own.crossland), crossland, value(own.dang_van), row[column], stated];

@@ -8,7 +8,7 @@ mod wave;
 
 use super::draw::{self, curve};
 use super::{Data, Outcome, Study, StudyError};
-use crate::picture::{Axis, Chart, Figure, Style};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
 
 pub const STUDY: Study = Study {
     name: "fatigue",

@@ -1,14 +1,14 @@
 //! A wave in complete contact without friction, at rest in the mean: its range of τ₁ at depths.
 
 use super::lines::{Parts, fatigue_durability, peaks, range};
-use crate::body::MeanStress;
-use crate::lattice::Cell;
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::reading::{Reading, contact_radii};
-use crate::stress::{PathSought, StressField};
-use crate::validation::steps::{Steps, topography};
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::steps::{Steps, topography};
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
+use percoat_core::body::MeanStress;
+use percoat_core::lattice::Cell;
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::reading::{Reading, contact_radii};
+use percoat_core::stress::{PathSought, StressField};
 use std::f64::consts::{PI, TAU};
 
 const WAVE: &str = include_str!("wave.csv");

@@ -1,10 +1,10 @@
 //! The bodies of the tables, and the rows of each.
 
-use crate::body::HalfSpace;
-use crate::body::Interface::{Bonded, Frictionless};
-use crate::counterbody::Shape;
-use crate::validation::alone::{LayerOf, half_space};
-use crate::validation::{Data, StudyError};
+use crate::alone::{LayerOf, half_space};
+use crate::{Data, StudyError};
+use percoat_core::body::HalfSpace;
+use percoat_core::body::Interface::{Bonded, Frictionless};
+use percoat_core::counterbody::Shape;
 
 pub const INDENTATION: &str = include_str!("indentation.csv");
 /// A ball of unit radius.

@@ -1,16 +1,16 @@
 //! Cones on layers, Hertz' ellipse in a window that is not square, and windows of other sizes.
 
 use super::bodies::{BALL, BODIES, INDENTATION, body, rows};
-use crate::body::{HalfSpace, Material};
-use crate::counterbody::{Shape, Topography};
-use crate::lattice::Cell;
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::spectral::Step;
-use crate::validation::alone::{Alone, POINTS, WINDOW, checks, problem};
-use crate::validation::steps::Steps;
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::alone::{Alone, POINTS, WINDOW, checks, problem};
+use crate::steps::Steps;
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use ndarray::Array2;
+use percoat_core::body::{HalfSpace, Material};
+use percoat_core::counterbody::{Shape, Topography};
+use percoat_core::lattice::Cell;
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::spectral::Step;
 use std::f64::consts::PI;
 
 const CONES: &str = include_str!("cones.csv");

@@ -1,17 +1,17 @@
 //! A sphere that slides on a body like its own: friction does not couple, and the stresses are those of a closed form.
 
-use crate::body::{Bodies, Depth, HalfSpace, Material, MeanStress};
-use crate::counterbody::Shape;
-use crate::friction::Friction;
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Style};
-use crate::spectral::Step;
-use crate::stress::{StressField, StressFields, StressState, SurfaceLine};
-use crate::validation::alone::problem;
-use crate::validation::draw::{curve, linear};
-use crate::validation::exact::sliding_sphere::{stresses as exact, together};
-use crate::validation::steps::Steps;
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::alone::problem;
+use crate::draw::{curve, linear};
+use crate::exact::sliding_sphere::{stresses as exact, together};
+use crate::steps::Steps;
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
+use percoat_app::picture::{Axis, Chart, Style};
+use percoat_core::body::{Bodies, Depth, HalfSpace, Material, MeanStress};
+use percoat_core::counterbody::Shape;
+use percoat_core::friction::Friction;
+use percoat_core::load::Load;
+use percoat_core::spectral::Step;
+use percoat_core::stress::{StressField, StressFields, StressState, SurfaceLine};
 use std::f64::consts::PI;
 
 const SLIDING: &str = include_str!("sliding.csv");

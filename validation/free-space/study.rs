@@ -9,8 +9,8 @@ mod sliding;
 use super::alone::{Alone, POINTS, WINDOW, checks};
 use super::draw::{self, curve, slope};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::picture::{Axis, Chart, Figure, Style};
 use bodies::{BALL, BODIES, INDENTATION, body, rows};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
 
 pub const STUDY: Study = Study {
     name: "free-space",

@@ -1,4 +1,4 @@
-//! Stresses under a solved contact against Huber's closed form ([`crate::validation::exact::hertz`]).
+//! Stresses under a solved contact against Huber's closed form ([`crate::exact::hertz`]).
 //!
 //! A paraboloid on a wide lattice, a/l = 0.05: its contact is Hertz' own to 10⁻⁶ once the images' curvature is in the
 //! load. Its images press sideways at a depth by −(a²/3)(1+ν)S₃z p₀ in σ_r and σ_θ (the first term of theirs), which is
@@ -7,14 +7,14 @@
 use super::draw::{self, curve, linear};
 use super::steps::{Steps, case};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{Depth, MeanStress};
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::stress::StressField;
-use crate::validation::exact::galin::paraboloid;
-use crate::validation::exact::hertz::{Stresses, edge_tension, largest_shear};
-use crate::validation::exact::lattice_sums::TRIANGULAR;
-use crate::validation::exact::{Sums, System};
+use crate::exact::galin::paraboloid;
+use crate::exact::hertz::{Stresses, edge_tension, largest_shear};
+use crate::exact::lattice_sums::TRIANGULAR;
+use crate::exact::{Sums, System};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::{Depth, MeanStress};
+use percoat_core::load::Load;
+use percoat_core::stress::StressField;
 
 pub const STUDY: Study = Study {
     name: "hertz-stresses",

@@ -7,10 +7,10 @@
 use super::draw::{self, curve, logarithmic, slope};
 use super::steps::{Steps, case};
 use super::{Check, Data, Outcome, Study, StudyError};
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::validation::exact::galin::paraboloid;
-use crate::validation::exact::lattice_sums::TRIANGULAR;
-use crate::validation::exact::{CoatedContact, Coating, Hertz, System};
+use crate::exact::galin::paraboloid;
+use crate::exact::lattice_sums::TRIANGULAR;
+use crate::exact::{CoatedContact, Coating, Hertz, System};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
 
 pub const STUDY: Study = Study {
     name: "hertz",

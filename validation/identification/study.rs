@@ -5,15 +5,15 @@ use super::alone::{POINTS, WINDOW, half_space, problem};
 use super::draw::{self, curve};
 use super::steps::Steps;
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::Interface::Bonded;
-use crate::counterbody::Shape;
-use crate::identification::{
+use percoat_app::picture::{Axis, Chart, Curve, Figure, Style};
+use percoat_core::body::Interface::Bonded;
+use percoat_core::counterbody::Shape;
+use percoat_core::identification::{
     Identification, IdentificationError, MOST_UNCERTAIN, Measurement, Model, Parameter, Quantity,
 };
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Curve, Figure, Style};
-use crate::problem::Problem;
-use crate::spectral::Settings;
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::spectral::Settings;
 
 pub const STUDY: Study = Study {
     name: "identification",

@@ -2,15 +2,15 @@
 //!
 //! The images curve the surface by c₂ = PΔS₃/(4πE₁*) and lift it by PΔS₁/(πE₁*), ΔS_n their effective sums: the solver
 //! gets an indenter less curved by c₂, and the lift is taken off its penetration. What is left is compared with the
-//! integral equation of the contact ([`crate::validation::exact::coated_contact`]) and, without coating, with Galin's power laws.
+//! integral equation of the contact ([`crate::exact::coated_contact`]) and, without coating, with Galin's power laws.
 
 use super::draw::{self, curve, logarithmic};
 use super::steps::{Steps, case};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::validation::exact::lattice_sums::{TRIANGULAR, coated_images};
-use crate::validation::exact::{CoatedContact, Coating, Sums, System, Term};
+use crate::exact::lattice_sums::{TRIANGULAR, coated_images};
+use crate::exact::{CoatedContact, Coating, Sums, System, Term};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::load::Load;
 use std::f64::consts::PI;
 
 pub const STUDY: Study = Study {

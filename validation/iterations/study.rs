@@ -3,14 +3,14 @@
 
 use super::draw::{self, curve};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{HalfSpace, Interface, Layer, Material};
-use crate::case::{Case, embedded};
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::lattice::Lattice;
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::problem::Problem;
-use crate::spectral::{Method, Route, Settings, Solver, Step};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_case::case::{Case, embedded};
+use percoat_core::body::{HalfSpace, Interface, Layer, Material};
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::lattice::Lattice;
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::spectral::{Method, Route, Settings, Solver, Step};
 use std::sync::Arc;
 
 pub const STUDY: Study = Study {

@@ -3,9 +3,9 @@
 
 use super::draw::{self, curve};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, Interface, Layer, Material};
-use crate::numeric::search::largest;
-use crate::picture::{Axis, Chart, Figure, Style};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, Interface, Layer, Material};
+use percoat_core::numeric::search::largest;
 use serde_json::Value;
 
 pub const STUDY: Study = Study {

@@ -10,12 +10,12 @@
 
 use super::draw::{self, curve, linear};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{HalfSpace, Material};
-use crate::lattice::{Cell, Grid};
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::spectral::{LayeredOperator, Workspace};
-use crate::validation::exact::lattice_sums::{SQUARE, TRIANGULAR, coated_triangular};
-use crate::validation::exact::{Coating, Sums};
+use crate::exact::lattice_sums::{SQUARE, TRIANGULAR, coated_triangular};
+use crate::exact::{Coating, Sums};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::{HalfSpace, Material};
+use percoat_core::lattice::{Cell, Grid};
+use percoat_core::spectral::{LayeredOperator, Workspace};
 use std::f64::consts::PI;
 use std::sync::Arc;
 

@@ -1,24 +1,24 @@
-//! Limit loads under a sliding sphere, as [`crate::run::Run::limits`] finds them, against closed forms.
+//! Limit loads under a sliding sphere, as [`percoat_core::run::Run::limits`] finds them, against closed forms.
 //!
 //! A paraboloid on a wide lattice slides without influence on its pressure. Strengths are those with which the closed form
 //! fails at a/l = 0.1, where the contact has a known number of samples; the run begins at a part of that load. What the
-//! images' first terms add ([`exact::sliding_sphere`](crate::validation::exact::sliding_sphere)) is in the closed form.
+//! images' first terms add ([`exact::sliding_sphere`](crate::exact::sliding_sphere)) is in the closed form.
 
 use super::draw::{self, curve, linear};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MeanStress, Strength};
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::friction::Friction;
-use crate::lattice::{Cell, Lattice};
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::problem::Problem;
-use crate::reading::Criterion;
-use crate::run::{At, Limit, Run, Sampling, StressRequest};
-use crate::validation::exact::galin::{Contact, paraboloid};
-use crate::validation::exact::lattice_sums::TRIANGULAR;
-use crate::validation::exact::sliding_sphere::{Stress, images, mises, stresses, together, trailing_tension};
-use crate::validation::exact::{Sums, System};
+use crate::exact::galin::{Contact, paraboloid};
+use crate::exact::lattice_sums::TRIANGULAR;
+use crate::exact::sliding_sphere::{Stress, images, mises, stresses, together, trailing_tension};
+use crate::exact::{Sums, System};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MeanStress, Strength};
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::friction::Friction;
+use percoat_core::lattice::{Cell, Lattice};
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::reading::Criterion;
+use percoat_core::run::{At, Limit, Run, Sampling, StressRequest};
 
 pub const STUDY: Study = Study {
     name: "limit",

@@ -6,18 +6,18 @@
 //!
 //! r_i to the images of level c inside, S₁ from level c to level m without the indenter itself. The last term is what
 //! the second moments M = 2Pa²/5 of the indenters outside would add, A the area of the cell: the pressure p̄ has none.
-//! Divided by the stiffness of the contacts ε moves loads and penetration ([`crate::validation::exact::localization::shifts`]).
+//! Divided by the stiffness of the contacts ε moves loads and penetration ([`crate::exact::localization::shifts`]).
 
-use crate::body::HalfSpace;
-use crate::comparison::Answer;
-use crate::lattice::Lattice;
-use crate::localized::circle::Circle;
-use crate::localized::disc;
-use crate::localized::point::PointKernel;
-use crate::reading::LevelReading;
-use crate::validation::StudyError;
-use crate::validation::exact::lattice_sums::layered_triangular;
-use crate::validation::exact::localization::shifts;
+use crate::StudyError;
+use crate::exact::lattice_sums::layered_triangular;
+use crate::exact::localization::shifts;
+use percoat_core::body::HalfSpace;
+use percoat_core::comparison::Answer;
+use percoat_core::lattice::Lattice;
+use percoat_core::localized::circle::Circle;
+use percoat_core::localized::disc;
+use percoat_core::localized::point::PointKernel;
+use percoat_core::reading::LevelReading;
 use std::f64::consts::PI;
 
 /// Three levels on a hexagonal lattice of unit period, as the spectral solution finds them.

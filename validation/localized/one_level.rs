@@ -1,16 +1,16 @@
 //! One level: circles whose neighbours, lattice sums, contact and penetration are known.
 
-use crate::body::{HalfSpace, Material};
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::lattice::Lattice;
-use crate::load::Load;
-use crate::localized::{CircleRadius, Coupled, Localized, Setup, Stop};
-use crate::picture::{Curve, Style};
-use crate::problem::Problem;
-use crate::validation::draw::curve;
-use crate::validation::exact::lattice_sums::TRIANGULAR;
-use crate::validation::exact::{Localization, Sums};
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::draw::curve;
+use crate::exact::lattice_sums::TRIANGULAR;
+use crate::exact::{Localization, Sums};
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
+use percoat_app::picture::{Curve, Style};
+use percoat_core::body::{HalfSpace, Material};
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::lattice::Lattice;
+use percoat_core::load::Load;
+use percoat_core::localized::{CircleRadius, Coupled, Localized, Setup, Stop};
+use percoat_core::problem::Problem;
 
 const REFERENCE: &str = include_str!("one-level.csv");
 

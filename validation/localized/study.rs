@@ -1,6 +1,6 @@
 //! The localized solution against what its circles should leave out, and against the spectral one.
 //!
-//! One level: lattice sums over the indenters inside predict contact and penetration ([`crate::validation::exact::localization`]).
+//! One level: lattice sums over the indenters inside predict contact and penetration ([`crate::exact::localization`]).
 //! Three levels on four coatings, with load-balanced circles: the exchange of load that [`leftover`] predicts, its
 //! median and worst over all shells; with the lattice sum outside: loads, pressures, radii, penetration and stresses of
 //! both methods, whatever the shell. One level on thin coatings, with the lattice sum: radius, peak and penetration of both.
@@ -11,17 +11,17 @@ mod thin;
 
 use super::draw::{self, curve};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{HalfSpace, Interface, Layer, Material, MeanStress};
-use crate::comparison::{Answer, CircleComparison, Comparison, ComparisonTask, StressPair};
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::lattice::Lattice;
-use crate::load::Load;
-use crate::localized::{CircleRadius, Setup, Stop};
-use crate::picture::{Axis, Chart, Curve, Style};
-use crate::problem::Problem;
-use crate::spectral::Settings;
 use leftover::{Leftover, Shells};
 use one_level::one_level;
+use percoat_app::picture::{Axis, Chart, Curve, Style};
+use percoat_core::body::{HalfSpace, Interface, Layer, Material, MeanStress};
+use percoat_core::comparison::{Answer, CircleComparison, Comparison, ComparisonTask, StressPair};
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::lattice::Lattice;
+use percoat_core::load::Load;
+use percoat_core::localized::{CircleRadius, Setup, Stop};
+use percoat_core::problem::Problem;
+use percoat_core::spectral::Settings;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use thin::thin_coatings;

@@ -3,15 +3,15 @@
 //! A thin coating bends the pressure at the edge of contact within its thickness. What the elements see of that decides how
 //! well the localized solution reads its radius.
 
-use crate::body::{HalfSpace, Interface, Layer, Material, MeanStress};
-use crate::comparison::ComparisonTask;
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::lattice::Lattice;
-use crate::load::Load;
-use crate::localized::{CircleRadius, Stop};
-use crate::problem::Problem;
-use crate::spectral::Settings;
-use crate::validation::{Check, Data, Outcome, StudyError};
+use crate::{Check, Data, Outcome, StudyError};
+use percoat_core::body::{HalfSpace, Interface, Layer, Material, MeanStress};
+use percoat_core::comparison::ComparisonTask;
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::lattice::Lattice;
+use percoat_core::load::Load;
+use percoat_core::localized::{CircleRadius, Stop};
+use percoat_core::problem::Problem;
+use percoat_core::spectral::Settings;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 

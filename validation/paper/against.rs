@@ -1,9 +1,9 @@
 //! What several figures are held against, and the errors of the mesh in what they show.
 
 use super::model::Model;
-use crate::comparison::Answer;
-use crate::reading::{self, LevelReading, Reading};
-use crate::validation::{Check, Outcome, StudyError, Tolerance};
+use crate::{Check, Outcome, StudyError, Tolerance};
+use percoat_core::comparison::Answer;
+use percoat_core::reading::{self, LevelReading, Reading};
 
 /// Error of the mesh in the asymmetry of a spot: from 256 to 384 points it moves by up to 1.3e-4.
 pub const ASYMMETRY: f64 = 1e-4;

@@ -2,12 +2,12 @@
 //! equilibrium.
 //!
 //! Σ_m N_m P(δ − d_m) = p̄ A over the cell of area A with N_m indenters of level m, drop d_m, radius R_m; P(δ) of a
-//! single paraboloid by the integral equation of [`crate::validation::exact::coated_contact`].
+//! single paraboloid by the integral equation of [`crate::exact::coated_contact`].
 
-use crate::comparison::Answer;
-use crate::reading::LevelReading;
-use crate::validation::StudyError;
-use crate::validation::exact::{CoatedContact, Coating};
+use crate::StudyError;
+use crate::exact::{CoatedContact, Coating};
+use percoat_core::comparison::Answer;
+use percoat_core::reading::LevelReading;
 use rayon::prelude::*;
 
 /// Contact radii of the table, and the smallest and largest one in units of √(cell area).

@@ -3,12 +3,12 @@
 
 use super::model::Model;
 use super::spot::{self, Raster, asymmetries};
-use crate::load::Load;
-use crate::localized::mesh::Mesh;
-use crate::localized::{CircleRadius, Coupled};
-use crate::numeric::least_squares;
-use crate::reading::{LevelReading, Reading, first_touches};
-use crate::validation::{Data, StudyError};
+use crate::{Data, StudyError};
+use percoat_core::load::Load;
+use percoat_core::localized::mesh::Mesh;
+use percoat_core::localized::{CircleRadius, Coupled};
+use percoat_core::numeric::least_squares;
+use percoat_core::reading::{LevelReading, Reading, first_touches};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 

@@ -6,7 +6,7 @@
 //! bound of the test: a run that finds otherwise fails its check, so that no verdict changes in silence. A number that
 //! is compared with an independent solution anyway, or that follows from the printed parameters alone, needs no pin.
 
-use crate::validation::Check;
+use crate::Check;
 
 /// What a number must be for a statement to hold.
 #[derive(Debug, Clone, Copy, PartialEq)]

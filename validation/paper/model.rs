@@ -1,16 +1,16 @@
 //! The model of a figure: a case of the paper, with changes, and the methods that answer it.
 
 use super::apart::{self, Indenter, Law};
-use crate::case::{Case, embedded};
-use crate::comparison::Answer;
-use crate::counterbody::{Level, Shape};
-use crate::load::Load;
-use crate::localized::{self, CircleRadius, Localized, Setup, Stop};
-use crate::run::balanced_points;
-use crate::spectral::{Settings, Solver};
-use crate::validation::exact::Coating;
-use crate::validation::steps::Steps;
-use crate::validation::{Data, StudyError};
+use crate::exact::Coating;
+use crate::steps::Steps;
+use crate::{Data, StudyError};
+use percoat_case::case::{Case, embedded};
+use percoat_core::comparison::Answer;
+use percoat_core::counterbody::{Level, Shape};
+use percoat_core::load::Load;
+use percoat_core::localized::{self, CircleRadius, Localized, Setup, Stop};
+use percoat_core::run::balanced_points;
+use percoat_core::spectral::{Settings, Solver};
 use std::sync::{Arc, OnceLock};
 
 /// A case with one coating whose substrate has E₂ = 1, and one indenter of each level in its cell.
@@ -169,7 +169,7 @@ impl Model {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::validation::exact::CoatedContact;
+    use crate::exact::CoatedContact;
 
     #[test]
     fn all_levels_have_one_penetration_and_carry_the_load_together() {

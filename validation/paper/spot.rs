@@ -1,10 +1,10 @@
 //! The contact spot of one level: its boundary, its pressure along a line through the axis, and what a coarse raster of
 //! square elements would make of its asymmetry.
 
-use crate::localized::spot::Spot;
-use crate::reading::{Boundary, Reading};
-use crate::spectral::Step;
-use crate::validation::StudyError;
+use crate::StudyError;
+use percoat_core::localized::spot::Spot;
+use percoat_core::reading::{Boundary, Reading};
+use percoat_core::spectral::Step;
 use std::f64::consts::PI;
 
 /// Direction in which level 1 stands as seen from level 3 and, opposite, level 2.

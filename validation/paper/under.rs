@@ -1,12 +1,12 @@
 //! Stresses under an indenter of the first level, for Figs 6 and 7.
 
 use super::model::Model;
-use crate::body::{Depth, MeanStress};
-use crate::load::Load;
-use crate::picture::contour::zero_lines;
-use crate::stress::{StressField, StressState, SurfaceLine};
-use crate::validation::StudyError;
+use crate::StudyError;
 use ndarray::Array2;
+use percoat_core::body::{Depth, MeanStress};
+use percoat_core::load::Load;
+use percoat_core::stress::{StressField, StressState, SurfaceLine};
+use percoat_draw::contour::zero_lines;
 
 pub const LOAD: f64 = 0.002;
 const POINTS: usize = 320;

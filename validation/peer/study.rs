@@ -7,10 +7,10 @@
 use super::draw::{self, curve};
 use super::steps::{Steps, topography};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{HalfSpace, Material};
-use crate::counterbody::{Counterbody, Indenters, Level, Shape};
-use crate::lattice::{Cell, Lattice};
-use crate::picture::{Axis, Chart, Figure, Style};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::{HalfSpace, Material};
+use percoat_core::counterbody::{Counterbody, Indenters, Level, Shape};
+use percoat_core::lattice::{Cell, Lattice};
 use std::f64::consts::TAU;
 
 pub const STUDY: Study = Study {

@@ -1,15 +1,15 @@
 //! Paraboloids on a hexagonal lattice: Hertz' contact among its images, bare and coated, at one and at three levels.
 //!
-//! Expected: the series of [`crate::validation::exact::periodic_hertz`] where a/l is small, and an independent solver at all loads.
+//! Expected: the series of [`crate::exact::periodic_hertz`] where a/l is small, and an independent solver at all loads.
 
 use super::draw::{self, curve, logarithmic};
 use super::steps::{Steps, case};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::reading::Reading;
-use crate::validation::exact::galin::paraboloid;
-use crate::validation::exact::lattice_sums::{TRIANGULAR, coated_triangular};
-use crate::validation::exact::{Coating, Contact, Hertz, Sums, System};
+use crate::exact::galin::paraboloid;
+use crate::exact::lattice_sums::{TRIANGULAR, coated_triangular};
+use crate::exact::{Coating, Contact, Hertz, Sums, System};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::reading::Reading;
 
 pub const STUDY: Study = Study {
     name: "periodic-hertz",

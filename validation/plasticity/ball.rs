@@ -1,17 +1,17 @@
 //! A paraboloid alone: bare, coated, on a thin layer on a rigid base, and unloaded.
 
 use super::bodies::with_hardness;
-use crate::body::Interface::Bonded;
-use crate::body::{HalfSpace, Layer, Material};
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::lattice::{Cell, Lattice};
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::reading::{PlasticReading, Reading};
-use crate::spectral::Step;
-use crate::validation::alone::{LayerOf, POINTS, WINDOW, half_space, problem};
-use crate::validation::steps::Steps;
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::alone::{LayerOf, POINTS, WINDOW, half_space, problem};
+use crate::steps::Steps;
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
+use percoat_core::body::Interface::Bonded;
+use percoat_core::body::{HalfSpace, Layer, Material};
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::lattice::{Cell, Lattice};
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::reading::{PlasticReading, Reading};
+use percoat_core::spectral::Step;
 use std::f64::consts::PI;
 
 const PARABOLOID: &str = include_str!("paraboloid.csv");

@@ -1,7 +1,7 @@
 //! Bodies with a hardness.
 
-use crate::body::{Bodies, Durability, HalfSpace};
-use crate::validation::StudyError;
+use crate::StudyError;
+use percoat_core::body::{Bodies, Durability, HalfSpace};
 
 /// A body and a rigid counterbody with a hardness, a pressure.
 pub fn with_hardness(body: HalfSpace, hardness: f64) -> Result<Bodies, StudyError> {

@@ -1,12 +1,12 @@
 //! Dense solutions of periodic cells: loads, approaches, paths, and the mirrored problem.
 
 use super::bodies::with_hardness;
-use crate::body::{Bodies, HalfSpace};
-use crate::load::Load;
-use crate::spectral::Step;
-use crate::validation::cells::{self, CELLS, bare, coated, range, rough, steps, wavy};
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::cells::{self, CELLS, bare, coated, range, rough, steps, wavy};
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use ndarray::Array2;
+use percoat_core::body::{Bodies, HalfSpace};
+use percoat_core::load::Load;
+use percoat_core::spectral::Step;
 
 const PERIODIC: &str = include_str!("periodic.csv");
 const PATH: &str = include_str!("path.csv");

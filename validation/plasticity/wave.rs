@@ -1,13 +1,13 @@
 //! A wave with a hardness, in closed form.
 
 use super::bodies::with_hardness;
-use crate::lattice::Cell;
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::spectral::Step;
-use crate::validation::alone::half_space;
-use crate::validation::steps::{Steps, topography};
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::alone::half_space;
+use crate::steps::{Steps, topography};
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
+use percoat_core::lattice::Cell;
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::spectral::Step;
 use std::f64::consts::{PI, TAU};
 
 const WAVE: &str = include_str!("wave.csv");

@@ -6,12 +6,12 @@
 use super::draw::{self, curve};
 use super::steps::Steps;
 use super::{Check, Data, Outcome, Study, StudyError};
-use crate::body::{HalfSpace, Interface, Layer, Material};
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::lattice::Lattice;
-use crate::load::Load;
-use crate::numeric::fourier::fast_points;
-use crate::picture::{Axis, Chart, Figure, Style};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::{HalfSpace, Interface, Layer, Material};
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::lattice::Lattice;
+use percoat_core::load::Load;
+use percoat_core::numeric::fourier::fast_points;
 
 pub const STUDY: Study = Study {
     name: "rings",
@@ -140,7 +140,7 @@ fn run() -> Result<Outcome, StudyError> {
     Ok(outcome)
 }
 
-fn figure(curves: Vec<crate::picture::Curve>) -> Figure {
+fn figure(curves: Vec<percoat_app::picture::Curve>) -> Figure {
     let chart = Chart {
         title: String::new(),
         x: Axis::linear("distance from the axis over the outer radius"),

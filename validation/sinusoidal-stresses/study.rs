@@ -1,15 +1,15 @@
-//! Stresses and displacements under sinusoidal pressures against their closed form ([`crate::validation::exact::sinusoidal`]).
+//! Stresses and displacements under sinusoidal pressures against their closed form ([`crate::exact::sinusoidal`]).
 //!
 //! On a grid a sinusoid is one exact wave: nothing but rounding may be left.
 
 use super::draw::{self, curve, linear};
 use super::{Check, Data, Outcome, Study, StudyError};
-use crate::body::{Depth, HalfSpace, Material, MeanStress};
-use crate::lattice::{Cell, Grid};
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::stress::{StressField, StressState};
-use crate::validation::exact::sinusoidal;
+use crate::exact::sinusoidal;
 use ndarray::Array2;
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::{Depth, HalfSpace, Material, MeanStress};
+use percoat_core::lattice::{Cell, Grid};
+use percoat_core::stress::{StressField, StressState};
 use std::f64::consts::{E, TAU};
 use std::sync::Arc;
 

@@ -7,12 +7,12 @@
 
 use super::super::steps::{Steps, topography};
 use super::super::{Data, StudyError};
-use crate::body::{HalfSpace, Material};
-use crate::friction::Friction;
-use crate::lattice::Cell;
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::spectral::{Settings, Solver};
+use percoat_core::body::{HalfSpace, Material};
+use percoat_core::friction::Friction;
+use percoat_core::lattice::Cell;
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::spectral::{Settings, Solver};
 use std::f64::consts::{PI, TAU};
 
 const AMPLITUDE: f64 = 0.01;

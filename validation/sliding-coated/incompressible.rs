@@ -2,14 +2,14 @@
 
 use super::super::kernel::Reference;
 use super::super::{Data, StudyError};
-use crate::body::{HalfSpace, Interface, Layer, Material};
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::friction::Friction;
-use crate::lattice::{Cell, Grid, Lattice};
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::spectral::{LayeredOperator, Workspace};
-use crate::spectral::{Settings, Solver};
+use percoat_core::body::{HalfSpace, Interface, Layer, Material};
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::friction::Friction;
+use percoat_core::lattice::{Cell, Grid, Lattice};
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::spectral::{LayeredOperator, Workspace};
+use percoat_core::spectral::{Settings, Solver};
 use std::f64::consts::TAU;
 
 /// Largest change of the pressure under spheres by friction of μ = 1, over the largest pressure: on an incompressible

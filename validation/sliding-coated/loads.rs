@@ -5,11 +5,11 @@
 //! falls in powers of the cell's side from L⁻³ on, as the mean state is that of the half-space.
 
 use super::super::{Data, StudyError};
-use crate::body::{Depth, HalfSpace, Interface, Layer, Material, MeanStress};
-use crate::friction::Friction;
-use crate::lattice::{Cell, Grid};
-use crate::stress::{StressField, StressState};
 use ndarray::{Array2, ArrayView2};
+use percoat_core::body::{Depth, HalfSpace, Interface, Layer, Material, MeanStress};
+use percoat_core::friction::Friction;
+use percoat_core::lattice::{Cell, Grid};
+use percoat_core::stress::{StressField, StressState};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 

@@ -9,7 +9,7 @@ mod turned;
 
 use super::draw::{self, curve, linear, slope};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::picture::{Axis, Chart, Figure, Style};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
 
 pub const STUDY: Study = Study {
     name: "sliding-coated",

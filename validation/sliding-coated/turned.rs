@@ -1,16 +1,16 @@
 //! A sliding that is turned with the lattice turns everything.
 
 use super::super::{Data, StudyError};
-use crate::body::{HalfSpace, Interface, Layer, Material, MeanStress};
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::friction::Friction;
-use crate::lattice::Lattice;
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::reading::{Reading, StressReading};
-use crate::spectral::{Settings, Solver};
-use crate::stress::StressFields;
 use ndarray::Array2;
+use percoat_core::body::{HalfSpace, Interface, Layer, Material, MeanStress};
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::friction::Friction;
+use percoat_core::lattice::Lattice;
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::reading::{Reading, StressReading};
+use percoat_core::spectral::{Settings, Solver};
+use percoat_core::stress::StressFields;
 
 const POINTS: usize = 60;
 

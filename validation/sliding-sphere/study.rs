@@ -1,22 +1,22 @@
 //! Stresses under a solved contact that slides, without influence on its pressure, against closed forms
-//! ([`crate::validation::exact::sliding_sphere`]) and the table of their independent check.
+//! ([`crate::exact::sliding_sphere`]) and the table of their independent check.
 //!
 //! A paraboloid on a wide lattice, as in `hertz-stresses`. What the images' first terms press and drag is added to the
-//! closed form. The trailing edge is looked for as [`crate::stress::Crest`] does, with the error that it states.
+//! closed form. The trailing edge is looked for as [`percoat_core::stress::Crest`] does, with the error that it states.
 
 use super::draw::{self, curve, linear};
 use super::steps::{Steps, case};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{Depth, MeanStress};
-use crate::friction::Friction;
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::spectral::{Contact, Step};
-use crate::stress::{Crest, StressField, StressState, SurfaceLine};
-use crate::validation::exact::galin::paraboloid;
-use crate::validation::exact::lattice_sums::TRIANGULAR;
-use crate::validation::exact::sliding_sphere::{Stress, images, stresses, together, trailing_tension, turned};
-use crate::validation::exact::{Sums, System};
+use crate::exact::galin::paraboloid;
+use crate::exact::lattice_sums::TRIANGULAR;
+use crate::exact::sliding_sphere::{Stress, images, stresses, together, trailing_tension, turned};
+use crate::exact::{Sums, System};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::{Depth, MeanStress};
+use percoat_core::friction::Friction;
+use percoat_core::load::Load;
+use percoat_core::spectral::{Contact, Step};
+use percoat_core::stress::{Crest, StressField, StressState, SurfaceLine};
 use std::f64::consts::FRAC_PI_3;
 
 pub const STUDY: Study = Study {

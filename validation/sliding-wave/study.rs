@@ -1,17 +1,17 @@
-//! A rigid wave that slides, coupled: its closed form ([`crate::validation::exact::SlidingWave`]).
+//! A rigid wave that slides, coupled: its closed form ([`crate::exact::SlidingWave`]).
 
 use super::draw::{self, curve, linear};
 use super::steps::{Steps, topography};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{HalfSpace, Material, MeanStress};
-use crate::friction::Friction;
-use crate::lattice::Cell;
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Style};
-use crate::problem::Problem;
-use crate::spectral::{Settings, Solver};
-use crate::stress::StressField;
-use crate::validation::exact::SlidingWave;
+use crate::exact::SlidingWave;
+use percoat_app::picture::{Axis, Chart, Style};
+use percoat_core::body::{HalfSpace, Material, MeanStress};
+use percoat_core::friction::Friction;
+use percoat_core::lattice::Cell;
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::spectral::{Settings, Solver};
+use percoat_core::stress::StressField;
 use std::f64::consts::{PI, TAU};
 
 pub const STUDY: Study = Study {

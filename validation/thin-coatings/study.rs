@@ -1,17 +1,17 @@
 //! Radius and area of one indenter on coatings thinner than the grid can see.
 //!
 //! The loads under which an indenter c rⁿ has the contact radius 1 follow from the integral equation of the contact
-//! (`reference.csv`, and [`crate::validation::exact::coated_contact`] for n = 2). The curvature that the images cause is taken out of
+//! (`reference.csv`, and [`crate::exact::coated_contact`] for n = 2). The curvature that the images cause is taken out of
 //! the indenter as in the study `isolated`.
 
 use super::draw::{self, curve};
 use super::steps::{Steps, topography};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::counterbody::{Counterbody, Indenters, Level, Shape};
-use crate::lattice::{Cell, Grid, Lattice};
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::validation::exact::{CoatedContact, Coating};
+use crate::exact::{CoatedContact, Coating};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::counterbody::{Counterbody, Indenters, Level, Shape};
+use percoat_core::lattice::{Cell, Grid, Lattice};
+use percoat_core::load::Load;
 use std::f64::consts::PI;
 
 pub const STUDY: Study = Study {

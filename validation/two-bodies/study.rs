@@ -7,14 +7,14 @@ use super::alone::{Alone, POINTS, QUANTITIES, checks, half_space};
 use super::draw::{self, curve};
 use super::steps::Steps;
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::Interface::Bonded;
-use crate::body::{Bodies, HalfSpace};
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::lattice::{Cell, Lattice};
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::problem::Problem;
-use crate::validation::exact::Hertz;
+use crate::exact::Hertz;
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::Interface::Bonded;
+use percoat_core::body::{Bodies, HalfSpace};
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::lattice::{Cell, Lattice};
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
 
 pub const STUDY: Study = Study {
     name: "two-bodies",

@@ -1,14 +1,14 @@
-//! Square and hexagonal wavy surfaces from first touch to complete contact ([`crate::validation::exact::wavy`]).
+//! Square and hexagonal wavy surfaces from first touch to complete contact ([`crate::exact::wavy`]).
 //!
 //! No closed form spans all loads: between the two asymptotes stands a converged table.
 
 use super::draw::{self, curve, logarithmic};
 use super::steps::{Steps, topography};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{HalfSpace, Material};
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::validation::exact::Wavy;
+use crate::exact::Wavy;
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::{HalfSpace, Material};
+use percoat_core::load::Load;
 
 pub const STUDY: Study = Study {
     name: "wavy",

@@ -1,16 +1,16 @@
 //! A wave of the shape in complete contact on layers: what implicit steps, those of a path and the exponential leave of it.
 
-use crate::body::HalfSpace;
-use crate::body::Interface::Bonded;
-use crate::lattice::Cell;
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::run::{PathEnd, WearPath};
-use crate::spectral::Wear;
-use crate::validation::alone::{LayerOf, half_space};
-use crate::validation::steps::{Steps, topography};
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::alone::{LayerOf, half_space};
+use crate::steps::{Steps, topography};
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use ndarray::Array2;
+use percoat_core::body::HalfSpace;
+use percoat_core::body::Interface::Bonded;
+use percoat_core::lattice::Cell;
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::run::{PathEnd, WearPath};
+use percoat_core::spectral::Wear;
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2, TAU};
 use std::ops::ControlFlow;
 

@@ -1,14 +1,14 @@
 //! Wear in equal implicit steps, which are of first order in their length, and twice as many extrapolated. Steps of a [`WearPath`],
 //! which are of second order, are not used here.
 //!
-//! [`WearPath`]: crate::run::WearPath
+//! [`WearPath`]: percoat_core::run::WearPath
 
-use crate::body::Side;
-use crate::load::Load;
-use crate::spectral::{Step, Wear, Worn};
-use crate::validation::StudyError;
-use crate::validation::steps::Steps;
+use crate::StudyError;
+use crate::steps::Steps;
 use ndarray::Array2;
+use percoat_core::body::Side;
+use percoat_core::load::Load;
+use percoat_core::spectral::{Step, Wear, Worn};
 
 /// What rounding may leave of [`volume`].
 pub const VOLUME: f64 = 1e-12;

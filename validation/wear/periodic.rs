@@ -1,18 +1,18 @@
 //! Three levels of which the counterbody wears, and rough cells of which the body wears too.
 
 use super::path::{Place, VOLUME, extrapolated, largest, volume};
-use crate::body::Interface::Bonded;
-use crate::counterbody::{Indenters, Level, Shape};
-use crate::lattice::{Cell, Lattice};
-use crate::load::Load;
-use crate::problem::Problem;
-use crate::run::{PathEnd, WearPath};
-use crate::spectral::Wear;
-use crate::validation::alone::half_space;
-use crate::validation::cells::{self, CELLS, coated, range, rough, steps};
-use crate::validation::steps::Steps;
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::alone::half_space;
+use crate::cells::{self, CELLS, coated, range, rough, steps};
+use crate::steps::Steps;
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use ndarray::Array2;
+use percoat_core::body::Interface::Bonded;
+use percoat_core::counterbody::{Indenters, Level, Shape};
+use percoat_core::lattice::{Cell, Lattice};
+use percoat_core::load::Load;
+use percoat_core::problem::Problem;
+use percoat_core::run::{PathEnd, WearPath};
+use percoat_core::spectral::Wear;
 use std::ops::ControlFlow;
 
 const LEVELS: &str = include_str!("levels.csv");
@@ -117,8 +117,8 @@ fn controlled(shapes: &Data, outcome: &mut Outcome) -> Result<(), StudyError> {
         let path = path.slide(&mut steps.solver, &mut |_, _| ControlFlow::Continue(()))?;
         let last = path.steps.last().filter(|_| path.end == PathEnd::Complete).ok_or("the path was not followed")?;
         let worn = steps.solver.worn().ok_or("nothing has worn")?;
-        stated += last.accumulated_error * worn.largest(crate::body::Side::Counterbody);
-        let depth = worn.depth(crate::body::Side::Counterbody).to_owned();
+        stated += last.accumulated_error * worn.largest(percoat_core::body::Side::Counterbody);
+        let depth = worn.depth(percoat_core::body::Side::Counterbody).to_owned();
         ratios.push((off(&depth, shapes, &format!("h_{end}"))? / stated, 0.0));
         volumes = volumes.max(volume(worn, &wear, force));
         slid = end;

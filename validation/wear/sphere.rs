@@ -1,13 +1,13 @@
 //! A paraboloid that wears on a bare half-space, alone.
 
 use super::path::{VOLUME, extrapolated};
-use crate::counterbody::Shape;
-use crate::load::Load;
-use crate::reading::Reading;
-use crate::spectral::Wear;
-use crate::validation::alone::{half_space, problem};
-use crate::validation::steps::Steps;
-use crate::validation::{Check, Data, Outcome, StudyError, Tolerance};
+use crate::alone::{half_space, problem};
+use crate::steps::Steps;
+use crate::{Check, Data, Outcome, StudyError, Tolerance};
+use percoat_core::counterbody::Shape;
+use percoat_core::load::Load;
+use percoat_core::reading::Reading;
+use percoat_core::spectral::Wear;
 use std::f64::consts::PI;
 
 const SPHERE: &str = include_str!("sphere.csv");

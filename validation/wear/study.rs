@@ -7,7 +7,7 @@ mod sphere;
 
 use super::draw::{self, curve, slope};
 use super::{Data, Outcome, Study, StudyError};
-use crate::picture::{Axis, Chart, Figure, Style};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
 
 pub const STUDY: Study = Study {
     name: "wear",

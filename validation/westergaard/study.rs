@@ -1,13 +1,13 @@
-//! A wave pressed flat: Westergaard's pressures and contact widths ([`crate::validation::exact::westergaard`]).
+//! A wave pressed flat: Westergaard's pressures and contact widths ([`crate::exact::westergaard`]).
 
 use super::draw::{self, curve, linear};
 use super::steps::{Steps, topography};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{HalfSpace, Material};
-use crate::lattice::Cell;
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Style};
-use crate::validation::exact::westergaard::Wave;
+use crate::exact::westergaard::Wave;
+use percoat_app::picture::{Axis, Chart, Style};
+use percoat_core::body::{HalfSpace, Material};
+use percoat_core::lattice::Cell;
+use percoat_core::load::Load;
 use std::f64::consts::TAU;
 
 pub const STUDY: Study = Study {

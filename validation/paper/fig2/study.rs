@@ -4,12 +4,12 @@ use super::against::{ASYMMETRY, CHANGE};
 use super::model::Model;
 use super::spot::{self, asymmetries};
 use super::{Claim, Test, asymmetry, pinned};
-use crate::comparison::Answer;
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::reading::{Boundary, Reading};
-use crate::validation::draw::{curve, figure};
-use crate::validation::{Check, Data, Outcome, Study, StudyError, Tolerance};
+use crate::draw::{curve, figure};
+use crate::{Check, Data, Outcome, Study, StudyError, Tolerance};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::comparison::Answer;
+use percoat_core::load::Load;
+use percoat_core::reading::{Boundary, Reading};
 use std::f64::consts::PI;
 
 pub const STUDY: Study = Study {

@@ -5,12 +5,12 @@ use super::asymmetry::{Course, ROWS, Readings, at_touch, elements, localized, lo
 use super::model::Model;
 use super::spot::{self, asymmetries};
 use super::{Claim, Test, pinned};
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Curve, Figure, Style};
-use crate::reading::Reading;
-use crate::validation::draw::{curve, figure};
-use crate::validation::exact::CoatedContact;
-use crate::validation::{Data, Outcome, Study, StudyError};
+use crate::draw::{curve, figure};
+use crate::exact::CoatedContact;
+use crate::{Data, Outcome, Study, StudyError};
+use percoat_app::picture::{Axis, Chart, Curve, Figure, Style};
+use percoat_core::load::Load;
+use percoat_core::reading::Reading;
 use rayon::prelude::*;
 
 pub const STUDY: Study = Study {

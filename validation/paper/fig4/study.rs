@@ -2,9 +2,9 @@
 
 use super::model::Model;
 use super::{Claim, Test, pinned};
-use crate::picture::{Axis, Chart, Curve, Figure, Style};
-use crate::validation::draw::{curve, figure, linear};
-use crate::validation::{Check, Data, Outcome, Study, StudyError, Tolerance};
+use crate::draw::{curve, figure, linear};
+use crate::{Check, Data, Outcome, Study, StudyError, Tolerance};
+use percoat_app::picture::{Axis, Chart, Curve, Figure, Style};
 use rayon::prelude::*;
 
 pub const STUDY: Study = Study {

@@ -3,14 +3,14 @@
 use super::against::CHANGE;
 use super::model::Model;
 use super::{Claim, Test, pinned};
-use crate::body::MeanStress;
-use crate::load::Load;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::run::{Recorder, Run, Sampling, StepRecord};
-use crate::spectral::Step;
-use crate::stress::{StressField, StressFields};
-use crate::validation::draw::{curve, figure, linear};
-use crate::validation::{Check, Data, Outcome, Study, StudyError, Tolerance};
+use crate::draw::{curve, figure, linear};
+use crate::{Check, Data, Outcome, Study, StudyError, Tolerance};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::MeanStress;
+use percoat_core::load::Load;
+use percoat_core::run::{Recorder, Run, Sampling, StepRecord};
+use percoat_core::spectral::Step;
+use percoat_core::stress::{StressField, StressFields};
 use std::convert::Infallible;
 use std::sync::Arc;
 

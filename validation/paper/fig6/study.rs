@@ -3,10 +3,10 @@
 use super::model::Model;
 use super::under::{EDGE, INSIDE, Part, Under};
 use super::{Claim, Test, pinned};
-use crate::body::MeanStress;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::validation::draw::{curve, figure};
-use crate::validation::{Data, Outcome, Study, StudyError};
+use crate::draw::{curve, figure};
+use crate::{Data, Outcome, Study, StudyError};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::body::MeanStress;
 use rayon::prelude::*;
 
 pub const STUDY: Study = Study {

@@ -2,10 +2,10 @@
 
 use super::under::{EDGE, INSIDE, SURFACE, Under};
 use super::{Claim, Test, pinned};
-use crate::body::MeanStress;
-use crate::picture::{Axis, Chart, Curve, Figure, Style};
-use crate::validation::draw::{curve, figure};
-use crate::validation::{Data, Outcome, Study, StudyError};
+use crate::draw::{curve, figure};
+use crate::{Data, Outcome, Study, StudyError};
+use percoat_app::picture::{Axis, Chart, Curve, Figure, Style};
+use percoat_core::body::MeanStress;
 
 pub const STUDY: Study = Study {
     name: "paper/fig7",

@@ -4,11 +4,11 @@ use super::against::CHANGE;
 use super::fig3::{LOAD, POINTS};
 use super::model::Model;
 use super::{Claim, Test, pinned};
-use crate::comparison::Answer;
-use crate::picture::{Axis, Chart, Figure, Style};
-use crate::reading::Reading;
-use crate::validation::draw::{curve, figure};
-use crate::validation::{Check, Data, Outcome, Study, StudyError};
+use crate::draw::{curve, figure};
+use crate::{Check, Data, Outcome, Study, StudyError};
+use percoat_app::picture::{Axis, Chart, Figure, Style};
+use percoat_core::comparison::Answer;
+use percoat_core::reading::Reading;
 
 pub const STUDY: Study = Study {
     name: "paper/table1",
@@ -77,7 +77,7 @@ fn run() -> Result<Outcome, StudyError> {
         super::against::first_touches(&mut own, &peaks.model, TOUCHES[k])?;
         super::against::isolated_law(&mut own, &peaks.apart, APART[k], APART_PENETRATIONS[k]);
         let isolated = peaks.same_forces.into_iter().zip(ISOLATED[k]);
-        let tolerance = crate::validation::Tolerance::Relative(2e-4);
+        let tolerance = crate::Tolerance::Relative(2e-4);
         own.checks.push(Check::worst("isolated peaks, independent integral equation", isolated, tolerance));
         let named = |check: Check| Check { quantity: format!("{nu}: {}", check.quantity), ..check };
         outcome.checks.extend(own.checks.into_iter().map(named));

@@ -1,0 +1,340 @@
+//! File operations in output folders. Files that are not percoat's are neither read, written nor removed.
+//!
+//! Only regular files are opened: links are not followed, and a pipe, a socket or a device is refused before it can block
+//! ([`open`]). A new file must not exist before ([`create`]); a finished file replaces a file or nothing, never a link or a
+//! folder ([`replace`]). Only files and empty folders are removed, by their names. The parents of an output folder may be links.
+//!
+//! # Power cuts
+//!
+//! A log line or list that names a file as finished is written after that file is on the disk: its content by [`sync`], its
+//! name by [`sync_folder`]. A file system that does not support the latter is not an error.
+
+use percoat_common::plain;
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+#[cfg(test)]
+use super::journal::{Change, note};
+
+/// Metadata of a path, links not followed; `None` where nothing exists.
+pub fn found(path: &Path) -> io::Result<Option<Metadata>> {
+    match fs::symlink_metadata(path) {
+        Ok(found) => Ok(Some(found)),
+        Err(error) if [io::ErrorKind::NotFound, io::ErrorKind::NotADirectory].contains(&error.kind()) => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+/// Whether a path is a regular file, not a link to one.
+pub fn is_file(path: &Path) -> bool {
+    found(path).is_ok_and(|found| found.is_some_and(|own| own.is_file()))
+}
+
+/// Whether a path is a folder, not a link to one.
+pub(crate) fn is_folder(path: &Path) -> bool {
+    found(path).is_ok_and(|found| found.is_some_and(|own| own.is_dir()))
+}
+
+/// The kind of a path, in words.
+pub fn kind(own: &Metadata) -> &'static str {
+    match own.file_type() {
+        kind if kind.is_symlink() => "a link",
+        kind if kind.is_dir() => "a folder",
+        kind if kind.is_file() => "a file",
+        _ => "a pipe, a socket or a device",
+    }
+}
+
+/// Opens a regular file to read it.
+///
+/// # Errors
+/// Those of the system, and a path that is not a regular file.
+pub(crate) fn open(path: &Path) -> io::Result<File> {
+    open_as(path, OpenOptions::new().read(true))
+}
+
+/// The bytes of a file.
+///
+/// # Errors
+/// Those of [`open`].
+pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open(path)?.read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// Those of [`open`], and bytes that are not UTF-8.
+pub fn read_text(path: &Path) -> io::Result<String> {
+    let mut text = String::new();
+    open(path)?.read_to_string(&mut text)?;
+    Ok(text)
+}
+
+/// Creates a file that must not exist, to write and read it.
+///
+/// # Errors
+/// Those of the system; [`io::ErrorKind::AlreadyExists`] where anything has the name, even a link without a target.
+pub(crate) fn create(path: &Path) -> io::Result<File> {
+    let file = OpenOptions::new().read(true).write(true).create_new(true).open(path)?;
+    #[cfg(test)]
+    note(Change::Created(path));
+    Ok(file)
+}
+
+/// Opens an existing file for writing; its content stays.
+///
+/// # Errors
+/// Those of [`open`].
+pub(crate) fn open_to_change(path: &Path) -> io::Result<File> {
+    open_as(path, OpenOptions::new().read(true).write(true))
+}
+
+/// A file to which bytes are appended.
+#[derive(Debug)]
+pub(crate) struct Appended {
+    file: File,
+    #[cfg_attr(not(test), allow(dead_code, reason = "the journal of the tests reads it"))]
+    path: PathBuf,
+}
+
+impl Appended {
+    /// Opens a file that percoat has just written.
+    ///
+    /// # Errors
+    /// Those of [`open`].
+    pub(crate) fn open(path: &Path) -> io::Result<Self> {
+        Ok(Self { file: open_as(path, OpenOptions::new().append(true))?, path: path.to_owned() })
+    }
+
+    /// Appends bytes and syncs them to the disk.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub(crate) fn add(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.file.write_all(bytes)?;
+        #[cfg(test)]
+        note(Change::Appended(&self.path, bytes));
+        sync(&self.file, &self.path)
+    }
+}
+
+/// Syncs the content of a file at `path` to the disk.
+///
+/// # Errors
+/// Those of the system.
+#[cfg_attr(not(test), allow(unused_variables, reason = "the journal of the tests reads the path"))]
+pub(crate) fn sync(file: &File, path: &Path) -> io::Result<()> {
+    #[cfg(test)]
+    note(Change::Synced(path));
+    // Unit tests simulate power cuts by the journal.
+    if cfg!(test) { Ok(()) } else { unless_refused(file.sync_data()) }
+}
+
+/// Syncs the names in a folder to the disk: files created, moved and removed there.
+///
+/// # Errors
+/// Those of the system.
+pub fn sync_folder(folder: &Path) -> io::Result<()> {
+    #[cfg(test)]
+    note(Change::SyncedFolder(folder));
+    // Elsewhere a folder cannot be opened.
+    if cfg!(test) || cfg!(not(unix)) {
+        return Ok(());
+    }
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    match File::open(folder) {
+        Ok(folder) => unless_refused(folder.sync_all()),
+        // A folder that may be written and not listed cannot be opened.
+        Err(error) if error.kind() == io::ErrorKind::PermissionDenied => Ok(()),
+        Err(error) => Err(error),
+    }
+}
+
+/// Success where the file system does not support syncing.
+fn unless_refused(synced: io::Result<()>) -> io::Result<()> {
+    match synced {
+        Err(error) if [io::ErrorKind::Unsupported, io::ErrorKind::InvalidInput].contains(&error.kind()) => Ok(()),
+        synced => synced,
+    }
+}
+
+/// Moves a file to a path where a file stands or nothing.
+///
+/// # Errors
+/// Those of the system, and anything but a regular file at `to`.
+pub(crate) fn replace(from: &Path, to: &Path) -> io::Result<()> {
+    if let Some(own) = found(to)?.filter(|own| !own.is_file()) {
+        return Err(not_a_file(&own));
+    }
+    fs::rename(from, to)?;
+    #[cfg(test)]
+    note(Change::Moved(from, to));
+    Ok(())
+}
+
+/// Moves a file or a folder to a free path.
+///
+/// # Errors
+/// Those of the system, and anything at `to`.
+pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
+    if found(to)?.is_some() {
+        return Err(io::ErrorKind::AlreadyExists.into());
+    }
+    fs::rename(from, to)?;
+    #[cfg(test)]
+    note(Change::Moved(from, to));
+    Ok(())
+}
+
+/// Gives a file a second name (hard link).
+///
+/// # Errors
+/// Those of the system, also without support of hard links; [`io::ErrorKind::AlreadyExists`] where anything has that name.
+pub(crate) fn link(file: &Path, second: &Path) -> io::Result<()> {
+    #[cfg(test)]
+    if super::journal::refuses_links(second) {
+        return Err(io::ErrorKind::Unsupported.into());
+    }
+    fs::hard_link(file, second)?;
+    #[cfg(test)]
+    note(Change::Linked(file, second));
+    Ok(())
+}
+
+/// Removes the name of a file.
+///
+/// # Errors
+/// Those of the system, and a path that is not a regular file.
+pub(crate) fn remove(path: &Path) -> io::Result<()> {
+    if let Some(own) = found(path)?.filter(|own| !own.is_file()) {
+        return Err(not_a_file(&own));
+    }
+    fs::remove_file(path)?;
+    #[cfg(test)]
+    note(Change::Removed(path));
+    Ok(())
+}
+
+/// Removes an empty folder.
+///
+/// # Errors
+/// Those of the system; [`io::ErrorKind::DirectoryNotEmpty`] for a folder that is not empty.
+pub(crate) fn remove_folder(path: &Path) -> io::Result<()> {
+    fs::remove_dir(path)?;
+    #[cfg(test)]
+    note(Change::Removed(path));
+    Ok(())
+}
+
+/// Creates a folder that must not exist.
+///
+/// # Errors
+/// Those of the system; [`io::ErrorKind::AlreadyExists`] where anything has the name.
+pub(crate) fn create_folder(path: &Path) -> io::Result<()> {
+    fs::create_dir(path)?;
+    #[cfg(test)]
+    note(Change::CreatedFolder(path));
+    Ok(())
+}
+
+/// Creates a folder and its parents. Returns the folders in which one was created, innermost first.
+///
+/// # Errors
+/// Those of the system.
+pub(crate) fn make_folder(path: &Path) -> io::Result<Vec<PathBuf>> {
+    let missing: Vec<&Path> = path.ancestors().take_while(|own| !own.as_os_str().is_empty() && !own.is_dir()).collect();
+    for folder in missing.iter().rev() {
+        match create_folder(folder) {
+            // Another thread or process has made it.
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && folder.is_dir() => {}
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                let what = format!("{} is no folder", plain::path(folder));
+                return Err(io::Error::new(io::ErrorKind::NotADirectory, what));
+            }
+            made => made?,
+        }
+    }
+    Ok(missing.iter().filter_map(|folder| folder.parent()).map(Path::to_path_buf).collect())
+}
+
+fn open_as(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
+    // Opening a device or a pipe can have side effects.
+    if let Some(own) = found(path)?.filter(|own| !own.is_file()) {
+        return Err(not_a_file(&own));
+    }
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(options, libc::O_NOFOLLOW | libc::O_NONBLOCK);
+    let file = options.open(path)?;
+    let own = file.metadata()?;
+    if own.is_file() { Ok(file) } else { Err(not_a_file(&own)) }
+}
+
+fn not_a_file(own: &Metadata) -> io::Error {
+    let what = format!("it is {}, and percoat takes only a file itself there: move it away", kind(own));
+    io::Error::new(io::ErrorKind::InvalidInput, what)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[cfg(unix)]
+    use std::os::unix::{fs::symlink, net::UnixListener};
+
+    /// A link to a file, one to nothing, a folder, a socket, and a device behind a link.
+    #[cfg(unix)]
+    fn no_files(folder: &Path) -> Vec<PathBuf> {
+        let path = |name: &str| folder.join(name);
+        fs::write(path("mine.txt"), "mine").unwrap();
+        symlink(path("mine.txt"), path("link")).unwrap();
+        symlink(path("nothing"), path("dangling")).unwrap();
+        fs::create_dir(path("folder")).unwrap();
+        drop(UnixListener::bind(path("socket")).unwrap());
+        symlink("/dev/zero", path("device")).unwrap();
+        ["link", "dangling", "folder", "socket", "device"].map(path).to_vec()
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn only_a_file_itself_is_opened_replaced_and_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let own = folder.path().join("own");
+        for path in no_files(folder.path()) {
+            fs::write(&own, "own").unwrap();
+            let refused = [
+                open(&path).map(drop),
+                read(&path).map(drop),
+                read_text(&path).map(drop),
+                open_to_change(&path).map(drop),
+                Appended::open(&path).map(drop),
+                create(&path).map(drop),
+                replace(&own, &path),
+                move_to(&own, &path),
+                link(&own, &path),
+                remove(&path),
+            ];
+            assert!(refused.iter().all(Result::is_err), "{}: {refused:?}", path.display());
+            assert!(found(&path).unwrap().is_some_and(|own| !own.is_file()) && own.is_file());
+            let error = open(&path).unwrap_err();
+            assert!(error.kind() == io::ErrorKind::InvalidInput && error.to_string().contains("it is a "), "{error}");
+        }
+        assert_eq!(read_text(&folder.path().join("mine.txt")).unwrap(), "mine");
+        assert_eq!(read(&folder.path().join("none")).unwrap_err().kind(), io::ErrorKind::NotFound);
+    }
+
+    #[test]
+    fn a_folder_is_removed_only_when_it_is_empty_and_made_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let deep = folder.path().join("a/b");
+        assert_eq!(make_folder(&deep).unwrap(), [folder.path().join("a"), folder.path().to_owned()]);
+        assert!(make_folder(&deep).unwrap().is_empty() && create_folder(&deep).is_err());
+        assert_eq!(remove_folder(&folder.path().join("a")).unwrap_err().kind(), io::ErrorKind::DirectoryNotEmpty);
+        remove_folder(&deep).unwrap();
+        fs::write(folder.path().join("mine"), "mine").unwrap();
+        let refused = make_folder(&folder.path().join("mine/below")).unwrap_err().to_string();
+        assert!(refused.ends_with("mine is no folder"), "{refused}");
+    }
+}

@@ -1,0 +1,227 @@
+//! `identification.json` and `identification.csv`: parameters found from a measured indentation curve, and the fit.
+
+use super::json::indented;
+use super::number::{number, with_error};
+use super::summary::UnitNames;
+use super::table::Table;
+use percoat_case::case::Case;
+use percoat_case::units::Units;
+use percoat_core::identification::{Doubt, Estimate, Identification, LEVEL, Measurement, Missing, Sensitivity, Trial};
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// The content of `identification.json`.
+#[derive(Debug, Clone, Serialize)]
+pub struct IdentificationFile {
+    percoat: &'static str,
+    title: String,
+    /// The whole case with the values found.
+    case: Value,
+    units: UnitNames,
+    parameters: Vec<FoundParameter>,
+    correlation: Vec<Vec<f64>>,
+    points: usize,
+    degrees_of_freedom: usize,
+    rms_residual: f64,
+    reduced_chi_square: Option<f64>,
+    model_error: Option<f64>,
+    contact_radii: [f64; 2],
+    sensitivities: Vec<KnownNumber>,
+    warnings: Vec<String>,
+    steps: usize,
+}
+
+/// A number that was taken as known, and the derivatives of the parameters by it.
+#[derive(Debug, Clone, Serialize)]
+struct KnownNumber {
+    name: String,
+    value: f64,
+    derivatives: Vec<f64>,
+}
+
+/// A parameter in the file.
+#[derive(Debug, Clone, Serialize)]
+struct FoundParameter {
+    name: String,
+    start: f64,
+    value: f64,
+    standard_error: f64,
+    interval_95: [f64; 2],
+}
+
+impl IdentificationFile {
+    /// The record of what was found; `case` has the values found.
+    pub fn new(found: &Identification, case: &Case, warnings: &[String]) -> Self {
+        let parameter = |own: &Estimate| FoundParameter {
+            name: own.parameter.name.clone(),
+            start: own.parameter.start,
+            value: own.value,
+            standard_error: own.error,
+            interval_95: own.interval,
+        };
+        let known = |own: &Sensitivity| KnownNumber {
+            name: own.fixed.name.clone(),
+            value: own.fixed.start,
+            derivatives: own.derivatives.clone(),
+        };
+        Self {
+            percoat: env!("CARGO_PKG_VERSION"),
+            title: case.title.clone(),
+            case: json!(case),
+            units: UnitNames::of(case),
+            parameters: found.estimates.iter().map(parameter).collect(),
+            correlation: found.correlation.clone(),
+            points: found.fitted.len(),
+            degrees_of_freedom: found.freedom,
+            rms_residual: found.rms,
+            reduced_chi_square: found.reduced_chi_square,
+            model_error: found.model_error,
+            contact_radii: found.radii,
+            sensitivities: found.sensitivities.iter().map(known).collect(),
+            warnings: warnings.to_vec(),
+            steps: found.steps,
+        }
+    }
+
+    /// The content of the file.
+    pub fn to_json(&self) -> String {
+        indented(self)
+    }
+}
+
+/// The content of `identification.csv`: a line for each measured point, the fit and its standard error by that of the parameters.
+pub fn fitted(measured: &Measurement, found: &Identification) -> String {
+    let mut text = "force,penetration,fitted,fitted_error\n".to_owned();
+    let points = measured.forces().iter().zip(measured.penetrations()).zip(&found.fitted).zip(&found.band);
+    for (((force, penetration), fitted), band) in points {
+        writeln!(text, "{force},{penetration},{fitted},{band}").expect("a String takes any text");
+    }
+    text
+}
+
+/// A trial of the search in words, in lengths of the case.
+pub fn trial(case: &Case, trial: Trial) -> String {
+    let residual = trial.rms.map(|rms| case.units().length().with_unit(rms, number));
+    format!("trial {}, residual {}", trial.number, residual.unwrap_or("unknown: no contact is solved there".to_owned()))
+}
+
+/// The text of `percoat identify`.
+pub fn identified(found: &Identification, case: &Case, width: usize) -> String {
+    let units = case.units();
+    let head = ["parameter", "start", "value", "95 % interval", "relative"];
+    let row = |own: &Estimate| {
+        let [low, high] = own.interval.map(number);
+        let relative = 100.0 * own.error / own.value.abs();
+        vec![
+            own.parameter.name.clone(),
+            number(own.parameter.start),
+            with_error(own.value, Some(own.error)),
+            format!("{low} to {high}"),
+            if relative.is_finite() { format!("± {relative:.2} %") } else { String::new() },
+        ]
+    };
+    let mut text = format!("{}\n\n", Table::new(&head, found.estimates.iter().map(row).collect(), 1).fitted(width));
+    let pairs = (0..found.estimates.len()).flat_map(|k| (0..k).map(move |other| (other, k)));
+    for (k, other) in pairs {
+        let names = [k, other].map(|k| found.estimates[k].parameter.name.as_str());
+        text += &format!("correlation of {} and {}: {:+.3}\n", names[0], names[1], found.correlation[k][other]);
+    }
+    if let Some(table) = sensitivities(found) {
+        text += &format!("\n{}\n\n", table.fitted(width));
+    }
+    let length = units.length();
+    let [least, most] = found.radii.map(|radius| length.with_unit(radius, number));
+    text += &format!(
+        "{} points, residual {} (root mean square); contact radii {least} to {most}\n",
+        found.fitted.len(),
+        length.with_unit(found.rms, number)
+    );
+    if let Some(chi) = found.reduced_chi_square {
+        text += &format!("reduced chi-square {chi:.2}, about 1 where model and deviations hold\n");
+    }
+    if let Some(error) = found.model_error {
+        text += &format!("error of the computed penetrations by the grid: {:.1e} at most\n", error);
+    }
+    text
+}
+
+/// The derivatives of the parameters by what was taken as known, in the units of the case; `None` without any.
+fn sensitivities(found: &Identification) -> Option<Table> {
+    let parameters = found.estimates.iter().map(|own| format!("d {}", own.parameter.name));
+    let head: Vec<String> =
+        ["by what was taken as known", "value"].map(str::to_owned).into_iter().chain(parameters).collect();
+    let row = |own: &Sensitivity| {
+        let numbers = std::iter::once(own.fixed.start).chain(own.derivatives.iter().copied()).map(number);
+        std::iter::once(own.fixed.name.clone()).chain(numbers).collect()
+    };
+    let rows: Vec<Vec<String>> = found.sensitivities.iter().map(row).collect();
+    (!rows.is_empty()).then(|| Table::new(&head, rows, 1))
+}
+
+/// Why values and standard errors of a fit may not hold, a sentence each; `case` has the values found.
+pub fn doubts(measured: &Measurement, found: &Identification, case: &Case) -> Vec<String> {
+    let units = case.units();
+    let told = found.doubts.iter().map(|own| doubt(own, found, &units));
+    told.chain(beyond_hardness(measured, found, case)).collect()
+}
+
+fn doubt(doubt: &Doubt, found: &Identification, units: &Units) -> String {
+    let length = |x: f64| units.length().with_unit(x, number);
+    match doubt {
+        Doubt::Systematic(pattern) => format!(
+            "the residuals are no scatter: over the force they have {} runs of one sign where scatter has {:.1} (chance makes such a pattern in \
+             fewer than 1 of {:.0} curves); the model does not hold, nor do the standard errors: leave out the larger forces where something \
+             yields, free `offset` or `frame_compliance`, or look for drift and a wrong fixed number",
+            pattern.runs,
+            pattern.expected,
+            0.5 / LEVEL
+        ),
+        Doubt::Offset(own) => {
+            let size = format!("{} ± {}", length(own.value), length(own.error));
+            format!("the zero of the penetration seems to be missed by {size}: {}", with_it(own, found, "offset"))
+        }
+        Doubt::FrameCompliance(own) => {
+            let unit = match (units.force().name(), units.length().name()) {
+                (Some(force), Some(length)) => format!("\u{a0}{length}/{force}"),
+                _ => String::new(),
+            };
+            let size = format!("{}{unit}", with_error(own.value, Some(own.error)));
+            format!("the frame seems to have a compliance of {size}: {}", with_it(own, found, "frame_compliance"))
+        }
+        Doubt::NoDerivative(own) => format!(
+            "what was found has no derivative by {}, which the model does not allow to be varied: {}; how far an error of it is carried is unknown",
+            own.names.join(", "),
+            own.reason
+        ),
+    }
+}
+
+/// Sentence on what a number of the instrument would change, and how it is freed.
+fn with_it(own: &Missing, found: &Identification, name: &str) -> String {
+    let names = found.estimates.iter().map(|own| own.parameter.name.as_str());
+    let changed: Vec<String> =
+        names.zip(&own.estimates).map(|(name, value)| format!("{name} about {}", number(*value))).collect();
+    format!(
+        "with it {}; free `{name}`, or state it as known (`--known {name}=…`, in Python `known`), if it is not the model that fails",
+        changed.join(" and ")
+    )
+}
+
+/// Warning that the elastic fit exceeds the hardness of a surface, and from which force on; `None` without a hardness, and below it.
+fn beyond_hardness(measured: &Measurement, found: &Identification, case: &Case) -> Option<String> {
+    let (hardness, side) = case.problem().bodies().hardness()?;
+    let points = measured.forces().iter().zip(&found.peaks);
+    let beyond: Vec<f64> = points.filter(|(_, peak)| **peak > hardness).map(|(force, _)| *force).collect();
+    let least = beyond.iter().copied().reduce(f64::min)?;
+    let most = found.peaks.iter().copied().fold(0.0, f64::max);
+    let units = case.units();
+    let [hardness, most] = [hardness, most].map(|pressure| units.pressure().with_unit(pressure, number));
+    Some(format!(
+        "the pressure of the elastic fit exceeds the hardness {hardness} of the {side} in {} of {} points, from the force {} on, up to {most}: it \
+         yields there, and the fit takes it for elastic; leave these points out",
+        beyond.len(),
+        measured.forces().len(),
+        units.force().with_unit(least, number)
+    ))
+}

@@ -1,0 +1,245 @@
+//! Tests of power cuts: every state of the disk that a journal allows is laid out, and the next run resumes from it.
+
+use super::image::{Image, lay};
+use super::journal::Journal;
+use super::layout::names;
+use super::*;
+use percoat_case::case::{Case, Source};
+use percoat_core::run::{EarlierRun, Recorder, StepRecord};
+use percoat_core::spectral::{Checkpoint, Solver, Step};
+use percoat_core::stress::StressFields;
+use std::collections::BTreeMap;
+use std::fs;
+use std::sync::{Arc, Mutex};
+
+const PLAN: [&str; 4] = ["case.toml", "curve.csv", "study/figure.png", "summary.json"];
+
+fn claim(folder: &Path, writer: Writer) -> RunFolder {
+    RunFolder::claim(folder, Plan { names: PLAN.map(str::to_owned).to_vec(), ..Plan::new(writer) }).unwrap()
+}
+
+fn publish(folder: &Path, writer: Writer, names: &[&str], content: &str) {
+    let run = claim(folder, writer);
+    for name in names {
+        let path = run.staging().join(name);
+        make_folder(path.parent().unwrap()).unwrap();
+        write_text(&path, &format!("{name}: {content}")).unwrap();
+    }
+    run.publish().unwrap();
+}
+
+/// The files of a result.
+fn result(folder: &Path) -> BTreeMap<String, String> {
+    let read = |name: &str| Some((name.to_owned(), fs::read_to_string(folder.join(name)).ok()?));
+    PLAN.iter().filter_map(|name| read(name)).collect()
+}
+
+/// States that a power cut may leave of a folder in which a result of `old` names is replaced by one of `new` names.
+fn replaced(writer: Writer, old: &[&str], new: &[&str], ignores_syncs: bool) -> Vec<Image> {
+    let place = tempfile::tempdir().unwrap();
+    let journal = Journal::begin(place.path());
+    publish(place.path(), writer, old, "old");
+    {
+        let mut journal = journal.lock().unwrap();
+        journal.settle();
+        journal.ignores_syncs = ignores_syncs;
+    }
+    publish(place.path(), writer, new, "new");
+    Journal::end(&journal);
+    std::mem::take(&mut journal.lock().unwrap().images)
+}
+
+fn laid(image: &Image) -> tempfile::TempDir {
+    let place = tempfile::tempdir().unwrap();
+    lay(image, place.path());
+    place
+}
+
+fn expected(names: &[&str], content: &str) -> BTreeMap<String, String> {
+    names.iter().map(|&name| (name.to_owned(), format!("{name}: {content}"))).collect()
+}
+
+#[test]
+fn a_power_cut_while_a_result_is_published_leaves_the_old_one_or_the_new_one_whole() {
+    let old = ["case.toml", "study/figure.png", "summary.json"];
+    let new = ["case.toml", "curve.csv", "summary.json"];
+    let wanted = [expected(&old, "old"), expected(&new, "new")];
+    for writer in Writer::ALL {
+        let images = replaced(writer, &old, &new, false);
+        assert!(images.len() > 50, "{} images", images.len());
+        let mut ends = [0; 2];
+        for image in &images {
+            let place = laid(image);
+            // The next run can claim the folder and finds one whole result.
+            let next = claim(place.path(), writer);
+            let found = result(place.path());
+            let end = wanted.iter().position(|own| *own == found);
+            ends[end.unwrap_or_else(|| panic!("{writer:?}: {found:?} of {image:#?}"))] += 1;
+            drop(next);
+            publish(place.path(), writer, &["summary.json"], "newest");
+            assert_eq!(result(place.path()), expected(&["summary.json"], "newest"));
+        }
+        assert!(ends.iter().all(|count| *count > 0), "{ends:?}");
+    }
+}
+
+#[test]
+fn were_nothing_brought_to_the_disk_results_would_be_lost() {
+    let (old, new) = (["case.toml", "summary.json"], ["curve.csv", "summary.json"]);
+    let wanted = [expected(&old, "old"), expected(&new, "new")];
+    let lost = replaced(Writer::Solve, &old, &new, true).iter().any(|image| {
+        let place = laid(image);
+        // A list that is empty decides nothing.
+        let completed = publication::complete(place.path(), Writer::Solve);
+        completed.is_err() || !wanted.contains(&result(place.path()))
+    });
+    assert!(lost, "without syncing something is lost");
+}
+
+/// Three loads with volumes of stresses; two loads on grids that are refined.
+const PLAIN: &str = r#"
+[lattice]
+kind = "square"
+period = 1.0
+[[levels]]
+shape = "sphere"
+radius = 0.8
+[substrate]
+young = 1.0
+poisson = 0.3
+[load]
+mean_pressure = [0.01, 0.03, 0.02]
+[grid]
+points = 16
+[stress]
+volume = { depth = 0.2, rows = 2, points = 2 }
+"#;
+const REFINED: &str = r#"
+[lattice]
+kind = "square"
+period = 1.0
+[[levels]]
+shape = "sphere"
+radius = 0.8
+[substrate]
+young = 1.0
+poisson = 0.3
+[load]
+mean_pressure = [0.01, 0.03]
+[grid]
+accuracy = 1e-9
+"#;
+/// The largest grid that there is room for.
+const ROOM: usize = 192;
+
+/// Records a run; after each step, how many images its journal has.
+struct Watched<'a> {
+    recording: Recording<'a>,
+    journal: Option<&'a Mutex<Journal>>,
+    steps: Vec<usize>,
+}
+
+impl Recorder for Watched<'_> {
+    type Error = OutputError;
+
+    fn finished(&mut self) -> Option<EarlierRun> {
+        self.recording.finished()
+    }
+
+    fn clock(&self) -> Option<f64> {
+        self.recording.clock()
+    }
+
+    fn fits(&self, points: [usize; 2]) -> bool {
+        points[0] <= ROOM
+    }
+
+    fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
+        self.recording.begin(solver)
+    }
+
+    fn solved(&mut self, checkpoint: &Checkpoint) -> Result<(), OutputError> {
+        self.recording.solved(checkpoint)
+    }
+
+    fn step(&mut self, step: &Step, record: &StepRecord, fields: Option<&StressFields>) -> Result<(), OutputError> {
+        self.recording.step(step, record, fields)?;
+        self.steps.extend(self.journal.map(|journal| journal.lock().unwrap().images.len()));
+        Ok(())
+    }
+
+    fn refined(&mut self, points: [usize; 2], change: f64) {
+        self.recording.refined(points, change);
+    }
+}
+
+/// Solves a case into a folder, resuming an interrupted run there. Returns the number of images of the journal after each step.
+fn solve(case: &Case, folder: &Path, journal: Option<&Mutex<Journal>>) -> Vec<usize> {
+    let run = case.run();
+    let plan = solved_plan(case, run.loads.len(), true);
+    let claim = RunFolder::claim(folder, Plan { resumes: true, ..plan }).unwrap();
+    let print = fingerprint(case, "test");
+    let staging = claim.staging();
+    let earlier = if claim.resumes() { finished(&staging, &print, &run).unwrap() } else { None };
+    let recording = Recording::new(&claim, &run, case.to_toml(), Clock::start()).resumable(print, earlier);
+    let mut watched = Watched { recording, journal, steps: Vec::new() };
+    let outcome = run.solve(&mut watched).unwrap();
+    let Watched { recording, steps, .. } = watched;
+    let (_, mut clock) = recording.finish().unwrap();
+    write_scalars(&claim.staging(), case, &outcome, &outcome.warnings, clock.timing()).unwrap();
+    claim.publish().unwrap();
+    steps
+}
+
+/// Files of fields, which no two runs may have different.
+fn fields(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let names = names(folder).unwrap().into_iter().filter(|name| name.ends_with(".npz") || name.ends_with(".vts"));
+    names.map(|name| (name.clone(), fs::read(folder.join(name)).unwrap())).collect()
+}
+
+/// States that a power cut may leave of a run, and the number of states when each step was finished.
+fn cut(case: &Case) -> (BTreeMap<String, Vec<u8>>, Vec<Image>, Vec<usize>) {
+    let place = tempfile::tempdir().unwrap();
+    let journal: Arc<Mutex<Journal>> = Journal::begin(place.path());
+    let steps = solve(case, place.path(), Some(&journal));
+    Journal::end(&journal);
+    let images = std::mem::take(&mut journal.lock().unwrap().images);
+    (fields(place.path()), images, steps)
+}
+
+fn case(text: &str) -> Case {
+    Case::read(&Source { name: "cut".to_owned(), text: text.to_owned(), ..Source::default() }, &[]).unwrap()
+}
+
+#[test]
+fn a_run_that_a_power_cut_ends_at_any_moment_goes_on_and_ends_as_if_it_had_not_been() {
+    let case = case(PLAIN);
+    let (whole, images, steps) = cut(&case);
+    assert!(whole.len() == 5 && images.len() > 150, "{:?}, {} images", whole.keys(), images.len());
+    // Two or three images of every moment.
+    for (index, image) in images.iter().enumerate().step_by(3) {
+        let place = laid(image);
+        let staging = place.path().join("unfinished");
+        // A step that was reported as finished is in the log.
+        let told = steps.iter().filter(|images| **images <= index).count();
+        let logged = whole_lines(&staging.join("steps.jsonl")).map_or(0, |lines| lines.len());
+        let is_decided = disk::is_file(&staging.join(".publish.json")) || !disk::is_folder(&staging) && told > 0;
+        assert!(logged >= told || is_decided, "{logged} of {told} steps in image {index}: {:#?}", image.keys());
+        solve(&case, place.path(), None);
+        assert!(fields(place.path()) == whole, "image {index}: {:#?}", image.keys());
+    }
+}
+
+/// From the last step on the first grid to the first one on the second, and some moments after that.
+#[test]
+fn so_does_a_refinement_when_its_finer_grid_begins() {
+    let case = case(REFINED);
+    let (whole, images, steps) = cut(&case);
+    assert_eq!(steps.len(), 4, "two loads on two grids");
+    let moments = (steps[1] - 1..=steps[2]).step_by(3).chain((steps[2]..images.len()).step_by(29));
+    for index in moments {
+        let (image, place) = (&images[index], laid(&images[index]));
+        solve(&case, place.path(), None);
+        assert!(fields(place.path()) == whole, "image {index}: {:#?}", image.keys());
+    }
+}

@@ -1,0 +1,222 @@
+//! `stress.npz`: stresses and displacements on planes, on a vertical section and at points, for every load step; and a
+//! VTK file of the volume for each.
+
+use super::clock::{Clock, Phase};
+use super::npz::Archive;
+use super::step_arrays::{GrowingEntry, StepArrays};
+use super::volume::added_volume;
+use super::{Files, OutputError};
+use ndarray::{ArrayView3, Axis};
+use percoat_core::body::{Bodies, Depth, HalfSpace, Side};
+use percoat_core::run::StressRequest;
+use percoat_core::stress::{StressField, StressFields, StressState, VerticalSection};
+use std::io::{self, Seek, Write};
+use std::path::{Path, PathBuf};
+
+/// Names of the stored components: σ_xx … σ_yz, displacements, and what is derived from the tensor.
+const COMPONENTS: [&str; 12] = ["xx", "yy", "zz", "xy", "xz", "yz", "ux", "uy", "uz", "tau1", "mises", "s1"];
+
+/// `stress.npz` under construction: the stresses of the load steps so far, on disk.
+#[derive(Debug)]
+pub(super) struct StressArchive {
+    folder: PathBuf,
+    arrays: StepArrays,
+    request: StressRequest,
+    bodies: Bodies,
+    /// The sections of the last step, that of the body first.
+    sections: Vec<VerticalSection>,
+}
+
+impl StressArchive {
+    /// An archive without steps in the staging folder `folder`; an error where it already has stresses.
+    pub(super) fn new(folder: &Path, request: StressRequest, bodies: Bodies) -> Result<Self, OutputError> {
+        let arrays = StepArrays::new(folder, "stress")?;
+        Ok(Self { folder: folder.to_owned(), arrays, request, bodies, sections: Vec::new() })
+    }
+
+    /// The archive of an interrupted run with its first `steps` steps, see [`StepArrays::go_on`].
+    pub(super) fn go_on(
+        folder: &Path,
+        request: StressRequest,
+        bodies: Bodies,
+        steps: usize,
+    ) -> Result<Self, OutputError> {
+        let arrays = StepArrays::go_on(folder, "stress", steps)?;
+        Ok(Self { folder: folder.to_owned(), arrays, request, bodies, sections: Vec::new() })
+    }
+
+    /// Writes the stresses of the next step, one plane at a time; the clock separates computing from writing, except for a
+    /// volume, which does both at once. Returns the files of the step.
+    pub(super) fn add(&mut self, fields: &StressFields, clock: &mut Clock) -> Result<Files, OutputError> {
+        let (step, mut volumes) = (self.arrays.next_step(), Files::default());
+        self.sections.clear();
+        for field in fields.each() {
+            self.add_places(field, clock)?;
+            if let Some(volume) = self.request.volume {
+                clock.turn(Phase::Stress);
+                let half_space = field.half_space();
+                let name = volume_name(half_space.side(), step);
+                let depths = half_space.rows(volume.depth, volume.rows);
+                let sum = added_volume(&self.folder.join(&name), field, &depths, [volume.points; 2])?;
+                volumes.add(name, sum);
+                clock.turn(Phase::Output);
+            }
+        }
+        volumes.append(self.arrays.left());
+        Ok(volumes)
+    }
+
+    /// Writes the stresses of the present step in one body on planes, on the section and at points.
+    fn add_places(&mut self, field: &StressField, clock: &mut Clock) -> Result<(), OutputError> {
+        let Self { arrays, request, sections, .. } = self;
+        let (half_space, prefix) = (field.half_space(), prefix(field.half_space()));
+        for (number, depth) in (1..).zip(request.plane_depths(half_space)) {
+            add_plane(arrays, number, field, depth, clock)?;
+        }
+        if let Some(cut) = &request.cut {
+            clock.turn(Phase::Stress);
+            let section = field.section(&cut.line, &cut.depths(half_space));
+            clock.turn(Phase::Output);
+            add_states(arrays, &format!("{prefix}section"), section.states.shape(), section.states.iter())?;
+            let near = section.depths.iter().flat_map(|&depth| field.near_edge(depth, &cut.line.places()));
+            add_flags(arrays, &format!("{prefix}section"), section.states.shape(), near)?;
+            sections.push(section);
+        }
+        let points = request.points_at(half_space);
+        if !points.is_empty() {
+            clock.turn(Phase::Stress);
+            let states: Vec<StressState> =
+                points.iter().map(|&(place, depth)| field.points(depth, &[place])[0]).collect();
+            clock.turn(Phase::Output);
+            add_states(arrays, &format!("{prefix}points"), &[states.len()], states.iter())?;
+            let near = points.chunk_by(|one, other| one.1 == other.1).flat_map(|level| {
+                let places: Vec<[f64; 2]> = level.iter().map(|&(place, _)| place).collect();
+                field.near_edge(level[0].1, &places)
+            });
+            add_flags(arrays, &format!("{prefix}points"), &[states.len()], near)?;
+        }
+        Ok(())
+    }
+
+    /// Syncs the names of the step's files to the disk, except those of volumes, which are synced with the log.
+    pub(super) fn sync(&self) -> Result<(), OutputError> {
+        self.arrays.sync()
+    }
+
+    /// Gathers all steps in `stress.npz`; on failure their files stay. Returns the sections of the last step.
+    pub(super) fn finish(self) -> Result<Vec<VerticalSection>, OutputError> {
+        let Self { arrays, request, bodies, sections, .. } = self;
+        arrays.finish(|archive| bodies.each().try_for_each(|half_space| add_axes(archive, &request, half_space)))?;
+        Ok(sections)
+    }
+}
+
+/// Before the names of arrays of a body: those of the counterbody begin with "counterbody_".
+fn prefix(half_space: &HalfSpace) -> &'static str {
+    if half_space.side() == Some(Side::Counterbody) { "counterbody_" } else { "" }
+}
+
+/// Name of the file of the volume of a body in a step.
+pub(super) fn volume_name(side: Option<Side>, step: usize) -> String {
+    let of = if side == Some(Side::Counterbody) { "counterbody." } else { "" };
+    format!("stress.{of}{step:04}.vts")
+}
+
+/// Adds the places of a body at which its stresses are, and its residual stresses.
+fn add_axes<W: Write + Seek>(
+    archive: &mut Archive<W>,
+    request: &StressRequest,
+    half_space: &HalfSpace,
+) -> io::Result<()> {
+    let prefix = prefix(half_space);
+    let name = |own: &str| format!("{prefix}{own}");
+    let materials = |depths: &[Depth]| depths.iter().map(|depth| depth.material as i32).collect::<Vec<_>>();
+    let zs = |depths: &[Depth]| depths.iter().map(|depth| depth.z).collect::<Vec<_>>();
+    let planes = request.plane_depths(half_space);
+    archive.array(&name("planes_z"), &[planes.len()], zs(&planes))?;
+    archive.array(&name("planes_side"), &[planes.len()], materials(&planes))?;
+    let residual: Vec<f64> = half_space.residual_stresses().collect();
+    archive.array(&name("residual"), &[residual.len()], residual)?;
+    if let Some(cut) = &request.cut {
+        let (line, places, depths) = (cut.line, cut.line.places(), cut.depths(half_space));
+        archive.array(&name("section_s"), &[line.points], line.distances())?;
+        archive.array(&name("section_x"), &[line.points], places.iter().map(|place| place[0]))?;
+        archive.array(&name("section_y"), &[line.points], places.iter().map(|place| place[1]))?;
+        archive.array(&name("section_z"), &[depths.len()], zs(&depths))?;
+        archive.array(&name("section_side"), &[depths.len()], materials(&depths))?;
+    }
+    let points = request.points_at(half_space);
+    if !points.is_empty() {
+        let xyz = points.iter().flat_map(|([x, y], depth)| [*x, *y, depth.z]);
+        archive.array(&name("points_xyz"), &[points.len(), 3], xyz)?;
+        let sides = points.iter().map(|(_, depth)| depth.material as i32);
+        archive.array(&name("points_side"), &[points.len()], sides)?;
+    }
+    Ok(())
+}
+
+/// Adds the components of a plane to the arrays `planes_<component>`, some rows at a time: first stresses and derived
+/// quantities, then displacements.
+fn add_plane(
+    arrays: &mut StepArrays,
+    number: usize,
+    field: &StressField,
+    depth: Depth,
+    clock: &mut Clock,
+) -> Result<(), OutputError> {
+    let (points, prefix) = (field.grid().points(), prefix(field.half_space()));
+    let [stresses, displacements, derived] = [&COMPONENTS[..6], &COMPONENTS[6..9], &COMPONENTS[9..]];
+    let begin = |arrays: &mut StepArrays, components: &[&str]| -> Result<Vec<GrowingEntry>, OutputError> {
+        components.iter().map(|name| arrays.begin(&format!("{prefix}planes_{name}"), number, &points)).collect()
+    };
+    let mut entries = begin(arrays, &[stresses, derived].concat())?;
+    clock.turn(Phase::Stress);
+    field.stresses_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
+    clock.turn(Phase::Output);
+    entries.into_iter().try_for_each(|entry| arrays.end(entry))?;
+    let mut entries = begin(arrays, displacements)?;
+    clock.turn(Phase::Stress);
+    field.displacements_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
+    clock.turn(Phase::Output);
+    entries.into_iter().try_for_each(|entry| arrays.end(entry))
+}
+
+/// Adds rows to the entries of their components, in the phase [output](Phase::Output).
+fn add_rows(entries: &mut [GrowingEntry], rows: ArrayView3<'_, f64>, clock: &mut Clock) -> Result<(), OutputError> {
+    assert_eq!(entries.len(), rows.len_of(Axis(0)), "an entry for each component");
+    clock.turn(Phase::Output);
+    for (entry, rows) in entries.iter_mut().zip(rows.outer_iter()) {
+        entry.add(rows.as_slice().expect("rows follow one another"))?;
+    }
+    clock.turn(Phase::Stress);
+    Ok(())
+}
+
+/// Adds the components of states of this shape to the arrays `<place>_<component>`.
+fn add_states<'a>(
+    arrays: &mut StepArrays,
+    place: &str,
+    shape: &[usize],
+    states: impl Iterator<Item = &'a StressState> + Clone,
+) -> Result<(), OutputError> {
+    (0..).zip(COMPONENTS).try_for_each(|(c, name)| {
+        let values = states.clone().map(|state| component(state, c));
+        arrays.add(&format!("{place}_{name}"), shape, values)
+    })
+}
+
+/// Adds 1 where no error is known of the stresses, beside an edge of contact, and 0 elsewhere.
+fn add_flags(
+    arrays: &mut StepArrays,
+    place: &str,
+    shape: &[usize],
+    near_edge: impl Iterator<Item = bool>,
+) -> Result<(), OutputError> {
+    let values: Vec<f64> = near_edge.map(|near| f64::from(u8::from(near))).collect();
+    arrays.add(&format!("{place}_near_edge"), shape, values)
+}
+
+/// Component `c` in the order of [`COMPONENTS`].
+fn component(state: &StressState, c: usize) -> f64 {
+    if c < 9 { state.components()[c] } else { state.derived()[c - 9] }
+}

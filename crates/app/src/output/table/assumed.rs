@@ -1,0 +1,151 @@
+//! Assumptions of largest stresses and limit loads, in sentences below their tables.
+
+use super::text::lines;
+use percoat_case::case::suggestions::joined;
+use percoat_case::case::{Case, LibraryStrength};
+use percoat_core::body::{Bodies, HalfSpace, MeanStress};
+use serde_json::{Value, json};
+
+/// The mean lateral stress in the largest stresses and limit loads, in a sentence; with the axis of lines, where it is known.
+fn mean_stress(mean: MeanStress, line: Option<usize>) -> String {
+    match mean {
+        MeanStress::HalfSpace => {
+            "stresses with stress.mean = \"half-space\": lateral stress under p̄ as in the centre of a wide loaded disc"
+                .to_owned()
+        }
+        MeanStress::Line => format!(
+            "stresses with stress.mean = \"line\": lateral stress under p̄ as under lines far apart{}, in plane strain",
+            line.map_or("", |axis| [" along a₁", " along a₂"][axis])
+        ),
+        _ => {
+            "stresses with stress.mean = \"confined\": lateral stress under p̄ as without mean lateral strain".to_owned()
+        }
+    }
+}
+
+/// What a counterbody without moduli means for utilisations and limit loads.
+const RIGID: &str = "the indenters are rigid: elastic ones press less sharply, fail in their own ways, and lead to other \
+                     limits; a section [counterbody] with `young` and `poisson`, or `material`, makes them elastic";
+
+/// What largest stresses and limit loads of a case assume.
+#[derive(Debug, Clone)]
+pub struct Assumptions {
+    /// The mean lateral stress; of no effect on an isolated contact.
+    pub mean: MeanStress,
+    /// The axis of the cell along which the surface is constant, where it is known to be.
+    pub line: Option<usize>,
+    /// Whether contact is isolated.
+    pub isolated: bool,
+    /// Whether indenters or a topography are rigid; a given pressure has none.
+    pub rigid: bool,
+    /// Names of the materials without a strength.
+    pub untested: Vec<String>,
+    /// The strengths that are numbers of the library, in sentences.
+    pub library: Vec<String>,
+}
+
+impl Assumptions {
+    /// Those of a case.
+    pub fn of(case: &Case) -> Self {
+        let problem = case.problem();
+        Self {
+            mean: case.mean_stress(),
+            line: problem.counterbody().line(),
+            isolated: problem.cell().is_isolated(),
+            rigid: problem.bodies().counterbody().is_none() && problem.counterbody().pressure().is_none(),
+            untested: untested(problem.bodies()),
+            library: library_strengths(&json!(case)),
+        }
+    }
+
+    /// A sentence for each that matters; `with_strength`: beside strengths.
+    pub fn sentences(&self, with_strength: bool) -> Vec<String> {
+        let mean = (!self.isolated).then(|| mean_stress(self.mean, self.line));
+        let rigid = (with_strength && self.rigid).then(|| RIGID.to_owned());
+        let without_strength = self.without_strength().filter(|_| with_strength);
+        let library = self.library.iter().filter(|_| with_strength).cloned();
+        [mean, without_strength, rigid].into_iter().flatten().chain(library).collect()
+    }
+
+    /// The materials without a strength, in a sentence; `None` where all have one.
+    pub fn without_strength(&self) -> Option<String> {
+        (!self.untested.is_empty()).then(|| {
+            format!("no strength is given of {}: nothing is said of what fails there", joined(&self.untested, "and"))
+        })
+    }
+
+    /// The sentences in lines of at most `width` letters.
+    pub(super) fn lines(&self, with_strength: bool, width: usize) -> String {
+        self.sentences(with_strength).iter().map(|own| lines(own, width)).collect()
+    }
+}
+
+/// The strengths of a serialised case that are numbers of the library with their kind of test and their range, in sentences; empty
+/// without any.
+pub fn library_strengths(case: &Value) -> Vec<String> {
+    let all = LibraryStrength::of_case(case);
+    let unit = case["units"]["pressure"].as_str().unwrap_or_default();
+    let of = |own: &LibraryStrength| {
+        let known = [own.what.map(str::to_owned), own.range.map(|[low, high]| format!("{low} to {high} {unit}"))];
+        let known = known.into_iter().flatten().collect::<Vec<_>>().join(", ");
+        let known = if known.is_empty() { known } else { format!(" ({known})") };
+        format!("{} of {} {} {unit}{known}", own.key.replace('_', " "), own.material, own.value)
+    };
+    if all.is_empty() {
+        return Vec::new();
+    }
+    let told = all.iter().map(of).collect::<Vec<_>>().join("; ");
+    let told =
+        format!("strengths of the library, not of your part: {told}; percoat materials NAME states their sources");
+    let brittle = all.iter().any(|own| own.key == "tensile_strength");
+    [Some(told), brittle.then(|| BARS.to_owned())].into_iter().flatten().collect()
+}
+
+/// Sentence on what a tensile strength from a bar says of a contact.
+const BARS: &str = "a tensile strength of the library is that of bars, which break at their largest flaw; the small volume under a contact \
+                    bears more: loads of cracking by it err to the safe side";
+
+/// Names of the materials without a strength, each once.
+fn untested(bodies: &Bodies) -> Vec<String> {
+    let of = |body: &HalfSpace| -> Vec<String> {
+        let strengths = (1..).zip(body.strengths());
+        let without = strengths.filter(|(_, own)| own.yielding.is_none() && own.tensile.is_none());
+        without.map(|(number, _)| body.material_id(number).to_string()).collect()
+    };
+    let mut names: Vec<String> = bodies.each().flat_map(of).collect();
+    names.dedup();
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use percoat_core::{HalfSpace, Indenters, Lattice, Level, Load, Material, Problem, Settings, Shape, Solver};
+
+    /// Pressure and penetration under paraboloids of two heights on a bare body.
+    fn solved(young: f64, times: f64) -> (Vec<f64>, f64) {
+        let level = |height| Level::new(Shape::Paraboloid { radius: 0.8 * times }, height / times).unwrap();
+        let indenters = Indenters::new(Lattice::square(1.0, 2).unwrap(), vec![level(0.01), level(0.0)]).unwrap();
+        let body = HalfSpace::new(vec![], Material::from_young(young, 0.3).unwrap());
+        let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+        let step =
+            Solver::new(Problem::new(indenters, body), [64; 2], settings).unwrap().solve(Load::MeanPressure(0.01));
+        let reading = step.reading();
+        (step.finest().pressure().iter().copied().collect(), reading.penetration)
+    }
+
+    /// Compliances of bare bodies add wave by wave: a pair is a body of 1/(1/E*₁ + 1/E*₂) under rigid indenters.
+    #[test]
+    fn a_bare_pair_is_a_body_under_flatter_rigid_indenters() {
+        for other in [0.25, 1.0, 4.0] {
+            // Moduli of one Poisson's ratio, E₁ = 1.
+            let (pair, approach) = solved(1.0 / (1.0 + 1.0 / other), 1.0);
+            let times = 1.0 + 1.0 / other;
+            let (alone, penetration) = solved(1.0, times);
+            let peak = pair.iter().copied().fold(0.0, f64::max);
+            for (a, b) in pair.iter().zip(&alone) {
+                assert!((a - b).abs() < 1e-7 * peak, "{other}: {a} {b}");
+            }
+            assert!((approach - times * penetration).abs() < 1e-7 * approach, "{other}");
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Tables of quantities and their places over the load steps, a row each.
+
+use super::{DETAILED, Table, in_unit};
+use crate::output::number::number;
+use percoat_case::units::{Prefixed, Unit, Units};
+use percoat_core::run::StepRecord;
+
+/// Value and place of a quantity in a load step.
+#[derive(Clone, Copy)]
+pub(super) struct QuantityInStep {
+    pub value: f64,
+    pub error: Option<f64>,
+    /// Place x, y, z; lengths.
+    pub position: [f64; 3],
+    /// Another place where it may be largest within the errors.
+    pub rival: Option<[f64; 3]>,
+}
+
+/// A row of the table.
+pub(super) struct Quantity {
+    pub name: String,
+    /// The quantity in each step; `None` where a step does not have it.
+    pub found: Vec<Option<QuantityInStep>>,
+}
+
+/// Table of quantities of one unit: a few steps side by side, or the last of many; places are those in the last step. `None` where
+/// no step has any.
+pub(super) fn by_step(
+    head: &str,
+    unit: &Unit,
+    units: &Units,
+    steps: &[StepRecord],
+    rows: &[Quantity],
+) -> Option<Table> {
+    let last = (0..steps.len()).rev().find(|&step| rows.iter().any(|row| row.found[step].is_some()))?;
+    let shown = if steps.len() <= DETAILED { 0..steps.len() } else { last..last + 1 };
+    let loads = steps[shown.clone()].iter().map(|step| step.reading.load(units.quantity()));
+    let loads = loads.map(|load| format!("{} = {}", units.quantity().symbol(), units.load().with_unit(load, number)));
+    let place_of = if shown.len() > 1 { "place (x, y, z) in the last" } else { "place (x, y, z)" };
+    let unit = unit.suited(rows.iter().flat_map(|row| &row.found[shown.clone()]).flatten().map(|found| found.value));
+    let length = units.length().suited(rows.iter().filter_map(|row| row.found[last]).flat_map(|found| found.position));
+    let header: Vec<String> = [unit.headed(head)].into_iter().chain(loads).chain([length.headed(place_of)]).collect();
+    let line = |row: &Quantity| {
+        let of = |found: &Option<QuantityInStep>| {
+            found.map_or("–".to_owned(), |found| finite(&unit, found.value, found.error))
+        };
+        let values = row.found[shown.clone()].iter().map(of);
+        let place = row.found[last].map_or("–".to_owned(), |found| places(&length, found));
+        [row.name.clone()].into_iter().chain(values).chain([place]).collect()
+    };
+    Some(Table::new(&header, rows.iter().map(line).collect(), 1))
+}
+
+/// A value with its error, or "singular".
+fn finite(unit: &Prefixed, x: f64, error: Option<f64>) -> String {
+    if x.is_infinite() { "singular".to_owned() } else { in_unit(unit, x, error) }
+}
+
+/// The place, and where it is undecided within the errors the other one.
+fn places(length: &Prefixed, found: QuantityInStep) -> String {
+    let own = place(length, found.position);
+    found.rival.map_or(own.clone(), |rival| format!("{own} or at {}", place(length, rival)))
+}
+
+/// Coordinates x, y, z; those below a millionth of the largest are shown as zero.
+pub(super) fn place(length: &Prefixed, [x, y, z]: [f64; 3]) -> String {
+    let size = x.abs().max(y.abs()).max(z.abs());
+    let plain = |v: f64| if v.abs() <= 1e-6 * size { "0".to_owned() } else { number(length.shown(v)) };
+    format!("({}, {}, {})", plain(x), plain(y), plain(z))
+}

@@ -1,0 +1,69 @@
+//! What hardness has pressed in, step by step.
+
+use super::{DETAILED, Table, in_unit};
+use crate::output::number::number;
+use percoat_case::units::Units;
+use percoat_core::reading::PlasticReading;
+use percoat_core::run::StepRecord;
+
+/// A sentence about what is pressed in, and the table of it, a row a step, of many steps the last; `None` without hardness. Where nothing
+/// is pressed in there is no table.
+pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Table>)> {
+    let readings = || steps.iter().filter_map(|step| Some((step, step.plastic.as_ref()?)));
+    let (_, last) = readings().next_back()?;
+    let hardness = units.pressure().with_unit(last.hardness, number);
+    let pressed: Vec<(&StepRecord, &PlasticReading)> = readings().filter(|(_, own)| own.is_pressed_in()).collect();
+    if pressed.is_empty() {
+        let most = readings().map(|(step, _)| step.reading.grid_peak()).fold(0.0, f64::max);
+        let part = 100.0 * most / last.hardness;
+        let beneath = readings().filter_map(|(step, _)| step.beneath).next_back();
+        let beneath = beneath.map_or(String::new(), |own| {
+            let [pressure, hardness] = [own.pressure, own.hardness].map(|x| units.pressure().with_unit(x, number));
+            format!(
+                ", but {pressure} reaches {} beneath, of hardness {hardness}: the elastic answer has ended",
+                own.material
+            )
+        });
+        let at = if last.hardness_depth.is_some() { " at the penetration of the last step" } else { "" };
+        let words =
+            format!("hardness {hardness}{at}: no pressure reaches it, the largest is {part:.0} % of it{beneath}");
+        return Some((words, None));
+    }
+    let shown = if pressed.len() > DETAILED { &pressed[pressed.len() - 1..] } else { &pressed[..] };
+    let load = units.load().suited(shown.iter().map(|(step, _)| step.reading.load(units.quantity())));
+    let area = units.area().suited(shown.iter().map(|(_, own)| own.area));
+    let length = units.length().suited(shown.iter().flat_map(|(_, own)| [own.depth, own.permanent_depth]));
+    let pressure = units.pressure().suited(shown.iter().map(|(_, own)| own.hardness));
+    let is_composite = last.hardness_depth.is_some();
+    let header = [
+        load.headed(units.quantity().name()),
+        area.headed("area at the hardness"),
+        "of the contact".to_owned(),
+        length.headed("largest depth pressed in"),
+        length.headed("permanent depth"),
+    ];
+    let header: Vec<String> = header.into_iter().chain(is_composite.then(|| pressure.headed("hardness"))).collect();
+    let row = |(step, own): &(&StepRecord, &PlasticReading)| {
+        // Two areas, each read with its own error.
+        let part = (own.area / step.reading.contact_area).clamp(0.0, 1.0);
+        let row = [
+            in_unit(&load, step.reading.load(units.quantity()), step.reading.load_error(units.quantity())),
+            in_unit(&area, own.area, own.area_error),
+            if part.is_finite() { format!("{:.0} %", 100.0 * part) } else { "–".to_owned() },
+            in_unit(&length, own.depth, own.depth_error),
+            in_unit(&length, own.permanent_depth, own.permanent_depth_error),
+        ];
+        row.into_iter().chain(is_composite.then(|| in_unit(&pressure, own.hardness, own.hardness_error))).collect()
+    };
+    let (of, assumption) = match is_composite {
+        false => (format!("hardness {hardness}"), "the hardness does not depend on the depth"),
+        true => (
+            "composite hardness of the penetration".to_owned(),
+            "by a law of indentation tests with pyramids, whose depth is taken for the penetration",
+        ),
+    };
+    let words = format!(
+        "{of}: where the pressure reaches it the surface is pressed in for good (without pile-up; {assumption})"
+    );
+    Some((words, Some(Table::new(&header, shown.iter().map(row).collect(), 0))))
+}

@@ -1,0 +1,291 @@
+//! Load curves: the readings over the load of the steps of a run (Figs 4 and 5).
+
+use super::snapshot::caption;
+use super::utilisations::{BARS, utilisation_axis, utilisation_curves};
+use crate::picture::labels::Labels;
+use crate::sweep::Measured;
+use percoat_case::units::Units;
+use percoat_core::body::MaterialId;
+use percoat_core::problem::Problem;
+use percoat_core::reading::{Criterion, LevelReading, PlasticReading, Reading};
+use percoat_core::run::StepRecord;
+use percoat_core::run::touches::touches;
+use percoat_core::stress::Peak;
+use percoat_core::stress::maxima::{Carried, Extremes};
+use percoat_draw::axis::{Axis, log_spaced};
+use percoat_draw::canvas::Canvas;
+use percoat_draw::chart::{Chart, plots};
+use percoat_draw::curve::{Curve, Ink, NUMBERED_COLOURS, Style};
+use percoat_draw::error_bars::MOST_MARKERS;
+use percoat_draw::label::Label;
+
+/// The picture; `None` for less than two steps, or where none of them carries load.
+pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepRecord]) -> Option<Canvas> {
+    if steps.len() < 2 || !steps.iter().any(|step| step.reading.touches()) {
+        return None;
+    }
+    let levels = problem.counterbody().levels().len();
+    let touches = touches(problem, steps, units.quantity());
+    let loads: Vec<f64> = steps.iter().map(|step| step.reading.load(units.quantity())).collect();
+    let isolated = problem.cell().is_isolated();
+    // Loads that are spread evenly on a logarithmic axis rather than on a linear one have one.
+    let path = LoadPath { steps, levels, units, isolated, logarithmic: log_spaced(&loads), touches: &touches };
+    let mut charts = vec![path.peak_pressure(), path.extent(), path.penetration()];
+    charts.extend(path.indentation());
+    if path.levels > 1 {
+        charts.push(path.shares());
+    }
+    charts.extend(path.stresses());
+    charts.extend(path.interfaces());
+    charts.extend(path.utilisations());
+    for (letter, chart) in ('a'..).zip(&mut charts) {
+        chart.title = format!("({letter}) {}", chart.title);
+    }
+    let [n1, n2] = steps[0].points;
+    let more = [format!("{} load steps", steps.len()), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
+    let what = match touches.len() {
+        0 => "",
+        _ => " Dotted, with the level's number: where a level touches first, from its loads at the steps behind.",
+    };
+    let has_errors = charts.iter().flat_map(|chart| &chart.curves).any(Curve::has_errors);
+    let bars = if has_errors { format!(" {BARS}") } else { String::new() };
+    Some(plots(&format!("{}{what}{bars}", caption(title, problem, units, &more)), &charts))
+}
+
+/// The steps of a run, and how they are drawn.
+struct LoadPath<'a> {
+    steps: &'a [StepRecord],
+    /// Number of levels; 0 for a topography.
+    levels: usize,
+    units: &'a Units,
+    /// Whether contact is isolated.
+    isolated: bool,
+    /// Whether the load and the quantities that grow with it have logarithmic axes.
+    logarithmic: bool,
+    /// Levels and the loads at which they touch first.
+    touches: &'a [(usize, f64)],
+}
+
+impl LoadPath<'_> {
+    fn axis(&self, label: Label) -> Axis {
+        if self.logarithmic { Axis::log(label) } else { Axis::linear(label) }
+    }
+
+    fn chart(&self, title: &str, y: Axis, curves: Vec<Curve>) -> Chart {
+        let loads = self.steps.iter().map(|step| step.reading.load(self.units.quantity()));
+        let last = loads.clone().fold(0.0, f64::max);
+        let least = loads.fold(f64::INFINITY, f64::min);
+        let (first, last) = if self.logarithmic { (least / 1.1, last * 1.1) } else { (0.0, 1.03 * last) };
+        let x = self.axis(self.units.load_of("")).from_to(first, last);
+        let marks = self.touches.iter().map(|(level, load)| (*load, level.to_string())).collect();
+        Chart { title: title.to_owned(), x: Axis { marks, ..x }, y, curves }
+    }
+
+    /// A curve of values with their errors; a step without one has none of both.
+    fn curve(&self, label: &str, colour: Ink, value: impl Fn(&StepRecord) -> Option<Measured>) -> Curve {
+        let values: Vec<Option<Measured>> = self.steps.iter().map(value).collect();
+        let load = |step: &StepRecord| step.reading.load(self.units.quantity());
+        let points = self.steps.iter().zip(&values).map(|(step, own)| [load(step), own.map_or(f64::NAN, |own| own.0)]);
+        let points: Vec<[f64; 2]> = points.collect();
+        let errors = values.iter().map(|own| own.and_then(|own| own.1).unwrap_or(f64::NAN)).collect();
+        // Markers show the steps of short paths.
+        let style = if points.len() <= MOST_MARKERS { Style::LineMarkers } else { Style::Line };
+        Curve { label: label.to_owned(), points, errors, style, colour }
+    }
+
+    /// The curve of a largest stress.
+    fn peaks(&self, label: &str, colour: Ink, peak: impl Fn(&StepRecord) -> Option<Peak>) -> Curve {
+        self.curve(label, colour, |step| peak(step).and_then(|peak| Some((peak.finite()?, peak.error))))
+    }
+
+    /// One curve for each level, interrupted where the level has no value or no contact; one of the `whole` for a topography.
+    fn by_level(
+        &self,
+        whole: impl Fn(&Reading) -> Option<Measured>,
+        value: impl Fn(&LevelReading) -> Option<Measured>,
+    ) -> Vec<Curve> {
+        if self.levels == 0 {
+            return vec![self.curve("", 1.into(), |step| whole(&step.reading))];
+        }
+        let touching = |level: &LevelReading| if level.load > 0.0 { value(level) } else { None };
+        let of = |level: usize| {
+            self.curve(&format!("level {level}"), level.into(), |step| touching(&step.reading.levels[level - 1]))
+        };
+        (1..=self.levels).map(of).collect()
+    }
+
+    fn peak_pressure(&self) -> Chart {
+        let label = self.units.pressure_of("peak pressure", "p");
+        let whole = |own: &Reading| Some((own.finite_peak()?, own.errors.max_pressure));
+        let of_level = |own: &LevelReading| Some((own.finite_peak()?, own.errors.max_pressure));
+        self.chart("peak pressure", self.axis(label), self.by_level(whole, of_level))
+    }
+
+    fn extent(&self) -> Chart {
+        let (title, label) = match self.levels {
+            0 if self.isolated => ("contact area", self.units.area_of("contact area", "A")),
+            0 => ("contact area", "fraction of the cell in contact".into()),
+            _ => ("contact radius", self.units.length_of("contact radius", "a")),
+        };
+        let area = |own: &Reading| match self.isolated {
+            true => Some((own.contact_area, own.errors.contact_area)),
+            false => Some((own.contact_fraction, own.errors.contact_fraction)),
+        };
+        let curves = self.by_level(area, |level| Some((level.contact_radius?, level.errors.contact_radius)));
+        self.chart(title, self.axis(label), curves)
+    }
+
+    fn penetration(&self) -> Chart {
+        // Far from an isolated contact there is nothing to which displacement could be additional.
+        let title = if self.isolated { "penetration" } else { "additional displacement" };
+        let curve = self.curve("", 0.into(), |step| Some((step.reading.penetration, step.reading.errors.penetration)));
+        self.chart(title, self.axis(self.units.length_of(title, "δ")), vec![curve])
+    }
+
+    /// What hardness has pressed in; `None` where it has pressed nothing.
+    fn indentation(&self) -> Option<Chart> {
+        let mut readings = self.steps.iter().filter_map(|step| step.plastic.as_ref());
+        readings.any(PlasticReading::is_pressed_in).then(|| {
+            let curve = |label: &str, colour: usize, value: fn(&PlasticReading) -> Measured| {
+                self.curve(label, colour.into(), |step| step.plastic.as_ref().map(value))
+            };
+            let curves = vec![
+                curve("largest depth", 1, |own| (own.depth, own.depth_error)),
+                curve("permanent depth", 2, |own| (own.permanent_depth, own.permanent_depth_error)),
+            ];
+            let label = self.units.length_of("pressed in for good", "u");
+            self.chart("pressed in for good", Axis::linear(label), curves)
+        })
+    }
+
+    fn shares(&self) -> Chart {
+        let percent = |own: f64| 100.0 * own;
+        let share = |own: &LevelReading| Some((percent(own.load_share), own.errors.load_share.map(percent)));
+        let curves = self.by_level(|_| None, share);
+        self.chart("share of the load", Axis::linear("load share (%)").from_to(0.0, 105.0), curves)
+    }
+
+    /// Charts of the largest stresses in each material; empty for runs without stresses.
+    fn stresses(&self) -> Vec<Chart> {
+        let Some(any) = self.steps.iter().find_map(|step| step.stress.as_ref()) else { return Vec::new() };
+        let ids: Vec<MaterialId> = any.materials.iter().map(|own| own.tau1.material).collect();
+        let (names, materials) = (names(&ids), ids.len());
+        let curves = |value: fn(&Extremes) -> Peak| -> Vec<Curve> {
+            let of = |index: usize| {
+                self.peaks(&names[index], Ink::by_depth(index, materials), |step| {
+                    step.stress.as_ref()?.materials.get(index).map(value)
+                })
+            };
+            (0..materials).map(of).collect()
+        };
+        let tau1 = self.units.pressure_of("largest principal shear stress", "τ₁");
+        let tension = self.units.pressure_of("largest tension", "σ₁");
+        let mises = self.units.pressure_of("largest von Mises stress", "σᵥ");
+        vec![
+            self.chart("principal shear stress", self.axis(tau1), curves(|extremes| extremes.tau1)),
+            self.chart("tension", Axis::linear(tension), curves(|extremes| extremes.tension)),
+            self.chart("von Mises", self.axis(mises), curves(|extremes| extremes.mises)),
+        ]
+    }
+
+    /// Chart of the largest tension and shear of each interface.
+    fn interfaces(&self) -> Option<Chart> {
+        let any = &self.steps.iter().find_map(|step| step.stress.as_ref())?.interfaces;
+        let interfaces = any.len();
+        let curve = |index: usize, what: &str, value: fn(&Carried) -> Peak, thin: bool| {
+            let name = match interfaces {
+                1 => what.to_owned(),
+                NUMBERED_COLOURS.. if thin => String::new(),
+                NUMBERED_COLOURS.. => any[index].interface.to_string(),
+                _ => format!("{what}, {}", any[index].interface),
+            };
+            let of = |step: &StepRecord| step.stress.as_ref()?.interfaces.get(index).map(value);
+            let curve = self.peaks(&name, Ink::by_depth(index, interfaces), of);
+            if thin { Curve { style: Style::Thin, ..curve } } else { curve }
+        };
+        let curves = (0..interfaces).flat_map(|index| {
+            [
+                curve(index, "tension", |carried| carried.normal, true),
+                curve(index, "shear", |carried| carried.shear, false),
+            ]
+        });
+        let y = Axis::linear(self.units.pressure_of("largest tension and shear", "σ, τ"));
+        let title =
+            if interfaces < NUMBERED_COLOURS { "interfaces" } else { "interfaces; thick: shear, thin: tension" };
+        (interfaces > 0).then(|| self.chart(title, y, curves.collect()))
+    }
+
+    /// Chart of the utilisations of the strengths.
+    fn utilisations(&self) -> Option<Chart> {
+        let criteria: Vec<Criterion> =
+            self.steps.iter().find(|step| !step.strength.is_empty())?.strength.iter().map(|u| u.criterion).collect();
+        Some(self.chart(
+            "utilisation",
+            utilisation_axis(self.steps),
+            utilisation_curves(self.steps, self.units.quantity(), criteria),
+        ))
+    }
+}
+
+/// Names of the curves of materials, the body before the counterbody: each its own, or its place in its body. That of a single
+/// body of one material without a name is empty.
+fn names(ids: &[MaterialId]) -> Vec<String> {
+    let counterbodies = ids.iter().filter(|id| id.is_counterbody()).count();
+    let name = |id: &MaterialId| {
+        let count = if id.is_counterbody() { counterbodies } else { ids.len() - counterbodies };
+        let of = if id.is_counterbody() { " of the counterbody" } else { "" };
+        match (id.name, count - id.number, count) {
+            (Some(_), ..) => id.to_string(),
+            (None, _, 1) if counterbodies == 0 => String::new(),
+            (None, _, 1) => if id.is_counterbody() { "counterbody" } else { "body" }.to_owned(),
+            (None, 0, _) => format!("substrate{of}"),
+            (None, _, 2) => format!("coating{of}"),
+            (None, ..) => format!("layer {}{of}", id.number),
+        }
+    };
+    ids.iter().map(name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use percoat_core::body::{HalfSpace, Material, Name, Side};
+    use percoat_core::counterbody::{Indenters, Level, Shape};
+    use percoat_core::lattice::Lattice;
+    use percoat_core::load::Load;
+    use percoat_core::spectral::{Settings, Solver};
+
+    #[test]
+    fn materials_are_named_by_their_place_in_their_own_body() {
+        let id = |side: Side, number: usize, name: &str| {
+            let name = (!name.is_empty()).then(|| Name::new(name));
+            MaterialId { side: Some(side), number, name }
+        };
+        let (below, above) = (Side::Body, Side::Counterbody);
+        assert_eq!(names(&[MaterialId::numbered(1)]), [""]);
+        assert_eq!(names(&[1, 2].map(MaterialId::numbered)), ["coating", "substrate"]);
+        assert_eq!(names(&[1, 2, 3].map(MaterialId::numbered)), ["layer 1", "layer 2", "substrate"]);
+        assert_eq!(names(&[id(below, 1, ""), id(above, 1, "")]), ["body", "counterbody"]);
+        assert_eq!(names(&[id(below, 1, "D2"), id(above, 1, "D2")]), ["D2", "D2 of the counterbody"]);
+        let pair = [id(below, 1, ""), id(below, 2, ""), id(above, 1, ""), id(above, 2, "D2")];
+        assert_eq!(names(&pair), ["coating", "substrate", "coating of the counterbody", "D2 of the counterbody"]);
+    }
+
+    #[test]
+    fn a_course_that_never_carries_load_has_no_curves() {
+        let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+        let indenters = Indenters::new(Lattice::square(1.0, 1).unwrap(), vec![level]).unwrap();
+        let body = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+        let mut solver = Solver::new(Problem::new(indenters, body), [8, 8], Settings::default()).unwrap();
+        let mut record = |penetration: f64| {
+            let step = solver.solve(Load::Penetration(penetration));
+            StepRecord::new(&step, step.reading())
+        };
+        let (open, closed) = ([-0.2, -0.1].map(&mut record), [0.01, 0.02].map(&mut record));
+        let problem = solver.problem();
+        let units = Units::of(problem);
+        assert!(
+            load_curves("", problem, &units, &open).is_none() && load_curves("", problem, &units, &closed).is_some()
+        );
+    }
+}

@@ -1,0 +1,103 @@
+//! A part of the page: one result in its sections, and the sections that every result has.
+
+use super::markup::{Markup, tag, with};
+use super::problem::is_elastic;
+use super::resolution::upper;
+use crate::output::table::{Assumptions, library_strengths};
+use percoat_core::body::MeanStress;
+use serde_json::Value;
+
+/// A result on the page.
+#[derive(Debug)]
+pub(super) struct Part {
+    /// Beginning of its anchors.
+    pub name: &'static str,
+    /// Kind of result, such as "Run".
+    pub kind: &'static str,
+    /// Title of its case.
+    pub title: String,
+    pub sections: Vec<Section>,
+}
+
+/// A section of a part.
+#[derive(Debug)]
+pub(super) struct Section {
+    /// End of its anchor.
+    pub name: &'static str,
+    pub heading: &'static str,
+    pub content: Markup,
+}
+
+/// A section; left out of the page where `content` is empty.
+pub(super) fn section(name: &'static str, heading: &'static str, content: Vec<Markup>) -> Section {
+    Section { name, heading, content: content.into() }
+}
+
+/// The warnings of a result, or that there are none.
+pub(super) fn warnings(list: &[String]) -> Markup {
+    if list.is_empty() {
+        return tag("p", "None.");
+    }
+    let items = list.iter().map(|warning| tag("li", warning.as_str())).collect::<Markup>();
+    with("ul", &[("class", "doubt")], items)
+}
+
+/// The case of a result as TOML.
+///
+/// # Errors
+/// Where it is not a case.
+pub(super) fn case_text(case: &Value) -> Result<String, String> {
+    if !case.is_object() {
+        return Err("`case` is missing, or no table".to_owned());
+    }
+    percoat_case::case::written(case).map_err(|error| format!("`case` is no case: {error}"))
+}
+
+/// The case in full, with what to do with it.
+pub(super) fn case_to_copy(text: &str, command: &str) -> Markup {
+    let hint = format!("To compute it again, save this as case.toml and type percoat {command} case.toml.");
+    let hint = if command == "sweep" {
+        hint.replace("case.toml.", "case.toml with the values above after --set.")
+    } else {
+        hint
+    };
+    vec![tag("p", hint), with("pre", &[("tabindex", "0"), ("aria-label", "The case")], tag("code", text))].into()
+}
+
+/// The version that has computed a result, in a sentence.
+pub(super) fn by(version: &str) -> Markup {
+    tag("p", format!("Computed by percoat {version}."))
+}
+
+/// What a case assumes, with the default mean lateral stress where it gives none.
+fn assumptions(case: &Value) -> Assumptions {
+    let mean = match case["stress"]["mean"].as_str() {
+        Some("half-space") => MeanStress::HalfSpace,
+        Some("line") => MeanStress::Line,
+        _ => MeanStress::default(),
+    };
+    let isolated = case["lattice"]["kind"] == "isolated";
+    let rigid = !is_elastic(case) && case["load"]["pressure"].is_null();
+    Assumptions { mean, line: None, isolated, rigid, untested: untested(case), library: library_strengths(case) }
+}
+
+/// Names of the materials without a strength, as the case names them.
+fn untested(case: &Value) -> Vec<String> {
+    let has_strength = |part: &Value| ["yield_strength", "tensile_strength"].iter().any(|key| !part[key].is_null());
+    let is_rigid = |part: &Value| part.is_null() || part["rigid"] == true;
+    let name = |part: &Value, number: usize| part["name"].as_str().map_or(format!("material {number}"), str::to_owned);
+    let of = |layers: &Value, deepest: &Value, side: &str| -> Vec<String> {
+        let parts = layers.as_array().into_iter().flatten().chain(Some(deepest).filter(|own| !is_rigid(own)));
+        let without = (1..).zip(parts).filter(|(_, part)| !has_strength(part));
+        without.map(|(number, part)| name(part, number) + side).collect()
+    };
+    let counterbody = &case["counterbody"];
+    let mut names = of(&case["layers"], &case["substrate"], "");
+    names.extend(of(&counterbody["layers"], counterbody, " of the counterbody"));
+    names
+}
+
+/// What largest stresses, or with them strengths, of a case assume, a paragraph each.
+pub(super) fn assumed(case: &Value, with_strength: bool) -> Markup {
+    assumptions(case).sentences(with_strength).into_iter().map(|own| tag("p", upper(&own))).collect()
+}

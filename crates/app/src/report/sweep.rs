@@ -1,0 +1,182 @@
+//! Part of a report: a sweep.
+
+use super::ReportError;
+use super::figures::{PictureText, figures};
+use super::given::{listed, value, values};
+use super::markup::{Markup, tag, with};
+use super::part::{Part, by, case_to_copy, section, warnings};
+use super::problem::problem;
+use super::ranges::{are_limits, criteria, ranges, sentences};
+use super::results::{Results, Swept};
+use super::table::table;
+use super::units::{case_of, measured_in, units_of};
+use crate::output::UnitNames;
+use crate::output::table::{Table, percent_with_error};
+use crate::output::with_error;
+use crate::sweep::{
+    Description, Kind, LimitValue, Row, Scalar, Status, SweepResult, SweptKey, best_and_worst, scalars_with,
+};
+use percoat_core::load::LoadQuantity;
+use percoat_core::reading::Verdict;
+use serde_json::json;
+use std::collections::BTreeMap;
+
+const PICTURES: [PictureText; 1] =
+    [("sweep", "Curves of the results over the values of the sweep", "The results over the values of the sweep.")];
+/// Most rows of the table.
+const ROWS: usize = 300;
+
+/// The part of the page for a sweep, from `sweep.json` and `sweep.jsonl`.
+pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError> {
+    let Swept { description, rows } = swept;
+    let Description { keys, case: text, title, .. } = description;
+    let read = case_of(text, &results.folder);
+    // The keys of a case that cannot be read are sorted alphabetically.
+    let keys_of_case = read.as_ref().map(|case| json!(case)).or_else(|| toml::from_str(text).ok()).unwrap_or_default();
+    let first = description.first_case(rows, &results.folder);
+    let units = units_of(&UnitNames::default(), first.as_ref(), &keys_of_case);
+    let quantity = rows.iter().flat_map(|row| &row.results).find_map(SweepResult::quantity);
+    let units = quantity.map_or(units.clone(), |quantity| units.with_loads_in(quantity));
+    let given = keys.iter().map(|key| vec![key.key.clone(), key.values.len().to_string(), values(key)]);
+    let head = ["key", "values", "which"].map(str::to_owned).to_vec();
+    let given = Table::new(&head, given.collect(), 1);
+    let all_done = description.failed + description.not_converged == 0;
+    let class = if all_done { "answer" } else { "answer doubt" };
+    let answer = vec![
+        with("p", &[("class", class)], done(description)),
+        sentences(rows, keys, &units).into(),
+        reasons(rows),
+        best_and_worst(rows, &units).map_or(Markup::default(), |own| table(&sentence(&own.words), &own.table)),
+        ranges(rows, keys, &units),
+        table("Keys of the case and their values", &given),
+    ];
+    let mut sections = vec![
+        section("answer", "Answer", answer),
+        section("pictures", "Pictures", vec![figures(results, "sweep.json", &PICTURES)?]),
+        section("rows", "Combinations", vec![shown(rows, keys, units.quantity())]),
+        section("warnings", "Warnings", vec![warnings(&description.warnings)]),
+    ];
+    if !keys_of_case.is_null() {
+        let words = tag("p", "The case of which the sweep changes the keys above:");
+        let content = vec![words, problem(&keys_of_case), tag("p", measured_in(&units))];
+        sections.insert(1, section("problem", "Problem", content));
+    }
+    let time = tag("p", format!("{:.2} s.", description.timing.wall));
+    sections.push(section("time", "Time and version", vec![time, by(&description.percoat)]));
+    sections.push(section("case", "Case", vec![case_to_copy(text, "sweep")]));
+    Ok(Part { name: "sweep", kind: "Sweep", title: title.clone(), sections })
+}
+
+/// How many combinations are solved, as a sentence.
+fn done(description: &Description) -> String {
+    let Description { done, of, not_converged, failed, combinations, .. } = *description;
+    let more = |count: usize, what: &str| if count == 0 { String::new() } else { format!(", {count} {what}") };
+    format!(
+        "{done} of {of} combinations are solved{}{}{}.",
+        more(not_converged, "not converged"),
+        more(failed, "failed"),
+        more(of.saturating_sub(combinations), "not among them: a part of the sweep")
+    )
+}
+
+/// Words that begin with a capital letter.
+fn sentence(words: &str) -> String {
+    let (first, rest) = words.split_at(words.chars().next().map_or(0, char::len_utf8));
+    format!("{}{rest}", first.to_uppercase())
+}
+
+/// Why combinations are not solved, with their numbers; empty where all are.
+fn reasons(rows: &[Row]) -> Markup {
+    let mut reasons: BTreeMap<(String, &str), Vec<String>> = BTreeMap::new();
+    for row in rows.iter().filter(|row| row.status != Status::Done) {
+        let reason = row.reason.as_deref().filter(|reason| !reason.is_empty()).unwrap_or("–");
+        reasons.entry((row.status.name().replace('_', " "), reason)).or_default().push(row.combination.to_string());
+    }
+    if reasons.is_empty() {
+        return Markup::default();
+    }
+    let row = |((status, reason), numbers): (&(String, &str), &Vec<String>)| {
+        vec![status.clone(), (*reason).to_owned(), listed(numbers), numbers.len().to_string()]
+    };
+    let head = ["status", "reason", "combinations", "how many"].map(str::to_owned).to_vec();
+    table("Combinations that are not solved, and why", &Table::new(&head, reasons.iter().map(row).collect(), 3))
+}
+
+/// A row of the table: a combination and one of its results, with its number from 1.
+#[derive(Clone, Copy)]
+struct Shown<'a> {
+    row: &'a Row,
+    number: usize,
+    result: Option<&'a SweepResult>,
+}
+
+/// The content of a cell of a column; `None` where the row has none.
+type Cell<'a> = Box<dyn Fn(Shown<'_>) -> Option<String> + 'a>;
+
+/// The first rows with the keys and the main scalars, and a sentence on what is left out.
+fn shown(rows: &[Row], keys: &[SweptKey], quantity: LoadQuantity) -> Markup {
+    let all = rows.iter().flat_map(|row| {
+        let none = row.results.is_empty().then_some(None);
+        let results = (1..).zip(row.results.iter().map(Some).chain(none));
+        results.map(move |(number, result)| Shown { row, number, result })
+    });
+    let all: Vec<Shown<'_>> = all.collect();
+    let columns = columns(rows, keys, quantity);
+    let cells = |own: &Shown<'_>| columns.iter().map(|(_, cell)| cell(*own).unwrap_or("–".to_owned())).collect();
+    let head: Vec<&String> = columns.iter().map(|(words, _)| words).collect();
+    let what = if are_limits(rows) {
+        format!("One row a combination: the {} of each limit", quantity.name())
+    } else {
+        "One row a combination and load step".to_owned()
+    };
+    let caption = format!("{what}; ± is the estimated error of the grid");
+    let shown = table(&caption, &Table::new(&head, all.iter().take(ROWS).map(cells).collect(), 0));
+    let more = all.len().saturating_sub(ROWS);
+    let more = if more > 0 { format!("{more} further rows and all") } else { "All".to_owned() };
+    vec![shown, tag("p", format!("{more} columns are in sweep.csv."))].into()
+}
+
+fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey], quantity: LoadQuantity) -> Vec<(String, Cell<'a>)> {
+    let mut columns: Vec<(String, Cell<'a>)> = Vec::new();
+    let mut add = |name: String, cell: Cell<'a>| columns.push((name, cell));
+    add("combination".to_owned(), Box::new(|own| Some(own.row.combination.to_string())));
+    for key in keys {
+        add(key.key.clone(), Box::new(|own| value(key, own.row)));
+    }
+    add("status".to_owned(), Box::new(|own| Some(own.row.status.name().replace('_', " "))));
+    let criteria = criteria(rows);
+    let steps = || rows.iter().flat_map(|row| &row.results).filter_map(SweepResult::step);
+    if criteria.is_empty() {
+        add("step".to_owned(), Box::new(|own| own.result.map(|_| own.number.to_string())));
+        if steps().any(|step| step.governing.is_some()) {
+            add("what governs".to_owned(), Box::new(|own| own.result?.foremost_in_words()));
+            let verdict = |own: Shown<'_>| Some(own.result?.step()?.governing.as_ref()?.verdict);
+            add("does it fail".to_owned(), Box::new(move |own| verdict(own).as_ref().map(Verdict::to_string)));
+        }
+    } else {
+        add("fails first".to_owned(), Box::new(|own| own.result?.foremost_in_words()));
+    }
+    for criterion in criteria {
+        let name = criterion.map_or("first limit".to_owned(), |criterion| criterion.to_string());
+        let limit = move |own: Shown<'_>| own.result?.limit_value(criterion).as_ref().map(LimitValue::to_string);
+        add(name, Box::new(limit));
+    }
+    for scalar in scalars_with(quantity).filter(|scalar| steps().any(|step| (scalar.of)(step).is_some())) {
+        add(scalar.name.to_owned(), Box::new(|own| scalar_text(scalar, own)));
+    }
+    let levels = steps().map(|step| step.reading.levels.len()).max().unwrap_or(0);
+    for index in 0..levels {
+        let share = move |own: Shown<'_>| {
+            let level = own.result?.step()?.reading.levels.get(index)?;
+            Some(percent_with_error(level.load_share, level.errors.load_share))
+        };
+        add(format!("share {}", index + 1), Box::new(share));
+    }
+    columns
+}
+
+/// A scalar of a step with its error.
+fn scalar_text(scalar: &Scalar, own: Shown<'_>) -> Option<String> {
+    let (x, error) = (scalar.of)(own.result?.step()?)?;
+    Some(if scalar.kind == Kind::Fraction { percent_with_error(x, error) } else { with_error(x, error) })
+}

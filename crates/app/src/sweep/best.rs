@@ -1,0 +1,261 @@
+//! The best and the worst combination of a sweep, for each result by which a designer ranks them.
+//!
+//! Best is the highest limit load and the most passes until damage, and the least utilisation, tension and pressure. A combination
+//! that reaches no limit is better than one that does, if it was loaded at least as far. Combinations that failed or did not converge
+//! are not ranked, and counted; of several load steps the last one counts.
+
+use super::result::{LimitValue, Measured, SCALARS, SweepResult};
+use super::row::{Row, Status};
+use crate::output::number;
+use crate::output::table::{Table, Worded, in_unit};
+use percoat_case::units::{Unit, Units};
+use std::collections::BTreeSet;
+
+/// Results that are ranked, at most: each has two lines.
+const MOST: usize = 3;
+
+/// A result by which combinations are ranked.
+struct Merit {
+    name: String,
+    /// Whether more of it is better.
+    more: bool,
+    unit: Unit,
+    of: fn(&SweepResult) -> Option<LimitValue>,
+}
+
+/// A value of a merit with its row.
+type Ranked<'a> = (LimitValue, &'a Row);
+
+/// The combinations at both ends of a ranking.
+struct Ends<'a> {
+    best: Ranked<'a>,
+    worst: Ranked<'a>,
+    /// Number of others that reach no limit up to a load below that of the best: one of them may be better.
+    unlimited: usize,
+}
+
+/// The results in the order of their weight: what fails, then what strains.
+fn merits(units: &Units) -> [Merit; 6] {
+    fn known((value, error): Measured) -> LimitValue {
+        LimitValue::At(value, error)
+    }
+    fn scalar(result: &SweepResult, name: &str) -> Option<LimitValue> {
+        let scalar = SCALARS.iter().find(|scalar| scalar.name == name)?;
+        (scalar.of)(result.step()?).map(known)
+    }
+    let merit = |name: &str, more: bool, unit: Unit, of: fn(&SweepResult) -> Option<LimitValue>| Merit {
+        name: name.to_owned(),
+        more,
+        unit,
+        of,
+    };
+    let pressure = || units.pressure().clone();
+    let first = format!("first limit, {}", units.quantity().name());
+    [
+        merit(&first, true, units.load(), first_limit),
+        merit("passes to damage", true, Unit::None, |own| scalar(own, "passes to damage")),
+        merit("largest utilisation", false, Unit::None, |own| own.largest_utilisation().map(known)),
+        merit("largest tension", false, pressure(), |own| scalar(own, "largest tension")),
+        merit("peak pressure", false, pressure(), |own| scalar(own, "peak pressure")),
+        merit("largest von Mises", false, pressure(), |own| scalar(own, "largest von Mises")),
+    ]
+}
+
+/// The first limit; where nothing fails, the least load up to which a criterion was followed, as a bound.
+fn first_limit(own: &SweepResult) -> Option<LimitValue> {
+    own.limit_value(None).or_else(|| {
+        let loads = own.limits()?.iter().filter_map(|limit| match limit.into() {
+            LimitValue::Above(load) => Some(load),
+            _ => None,
+        });
+        loads.min_by(f64::total_cmp).map(LimitValue::Above)
+    })
+}
+
+/// The table of the best and the worst combination; `None` where less than two combinations that are done have a result. The load is
+/// in the quantity of `units`.
+pub fn best_and_worst(rows: &[Row], units: &Units) -> Option<Worded> {
+    let done: Vec<&Row> = rows.iter().filter(|row| row.status == Status::Done).collect();
+    let ranked = merits(units).into_iter().filter_map(|merit| Some((ends(&done, &merit)?, merit)));
+    let lines = ranked.take(MOST).flat_map(|(Ends { best, worst, unlimited }, merit)| {
+        let line = |name: &str, word: &str, (value, row): Ranked<'_>, open: &str| {
+            vec![name.to_owned(), word.to_owned(), text(&merit, value) + open, settings(row)]
+        };
+        let or_another = match unlimited {
+            0 => String::new(),
+            1 => ", or another that reaches no limit".to_owned(),
+            count => format!(", or one of {count} that reach no limit"),
+        };
+        let open = if is_open(best.0, worst.0) { ", within the errors" } else { "" };
+        [line(&merit.name, "best", best, &or_another), line("", "worst", worst, open)]
+    });
+    let lines: Vec<Vec<String>> = lines.collect();
+    let head = ["result", "", "value", "combination"];
+    (!lines.is_empty()).then(|| Worded { words: words(rows, done.len()), table: Table::new(&head, lines, 4) })
+}
+
+/// How many combinations are ranked, and how many are not.
+fn words(rows: &[Row], done: usize) -> String {
+    let count = |status: Status, what: &str| {
+        let count = rows.iter().filter(|row| row.status == status).count();
+        (count > 0).then(|| format!("{count} {what}"))
+    };
+    let left_out: Vec<String> =
+        [count(Status::NotConverged, "not converged"), count(Status::Failed, "failed")].into_iter().flatten().collect();
+    let left_out = if left_out.is_empty() { String::new() } else { format!("; left out: {}", left_out.join(", ")) };
+    let steps = if rows.iter().any(|row| row.results.len() > 1) { ", last load steps" } else { "" };
+    format!("best and worst of {done} combinations{steps}{left_out}")
+}
+
+/// The best and the worst of the rows; `None` for less than two that can be told apart.
+fn ends<'a>(rows: &[&'a Row], merit: &Merit) -> Option<Ends<'a>> {
+    let values = rows.iter().filter_map(|row| Some(((merit.of)(row.results.last()?)?, *row)));
+    let mut values: Vec<Ranked<'_>> = values.filter(|(value, _)| load(*value).is_some_and(f64::is_finite)).collect();
+    values.sort_by(|(a, _), (b, _)| {
+        let order = load(*a).unwrap_or(0.0).total_cmp(&load(*b).unwrap_or(0.0));
+        if merit.more { order.reverse() } else { order }
+    });
+    let is_unlimited = |own: &Ranked<'_>| matches!(own.0, LimitValue::Above(_));
+    // Loads of one size: what reaches no limit up to there bears more.
+    let mut best = *values.iter().find(|own| !matches!(own.0, LimitValue::Below(_)))?;
+    if let Some(own) = values.iter().find(|own| is_unlimited(own) && load(own.0) >= load(best.0)) {
+        best = *own;
+    }
+    let worst = *values.iter().rfind(|own| !is_unlimited(own))?;
+    let unlimited = values.iter().filter(|own| is_unlimited(own) && own.1.combination != best.1.combination).count();
+    (best.1.combination != worst.1.combination).then_some(Ends { best, worst, unlimited })
+}
+
+/// The value, or the bound of one that is not known.
+fn load(value: LimitValue) -> Option<f64> {
+    match value {
+        LimitValue::At(load, _) | LimitValue::Below(load) | LimitValue::Above(load) => Some(load),
+        LimitValue::Undecided => None,
+    }
+}
+
+/// Whether two values differ by less than their errors, so that either may be the better one.
+fn is_open(best: LimitValue, worst: LimitValue) -> bool {
+    let (Some((best, up)), Some((worst, down))) = (best.measured(), worst.measured()) else { return false };
+    (best - worst).abs() < up.unwrap_or(0.0) + down.unwrap_or(0.0)
+}
+
+fn text(merit: &Merit, value: LimitValue) -> String {
+    let unit = merit.unit.prefixed(load(value).unwrap_or_default());
+    let bound = |sign: &str, load: f64| unit.behind(&format!("{sign} {}", number(unit.shown(load))));
+    match value {
+        LimitValue::At(load, error) => unit.behind(&in_unit(&unit, load, error)),
+        LimitValue::Below(load) => bound("<", load),
+        LimitValue::Above(load) => bound(">", load),
+        LimitValue::Undecided => String::new(),
+    }
+}
+
+/// Number and settings of a row: of long numbers five digits, of keys the last part where no two have the same.
+fn settings(row: &Row) -> String {
+    const LONG: usize = 8;
+    let short = |value: &str| match value.parse::<f64>() {
+        Ok(x) if value.len() > LONG => number(x),
+        _ => value.to_owned(),
+    };
+    let last = |key: &str| key.rsplit('.').next().unwrap_or(key).to_owned();
+    let distinct: BTreeSet<String> = row.settings.iter().map(|(key, _)| last(key)).collect();
+    let name = |key: &str| if distinct.len() == row.settings.len() { last(key) } else { key.to_owned() };
+    let settings = row.settings.iter().map(|(key, value)| format!("{} = {}", name(key), short(value)));
+    format!("{}: {}", row.combination, settings.collect::<Vec<_>>().join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::examples::{below, never, reached, row, step, strained};
+    use super::*;
+    use percoat_core::reading::{Criterion, Utilisation};
+    use percoat_core::run::Limit;
+
+    fn lines(rows: &[Row]) -> Vec<String> {
+        let units = Units::unknown().named(Some("µm"), Some("GPa"));
+        let worded = best_and_worst(rows, &units).expect("results");
+        let text = worded.table.to_string().replace('\u{a0}', " ");
+        let squeezed = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        [worded.words].into_iter().chain(text.lines().skip(2).map(squeezed)).collect()
+    }
+
+    #[test]
+    fn the_best_has_the_least_pressure_and_what_is_not_done_is_counted() {
+        let one = |n: usize, peak: f64| {
+            row(
+                n,
+                &[("layers.0.thickness", format!("{n}"))],
+                vec![SweepResult::Step(Box::new(step(peak, Some(0.1), 0.5)))],
+            )
+        };
+        let mut rows = vec![one(1, 3.0), one(2, 1.0), one(3, 2.0), one(4, 0.5), one(5, 9.0)];
+        rows[3].status = Status::NotConverged;
+        (rows[4].status, rows[4].results) = (Status::Failed, Vec::new());
+        let expected = [
+            "best and worst of 3 combinations; left out: 1 not converged, 1 failed",
+            "peak pressure best 1.0 ± 0.1 GPa 2: thickness = 2",
+            "worst 3.0 ± 0.1 GPa 1: thickness = 1",
+        ];
+        assert_eq!(lines(&rows), expected);
+        assert!(best_and_worst(&rows[..1], &Units::unknown()).is_none());
+    }
+
+    fn limits(limits: &[Limit]) -> Vec<Row> {
+        let result = |limit: &Limit| vec![SweepResult::Limits(vec![*limit])];
+        (1..).zip(limits).map(|(n, limit)| row(n, &[("a", format!("{n}.000000001"))], result(limit))).collect()
+    }
+
+    #[test]
+    fn the_best_limit_is_the_highest_and_one_below_the_grid_the_worst() {
+        let yields = Criterion::yield_of(1);
+        let own = [reached(yields, 0.2, 0.01), reached(yields, 0.7, 0.01), below(yields, 0.1)];
+        let lines = lines(&limits(&own));
+        assert_eq!(lines[1], "first limit, mean pressure best 0.70 ± 0.01 GPa 2: a = 2.0000");
+        assert_eq!(lines[2], "worst < 0.10000 GPa 3: a = 3.0000");
+    }
+
+    #[test]
+    fn what_reaches_no_limit_is_the_best_where_it_was_loaded_as_far() {
+        let yields = Criterion::yield_of(1);
+        let [least, most] = [reached(yields, 0.2, 0.01), reached(yields, 0.7, 0.01)];
+        let best = |own: &[Limit]| lines(&limits(own))[1].clone();
+        assert_eq!(
+            best(&[least, most, never(yields, 2.0)]),
+            "first limit, mean pressure best > 2.0000 GPa 3: a = 3.0000"
+        );
+        let open = "first limit, mean pressure best 0.70 ± 0.01 GPa, or another that reaches no limit 2: a = 2.0000";
+        assert_eq!(best(&[least, most, never(yields, 0.5)]), open);
+        // Nothing can be said of these two.
+        let rows = limits(&[most, never(yields, 0.5)]);
+        assert!(best_and_worst(&rows, &Units::unknown()).is_none());
+    }
+
+    #[test]
+    fn utilisations_come_before_stresses_and_no_more_than_three_results_are_ranked() {
+        let one = |n: usize| {
+            let own = Utilisation::new(Criterion::yield_of(1), 0.1 * n as f64, Some(0.01), [0.0; 3]);
+            row(n, &[("a", n.to_string())], vec![strained(vec![own])])
+        };
+        let lines = lines(&[one(1), one(2)]);
+        assert_eq!(lines[1], "largest utilisation best 0.10 ± 0.01 1: a = 1");
+        assert!(lines.len() <= 2 * MOST + 1, "{lines:?}");
+    }
+
+    #[test]
+    fn a_difference_within_the_errors_is_said_to_be_one() {
+        let yields = Criterion::yield_of(1);
+        let limits = [reached(yields, 0.5, 0.3), reached(yields, 0.7, 0.2)];
+        let rows: Vec<Row> = (1..)
+            .zip(limits)
+            .map(|(n, limit)| row(n, &[("a", n.to_string())], vec![SweepResult::Limits(vec![limit])]))
+            .collect();
+        assert_eq!(lines(&rows)[2], "worst 0.5 ± 0.3 GPa, within the errors 1: a = 1");
+    }
+
+    #[test]
+    fn keys_of_one_name_are_told_apart() {
+        let row = row(7, &[("layers.0.young", "2".to_owned()), ("substrate.young", "1".to_owned())], Vec::new());
+        assert_eq!(settings(&row), "7: layers.0.young = 2, substrate.young = 1");
+    }
+}

@@ -1,0 +1,355 @@
+//! A result of a combination: a load step, or the limit loads; and its numbers for tables, pictures and the report.
+
+use crate::output::columns::{Cells, scalars};
+use crate::output::{FirstLimit, number, with_error};
+use percoat_core::load::LoadQuantity;
+use percoat_core::reading::{Criterion, Reading, within_the_errors};
+use percoat_core::run::{At, Limit, StepRecord, first, rivals};
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// A result of a combination.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SweepResult {
+    /// One of its load steps, without the time of its solution.
+    Step(Box<StepRecord>),
+    /// The limit load of each criterion.
+    Limits(Vec<Limit>),
+}
+
+/// The first criterion that is reached in a search for limit loads, or the governing one under a load.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Foremost {
+    /// A criterion.
+    Criterion(Criterion),
+    /// No criterion is reached, and some may be within the errors.
+    Undecided,
+    /// No criterion is reached.
+    Nothing,
+}
+
+/// A limit, or a bound of it; loads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LimitValue {
+    /// The limit and its error.
+    At(f64, Option<f64>),
+    /// The limit is below this load, the smallest one that the grid resolves.
+    Below(f64),
+    /// The limit is not reached up to this load.
+    Above(f64),
+    /// The limit may be reached within its error.
+    Undecided,
+}
+
+/// A value with its error, where one is known.
+pub type Measured = (f64, Option<f64>);
+
+/// A scalar of a load step with its error.
+#[derive(Debug, Clone, Copy)]
+pub struct Scalar {
+    /// Name in tables.
+    pub name: &'static str,
+    /// The kind of its unit.
+    pub kind: Kind,
+    /// Its value and error; `None` where the step has none, or an infinite one.
+    pub of: fn(&StepRecord) -> Option<Measured>,
+}
+
+/// The kind of a unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A pressure.
+    Pressure,
+    /// A force.
+    Force,
+    /// A length.
+    Length,
+    /// An area.
+    Area,
+    /// A fraction.
+    Fraction,
+    /// A number of passes.
+    Passes,
+}
+
+/// The main scalars of a load step: the load in both of its quantities; the fraction in contact, or the area of an isolated one.
+pub static SCALARS: [Scalar; 10] = {
+    use Kind::{Area, Force, Fraction, Length, Passes, Pressure};
+    const fn scalar(name: &'static str, kind: Kind, of: fn(&StepRecord) -> Option<Measured>) -> Scalar {
+        Scalar { name, kind, of }
+    }
+    [
+        scalar("mean pressure", Pressure, |step| load(step, LoadQuantity::MeanPressure)),
+        scalar("force", Force, |step| load(step, LoadQuantity::Force)),
+        scalar("penetration", Length, |step| Some((step.reading.penetration, step.reading.errors.penetration))),
+        scalar("contact", Fraction, |step| {
+            let Reading { contact_fraction, errors, .. } = &step.reading;
+            (!step.reading.is_isolated()).then_some((*contact_fraction, errors.contact_fraction))
+        }),
+        scalar("contact area", Area, |step| {
+            let Reading { contact_area, errors, .. } = &step.reading;
+            step.reading.is_isolated().then_some((*contact_area, errors.contact_area))
+        }),
+        scalar("peak pressure", Pressure, |step| Some((step.reading.finite_peak()?, step.reading.errors.max_pressure))),
+        scalar("largest τ₁", Pressure, |step| finite(&step.stress.as_ref()?.overall.tau1)),
+        scalar("largest tension", Pressure, |step| finite(&step.stress.as_ref()?.overall.tension)),
+        scalar("largest von Mises", Pressure, |step| finite(&step.stress.as_ref()?.overall.mises)),
+        scalar("passes to damage", Passes, |step| {
+            let first = step.fatigue.as_ref()?.first;
+            first.passes.is_finite().then_some((first.passes, first.error.map(|error| error * first.passes)))
+        }),
+    ]
+};
+
+/// The main scalars, with the load in this quantity alone.
+pub fn scalars_with(quantity: LoadQuantity) -> impl Iterator<Item = &'static Scalar> {
+    let other = match quantity {
+        LoadQuantity::MeanPressure => LoadQuantity::Force,
+        LoadQuantity::Force => LoadQuantity::MeanPressure,
+    };
+    SCALARS.iter().filter(move |scalar| scalar.name != other.name())
+}
+
+/// The load of a step; `None` for the mean pressure of an isolated contact.
+fn load(step: &StepRecord, quantity: LoadQuantity) -> Option<Measured> {
+    let load = step.reading.load(quantity);
+    (!load.is_nan()).then_some((load, step.reading.load_error(quantity)))
+}
+
+fn finite(peak: &percoat_core::stress::Peak) -> Option<Measured> {
+    Some((peak.finite()?, peak.error))
+}
+
+impl SweepResult {
+    /// The load step; `None` for limits.
+    pub fn step(&self) -> Option<&StepRecord> {
+        if let Self::Step(step) = self { Some(step) } else { None }
+    }
+
+    /// The limit of each criterion; `None` for a load step.
+    pub fn limits(&self) -> Option<&[Limit]> {
+        if let Self::Limits(limits) = self { Some(limits) } else { None }
+    }
+
+    /// The quantity of its loads; `None` for a load step that has both.
+    pub fn quantity(&self) -> Option<LoadQuantity> {
+        match self {
+            Self::Step(step) => step.reading.is_isolated().then_some(LoadQuantity::Force),
+            Self::Limits(limits) => limits.first().map(|limit| limit.quantity),
+        }
+    }
+
+    /// The first limit, or that of a criterion; `None` for a load step, and where none is reached first.
+    pub fn limit(&self, of: Option<Criterion>) -> Option<&Limit> {
+        let limits = self.limits()?;
+        match of {
+            None => first(limits),
+            Some(criterion) => limits.iter().find(|limit| limit.criterion == criterion),
+        }
+    }
+
+    /// The criteria of the limits of several results, see [`Criterion::distinct`].
+    pub fn criteria<'a>(results: impl Iterator<Item = &'a Self>) -> Vec<Criterion> {
+        Criterion::distinct(results.filter_map(Self::limits).flatten().map(|limit| limit.criterion))
+    }
+
+    /// Value or bound of the first limit, or of that of a criterion. Where no limit comes first: undecided if one may within the
+    /// errors, else `None`.
+    pub fn limit_value(&self, of: Option<Criterion>) -> Option<LimitValue> {
+        match self.limit(of) {
+            Some(limit) => Some(limit.into()),
+            None => (of.is_none() && self.foremost()? == Foremost::Undecided).then_some(LimitValue::Undecided),
+        }
+    }
+
+    /// The largest utilisation of a load step and its error; `None` of one without strengths, and of limits.
+    pub fn largest_utilisation(&self) -> Option<Measured> {
+        let finite = self.step()?.strength.iter().filter(|own| own.value.is_finite());
+        finite.max_by(|a, b| a.value.total_cmp(&b.value)).map(|own| (own.value, own.error))
+    }
+
+    /// The criterion that comes first; `None` of a load step without strengths.
+    pub fn foremost(&self) -> Option<Foremost> {
+        match self {
+            Self::Step(step) => step.governing.as_ref().map(|governing| Foremost::Criterion(governing.criterion)),
+            Self::Limits(limits) => Some(match first(limits) {
+                Some(first) => Foremost::Criterion(first.criterion),
+                None if rivals(limits).is_empty() => Foremost::Nothing,
+                None => Foremost::Undecided,
+            }),
+        }
+    }
+
+    /// The criteria that may be foremost within the errors instead.
+    pub fn rivals(&self) -> Vec<Criterion> {
+        match self {
+            Self::Step(step) => step.governing.as_ref().map_or(Vec::new(), |governing| governing.rivals.clone()),
+            Self::Limits(limits) => rivals(limits),
+        }
+    }
+
+    /// The foremost criterion with its rivals in words; `None` for a load step without strengths.
+    pub fn foremost_in_words(&self) -> Option<String> {
+        let Foremost::Criterion(criterion) = self.foremost()? else { return None };
+        Some(format!("{criterion}{}", within_the_errors(&self.rivals())))
+    }
+
+    /// Its cells in `sweep.csv`: the scalars of a step, or the first limit under `first` and each under its name.
+    pub(super) fn cells(&self) -> Cells {
+        let limits = match self {
+            Self::Step(step) => return scalars(&json!(step)),
+            Self::Limits(limits) => limits,
+        };
+        let rivals = rivals(limits);
+        let first = match first(limits) {
+            Some(limit) => json!(FirstLimit { limit: *limit, rivals }),
+            None if rivals.is_empty() => json!(null),
+            None => {
+                let rivals: Vec<String> = rivals.into_iter().map(Criterion::code_with_name).collect();
+                json!({ "criterion": null, "reached": "undecided", "rivals": rivals })
+            }
+        };
+        let named = limits.iter().map(|limit| {
+            let mut keys = json!(limit);
+            if let Some(keys) = keys.as_object_mut() {
+                // The names of the columns have them.
+                ["criterion", "material", "interface", "name"].iter().for_each(|key| drop(keys.shift_remove(*key)));
+            }
+            json!({ limit.criterion.code().replace(' ', "_"): keys })
+        });
+        [json!({ "first": first })].into_iter().chain(named).flat_map(|value| scalars(&value)).collect()
+    }
+}
+
+impl Foremost {
+    /// What comes first in each of the results, with the number of results; the most frequent first.
+    pub fn counted<'a>(results: impl Iterator<Item = &'a SweepResult>) -> Vec<(Self, usize)> {
+        let all: Vec<Self> = results.filter_map(SweepResult::foremost).collect();
+        let criterion = |own: &Self| if let Self::Criterion(criterion) = own { Some(*criterion) } else { None };
+        let named = Criterion::distinct(all.iter().filter_map(criterion)).into_iter().map(Self::Criterion);
+        let mut counts: BTreeMap<Self, usize> = named.map(|own| (own, 0)).collect();
+        all.into_iter().for_each(|own| *counts.entry(own).or_default() += 1);
+        let mut counted: Vec<(Self, usize)> = counts.into_iter().collect();
+        counted.sort_by_key(|(_, count)| usize::MAX - count);
+        counted
+    }
+}
+
+impl fmt::Display for Foremost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Criterion(criterion) => criterion.fmt(f),
+            Self::Undecided => f.write_str("undecided"),
+            Self::Nothing => f.write_str("nothing fails"),
+        }
+    }
+}
+
+impl LimitValue {
+    /// The limit and its error; `None` of a bound.
+    pub fn measured(self) -> Option<Measured> {
+        if let Self::At(load, error) = self { Some((load, error)) } else { None }
+    }
+}
+
+impl From<&Limit> for LimitValue {
+    fn from(limit: &Limit) -> Self {
+        match limit.at {
+            At::Rest | At::Tip { .. } => Self::At(0.0, Some(0.0)),
+            At::Load { load, error, .. } => Self::At(load, error),
+            At::Below { load, .. } => Self::Below(load),
+            At::Never { up_to, .. } => Self::Above(up_to),
+            At::Undecided { .. } => Self::Undecided,
+        }
+    }
+}
+
+/// As in tables: 0.007 ± 0.003, < 0.01 or > 2.
+impl fmt::Display for LimitValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::At(0.0, _) => f.write_str("0"),
+            Self::At(load, error) => f.write_str(&with_error(load, error)),
+            Self::Below(load) => write!(f, "< {}", number(load)),
+            Self::Above(load) => write!(f, "> {}", number(load)),
+            Self::Undecided => f.write_str("undecided"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::examples::{below, never, reached};
+    use super::*;
+    use percoat_core::body::{MaterialId, Name};
+    use percoat_core::load::LoadQuantity;
+
+    #[test]
+    fn a_limit_is_found_whatever_the_name_of_its_material() {
+        let named =
+            |name: &str| Criterion::Yield(MaterialId { name: Some(Name::new(name)), ..MaterialId::numbered(2) });
+        let results = [("TiN", 0.2), ("CrN", 0.4)]
+            .map(|(name, load)| SweepResult::Limits(vec![reached(named(name), load, 0.01)]));
+        let criteria = SweepResult::criteria(results.iter());
+        assert_eq!(criteria.iter().map(Criterion::to_string).collect::<Vec<_>>(), ["yield of material 2"]);
+        assert!(results.iter().all(|own| matches!(own.limit_value(Some(criteria[0])), Some(LimitValue::At(..)))));
+        let counted = Foremost::counted(results.iter());
+        assert_eq!((counted.len(), counted[0].1, counted[0].0.to_string()), (1, 2, "yield of material 2".to_owned()));
+        assert_eq!(results[0].limit_value(Some(Criterion::cracking_of(2))), None);
+    }
+
+    #[test]
+    fn an_isolated_contact_has_a_force_and_an_area_in_the_place_of_means() {
+        let periodic = super::super::examples::step(2.0, None, 0.5);
+        let isolated = super::super::examples::isolated(3.0, 2.0);
+        let values = |step: &StepRecord, quantity: LoadQuantity| -> Vec<(&str, f64)> {
+            scalars_with(quantity).filter_map(|own| Some((own.name, (own.of)(step)?.0))).collect()
+        };
+        let peak = ("peak pressure", 2.0);
+        let own = [("force", 3.0), ("penetration", 2.0), ("contact area", 1.5), peak];
+        assert_eq!(values(&isolated, LoadQuantity::Force), own);
+        assert_eq!(values(&isolated, LoadQuantity::MeanPressure), own[1..]);
+        let own = [("mean pressure", 0.1), ("penetration", 2.0), ("contact", 0.5), peak];
+        assert_eq!(values(&periodic, LoadQuantity::MeanPressure), own);
+        assert_eq!(values(&periodic, LoadQuantity::Force)[0], ("force", 0.1));
+    }
+
+    #[test]
+    fn limits_are_shown_with_their_errors_or_a_bound() {
+        let [yields, parts] = [Criterion::yield_of(2), Criterion::delamination_of(2)];
+        let told = |limits: Vec<Limit>, of: Option<Criterion>| {
+            SweepResult::Limits(limits).limit_value(of).map(|value| value.to_string())
+        };
+        let text = |text: &str| Some(text.to_owned());
+        assert_eq!(told(vec![reached(parts, 0.006_646_1, 0.0025), never(yields, 3.5)], None), text("0.007 ± 0.003"));
+        assert_eq!(told(vec![below(parts, 0.0012)], None), text("< 0.0012000"));
+        assert_eq!(told(vec![never(yields, 3.5)], Some(yields)), text("> 3.5000"));
+        assert_eq!(
+            told(vec![Limit { criterion: yields, quantity: LoadQuantity::default(), at: At::Rest }], Some(yields)),
+            text("0")
+        );
+        assert_eq!(told(vec![never(yields, 3.5)], None), None);
+    }
+
+    #[test]
+    fn the_cells_of_limits_are_the_first_and_each_under_its_name() {
+        let [yields, parts] = [Criterion::yield_of(2), Criterion::delamination_of(1)];
+        let cells = SweepResult::Limits(vec![reached(yields, 0.2, 0.05), reached(parts, 0.24, 0.01)]).cells();
+        let cell = |name: &str| cells.iter().find(|(own, _)| own == name).map(|(_, cell)| cell.clone());
+        for (name, value) in [
+            ("first_criterion", json!("yield")),
+            ("first_material", json!(2)),
+            ("first_mean_pressure", json!(0.2)),
+            ("first_reached", json!("under_load")),
+            ("first_rivals", json!("delamination of interface 1")),
+            ("yield_of_material_2_mean_pressure", json!(0.2)),
+            ("delamination_of_interface_1_error", json!(0.01)),
+        ] {
+            assert_eq!(cell(name), Some(value), "{name}");
+        }
+        assert_eq!(cell("yield_of_material_2_criterion"), None, "it stands in the name");
+    }
+}

@@ -1,0 +1,199 @@
+//! `sweep.csv` and `sweep.json`: the table of a sweep and its description.
+
+use super::combinations::Combinations;
+use super::log::Log;
+use super::row::{Row, Status};
+use super::task::Task;
+use crate::output::columns::{csv, names};
+use crate::output::{OutputError, SWEEP_LOG, checksum, digest, write_text};
+use percoat_case::case::{Case, NamedKey, Source};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::{BTreeSet, HashMap};
+use std::path::Path;
+
+/// One row for each combination and load step, by ascending combination.
+pub fn table(rows: &[Row]) -> String {
+    let mut sorted: Vec<&Row> = rows.iter().collect();
+    sorted.sort_by_key(|row| row.combination);
+    csv(|| sorted.iter().flat_map(|row| row.cells()))
+}
+
+/// The columns of that table: names and scalars.
+pub fn columns(rows: &[Row]) -> Vec<(String, Vec<Value>)> {
+    let mut sorted: Vec<&Row> = rows.iter().collect();
+    sorted.sort_by_key(|row| row.combination);
+    let lines = || sorted.iter().flat_map(|row| row.cells());
+    let names = names(lines());
+    let mut lines: Vec<HashMap<String, Value>> = lines().map(|line| line.into_iter().collect()).collect();
+    let column = |name: String| {
+        let cells = lines.iter_mut().map(|line| line.remove(&name).unwrap_or_default()).collect();
+        (name, cells)
+    };
+    names.into_iter().map(column).collect()
+}
+
+/// Case, keys and task of a sweep, and how its combinations ended: `sweep.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Description {
+    /// The version of percoat that wrote it.
+    pub percoat: String,
+    /// Title of the common case.
+    pub title: String,
+    /// The task for each combination.
+    pub task: Task,
+    /// The keys that change, with their values.
+    pub keys: Vec<SweptKey>,
+    /// Fingerprint of the common case and all combinations: equal only for parts of one sweep.
+    pub fingerprint: String,
+    /// Number of all combinations of the whole sweep.
+    pub of: usize,
+    /// Number of combinations here.
+    pub combinations: usize,
+    /// Number of finished combinations.
+    pub done: usize,
+    /// Number of combinations that did not converge.
+    pub not_converged: usize,
+    /// Number of combinations without results.
+    pub failed: usize,
+    /// Each warning of any combination.
+    pub warnings: Vec<String>,
+    /// The common case as TOML.
+    pub case: String,
+    /// Wall times, seconds.
+    pub timing: Seconds,
+}
+
+/// A key of a sweep with its values as they were typed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SweptKey {
+    /// The key as in the case file.
+    pub key: String,
+    /// Its values in the order of the combinations.
+    pub values: Vec<String>,
+}
+
+/// Wall times of a sweep, seconds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Seconds {
+    /// Sum over all combinations.
+    pub combinations: f64,
+    /// The whole sweep; of joined parts, the sum.
+    pub wall: f64,
+}
+
+impl Description {
+    /// Description of a sweep that has not begun, with title and text of the common case and the number `of` all combinations.
+    pub fn new(title: &str, case: &str, task: Task, fingerprint: String, of: usize) -> Self {
+        Self {
+            percoat: env!("CARGO_PKG_VERSION").to_owned(),
+            title: title.to_owned(),
+            task,
+            keys: Vec::new(),
+            fingerprint,
+            of,
+            combinations: 0,
+            done: 0,
+            not_converged: 0,
+            failed: 0,
+            warnings: Vec::new(),
+            case: case.to_owned(),
+            timing: Seconds { combinations: 0.0, wall: 0.0 },
+        }
+    }
+
+    /// Description of a sweep of all `combinations` that has not begun; `fixed` are the settings of all of them, `KEY=VALUE`.
+    pub fn of(source: &Source, fixed: &[String], combinations: &Combinations, task: Task) -> Self {
+        // Without the keys that vary the case may be refused: its text then stands for it.
+        let whole = Case::read(source, fixed).ok();
+        let text = whole.as_ref().map_or_else(|| source.text.clone(), Case::to_toml);
+        let fingerprint = fingerprint(&text, fixed, combinations);
+        let title = whole.map_or(String::new(), |case| case.title);
+        Self::new(&title, &text, task, fingerprint, combinations.all.len())
+    }
+
+    /// The same sweep after these rows and a wall time in seconds.
+    #[must_use]
+    pub fn after(&self, rows: &[Row], wall: f64) -> Self {
+        let keys = rows.first().map_or(&[][..], |row| &row.settings).iter().map(|(key, _)| {
+            let all = rows.iter().flat_map(|row| &row.settings).filter(|(own, _)| own == key);
+            SweptKey { key: key.clone(), values: distinct(all.map(|(_, value)| value)) }
+        });
+        let count = |status: Status| rows.iter().filter(|row| row.status == status).count();
+        Self {
+            keys: keys.collect(),
+            combinations: rows.len(),
+            done: count(Status::Done),
+            not_converged: count(Status::NotConverged),
+            failed: count(Status::Failed),
+            warnings: distinct(rows.iter().flat_map(|row| &row.warnings)),
+            timing: Seconds { combinations: rows.iter().map(|row| row.seconds).sum(), wall },
+            ..self.clone()
+        }
+    }
+
+    /// The identity in every line of its log: equal only for parts of one sweep by one version of percoat.
+    pub fn identity(&self) -> String {
+        let Self { percoat, title, case, task, fingerprint, of, .. } = self;
+        digest(&format!("{percoat}\n{} {of} {fingerprint}\n{title}\n{case}", task.name()))
+    }
+
+    /// The common case, as its first combination with results among these has it: what a setting has put in the place of a key of the
+    /// file is the setting's. `None` where it cannot be read; paths in it are relative to the `folder`.
+    pub fn first_case(&self, rows: &[Row], folder: &Path) -> Option<Case> {
+        let (name, text) = ("the common case".to_owned(), self.case.clone());
+        let source = Source { name, text, folder: folder.to_owned(), ..Source::default() };
+        let first = rows.iter().find(|row| !row.results.is_empty());
+        let set = |row: &Row| row.settings.iter().map(|(key, value)| format!("{key}={value}")).collect::<Vec<_>>();
+        let own = first.and_then(|row| Case::read(&source, &set(row)).ok());
+        own.or_else(|| Case::read(&source, &[]).ok())
+    }
+
+    /// The keys that change, in words: with the names of the materials of the common case as these rows have it, unless they change.
+    pub fn named_keys(&self, rows: &[Row], folder: &Path) -> Vec<NamedKey> {
+        let case = self.first_case(rows, folder);
+        let keys: Vec<&str> =
+            rows.first().map_or(Vec::new(), |row| row.settings.iter().map(|(key, _)| &key[..]).collect());
+        let material = |section: &str| {
+            let index: usize = section.strip_prefix("layers.")?.parse().ok()?;
+            let changes = ["name", "material"].iter().any(|own| keys.contains(&format!("{section}.{own}").as_str()));
+            let layer = case.as_ref()?.layers.get(index).filter(|_| !changes)?;
+            layer.name.clone().or_else(|| layer.material.clone())
+        };
+        keys.iter().map(|key| NamedKey::new(key, material)).collect()
+    }
+
+    /// The content of `sweep.json`.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a description is numbers and texts under names") + "\n"
+    }
+}
+
+/// Writes the rows, by ascending combination, with their description into a folder: `sweep.jsonl`, `sweep.csv` and `sweep.json`.
+///
+/// # Errors
+/// [`OutputError`] with the path.
+pub fn write(folder: &Path, rows: &[Row], description: &Description) -> Result<(), OutputError> {
+    // The log of a sweep that was solved here has the order in which combinations ended.
+    drop(Log::begin(folder, &description.identity(), rows)?);
+    write_text(&folder.join("sweep.csv"), &table(rows))?;
+    write_text(&folder.join("sweep.json"), &description.to_json())
+}
+
+/// Names of the files that [`write()`] writes.
+pub const FILES: [&str; 3] = ["sweep.csv", "sweep.json", SWEEP_LOG];
+
+/// Each text once, in the order of first occurrence.
+fn distinct<'a>(texts: impl Iterator<Item = &'a String>) -> Vec<String> {
+    let mut seen = BTreeSet::new();
+    texts.filter(|text| seen.insert(*text)).cloned().collect()
+}
+
+/// A fingerprint of the common case, the settings of all combinations, and every combination.
+pub fn fingerprint(case: &str, fixed: &[String], combinations: &Combinations) -> String {
+    let each = combinations.all.iter().flat_map(|own| &own.values);
+    let parts = [case].into_iter().chain(fixed.iter().chain(&combinations.keys).chain(each).map(String::as_str));
+    let text = parts.collect::<Vec<_>>().join("\n");
+    let (length, checksum) = checksum(&mut text.as_bytes()).expect("what is in memory can be read");
+    format!("{length:x}-{checksum:016x}")
+}

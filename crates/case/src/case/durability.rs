@@ -1,0 +1,144 @@
+//! `hardness`, `wear`, `fatigue` and `endurance` of a material, and `interface_fatigue` of the lower face of a layer.
+
+use super::error::Refusal;
+use super::keys::{Form, Key, Range, Unit};
+use super::reader::TableAt;
+use super::section::section;
+use percoat_core::body::{Durability, Endurance, Fatigue, MaterialError};
+
+const SIZE: Form = Form::Number(Range::Size);
+static LAW: [Form; 1] = [Form::Table(&FATIGUE)];
+static LIMITS: [Form; 1] = [Form::Table(&ENDURANCE)];
+
+// Keys of layers, of the substrate and of the counterbody.
+pub(super) const HARDNESS: Key =
+    Key::new(&[SIZE], "9.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
+pub(super) const WEAR: Key =
+    Key::new(&[Form::Number(Range::SizeOrZero)], "1e-9").unit(Unit::PerPressure).otherwise("no wear");
+pub(super) const FATIGUE_LAW: Key =
+    Key::new(&LAW, "{ amplitude = 0.4, passes = 1e6, exponent = 8 }").otherwise("no fatigue");
+pub(super) const ENDURANCE_LIMITS: Key =
+    Key::new(&LIMITS, "{ torsion = 0.3, bending = 0.5 }").otherwise("never reached");
+
+section! {
+    /// Damage by the range of the shear stress, (range/amplitude)^exponent/passes in a pass.
+    #[derive(Copy)]
+    pub struct FatigueSection = FATIGUE {
+        /// range of the shear stress that does the damage 1 in `passes`
+        pub amplitude: f64 = Key::new(&[SIZE], "0.4").unit(Unit::Pressure),
+        /// passes of the range `amplitude` to failure
+        pub passes: f64 = Key::new(&[SIZE], "1e6"),
+        /// power of the range with which damage grows
+        pub exponent: f64 = Key::new(&[SIZE], "8.0"),
+    }
+}
+
+section! {
+    /// Endurance limits of the amplitude of stress, for the criteria of Crossland and Dang Van.
+    #[derive(Copy)]
+    pub struct EnduranceSection = ENDURANCE, rules tension_does_no_good {
+        /// limit of the shear stress in alternating torsion
+        pub torsion: f64 = Key::new(&[SIZE], "0.3").unit(Unit::Pressure),
+        /// limit of the stress in alternating bending
+        pub bending: f64 = Key::new(&[SIZE], "0.5").unit(Unit::Pressure).rule("at most √3 `torsion`"),
+    }
+}
+
+/// Refuses a limit of bending that is too far above that of torsion.
+fn tension_does_no_good(own: &EnduranceSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    let bending = section.value("bending")?;
+    own.endurance().map(drop).map_err(|error| {
+        Refusal::new(bending.node.span, format!("`{}`: {error}", bending.path), "too large beside `torsion`")
+            .help("√3 is that of a ductile material by von Mises, and others have less")
+    })
+}
+
+impl FatigueSection {
+    pub(super) fn fatigue(&self) -> Result<Fatigue, MaterialError> {
+        Fatigue::new(self.amplitude, self.passes, self.exponent)
+    }
+}
+
+impl EnduranceSection {
+    fn endurance(&self) -> Result<Endurance, MaterialError> {
+        Endurance::new(self.torsion, self.bending)
+    }
+}
+
+/// The durability of a material by its keys.
+pub(super) fn durability(
+    hardness: Option<f64>,
+    wear: Option<f64>,
+    fatigue: Option<FatigueSection>,
+    endurance: Option<EnduranceSection>,
+) -> Result<Durability, MaterialError> {
+    let fatigue = fatigue.map(|own| own.fatigue()).transpose()?;
+    let endurance = endurance.map(|own| own.endurance()).transpose()?;
+    Ok(Durability { hardness, wear, fatigue, endurance })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Case, Source};
+    use percoat_core::body::Side;
+
+    const CASE: &str = "lattice = { kind = \"square\", period = 4 }\nlevels = [{ shape = \"paraboloid\", radius = 1 }]\n\
+                        load = { mean_pressure = 1e-3 }\n";
+    const LAW: &str = "{ amplitude = 0.4, passes = 1e6, exponent = 8 }";
+
+    fn read(bodies: &str) -> Case {
+        let source = Source { name: "case.toml".to_owned(), text: format!("{CASE}{bodies}"), ..Source::default() };
+        Case::read(&source, &[]).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    #[test]
+    fn every_sublayer_has_the_durability_of_its_layer_and_the_last_one_the_fatigue_of_the_lower_face() {
+        let graded = "graded = { young = [3, 2], poisson = [0.2, 0.3], sublayers = 3 }";
+        let own = "hardness = 0.3, wear = 1e-6, endurance = { torsion = 0.03, bending = 0.05 }";
+        let case = read(&format!(
+            "layers = [{{ thickness = 1, {graded}, {own}, fatigue = {LAW}, interface_fatigue = {LAW} }}]\n\
+             substrate = {{ young = 1, poisson = 0.3, fatigue = {LAW} }}\n"
+        ));
+        let law = Fatigue::new(0.4, 1e6, 8.0).unwrap();
+        let expected = Durability {
+            hardness: Some(0.3),
+            wear: Some(1e-6),
+            fatigue: Some(law),
+            endurance: Some(Endurance::new(0.03, 0.05).unwrap()),
+        };
+        let base = Durability { fatigue: Some(law), ..Durability::default() };
+        let found: Vec<Durability> = case.half_space().durabilities().collect();
+        assert_eq!(found, [expected, expected, expected, base]);
+        let faces: Vec<Option<Fatigue>> =
+            case.half_space().layers().iter().map(|layer| layer.interface_fatigue()).collect();
+        assert_eq!(faces, [None, None, Some(law)]);
+        assert_eq!(case.problem().bodies().hardness(), Some((0.3, Side::Body)));
+    }
+
+    #[test]
+    fn a_rigid_counterbody_with_a_surface_is_rigid() {
+        let substrate = "substrate = { young = 1, poisson = 0.3, hardness = 0.3 }\n";
+        let plain = read(substrate);
+        for (own, hardness, wear) in [
+            ("hardness = 0.1", (0.1, Side::Counterbody), 0.0),
+            ("hardness = 0.4", (0.3, Side::Body), 0.0),
+            ("wear = 1e-6", (0.3, Side::Body), 1e-6),
+        ] {
+            let case = read(&format!("{substrate}counterbody = {{ rigid = true, {own} }}\n"));
+            let bodies = case.problem().bodies();
+            assert_eq!((bodies.hardness(), bodies.wear(Side::Counterbody)), (Some(hardness), wear));
+            assert_eq!((bodies.counterbody(), bodies.body()), (None, plain.half_space()));
+            assert!(case.counterbody.as_ref().is_some_and(|own| !own.is_elastic()));
+        }
+    }
+
+    #[test]
+    fn a_life_without_keys_has_its_defaults() {
+        let substrate = "substrate = { young = 1, poisson = 0.3 }\n";
+        let life =
+            |own: &str| read(&format!("{substrate}{own}")).life.map(|own| (own.passes, own.distance, own.tolerance));
+        assert_eq!((life(""), life("life = {}")), (None, Some((None, None, 1e-2))));
+        assert_eq!(life("life = { passes = 1e7, distance = 4, tolerance = 1e-3 }"), Some((Some(1e7), Some(4.0), 1e-3)));
+    }
+}

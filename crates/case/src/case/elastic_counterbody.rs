@@ -1,0 +1,158 @@
+//! `[counterbody]`: the body that the indenters or the topography belong to, elastic, or rigid with a hardness or wear.
+
+use super::durability::{ENDURANCE_LIMITS, EnduranceSection, FATIGUE_LAW, FatigueSection, HARDNESS, WEAR};
+use super::error::Refusal;
+use super::grading::LAYERS;
+use super::keys::{Form, Key, Unit};
+use super::layers::{
+    self, Body, ELASTIC, LAYER, LayerSection, MATERIAL, NAME, POISSON, RIGID, Rigid, SIZE, SubstrateSection, TENSILE,
+    YIELD,
+};
+use super::reader::TableAt;
+use super::section::{KeyValue, ReadTable, section};
+use super::value::ValueAt;
+use percoat_core::body::{Bodies, Durability, HalfSpace, MaterialError};
+use serde::Serialize;
+
+section! {
+    /// The section `[counterbody]`.
+    pub struct CounterbodySection = COUNTERBODY, rules elastic_or_rigid, misplaced [
+        ("shear_ratio", "`shear_ratio` relates a layer to its substrate, whose modulus is `young`"),
+        ("radius", "the shape of the counterbody stands in [[levels]] or [surface]"),
+    ] {
+        /// material of `percoat materials` or of the file `materials`, for moduli, strengths, hardness and name that are not given
+        pub material: Option<String> = MATERIAL,
+        /// name of the material, used in place of its number in tables and pictures
+        pub name: Option<String> = NAME,
+        /// Young's modulus
+        pub young: Option<f64> = Key::new(&[SIZE], "210.0").unit(Unit::Pressure),
+        /// Poisson's ratio
+        pub poisson: Option<f64> = Key::new(&[POISSON], "0.3"),
+        /// yield strength, compared with the von Mises stress
+        pub yield_strength: Option<f64> = YIELD,
+        /// tensile strength, compared with the largest principal stress
+        pub tensile_strength: Option<f64> = TENSILE,
+        /// hardness: the pressure never exceeds that of the softer surface
+        pub hardness: Option<f64> = HARDNESS,
+        /// Archard's coefficient of wear k: the pressure p wears off the depth k p ds along the path ds of sliding
+        pub wear: Option<f64> = WEAR,
+        /// fatigue by the range of the principal shear stress τ₁ in a pass
+        pub fatigue: Option<FatigueSection> = FATIGUE_LAW,
+        /// endurance limits, below which any number of passes is borne, for the criteria of Crossland and Dang Van
+        pub endurance: Option<EnduranceSection> = ENDURANCE_LIMITS,
+        /// whether it is rigid: below its coating, whose last layer its interface joins to it, or uncoated with a hardness or wear
+        pub rigid: Rigid = RIGID.and_of(ELASTIC),
+        /// its coating, one section `[[counterbody.layers]]` a layer from its surface inward, with the keys of `[[layers]]`
+        pub layers: Coating =
+            Key::new(&[Form::Sections(&LAYER, LAYERS)], "[{ thickness = 0.5, young = 300.0, poisson = 0.25 }]")
+                .otherwise("uncoated")
+                .rule("sublayers of graded layers count among the 200")
+                .omitted_as_nothing(),
+    }
+}
+
+/// The layers of a counterbody, from its surface inward.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Coating(pub Vec<LayerSection>);
+
+impl KeyValue for Coating {
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        Err(value.refuse_form())
+    }
+
+    fn of(table: &TableAt<'_>, key: &str) -> Result<Self, Refusal> {
+        table.sections(key)?.iter().map(LayerSection::read_table).collect::<Result<_, _>>().map(Self)
+    }
+
+    fn is_nothing(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+/// Refuses a rigid counterbody with keys of a material, hardness and wear of one below a coating, and an elastic one without
+/// moduli.
+fn elastic_or_rigid(own: &CounterbodySection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    layers::modulus_or_rigid(own.rigid.0, ELASTIC, section)?;
+    let of_surface = ["hardness", "wear"].into_iter().find_map(|key| section.optional(key));
+    match of_surface.filter(|_| own.rigid.0 && own.is_elastic()) {
+        Some(value) => {
+            let message =
+                format!("`{}` has no meaning: a layer is at the surface of the rigid counterbody", value.path);
+            Err(Refusal::new(value.node.span, message, "not at the surface").help("give it to the layers"))
+        }
+        None => Ok(()),
+    }
+}
+
+impl CounterbodySection {
+    /// Whether anything of it is elastic: itself, or a coating.
+    pub fn is_elastic(&self) -> bool {
+        !self.rigid.0 || !self.layers.0.is_empty()
+    }
+
+    /// Its material below the layers.
+    pub fn substrate(&self) -> SubstrateSection {
+        SubstrateSection {
+            material: self.material.clone(),
+            name: self.name.clone(),
+            young: self.young,
+            poisson: self.poisson,
+            yield_strength: self.yield_strength,
+            tensile_strength: self.tensile_strength,
+            hardness: self.hardness,
+            wear: self.wear,
+            fatigue: self.fatigue,
+            endurance: self.endurance,
+            rigid: self.rigid,
+        }
+    }
+
+    /// It with twice the sublayers in graded layers; `None` without graded layers.
+    pub fn refined(&self) -> Option<HalfSpace> {
+        layers::refined(&self.layers.0, &self.substrate())
+    }
+}
+
+/// The body of the section `[counterbody]`.
+pub(super) enum Above<'a> {
+    /// Layers on a substrate.
+    Elastic(Box<Body<'a>>),
+    /// Rigid and uncoated, with the durability of its surface.
+    Rigid(Durability),
+}
+
+impl<'a> Above<'a> {
+    /// Its layers and substrate; `None` where it is rigid and uncoated.
+    pub(super) fn body(&self) -> Option<&Body<'a>> {
+        match self {
+            Self::Elastic(body) => Some(body),
+            Self::Rigid(_) => None,
+        }
+    }
+
+    /// Both bodies, it above `body`.
+    pub(super) fn bodies(&self, body: HalfSpace) -> Result<Bodies, MaterialError> {
+        match self {
+            Self::Elastic(above) => Ok(Bodies::elastic(body, above.half_space.clone())),
+            Self::Rigid(durability) => Bodies::from(body).with_rigid_durability(*durability),
+        }
+    }
+}
+
+/// Advice on a rigid counterbody that has nothing to say.
+const UNCOATED: &str =
+    "without [counterbody] it is rigid; a rigid [counterbody] has layers, or a `hardness` or `wear` of its own";
+
+/// Reads `[counterbody]`, with the half-space and the sections of its layers.
+pub(super) fn read<'a>(section: &TableAt<'a>) -> Result<(CounterbodySection, Above<'a>), Refusal> {
+    let own = CounterbodySection::read_table(section)?;
+    let durability = Durability { hardness: own.hardness, wear: own.wear, ..Durability::default() };
+    if !own.is_elastic() && durability != Durability::default() {
+        return Ok((own, Above::Rigid(durability)));
+    }
+    let sections = section.sections("layers")?;
+    let body = layers::build_body(own.layers.0.clone(), sections, own.substrate(), section)
+        .map_err(|refusal| if own.is_elastic() { refusal } else { refusal.help(UNCOATED) })?;
+    Ok((own, Above::Elastic(Box::new(body))))
+}

@@ -1,0 +1,255 @@
+//! Numbers of a case from a measured indentation curve: which are free, how they are searched for, and the case with the values found.
+
+use super::model::CASE;
+use super::{Case, CaseError, Source};
+use percoat_common::plain;
+use percoat_core::identification::{
+    Identification, IdentificationError, Instrument, Listener, Measurement, Model, Parameter, Quantity,
+};
+use percoat_core::problem::Problem;
+use percoat_core::run::Sampling;
+use serde_json::{Value, json};
+
+/// Names of a zero that was missed, and of the compliance of the frame, among the parameters.
+const OFFSET: &str = "offset";
+const FRAME: &str = "frame_compliance";
+/// Keys of numbers by which what is found is differentiated where they are taken as known.
+const KNOWN: [&str; 10] = [
+    "radius",
+    "slope",
+    "coefficient",
+    "exponent",
+    "thickness",
+    "young",
+    "shear_ratio",
+    "poisson",
+    "tangential_stiffness",
+    "normal_stiffness",
+];
+/// Most samples along a side of a window: its contact takes up two thirds of them, and leaves some 1e-4 of the penetration.
+const MOST_POINTS: usize = 96;
+
+/// Why a number of a case cannot be free.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NotFree {
+    /// No number is.
+    #[error("nothing is to be found: name a key as layers.0.young, or `{OFFSET}` or `{FRAME}`")]
+    Nothing,
+    /// A name that is there twice.
+    #[error("`{}` is there twice", plain::line(.0))]
+    Twice(String),
+    /// A name that is that of no number above 0.
+    #[error(
+        "the case has no number above 0 at `{}`: name a key as layers.0.young, layers.0.thickness, substrate.young or \
+         levels.0.radius, layers counted from 0, or `{OFFSET}` or `{FRAME}`",
+        plain::line(.0)
+    )]
+    NoNumber(String),
+}
+
+/// Why a number of the instrument is not known.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NotKnown {
+    /// A text that is none of a name and a number.
+    #[error("`{}` is no `{OFFSET}=LENGTH` or `{FRAME}=LENGTH PER FORCE`, a number in the units of the case", plain::line(.0))]
+    NoValue(String),
+    /// A name that is there twice.
+    #[error("`{}` is there twice", plain::line(.0))]
+    Twice(String),
+}
+
+/// Known additions of an instrument, by texts `offset=0.0025` and `frame_compliance=1e-4` in the units of the case.
+///
+/// # Errors
+/// [`NotKnown`] for other texts, and for a name that is there twice.
+pub fn known_instrument(texts: &[String]) -> Result<Instrument, NotKnown> {
+    let [mut offset, mut frame] = [None; 2];
+    for text in texts {
+        let none = || NotKnown::NoValue(text.clone());
+        let (name, value) = text.split_once('=').ok_or_else(none)?;
+        let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(none)?;
+        let own = match name.trim() {
+            OFFSET => &mut offset,
+            FRAME => &mut frame,
+            _ => return Err(none()),
+        };
+        if own.replace(value).is_some() {
+            return Err(NotKnown::Twice(name.trim().to_owned()));
+        }
+    }
+    Ok(Instrument { offset: offset.unwrap_or(0.0), frame_compliance: frame.unwrap_or(0.0) })
+}
+
+/// The task of `percoat identify`: free numbers of a case, from a measured curve.
+#[derive(Debug)]
+pub struct IdentificationTask<'a> {
+    source: &'a Source,
+    set: &'a [String],
+    case: &'a Case,
+    parameters: Vec<Parameter>,
+    /// Numbers that are taken as known, and by which what is found is differentiated.
+    fixed: Vec<Parameter>,
+    /// Known additions of the instrument; 0 of what is free.
+    instrument: Instrument,
+}
+
+impl<'a> IdentificationTask<'a> {
+    /// The task for the numbers at these keys, and for `offset` and `frame_compliance`. The case is that of the source with the
+    /// overrides `set`; its numbers are the starts.
+    ///
+    /// # Errors
+    /// [`NotFree`] for names that are none of a number of the case above 0, for one that is there twice, and without any.
+    pub fn new(source: &'a Source, set: &'a [String], case: &'a Case, free: &[String]) -> Result<Self, NotFree> {
+        if free.is_empty() {
+            return Err(NotFree::Nothing);
+        }
+        let (whole, mut parameters) = (json!(case), Vec::<Parameter>::new());
+        for name in free.iter().map(|name| name.trim()) {
+            if parameters.iter().any(|own| own.name == name) {
+                return Err(NotFree::Twice(name.to_owned()));
+            }
+            let (quantity, start) = match name {
+                OFFSET => (Quantity::Offset, 0.0),
+                FRAME => (Quantity::FrameCompliance, 0.0),
+                key => {
+                    let value = whole.pointer(&format!("/{}", key.replace('.', "/"))).and_then(Value::as_f64);
+                    let start = value.filter(|value| *value > 0.0);
+                    let range = CASE.range(key);
+                    range
+                        .zip(start)
+                        .map(|(range, start)| (range.quantity(), start))
+                        .ok_or_else(|| NotFree::NoNumber(key.to_owned()))?
+                }
+            };
+            parameters.push(Parameter { name: name.to_owned(), quantity, start });
+        }
+        let mut fixed = Vec::new();
+        for section in ["levels", "layers", "substrate", "counterbody"] {
+            collect(&whole[section], section, &mut fixed);
+        }
+        for (name, quantity) in [(OFFSET, Quantity::Offset), (FRAME, Quantity::FrameCompliance)] {
+            fixed.push(Parameter { name: name.to_owned(), quantity, start: 0.0 });
+        }
+        fixed.retain(|own| parameters.iter().all(|free| free.name != own.name));
+        Ok(Self { source, set, case, parameters, fixed, instrument: Instrument::default() })
+    }
+
+    /// The task for an instrument that is known to add this; where it is free as well, the search starts from it.
+    #[must_use]
+    pub fn with_instrument(mut self, instrument: Instrument) -> Self {
+        for own in self.parameters.iter_mut().chain(&mut self.fixed) {
+            match own.quantity {
+                Quantity::Offset => own.start = instrument.offset,
+                Quantity::FrameCompliance => own.start = instrument.frame_compliance,
+                _ => {}
+            }
+        }
+        let known = |quantity: Quantity, of: f64| {
+            if self.parameters.iter().any(|own| own.quantity == quantity) { 0.0 } else { of }
+        };
+        self.instrument = Instrument {
+            offset: known(Quantity::Offset, instrument.offset),
+            frame_compliance: known(Quantity::FrameCompliance, instrument.frame_compliance),
+        };
+        self
+    }
+
+    /// Finds the values by the elastic curve, and the case with them. `progress` is called with each trial; `Break` ends the search.
+    ///
+    /// # Errors
+    /// [`IdentificationError`].
+    pub fn find(
+        &self,
+        measured: &Measurement,
+        progress: &mut Listener<'_>,
+    ) -> Result<(Identification, Case), IdentificationError<CaseError>> {
+        let problem =
+            |values: &[f64]| -> Result<Problem, CaseError> { Ok(self.with(values)?.problem().without_hardness()) };
+        let model = Model { problem: &problem, points: points(self.case), settings: self.case.solver };
+        let measured = measured.clone().with_instrument(self.instrument);
+        let found = Identification::with_fixed(&model, (&self.parameters, &self.fixed), &measured, progress)?;
+        let values: Vec<f64> = found.estimates.iter().map(|own| own.value).collect();
+        let best = self.with(&values).map_err(IdentificationError::Model)?;
+        Ok((found, best))
+    }
+
+    /// The case with these values of the parameters, and of the fixed numbers where there are more values.
+    fn with(&self, values: &[f64]) -> Result<Case, CaseError> {
+        let of_case = |(own, _): &(&Parameter, &f64)| matches!(own.quantity, Quantity::Positive | Quantity::Bounded(_));
+        let free = self.parameters.iter().chain(&self.fixed).zip(values).filter(of_case);
+        let settings: Vec<String> = free.map(|(own, value)| format!("{}={value:e}", own.name)).collect();
+        Case::read(self.source, &[self.set, &settings].concat())
+    }
+}
+
+/// Adds the numbers of a part of a serialised case at `path` that have a key of [`KNOWN`], each with its path.
+fn collect(part: &Value, path: &str, fixed: &mut Vec<Parameter>) {
+    let mut visit = |name: &str, value: &Value| {
+        let path = format!("{path}.{name}");
+        match (value.as_f64().filter(|_| KNOWN.contains(&name)), CASE.range(&path)) {
+            (Some(start), Some(range)) => {
+                let quantity = range.quantity();
+                if start > 0.0 || matches!(quantity, Quantity::Bounded(_)) {
+                    fixed.push(Parameter { name: path, quantity, start });
+                }
+            }
+            _ => collect(value, &path, fixed),
+        }
+    };
+    match part {
+        Value::Object(entries) => entries.iter().for_each(|(name, value)| visit(name, value)),
+        Value::Array(items) => items.iter().enumerate().for_each(|(index, value)| visit(&index.to_string(), value)),
+        _ => {}
+    }
+}
+
+/// Samples along a side of the windows in which the contacts of a case are solved.
+pub(super) fn points(case: &Case) -> usize {
+    match case.grid {
+        Sampling::Points([n1, n2]) => n1.max(n2).min(MOST_POINTS),
+        Sampling::Accuracy(_) => MOST_POINTS,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::embedded;
+
+    fn quantity(case: &str, key: &str) -> Result<Quantity, NotFree> {
+        let source = embedded::source(case).unwrap();
+        let own = Case::read(&source, &[]).unwrap();
+        IdentificationTask::new(&source, &[], &own, &[key.to_owned()]).map(|own| own.parameters[0].quantity)
+    }
+
+    #[test]
+    fn how_a_number_is_searched_follows_from_the_range_of_its_key() {
+        let bounded = Ok(Quantity::Bounded([0.0, 0.5]));
+        for key in ["layers.0.poisson", "substrate.poisson"] {
+            assert_eq!(quantity("dlc-on-steel", key), bounded, "{key}");
+        }
+        for key in ["layers.1.thickness", "layers.0.young", "substrate.young"] {
+            assert_eq!(quantity("dlc-on-steel", key), Ok(Quantity::Positive), "{key}");
+        }
+        assert_eq!(quantity("fig2", "levels.0.radius"), Ok(Quantity::Positive));
+        assert_eq!(quantity("fig2", "offset"), Ok(Quantity::Offset));
+        // A whole number, a text, a table, an item that is not there, and no key.
+        for key in
+            ["localized.elements", "title", "layers", "layers.0", "layers.7.young", "layers.young", "poisson", ""]
+        {
+            assert_eq!(quantity("fig2", key), Err(NotFree::NoNumber(key.to_owned())), "{key}");
+        }
+    }
+
+    #[test]
+    fn something_is_to_be_found_and_nothing_twice() {
+        let source = embedded::source("fig2").unwrap();
+        let case = Case::read(&source, &[]).unwrap();
+        let refused = |free: &[&str]| {
+            let free: Vec<String> = free.iter().map(|&name| name.to_owned()).collect();
+            IdentificationTask::new(&source, &[], &case, &free).map(drop)
+        };
+        assert_eq!(refused(&[]), Err(NotFree::Nothing));
+        assert_eq!(refused(&["offset", " offset"]), Err(NotFree::Twice("offset".to_owned())));
+    }
+}

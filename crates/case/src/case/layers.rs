@@ -1,0 +1,363 @@
+//! `[[layers]]` and `[substrate]`: the coated half-space, or layers on a rigid base.
+
+use super::durability::{
+    ENDURANCE_LIMITS, EnduranceSection, FATIGUE, FATIGUE_LAW, FatigueSection, HARDNESS, WEAR, durability,
+};
+use super::error::Refusal;
+use super::grading::{GRADING, Grading, LAYERS};
+use super::interface::{INTERFACE_STRENGTH, InterfaceSection, InterfaceStrengthSection, SPRING};
+use super::keys::{Form, Key, Range, Unit};
+use super::material_names::distinct;
+use super::reader::TableAt;
+use super::section::{KeyValue, ReadTable, demanded, section};
+use super::value::ValueAt;
+use percoat_core::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Name, Strength};
+use serde::Serialize;
+
+/// Most letters of a material's name.
+const LETTERS: usize = 40;
+
+pub(super) const SIZE: Form = Form::Number(Range::Size);
+pub(super) const POISSON: Form = Form::Number(Range::between(0.0, 0.5));
+
+// Keys of layers, of the substrate and of the counterbody.
+pub(super) const MATERIAL: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"")
+    .otherwise("none")
+    .rule("needs units.pressure; where both moduli are given it is a name alone")
+    .fills(&["name", "young", "poisson", "yield_strength", "tensile_strength", "hardness"]);
+pub(super) const NAME: Key =
+    Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its `material`, or its number");
+pub(super) const YIELD: Key =
+    Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
+pub(super) const TENSILE: Key =
+    Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
+/// Keys that a rigid base does not have, beside `young`; the last two are those of a surface.
+const BELOW: &[&str] =
+    &["poisson", "material", "name", "yield_strength", "tensile_strength", "fatigue", "endurance", "hardness", "wear"];
+/// Keys that a rigid counterbody does not have, beside `young`.
+pub(super) const ELASTIC: &[&str] = BELOW.split_at(BELOW.len() - 2).0;
+pub(super) const RIGID: Key =
+    Key::new(&[Form::Boolean], "true").otherwise("elastic").omitted_as_nothing().instead_of("young");
+
+/// Whether a substrate is a rigid base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(transparent)]
+pub struct Rigid(pub bool);
+
+impl KeyValue for Rigid {
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        value.boolean().map(Self)
+    }
+
+    fn of(table: &TableAt<'_>, key: &str) -> Result<Self, Refusal> {
+        table.optional(key).map_or(Ok(Self::default()), |value| Self::read(&value))
+    }
+
+    fn is_nothing(&self) -> bool {
+        !self.0
+    }
+}
+
+section! {
+    /// One section of `[[layers]]`, from the surface down.
+    pub struct LayerSection = LAYER, rules consistent {
+        /// material of `percoat materials` or of the file `materials`, for moduli, strengths, hardness and name that are not given
+        pub material: Option<String> = MATERIAL,
+        /// name of the material, used in place of its number in tables and pictures
+        pub name: Option<String> = NAME,
+        /// the thickness of the layer
+        pub thickness: f64 = Key::new(&[SIZE], "0.5").unit(Unit::Length),
+        /// shear modulus over that of the substrate, χ
+        pub shear_ratio: Option<f64> = Key::new(&[SIZE], "2.0"),
+        /// Young's modulus
+        pub young: Option<f64> = Key::new(&[SIZE], "300.0").unit(Unit::Pressure).instead_of("shear_ratio"),
+        /// Poisson's ratio
+        pub poisson: Option<f64> = Key::new(&[POISSON], "0.25"),
+        /// moduli that change with depth, `poisson` included; the layer is divided into bonded sublayers
+        pub graded: Option<Grading> =
+            Key::new(&[Form::Table(&GRADING)], "{ young = [4.0, 1.0], poisson = [0.2, 0.3] }")
+                .instead_of("young")
+                .and_of(&["shear_ratio", "poisson"]),
+        /// the interface below the layer; a table is a spring
+        pub interface: InterfaceSection =
+            Key::new(&[Form::Word(InterfaceSection::WORDS), Form::Table(&SPRING)], "{ tangential_stiffness = 10.0 }")
+                .default("\"bonded\""),
+        /// equi-biaxial residual stress, positive in tension
+        pub residual_stress: f64 = Key::new(&[Form::Number(Range::Coordinate)], "-2.0")
+            .unit(Unit::Pressure)
+            .default("0")
+            .omitted_as_nothing(),
+        /// yield strength, compared with the von Mises stress
+        pub yield_strength: Option<f64> = YIELD,
+        /// tensile strength, compared with the largest principal stress
+        pub tensile_strength: Option<f64> = TENSILE,
+        /// hardness: the pressure never exceeds that of the softer surface
+        pub hardness: Option<f64> = HARDNESS,
+        /// Archard's coefficient of wear k: the pressure p wears off the depth k p ds along the path ds of sliding
+        pub wear: Option<f64> = WEAR,
+        /// fatigue by the range of the principal shear stress τ₁ in a pass
+        pub fatigue: Option<FatigueSection> = FATIGUE_LAW,
+        /// endurance limits, below which any number of passes is borne, for the criteria of Crossland and Dang Van
+        pub endurance: Option<EnduranceSection> = ENDURANCE_LIMITS,
+        /// strengths of the interface below the layer
+        pub interface_strength: Option<InterfaceStrengthSection> =
+            Key::new(&[Form::Table(&INTERFACE_STRENGTH)], "{ normal = 0.5, shear = 0.8 }")
+                .otherwise("never reached")
+                .rule("at least one of normal and shear"),
+        /// fatigue of the interface below the layer by the range of its shear stress in a pass; not of a frictionless one
+        pub interface_fatigue: Option<FatigueSection> =
+            Key::new(&[Form::Table(&FATIGUE)], "{ amplitude = 0.2, passes = 1e6, exponent = 8 }").otherwise("no fatigue"),
+    }
+}
+
+section! {
+    /// The section `[substrate]`.
+    pub struct SubstrateSection = SUBSTRATE, rules elastic_or_rigid, misplaced [
+        ("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")
+    ] {
+        /// material of `percoat materials` or of the file `materials`, for moduli, strengths, hardness and name that are not given
+        pub material: Option<String> = MATERIAL,
+        /// name of the material, used in place of its number in tables and pictures
+        pub name: Option<String> = NAME,
+        /// Young's modulus
+        pub young: Option<f64> = Key::new(&[SIZE], "210.0").unit(Unit::Pressure),
+        /// Poisson's ratio
+        pub poisson: Option<f64> = Key::new(&[POISSON], "0.3"),
+        /// yield strength, compared with the von Mises stress
+        pub yield_strength: Option<f64> = YIELD,
+        /// tensile strength, compared with the largest principal stress
+        pub tensile_strength: Option<f64> = TENSILE,
+        /// hardness: the pressure never exceeds that of the softer surface
+        pub hardness: Option<f64> = HARDNESS,
+        /// Archard's coefficient of wear k: the pressure p wears off the depth k p ds along the path ds of sliding
+        pub wear: Option<f64> = WEAR,
+        /// fatigue by the range of the principal shear stress τ₁ in a pass
+        pub fatigue: Option<FatigueSection> = FATIGUE_LAW,
+        /// endurance limits, below which any number of passes is borne, for the criteria of Crossland and Dang Van
+        pub endurance: Option<EnduranceSection> = ENDURANCE_LIMITS,
+        /// whether it is a rigid base, without the keys of a material; the interface of the last layer joins it to the base
+        pub rigid: Rigid = RIGID.and_of(BELOW),
+    }
+}
+
+/// Refuses a rigid base with keys of a material, and an elastic substrate without moduli.
+fn elastic_or_rigid(own: &SubstrateSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    modulus_or_rigid(own.rigid.0, BELOW, section)
+}
+
+/// Refuses what is rigid with `young` or one of the `keys` of a material, and what is elastic without moduli.
+pub(super) fn modulus_or_rigid(is_rigid: bool, keys: &[&str], section: &TableAt<'_>) -> Result<(), Refusal> {
+    if !is_rigid {
+        return ["young", "poisson"].into_iter().try_for_each(|key| section.value(key).map(drop));
+    }
+    let Some(value) = ["young"].iter().chain(keys).find_map(|key| section.optional(key)) else { return Ok(()) };
+    let message = format!("`{}` has no meaning: `{}` = true has no material", value.path, section.path("rigid"));
+    Err(Refusal::new(value.node.span, message, "not of a rigid base").help("remove it, or `rigid`"))
+}
+
+/// Refuses interface strengths without a number, fatigue of an interface that transmits no shear, and a layer without either a
+/// modulus and Poisson's ratio or `graded`.
+fn consistent(layer: &LayerSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    if let Some(InterfaceStrengthSection { shear: None, normal, friction }) = layer.interface_strength
+        && (normal.is_none() || friction > 0.0)
+    {
+        let refusal = section.value("interface_strength")?.refuse_form();
+        return Err(refusal.help(match friction > 0.0 {
+            true => "`friction` adds to the shear strength `shear`: give it, or leave `friction` out",
+            false => "at least one of normal and shear; the one left out is never reached",
+        }));
+    }
+    if let Some(value) = section.optional("interface_fatigue")
+        && layer.interface.interface() == Interface::Frictionless
+    {
+        let message = format!("`{}` has no meaning: a frictionless interface transmits no shear", value.path);
+        return Err(
+            Refusal::new(value.node.span, message, "never loaded").help("remove it, or give another `interface`")
+        );
+    }
+    if layer.graded.is_some() {
+        let uniform = ["shear_ratio", "young", "poisson"];
+        let other = uniform.into_iter().find_map(|key| Some((key, section.optional(key)?)));
+        return other.map_or(Ok(()), |(key, value)| Err(section.both(["graded", key], value.node.span)));
+    }
+    section.one_of(["shear_ratio", "young"])?;
+    section.value("poisson").map(drop)
+}
+
+impl SubstrateSection {
+    /// Its material without a name; `None` for a rigid base.
+    fn material(&self) -> Option<Result<Material, MaterialError>> {
+        (!self.rigid.0).then(|| Material::from_young(demanded(self.young), demanded(self.poisson)))
+    }
+
+    /// The half-space of these layers on its material.
+    fn under(&self, layers: Vec<Layer>, material: Material) -> Result<HalfSpace, MaterialError> {
+        let strength = Strength { yielding: self.yield_strength, tensile: self.tensile_strength };
+        let durability = durability(self.hardness, self.wear, self.fatigue, self.endurance)?;
+        HalfSpace::new(layers, material).with_substrate_strength(strength)?.with_substrate_durability(durability)
+    }
+}
+
+impl LayerSection {
+    /// Number of its homogeneous sublayers; 1 without `graded`.
+    pub fn sublayers(&self) -> usize {
+        self.graded.map_or(1, |graded| graded.sublayers)
+    }
+
+    fn stiffness_key(&self) -> &'static str {
+        match (&self.graded, self.young) {
+            (Some(_), _) => "graded",
+            (None, Some(_)) => "young",
+            (None, None) => "shear_ratio",
+        }
+    }
+
+    /// Its materials from the upper face down, one a sublayer.
+    fn materials(&self, substrate: Option<Material>) -> Result<Vec<Material>, MaterialError> {
+        if let Some(graded) = self.graded {
+            return graded.materials(substrate).collect();
+        }
+        let poisson = demanded(self.poisson);
+        let material = match self.young {
+            Some(young) => Material::from_young(young, poisson),
+            None => Material::from_shear(demanded(self.shear_ratio) * demanded(substrate).shear(), poisson),
+        };
+        material.map(|material| vec![material])
+    }
+
+    /// It, or its sublayers from the upper one down, bonded to each other; its lower face is that of the last. Its material has
+    /// this name.
+    fn build(&self, name: Option<&str>, substrate: Option<Material>) -> Result<Vec<Layer>, MaterialError> {
+        let materials = self.materials(substrate)?;
+        let count = materials.len();
+        let own = Strength { yielding: self.yield_strength, tensile: self.tensile_strength };
+        let lower =
+            self.interface_strength.as_ref().map_or(InterfaceStrength::default(), InterfaceStrengthSection::strength);
+        let durability = durability(self.hardness, self.wear, self.fatigue, self.endurance)?;
+        let fatigue = self.interface_fatigue.map(|own| own.fatigue()).transpose()?;
+        let layer = |(index, material): (usize, Material)| {
+            let (interface, strength, fatigue) = if index + 1 == count {
+                (self.interface.interface(), lower, fatigue)
+            } else {
+                (Interface::Bonded, InterfaceStrength::default(), None)
+            };
+            let name = name.map(|name| match count {
+                1 => Name::new(name),
+                _ => Name::new(&format!("{name}, sublayer {} of {count}", index + 1)),
+            });
+            Layer::new(material.with_name(name), self.thickness / count as f64, interface)?
+                .with_residual_stress(self.residual_stress)?
+                .with_strengths(own, strength)?
+                .with_durability(durability, fatigue)
+        };
+        materials.into_iter().enumerate().map(layer).collect()
+    }
+
+    /// A layer with twice the sublayers, where it is graded.
+    fn refined(&self) -> Self {
+        Self { graded: self.graded.map(|graded| graded.of(2 * graded.sublayers)), ..self.clone() }
+    }
+}
+
+/// The body of a case, and the sections of its layers.
+pub(super) struct Body<'a> {
+    pub(super) layers: Vec<LayerSection>,
+    pub(super) substrate: SubstrateSection,
+    pub(super) half_space: HalfSpace,
+    pub(super) sections: Vec<TableAt<'a>>,
+}
+
+/// Reads `[[layers]]` and `[substrate]`.
+pub(super) fn read<'a>(root: &TableAt<'a>) -> Result<Body<'a>, Refusal> {
+    let sections = root.sections("layers")?;
+    let layers: Vec<LayerSection> = sections.iter().map(LayerSection::read_table).collect::<Result<_, _>>()?;
+    let substrate_section = root.required_section("substrate")?;
+    let substrate = SubstrateSection::read_table(&substrate_section)?;
+    build_body(layers, sections, substrate, &substrate_section)
+}
+
+/// A body of layers, from its surface inward, on a substrate, each with its section.
+pub(super) fn build_body<'a>(
+    layers: Vec<LayerSection>,
+    sections: Vec<TableAt<'a>>,
+    substrate: SubstrateSection,
+    substrate_section: &TableAt<'a>,
+) -> Result<Body<'a>, Refusal> {
+    let half_space = build(&layers, &sections, &substrate, substrate_section)?;
+    Ok(Body { layers, substrate, half_space, sections })
+}
+
+impl<'a> Body<'a> {
+    /// The section of each layer of the half-space.
+    pub(super) fn places(&self) -> Vec<&TableAt<'a>> {
+        let places = self.layers.iter().zip(&self.sections);
+        places.flat_map(|(layer, section)| std::iter::repeat_n(section, layer.sublayers())).collect()
+    }
+}
+
+/// The half-space of the case, or a refusal at the line of the fault.
+fn build(
+    layers: &[LayerSection],
+    layer_sections: &[TableAt<'_>],
+    substrate: &SubstrateSection,
+    substrate_section: &TableAt<'_>,
+) -> Result<HalfSpace, Refusal> {
+    let refuse = |section: &TableAt<'_>, key: &str, error: MaterialError| {
+        let span = section.optional(key).map_or(section.span, |value| value.node.span);
+        Refusal::new(span, format!("`{}`: {error}", section.path(key)), "this material")
+    };
+    let base = substrate.material().transpose().map_err(|error| refuse(substrate_section, "young", error))?;
+    count(layers, layer_sections)?;
+    if base.is_none() {
+        layer_sections.iter().try_for_each(|section| without_ratio(section, substrate_section))?;
+    }
+    let names: Vec<_> = layers.iter().map(|layer| &layer.name).chain([&substrate.name]).map(Option::as_deref).collect();
+    let names = distinct(&names);
+    let built: Result<Vec<Vec<Layer>>, Refusal> = layers
+        .iter()
+        .zip(layer_sections)
+        .zip(&names)
+        .map(|((layer, section), name)| {
+            layer.build(name.as_deref(), base).map_err(|error| refuse(section, layer.stiffness_key(), error))
+        })
+        .collect();
+    let Some(base) = base else {
+        return HalfSpace::on_rigid_base(built?.concat()).map_err(|error| refuse(substrate_section, "rigid", error));
+    };
+    let base = base.with_name(names[layers.len()].as_deref().map(Name::new));
+    substrate.under(built?.concat(), base).map_err(|error| refuse(substrate_section, "yield_strength", error))
+}
+
+/// Refuses a layer on a rigid base whose moduli are stated over those of the substrate.
+fn without_ratio(section: &TableAt<'_>, substrate_section: &TableAt<'_>) -> Result<(), Refusal> {
+    let graded = section.section("graded")?;
+    let ratio = section.optional("shear_ratio").or_else(|| graded?.optional("shear_ratio"));
+    let Some(value) = ratio else { return Ok(()) };
+    let message =
+        format!("`{}` relates to the substrate, and `{}` = true", value.path, substrate_section.path("rigid"));
+    Err(Refusal::new(value.node.span, message, "no modulus to relate to").help("give `young` in its place"))
+}
+
+/// Refuses more than [`LAYERS`] layers and sublayers, at the layer that exceeds them.
+fn count(layers: &[LayerSection], sections: &[TableAt<'_>]) -> Result<(), Refusal> {
+    let mut count = 0;
+    for (layer, section) in layers.iter().zip(sections) {
+        count += layer.sublayers();
+        if count > LAYERS {
+            let span = section.optional("graded").map_or(section.span, |value| value.node.span);
+            let message = format!("`layers` must be at most {LAYERS} layers and sublayers, not {count} up to here");
+            return Err(Refusal::new(span, message, "too many").help("give fewer `sublayers`"));
+        }
+    }
+    Ok(())
+}
+
+/// The half-space with twice the sublayers in graded layers; `None` without graded layers.
+pub(super) fn refined(layers: &[LayerSection], substrate: &SubstrateSection) -> Option<HalfSpace> {
+    let base = substrate.material().transpose().ok()?;
+    let layers = layers.iter().map(|layer| layer.refined().build(None, base).ok()).collect::<Option<Vec<_>>>()?;
+    match base {
+        Some(base) => Some(HalfSpace::new(layers.concat(), base)),
+        None => HalfSpace::on_rigid_base(layers.concat()).ok(),
+    }
+}

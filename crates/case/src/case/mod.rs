@@ -1,0 +1,93 @@
+//! The case file: the input of percoat, checked once, with every default resolved.
+//!
+//! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and converted to the core's types: its problem,
+//! and the run that solves it. Faults are refused with their line ([`CaseError`]).
+//!
+//! One file a section: lattice, levels, surface, layers (with the substrate, `durability`, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
+//! friction, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
+//! makes of them the texts of `percoat explain` and the schema; `identification` lets numbers be free; `materials` is the library. A document is parsed to a tree (`node`), changed by `overrides`,
+//! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
+//!
+//! ```
+//! use percoat::case::{Case, embedded};
+//! let source = embedded::source(embedded::DEFAULT).expect("the default case is embedded");
+//! let case = Case::read(&source, &["load.mean_pressure=0.01".to_owned()]).expect("a valid case");
+//! assert_eq!(case.load.values(), [0.01]);
+//! ```
+
+mod composite_hardness;
+mod counterbody;
+mod durability;
+mod elastic_counterbody;
+pub mod embedded;
+mod error;
+pub mod feasibility;
+mod friction;
+mod given;
+mod grading;
+mod grid;
+mod half_space;
+mod identification;
+mod interface;
+mod keys;
+mod lattice;
+mod layers;
+mod levels;
+mod life;
+mod load;
+mod localized;
+mod lookup;
+mod material_names;
+mod materials;
+mod model;
+mod named_pipes;
+mod node;
+mod overrides;
+mod plain_toml;
+mod reader;
+mod section;
+mod solver;
+mod source;
+mod span;
+mod stress;
+pub mod suggestions;
+mod surface;
+#[cfg(test)]
+mod tests;
+mod units;
+mod value;
+mod writer;
+
+pub use composite_hardness::CompositeHardnessSection;
+pub use durability::{EnduranceSection, FatigueSection};
+pub use elastic_counterbody::CounterbodySection;
+pub use error::CaseError;
+pub use feasibility::single_contact::foreseen;
+pub use feasibility::sublayers::sublayer_error;
+pub use feasibility::{plausibility, resources};
+pub use friction::FrictionSection;
+pub use given::{DiscsSection, GivenSection, Pressures};
+pub use grading::{Grading, Law};
+pub use grid::Points;
+pub use half_space::half_space;
+pub use identification::{IdentificationTask, NotFree, NotKnown, known_instrument};
+pub use interface::{InterfaceSection, InterfaceStrengthSection, InterfaceWord, SpringSection};
+pub use keys::{Explanation, NamedKey, UnknownKey, explain, overview, schema, table as key_table};
+pub use lattice::{LatticeKind, LatticeSection};
+pub use layers::{LayerSection, Rigid, SubstrateSection};
+pub use levels::{LevelSection, ShapeKind};
+pub use life::LifeSection;
+pub use load::{LoadSection, Steps};
+pub use localized::LocalizedSection;
+pub use lookup::{NoCase, find};
+pub use materials::{
+    Certainty, LibraryMaterial, LibraryStrength, MaterialsError, Property, UnknownMaterial, library, materials_of_file,
+};
+pub use model::Case;
+pub use named_pipes::Pipes;
+pub use overrides::{given_twice, parts};
+pub use source::{PhysicalSizes, Source};
+pub use stress::{CutSection, Origin, StressSection, Toward};
+pub use surface::{ORIENTATION, RandomSection, Sides, Stage, SurfaceSection, Taper, Treated, WantedChannel};
+pub use units::UnitsSection;
+pub use writer::written;

@@ -1,0 +1,347 @@
+//! The whole case.
+
+use super::composite_hardness::COMPOSITE_HARDNESS;
+use super::counterbody::{self, CounterbodySections};
+use super::elastic_counterbody::{self, COUNTERBODY};
+use super::error::{CaseError, Refusal};
+use super::feasibility::{hardness, magnitude};
+use super::friction::FRICTION;
+use super::grading::LAYERS;
+use super::grid::{self, GRID};
+use super::keys::{Form, Key};
+use super::lattice::LATTICE;
+use super::layers::{self, Body, LAYER, SUBSTRATE};
+use super::levels::LEVELS;
+use super::life::LIFE;
+use super::load::{self, LOAD};
+use super::localized::LOCALIZED;
+use super::materials;
+use super::overrides;
+use super::reader::TableAt;
+use super::section::{KeyValue, ReadTable, section};
+use super::solver::SOLVER;
+use super::span::Span;
+use super::stress::STRESS;
+use super::surface::SURFACE;
+use super::units::UNITS;
+use super::writer::written;
+use super::{
+    CompositeHardnessSection, CounterbodySection, FrictionSection, LatticeSection, LayerSection, LevelSection,
+    LifeSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection, UnitsSection,
+};
+use crate::units::Units;
+use percoat_core::body::{Bodies, HalfSpace, MeanStress};
+use percoat_core::comparison::ComparisonTask;
+use percoat_core::counterbody::{Counterbody, Topography};
+use percoat_core::life::LifeTask;
+use percoat_core::load::{Load, LoadQuantity};
+use percoat_core::problem::Problem;
+use percoat_core::run::{Run, Sampling, StressRequest};
+use percoat_core::spectral::Settings;
+use std::sync::Arc;
+
+/// Relative error of a step of wear without a section `[life]`.
+const LIFE_TOLERANCE: f64 = 1e-2;
+
+section! { whole
+    /// A valid case with every default resolved. Its values do not change after reading; overrides act while it is read.
+    ///
+    /// Serialised it has the keys of the case file; sections and keys that are absent are skipped.
+    pub struct Case = CASE {
+        /// title of the case
+        pub title: String =
+            Key::new(&[Form::Text("a text of one line")], "\"three levels in contact\"").default("\"\""),
+        /// the cell and the places of the indenters
+        pub lattice: LatticeSection = Key::new(&[Form::Table(&LATTICE)], "{ kind = \"hexagonal\", period = 1.0 }")
+            .otherwise("required, unless `surface` gives the size of the cell"),
+        /// indenters of one shape and height, one section `[[levels]]` a level
+        pub levels: Vec<LevelSection> =
+            Key::new(&[Form::Sections(&LEVELS, 200)], "[{ shape = \"paraboloid\", radius = 0.8, height = 0.0 }]")
+                .otherwise("required, or `surface`, unless `load.pressure` is given")
+                .omitted_as_nothing(),
+        /// one period of any topography
+        pub surface: Option<SurfaceSection> =
+            Key::new(&[Form::Table(&SURFACE)], "{ heights = \"surface.npy\", period = 10.0 }").instead_of("levels")
+                .otherwise("required, or `levels`, unless `load.pressure` is given"),
+        /// a file of one's own materials, which come before those of `percoat materials`
+        pub materials: Option<String> =
+            Key::new(&[Form::Text("the path of a file")], "\"own.toml\"").otherwise("those of `percoat materials`"),
+        /// the coating, one section `[[layers]]` a layer from the surface down
+        pub layers: Vec<LayerSection> =
+            Key::new(&[Form::Sections(&LAYER, LAYERS)], "[{ thickness = 0.5, shear_ratio = 2.0, poisson = 0.2 }]")
+                .otherwise("uncoated")
+                .rule("sublayers of graded layers count among the 200")
+                .omitted_as_nothing(),
+        /// the material below the layers, or a rigid base
+        pub substrate: SubstrateSection = Key::new(&[Form::Table(&SUBSTRATE)], "{ young = 1.0, poisson = 0.3 }"),
+        /// the body that the indenters or the topography belong to
+        pub counterbody: Option<CounterbodySection> = Key::new(&[Form::Table(&COUNTERBODY)], "{ young = 210.0, poisson = 0.3 }").otherwise("rigid"),
+        /// mean pressure, force or penetration, one value a load step, or a given pressure
+        pub load: LoadSection = Key::new(&[Form::Table(&LOAD)], "{ mean_pressure = 0.01 }"),
+        /// samples of the cell
+        pub grid: Sampling = Key::new(&[Form::Table(&GRID)], "{ points = 256 }").otherwise("its defaults"),
+        /// method, tolerance and iterations of the solver
+        pub solver: Settings =
+            Key::new(&[Form::Table(&SOLVER)], "{ method = \"polonsky-keer\" }").otherwise("its defaults"),
+        /// sliding friction of the indenters
+        pub friction: Option<FrictionSection> =
+            Key::new(&[Form::Table(&FRICTION)], "{ coefficient = 0.3 }").otherwise("no friction"),
+        /// hardness of a coating and its substrate together
+        pub composite_hardness: Option<CompositeHardnessSection> =
+            Key::new(&[Form::Table(&COMPOSITE_HARDNESS)], "{ law = \"area\", constant = 0.5 }")
+                .otherwise("each surface has its own"),
+        /// names for axes, tables and captions; numbers are not converted
+        pub units: Option<UnitsSection> =
+            Key::new(&[Form::Table(&UNITS)], "{ length = \"µm\", pressure = \"GPa\" }").otherwise("no names"),
+        /// stresses to be computed
+        pub stress: Option<StressSection> =
+            Key::new(&[Form::Table(&STRESS)], "{ planes = [0.0, 0.5], mean = \"half-space\" }").otherwise("no stresses"),
+        /// circles of the localized method, for `compare`
+        pub localized: LocalizedSection =
+            Key::new(&[Form::Table(&LOCALIZED)], "{ indenters = [7, 37] }").otherwise("its defaults"),
+        /// how far `percoat life` follows wear and fatigue
+        pub life: Option<LifeSection> =
+            Key::new(&[Form::Table(&LIFE)], "{ passes = 1e7 }").otherwise("only to the first failure"),
+    }
+    beside {
+        /// Warnings about its surface, a sentence each.
+        file_doubts: Vec<String>,
+        problem: Arc<Problem>,
+    }
+}
+
+impl Case {
+    /// Reads a case and changes it by the values that its source sets and by `overrides`, each `KEY=VALUE`, in their order.
+    ///
+    /// # Errors
+    /// [`CaseError`] for the first fault found: TOML, unknown, missing or misspelt keys, types, ranges.
+    pub fn read(source: &Source, overrides: &[String]) -> Result<Self, CaseError> {
+        source.read(overrides, |source| read(source, overrides))
+    }
+
+    /// The case as TOML, complete with its defaults; it reads back equal.
+    pub fn to_toml(&self) -> String {
+        written(self).expect("keys are strings, integers come from TOML, absent values are skipped")
+    }
+
+    /// Counterbody and bodies.
+    pub fn problem(&self) -> &Arc<Problem> {
+        &self.problem
+    }
+
+    /// The shape of the counterbody: indenters on their lattice, or a topography.
+    pub fn counterbody(&self) -> &Counterbody {
+        self.problem.counterbody()
+    }
+
+    /// The layers on the substrate of the body.
+    pub fn half_space(&self) -> &HalfSpace {
+        self.problem.half_space()
+    }
+
+    /// Units of lengths and pressures: their names, or quantities of the problem where they have none.
+    pub fn units(&self) -> Units {
+        let name = |of: fn(&UnitsSection) -> &Option<String>| self.units.as_ref().and_then(|own| of(own).as_deref());
+        let units = Units::of(&self.problem).named(name(|own| &own.length), name(|own| &own.pressure));
+        if self.load.force.is_some() { units.with_loads_in(LoadQuantity::Force) } else { units }
+    }
+
+    /// The nominal pressures p̄; `None` where penetrations are prescribed.
+    pub fn mean_pressures(&self) -> Option<Vec<f64>> {
+        self.load.mean_pressures(self.problem.cell().area())
+    }
+
+    /// Warnings about its surface, a sentence each.
+    pub(super) fn file_doubts(&self) -> &[String] {
+        &self.file_doubts
+    }
+
+    /// The task of `percoat compare`: the last load by both methods.
+    pub fn comparison(&self) -> ComparisonTask {
+        let LocalizedSection { indenters, elements, radius, mutual_effect } = &self.localized;
+        let loads = self.load.loads();
+        // The localized method has no hardness.
+        let is_elastic = self.problem.bodies().hardness().is_none();
+        let elastic = || Arc::new(self.problem.without_hardness());
+        ComparisonTask {
+            problem: if is_elastic { Arc::clone(&self.problem) } else { elastic() },
+            load: loads[loads.len() - 1],
+            settings: self.solver,
+            indenters: indenters.clone(),
+            elements: *elements,
+            rule: *radius,
+            mutual_effect: *mutual_effect,
+            mean: self.mean_stress(),
+        }
+    }
+
+    /// The task of `percoat life`, on the grid of the case or, where an accuracy is prescribed, on the finest one of 512 points at most.
+    ///
+    /// # Errors
+    /// A sentence for a case with several loads, a given pressure, or a cell that is too oblong.
+    pub fn life_task(&self) -> Result<LifeTask, String> {
+        let loads = self.load.loads();
+        let [load] = loads[..] else {
+            return Err(format!(
+                "a life has one load in all passes, and the case has {}: give one by --set load.{}=…, or read the passes of each from percoat \
+                 solve",
+                loads.len(),
+                self.load.quantity()
+            ));
+        };
+        if self.problem.counterbody().pressure().is_some() {
+            return Err(
+                "a given pressure has no surfaces that wear: percoat solve states the passes to the first damage"
+                    .to_owned(),
+            );
+        }
+        Ok(LifeTask {
+            problem: Arc::clone(&self.problem),
+            load,
+            sampling: self.grid,
+            settings: self.solver,
+            mean: self.mean_stress(),
+            passes: self.life.and_then(|own| own.passes),
+            distance: self.life.and_then(|own| own.distance),
+            stroke: self.life.and_then(|own| own.stroke),
+            tolerance: self.life.map_or(LIFE_TOLERANCE, |own| own.tolerance),
+        })
+    }
+
+    /// The mean lateral stress in largest stresses and limits; the default without a section `stress`.
+    pub fn mean_stress(&self) -> MeanStress {
+        self.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean)
+    }
+
+    /// The request of stresses on a vertical section, from a value of the key `stress.section`.
+    ///
+    /// # Errors
+    /// [`CaseError`] of a value that the key does not admit.
+    pub fn section(&self, cut: &toml::Value) -> Result<StressRequest, CaseError> {
+        let source = Source { set: vec![("stress.section".to_owned(), cut.clone())], ..Source::default() };
+        source.read(&[], |source| {
+            let root = source.tree(&CASE)?;
+            let root = TableAt::root(&root, &CASE, Span::NOWHERE);
+            let sliding = self.friction.map(|own| own.direction);
+            let base = base_depth(self.problem.bodies());
+            let section = StressSection::read_in(&root.required_section("stress")?, self.counterbody(), sliding, base)?;
+            Ok(section.request(self.counterbody()))
+        })
+    }
+
+    /// The run of `percoat solve`.
+    pub fn run(&self) -> Run {
+        Run {
+            problem: Arc::clone(&self.problem),
+            loads: self.load.loads(),
+            sampling: self.grid,
+            settings: self.solver,
+            stress: self.stress.as_ref().map(|stress| stress.request(self.counterbody())),
+        }
+    }
+}
+
+fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
+    let mut root = source.tree(&CASE)?;
+    for (number, text) in (1 + source.set.len()..).zip(overrides) {
+        overrides::apply(text, number, &mut root, &CASE)?;
+    }
+    materials::fill(&mut root, &CASE, source)?;
+    let end = source.text.trim_end().len();
+    let root = TableAt::root(&root, &CASE, Span::new(0, end..end));
+    root.only()?;
+    let title = title(&root)?;
+    let CounterbodySections { levels, lattice, cell_section, grid_section, surface, doubts: file_doubts, counterbody } =
+        counterbody::read(&root, source)?;
+    let body = layers::read(&root)?;
+    let elastic_section = root.section("counterbody")?;
+    let elastic = elastic_section.as_ref().map(elastic_counterbody::read).transpose()?;
+    let above = elastic.as_ref().and_then(|(_, above)| above.body());
+    for own in [&body].into_iter().chain(above) {
+        magnitude::layers(&own.half_space, &own.places(), counterbody.cell())?;
+    }
+    let bodies = match (&elastic, &elastic_section) {
+        (Some((_, above)), Some(section)) => above
+            .bodies(body.half_space.clone())
+            .map_err(|error| Refusal::new(section.span, format!("`counterbody`: {error}"), "this counterbody"))?,
+        _ => Bodies::from(body.half_space.clone()),
+    };
+
+    let load_section = root.required_section("load")?;
+    if counterbody.cell().is_isolated() {
+        load::of_isolated(&load_section)?;
+    }
+    let mut load = LoadSection::read_table(&load_section)?;
+    load.pressure = load.pressure.map(|given| given.located(source));
+    load.given = counterbody.pressure().map(|given| match given.cell().is_isolated() {
+        true => Load::Force(given.force()),
+        false => Load::MeanPressure(given.force() / given.cell().area()),
+    });
+    let of_field = || Some(counterbody.pressure()?.values()?.dim().into());
+    let file_points = counterbody.topography().map(Topography::points).or_else(of_field);
+    let (surface, sampling) = match surface {
+        Some((section, sampling)) => (Some(section), sampling),
+        None => (None, grid::read(&grid_section, file_points)?),
+    };
+    magnitude::grid(sampling, file_points, &grid_section, &cell_section, counterbody.cell())?;
+    let solver_section = root.section_or_empty("solver")?;
+    let settings = Settings::read_table(&solver_section)?;
+    let mut problem = Problem::new(counterbody, bodies);
+    let mut friction = None;
+    if let Some(section) = root.section("friction")? {
+        let own = FrictionSection::read_table(&section)?;
+        let places = [body.places(), above.map_or(Vec::new(), Body::places)];
+        problem = own.slide(&section, &places, (problem, settings), &solver_section)?;
+        friction = Some(own);
+    }
+    let composite_hardness = root.section("composite_hardness")?;
+    let composite_hardness = match composite_hardness {
+        Some(section) => {
+            let own = CompositeHardnessSection::read_table(&section)?;
+            problem = own.harden(&section, &load, problem)?;
+            Some(own)
+        }
+        None => None,
+    };
+    hardness::bears(&load, &load_section, &problem)?;
+    Ok(Case {
+        title,
+        materials: materials::path(&root, source)?,
+        lattice,
+        grid: sampling,
+        solver: settings,
+        friction,
+        composite_hardness,
+        units: root.section("units")?.as_ref().map(UnitsSection::read_table).transpose()?,
+        stress: root
+            .section("stress")?
+            .map(|section| {
+                let (sliding, base) = (friction.map(|own| own.direction), base_depth(problem.bodies()));
+                StressSection::read_in(&section, problem.counterbody(), sliding, base)
+            })
+            .transpose()?,
+        localized: LocalizedSection::read_table(&root.section_or_empty("localized")?)?,
+        life: root.section("life")?.as_ref().map(LifeSection::read_table).transpose()?,
+        levels,
+        surface,
+        layers: body.layers,
+        substrate: body.substrate,
+        counterbody: elastic.map(|(own, _)| own),
+        load,
+        file_doubts,
+        problem: Arc::new(problem),
+    })
+}
+
+/// Depth of the deepest rigid base, a length; infinite where a body has none.
+fn base_depth(bodies: &Bodies) -> f64 {
+    bodies.each().map(HalfSpace::base_depth).fold(0.0, f64::max)
+}
+
+fn title(root: &TableAt<'_>) -> Result<String, Refusal> {
+    let title = root.value("title")?;
+    match String::read(&title)? {
+        text if text.contains('\n') => Err(title.refuse_form()),
+        text => Ok(text),
+    }
+}

@@ -1,0 +1,6 @@
+//! What the crates of percoat around its numerical core share: [plain text](plain), [units](unit) with their prefixes, and the
+//! memory, disk and threads of the [machine]. No physics, no files.
+
+pub mod machine;
+pub mod plain;
+pub mod unit;

@@ -1,0 +1,161 @@
+//! A unit by its name, and with the prefix that suits a number.
+//!
+//! Of an SI unit with its prefix (m, mm, µm, nm; Pa … TPa) axes, tables and captions take the prefix with which their numbers
+//! read well, 2.1·10¹¹ Pa as 210 GPa. Any other name is written behind unchanged numbers.
+
+use std::ops::RangeInclusive;
+
+/// Lengths, moduli, pressures and wavenumbers whose products double precision carries.
+///
+/// Results are products of up to five of a case's lengths and moduli and of their squares: between 1e-60 and 1e60 none of
+/// them overflows or vanishes.
+pub const CARRIED: RangeInclusive<f64> = 1e-60..=1e60;
+
+/// A unit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Unit {
+    /// No unit, of a number without dimension or of unknown unit.
+    None,
+    /// A quantity of the case, by its symbol.
+    Relative(String),
+    /// A name that is not of an SI unit.
+    Named(String),
+    /// An SI unit times a power of ten.
+    Si {
+        /// Its symbol without prefix.
+        base: &'static str,
+        /// The power of ten.
+        exponent: i32,
+    },
+}
+
+/// A unit with the prefix that suits numbers of some size.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Prefixed {
+    /// Its name; empty where there is none.
+    pub name: String,
+    /// The numbers shown are those of the case times ten to this power.
+    pub exponent: i32,
+}
+
+/// Prefixes from 10⁻¹² to 10¹² by thousands.
+const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
+
+/// Whether a name is that of a metre with a prefix, or of another length of engineers.
+pub fn is_length(name: &str) -> bool {
+    matches!(Unit::called(name, "m"), Unit::Si { .. }) || ["cm", "in", "inch", "mil", "Å", "micron"].contains(&name)
+}
+
+/// Whether a name is that of a pascal with a prefix, or of another pressure of engineers.
+pub fn is_pressure(name: &str) -> bool {
+    pascals(name).is_some()
+}
+
+/// Pascals of a unit of pressure by its name; `None` for a name that is not known.
+pub fn pascals(name: &str) -> Option<f64> {
+    match Unit::called(name, "Pa") {
+        Unit::Si { exponent, .. } => Some(10f64.powi(exponent)),
+        _ => PRESSURES.iter().find(|(own, _)| *own == name).map(|(_, pascals)| *pascals),
+    }
+}
+
+/// Pressures of engineers beside the pascal, Pa.
+const PRESSURES: [(&str, f64); 12] = [
+    ("hPa", 1e2),
+    ("bar", 1e5),
+    ("psi", PSI),
+    ("ksi", 1e3 * PSI),
+    ("Msi", 1e6 * PSI),
+    ("N/mm²", 1e6),
+    ("N/mm2", 1e6),
+    ("N/mm^2", 1e6),
+    ("N/m²", 1.0),
+    ("N/m2", 1.0),
+    ("N/m^2", 1.0),
+    ("atm", 101_325.0),
+];
+
+/// A pound-force a square inch, Pa.
+const PSI: f64 = 4.448_221_615_260_5 / (0.0254 * 0.0254);
+
+/// Whether a name is that of a newton with a prefix.
+pub fn is_force(name: &str) -> bool {
+    matches!(Unit::called(name, "N"), Unit::Si { .. })
+}
+
+impl Unit {
+    /// The unit of a name, which may be an SI unit `base` with a prefix.
+    pub fn called(name: &str, base: &'static str) -> Self {
+        // The letters mu and u are written for the sign.
+        let prefix = name.strip_suffix(base).map(|prefix| if ["u", "μ"].contains(&prefix) { "µ" } else { prefix });
+        match prefix.and_then(|prefix| PREFIXES.iter().position(|own| *own == prefix)) {
+            Some(place) => Self::Si { base, exponent: 3 * place as i32 - 12 },
+            None => Self::Named(name.to_owned()),
+        }
+    }
+
+    /// Its name, if it has one.
+    pub fn name(&self) -> Option<String> {
+        match self {
+            Self::None | Self::Relative(_) => None,
+            Self::Named(name) => Some(name.clone()),
+            Self::Si { base, exponent } if exponent.abs() <= 12 => Some(si(base, *exponent)),
+            // No prefix goes so far.
+            Self::Si { base, exponent } => Some(format!("1e{exponent}\u{a0}{base}")),
+        }
+    }
+
+    /// With the prefix for numbers up to `size`: its own while they are from 0.01 to 9999, which stand as they are.
+    pub fn prefixed(&self, size: f64) -> Prefixed {
+        let own = || Prefixed { name: self.name().unwrap_or_default(), exponent: 0 };
+        let Self::Si { base, exponent } = *self else { return own() };
+        let reads_well = !size.is_normal() || (0.01..9999.5).contains(&size.abs());
+        // A force of small units may lie below all prefixes.
+        if reads_well && exponent.abs() <= 12 {
+            return own();
+        }
+        let size = if size.is_normal() { size.abs() } else { 1.0 };
+        let magnitude = (size * (1.0 + 1e-12)).log10().floor() as i32 + exponent;
+        let prefix = (magnitude.div_euclid(3) * 3).clamp(-12, 12);
+        Prefixed { name: si(base, prefix), exponent: exponent - prefix }
+    }
+
+    /// With the prefix for all of these numbers, of which the largest decides.
+    pub fn suited(&self, numbers: impl IntoIterator<Item = f64>) -> Prefixed {
+        self.prefixed(numbers.into_iter().map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max))
+    }
+
+    /// A number with its unit, as `text` writes the number.
+    pub fn with_unit(&self, x: f64, text: impl Fn(f64) -> String) -> String {
+        let prefixed = self.prefixed(x);
+        prefixed.behind(&text(prefixed.shown(x)))
+    }
+}
+
+impl Prefixed {
+    /// A number of the case as it is shown.
+    pub fn shown(&self, x: f64) -> f64 {
+        if self.exponent < 0 { x / 10f64.powi(-self.exponent) } else { x * 10f64.powi(self.exponent) }
+    }
+
+    /// A name with this unit: "mean pressure (GPa)", or the name alone.
+    pub fn headed(&self, name: &str) -> String {
+        if self.name.is_empty() { name.to_owned() } else { format!("{name} ({})", self.name) }
+    }
+
+    /// A text with this unit behind it, from which no line break parts it.
+    pub fn behind(&self, text: &str) -> String {
+        if self.name.is_empty() { text.to_owned() } else { format!("{text}\u{a0}{}", self.name) }
+    }
+}
+
+/// An SI unit with the prefix of a power of ten.
+fn si(base: &str, exponent: i32) -> String {
+    format!("{}{base}", PREFIXES[((exponent + 12) / 3).clamp(0, 8) as usize])
+}
+
+/// A number as an index.
+pub fn lowered(number: usize) -> String {
+    let digit = |c: char| ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'][c.to_digit(10).unwrap_or(0) as usize];
+    number.to_string().chars().map(digit).collect()
+}

@@ -1,0 +1,127 @@
+//! What loads the body: indenters at several levels, a topography, or a given pressure; and its surface on a grid.
+
+mod error;
+mod indenter;
+mod indenters;
+mod loaded_disc;
+mod pressure;
+pub mod roughness;
+mod surface;
+mod topography;
+
+pub use error::CounterbodyError;
+pub use indenter::{IndenterError, Level, Shape};
+pub use indenters::{Indenters, Site};
+pub use loaded_disc::LoadedDisc;
+pub use pressure::GivenPressure;
+pub use surface::Surface;
+pub use topography::Topography;
+
+use crate::lattice::Cell;
+use ndarray::{ArrayView1, ArrayView2, Axis};
+use std::fmt;
+
+/// The counterbody, independent of any grid, or a pressure in its place.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Counterbody {
+    /// Indenters at several levels on the sites of a lattice.
+    Indenters(Indenters),
+    /// One period of a measured or generated topography.
+    Topography(Topography),
+    /// No counterbody, but a pressure that is given.
+    Pressure(GivenPressure),
+}
+
+impl Counterbody {
+    /// The unit cell.
+    pub fn cell(&self) -> Cell {
+        match self {
+            Self::Indenters(indenters) => indenters.lattice().cell(),
+            Self::Topography(topography) => topography.cell(),
+            Self::Pressure(pressure) => pressure.cell(),
+        }
+    }
+
+    /// The indenters; `None` for a topography and a given pressure.
+    pub fn indenters(&self) -> Option<&Indenters> {
+        match self {
+            Self::Indenters(indenters) => Some(indenters),
+            Self::Topography(_) | Self::Pressure(_) => None,
+        }
+    }
+
+    /// The topography; `None` for indenters and a given pressure.
+    pub fn topography(&self) -> Option<&Topography> {
+        match self {
+            Self::Topography(topography) => Some(topography),
+            Self::Indenters(_) | Self::Pressure(_) => None,
+        }
+    }
+
+    /// The given pressure; `None` for indenters and a topography.
+    pub fn pressure(&self) -> Option<&GivenPressure> {
+        match self {
+            Self::Pressure(pressure) => Some(pressure),
+            Self::Indenters(_) | Self::Topography(_) => None,
+        }
+    }
+
+    /// The axis, 0 along a₁ or 1 along a₂, along which a topography or a given field of pressures is constant, but for rounding, while it
+    /// changes along the other: contact is that of lines along it. `None` for any other counterbody, and in a window, where lines end.
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            _ if self.cell().is_isolated() => None,
+            Self::Topography(topography) => constant_axis(topography.heights()),
+            Self::Pressure(pressure) => constant_axis(pressure.values()?),
+            Self::Indenters(_) => None,
+        }
+    }
+
+    /// The levels of the indenters; none for a topography and a given pressure.
+    pub fn levels(&self) -> &[Level] {
+        self.indenters().map_or(&[], Indenters::levels)
+    }
+}
+
+/// Part of the range of values within which they count as equal.
+const EQUAL: f64 = 1e-9;
+
+/// The axis along which values are constant while they change along the other; `None` where there is no such axis.
+pub(crate) fn constant_axis(values: ArrayView2<'_, f64>) -> Option<usize> {
+    let range = |values: ArrayView1<'_, f64>| {
+        let [low, high] =
+            values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)]);
+        high - low
+    };
+    // Ranges within the lines along an axis.
+    let along = [0, 1].map(|axis| values.lanes(Axis(axis)).into_iter().map(range).fold(0.0, f64::max));
+    (0..2).find(|&axis| along[axis] <= EQUAL * along[1 - axis] && along[1 - axis] > 0.0)
+}
+
+impl From<Indenters> for Counterbody {
+    fn from(indenters: Indenters) -> Self {
+        Self::Indenters(indenters)
+    }
+}
+
+impl From<Topography> for Counterbody {
+    fn from(topography: Topography) -> Self {
+        Self::Topography(topography)
+    }
+}
+
+impl From<GivenPressure> for Counterbody {
+    fn from(pressure: GivenPressure) -> Self {
+        Self::Pressure(pressure)
+    }
+}
+
+impl fmt::Display for Counterbody {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Indenters(indenters) => indenters.fmt(f),
+            Self::Topography(topography) => topography.fmt(f),
+            Self::Pressure(pressure) => pressure.fmt(f),
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! **percoat**: periodic contact of coated bodies.
+//!
+//! Normal and sliding contact of a doubly periodic, multi-level system of rigid indenters (or any periodic topography)
+//! with a layered elastic half-space: I. Goryacheva & E. Torskaya, *Contact of multi-level periodic system of indenters
+//! with coated elastic half-space*, Facta Universitatis, Mech. Eng. 17 (2019) 149–159.
+//!
+//! # Conventions
+//!
+//! - z points into the body; pressure p > 0 is compression; stresses are positive in tension; displacement w > 0 goes
+//!   into the body.
+//! - Any consistent units. Wavenumbers are angular, 1/length.
+//! - Fields are stored sample by sample, **a**₂ fastest; on a periodic cell displacements have zero mean, so that the penetration δ,
+//!   measured from the mean plane of the deformed surface to the highest apex, is the additional displacement w_a of
+//!   the paper's Eq. (8). Around an isolated contact they vanish far away, and δ is the approach of points there. On a rigid base they
+//!   count from it: δ then has the mean compression of the layers, p̄ Σ h/M.
+//! - Frictionless interfaces carry tension: they slide but do not open.
+//!
+//! # Modules
+//!
+//! Problem → solver on a grid → step → reading, built in that order, none reaching back. Each module uses only what
+//! stands to its left:
+//!
+//! ```text
+//! numeric → notation → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → identification
+//! → localized → run → life → comparison → plain → units → measurements → machine → heights → case → output → sweep → picture → report → validation → command
+//! ```
+//!
+//! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
+//! - [`friction`], [`problem`], [`load`]: what is solved;
+//! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
+//! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
+//! - [`identification`]: parameters of a stack from a measured indentation curve;
+//! - [`run`]: load paths, refinement, warnings; [`life`]: damage and wear pass after pass; [`comparison`]: both methods side by side.
+//!
+//! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `measurements` from tables, `machine` (memory, disk, threads), file formats
+//! of `heights`, `case`, `output`, `sweep`, `picture`, `report` and the `command` line; behind `validate`: `validation`, the studies and the closed forms they compare with.
+//!
+//! [`theory`] leads from each equation of the book, `docs/src/theory.md`, to its code and to the test that guards it.
+//!
+//! # Example
+//!
+//! ```
+//! use percoat::*;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let level = |height| Level::new(Shape::Paraboloid { radius: 0.8 }, height);
+//! let indenters = Indenters::new(Lattice::hexagonal(1.0, 3)?, vec![level(0.02)?, level(0.01)?, level(0.0)?])?;
+//! let substrate = Material::from_young(1.0, 0.3)?;
+//! let coating = Layer::new(Material::from_shear(2.0 * substrate.shear(), 0.2)?, 0.5, Interface::Bonded)?;
+//! let problem = Problem::new(indenters, HalfSpace::new(vec![coating], substrate));
+//! let step = Solver::new(problem, [96, 96], Settings::default())?.solve(Load::MeanPressure(0.06));
+//! let reading = step.reading();
+//! assert!(step.report.stop.solved());
+//! assert!((reading.penetration - 0.0554).abs() < 1e-4);
+//! # Ok(())
+//! # }
+//! ```
+
+pub mod body;
+pub mod comparison;
+pub mod counterbody;
+pub mod friction;
+pub mod identification;
+pub mod lattice;
+pub mod life;
+pub mod load;
+pub mod localized;
+pub mod notation;
+pub mod numeric;
+pub mod problem;
+pub mod reading;
+pub mod run;
+pub mod spectral;
+pub mod stress;
+
+pub use body::{
+    Bodies, Depth, Durability, Endurance, Fatigue, HalfSpace, Interface, InterfaceStrength, Layer, Material,
+    MaterialError, MeanStress, Strength, Substrate,
+};
+pub use counterbody::{
+    Counterbody, CounterbodyError, GivenPressure, IndenterError, Indenters, Level, LoadedDisc, Shape, Surface,
+    Topography,
+};
+pub use friction::{Friction, FrictionError};
+pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid};
+pub use load::{Load, LoadQuantity};
+pub use problem::Problem;
+pub use reading::{DamageMap, FatigueReading, LevelReading, Life, Reading, StressReading};
+pub use run::{Run, Sampling};
+pub use spectral::{
+    Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver, Step, Stop, Tangent, Wear,
+    WearError, Worn,
+};
+pub use stress::{DepthPlane, SlidingPath, StressField, StressFields, StressState, SurfaceLine, VerticalSection};

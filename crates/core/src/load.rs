@@ -1,0 +1,129 @@
+//! The prescribed quantity of a load step: mean pressure, force or penetration.
+
+use crate::lattice::Cell;
+use crate::notation::number;
+use std::fmt;
+
+/// The prescribed quantity of a load step and its value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Load {
+    /// Mean pressure p̄ ≥ 0 over the cell, in the unit of Young's modulus (load control). Around an isolated contact, whose force is
+    /// what counts, over the window.
+    MeanPressure(f64),
+    /// Force P ≥ 0 on the cell, or on the isolated contact, a pressure times an area (load control).
+    Force(f64),
+    /// Penetration δ below first touch, a length (displacement control); in a periodic system at most the mean of the initial gap,
+    /// where contact is complete, unless compressible layers lie on a rigid base; of a surface with hardness below the largest initial gap
+    /// and what the hardness compresses the layers by. Of a given pressure the largest deflection.
+    Penetration(f64),
+}
+
+/// The quantity in which loads are stated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LoadQuantity {
+    /// The mean pressure p̄ over the cell.
+    #[default]
+    MeanPressure,
+    /// The force P on the cell, or on an isolated contact.
+    Force,
+}
+
+impl LoadQuantity {
+    /// Its symbol.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::MeanPressure => "p̄",
+            Self::Force => "P",
+        }
+    }
+
+    /// Its name in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MeanPressure => "mean pressure",
+            Self::Force => "force",
+        }
+    }
+
+    /// Its key in case files and results.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::MeanPressure => "mean_pressure",
+            Self::Force => "force",
+        }
+    }
+
+    /// A load of this quantity.
+    pub fn load(self, value: f64) -> Load {
+        match self {
+            Self::MeanPressure => Load::MeanPressure(value),
+            Self::Force => Load::Force(value),
+        }
+    }
+}
+
+impl Load {
+    /// The prescribed value, a pressure, a force or a length.
+    pub fn value(self) -> f64 {
+        match self {
+            Self::MeanPressure(value) | Self::Force(value) | Self::Penetration(value) => value,
+        }
+    }
+
+    /// Whether the mean pressure or the force is prescribed.
+    pub fn is_load_control(self) -> bool {
+        !matches!(self, Self::Penetration(_))
+    }
+
+    /// What it prescribes on a cell: a force is a mean pressure there.
+    pub(crate) fn on(self, cell: Cell) -> Control {
+        match self {
+            Self::MeanPressure(mean) => Control::MeanPressure(mean),
+            Self::Force(force) => Control::MeanPressure(force / cell.area()),
+            Self::Penetration(penetration) => Control::Penetration(penetration),
+        }
+    }
+}
+
+/// The prescribed quantity of a load step on a cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Control {
+    /// Mean pressure p̄ ≥ 0 over the cell.
+    MeanPressure(f64),
+    /// Penetration δ, a length.
+    Penetration(f64),
+}
+
+impl Control {
+    /// The prescribed value, a pressure or a length.
+    pub fn value(self) -> f64 {
+        match self {
+            Self::MeanPressure(value) | Self::Penetration(value) => value,
+        }
+    }
+
+    /// Whether the mean pressure is prescribed.
+    pub fn is_mean_pressure(self) -> bool {
+        matches!(self, Self::MeanPressure(_))
+    }
+}
+
+impl fmt::Display for Load {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = match self {
+            Self::MeanPressure(_) => "mean pressure",
+            Self::Force(_) => "force",
+            Self::Penetration(_) => "penetration",
+        };
+        write!(f, "{name} {}", number(self.value()))
+    }
+}
+
+impl fmt::Display for Control {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::MeanPressure(mean) => Load::MeanPressure(mean).fmt(f),
+            Self::Penetration(penetration) => Load::Penetration(penetration).fmt(f),
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Readings of a solved contact: loads, peaks, areas and boundaries level by level, between the samples, with their errors.
+//!
+//! A sample belongs to the indenter whose surface is nearest to it. Contacts of neighbouring indenters that touch have
+//! **merged**: loads and peak pressures still belong to levels, a radius has lost its meaning. A contact that is open in
+//! the middle is a **ring**: its area is that in contact. Radii and areas carry an estimate of their discretisation
+//! error.
+
+mod area;
+mod beneath;
+pub(crate) mod boundary;
+mod contact;
+mod contact_area;
+mod counted;
+mod damage_map;
+mod edge;
+mod edge_transforms;
+mod errors;
+mod estimate;
+mod fatigue;
+mod fraction;
+mod fractions;
+mod governing;
+mod histogram;
+mod holes;
+mod level;
+mod level_spots;
+mod peak;
+mod plastic;
+mod rough;
+mod section;
+mod spots;
+mod strength;
+mod strength_search;
+mod stress;
+mod topography;
+mod touch;
+mod verdict;
+
+pub use beneath::Beneath;
+pub(crate) use beneath::pressure_on;
+pub use boundary::Boundary;
+pub use contact::Reading;
+pub use counted::CountedArea;
+pub use damage_map::DamageMap;
+pub use errors::{Errors, LevelErrors};
+pub use fatigue::{FatiguePart, FatigueReading, Life};
+pub(crate) use fatigue::{Pass, PathReading};
+pub use fraction::Fraction;
+pub use fractions::Fractions;
+pub use governing::names;
+pub use governing::{Governing, within_the_errors};
+pub use histogram::Histogram;
+pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};
+pub use plastic::PlasticReading;
+pub use rough::{RoughReading, SpotSizes, stiffness};
+pub use section::{LargestInSection, SectionMeasure};
+pub use strength::{Criterion, Utilisation};
+pub(crate) use strength_search::utilisations_while;
+pub use stress::contact_radii;
+pub use stress::{StressReading, tears, tips};
+pub use touch::{FirstTouch, first_touches};
+pub use verdict::Verdict;

@@ -1,0 +1,138 @@
+//! Validation of the record of a load step that is read back.
+
+use super::StepRecord;
+use crate::reading::{FatigueReading, Governing, Utilisation, Verdict};
+use crate::spectral::{Certificate, Stop};
+
+/// A number that is null was not finite, which is allowed only in a step with [`Stop::NotANumber`]; elsewhere a null, or a pressure
+/// below zero, shows that the file was damaged or edited.
+impl StepRecord {
+    /// Refuses a record with a number that is missing or out of range.
+    ///
+    /// # Errors
+    /// The key and its value.
+    pub fn check(&self) -> Result<(), String> {
+        if self.stop == Stop::NotANumber {
+            return Ok(());
+        }
+        let reading = &self.reading;
+        let Certificate { energy_gap, penetration, load } = self.certificate;
+        at_least_zero("force", reading.force)?;
+        // An isolated contact has no cell, and neither of the two.
+        if !(reading.mean_pressure.is_nan() && reading.contact_fraction.is_nan()) {
+            at_least_zero("mean_pressure", reading.mean_pressure)?;
+            at_least_zero("contact_fraction", reading.contact_fraction)?;
+        }
+        // Nor has its topography parts of one.
+        if let Some(rough) = self.rough.as_ref().filter(|_| !reading.is_isolated()) {
+            for (name, value) in [
+                ("rough.counted_fraction", rough.counted_fraction),
+                ("rough.corrected_fraction", rough.corrected_fraction),
+                ("rough.perimeter_density", rough.perimeter_density),
+                ("rough.spots.density", rough.spots.density),
+                ("rough.mean_gap", rough.mean_gap),
+            ] {
+                finite(name, value)?;
+            }
+        }
+        if let Some(own) = &self.plastic {
+            for (key, value) in [
+                ("hardness", own.hardness),
+                ("area", own.area),
+                ("depth", own.depth),
+                ("volume", own.volume),
+                ("permanent_depth", own.permanent_depth),
+            ] {
+                at_least_zero(&format!("plastic.{key}"), value)?;
+            }
+        }
+        if let Some(own) = &self.beneath {
+            let numbers =
+                [("hardness", own.hardness), ("pressure", own.pressure), ("depth", own.depth), ("radius", own.radius)];
+            numbers.into_iter().try_for_each(|(key, value)| at_least_zero(&format!("beneath.{key}"), value))?;
+        }
+        finite("penetration", reading.penetration)?;
+        at_least_zero("contact_area", reading.contact_area)?;
+        peak("max_pressure", reading.max_pressure)?;
+        // An iteration that could not begin has no certificate.
+        if self.stop.solved() {
+            finite("residual", self.residual)?;
+        }
+        for (name, value) in [("energy_gap", energy_gap), ("penetration", penetration), ("load", load)] {
+            finite(&format!("certificate.{name}"), value)?;
+        }
+        for level in &reading.levels {
+            let name = |key: &str| format!("{key} of level {}", level.level);
+            for (key, value) in
+                [("load", level.load), ("load_share", level.load_share), ("contact_area", level.contact_area)]
+            {
+                at_least_zero(&name(key), value)?;
+            }
+            peak(&name("max_pressure"), level.max_pressure)?;
+        }
+        if let Some(stress) = &self.stress {
+            let within = [&stress.overall].into_iter().chain(&stress.materials).chain(&stress.faces).flat_map(|own| {
+                [("max_tau1", own.tau1.value), ("max_tension", own.tension.value), ("max_mises", own.mises.value)]
+            });
+            let between = stress.interfaces.iter();
+            let between = between.flat_map(|own| [("max_normal", own.normal.value), ("max_shear", own.shear.value)]);
+            within.chain(between).try_for_each(|(name, value)| number(name, value))?;
+        }
+        for own in &self.strength {
+            number(&format!("utilisation of {}", own.criterion), own.value)?;
+            let due = Utilisation::new(own.criterion, own.value, own.error, own.position).verdict;
+            // An error that is not finite is null in a file, and leaves the criterion undecided.
+            if own.verdict != due && (own.verdict != Verdict::Undecided || own.error.is_some()) {
+                let (criterion, is) = (own.criterion, own.verdict);
+                let value = own.error.map_or(own.value.to_string(), |error| format!("{} ± {error}", own.value));
+                return Err(format!("`state` of {criterion} is `{is}`, and its utilisation {value} makes it `{due}`"));
+            }
+        }
+        if let Some(fatigue) = &self.fatigue {
+            for life in &fatigue.lives {
+                at_least_zero_or_infinite(&format!("range of {}", life.part), life.range)?;
+                at_least_zero_or_infinite(&format!("passes of {}", life.part), life.passes)?;
+            }
+            let due = FatigueReading::new(fatigue.path, fatigue.lives.clone());
+            if due.as_ref().is_none_or(|due| due.first != fatigue.first) {
+                let due = due.map_or("nothing".to_owned(), |due| due.first.part.to_string());
+                return Err(format!(
+                    "`fatigue.first` is {}, and the shortest life is that of {due}",
+                    fatigue.first.part
+                ));
+            }
+        }
+        let governing = |own: Option<&Governing>| own.map_or("nothing".to_owned(), |own| own.criterion.to_string());
+        let [is, due] = [self.governing.as_ref(), Governing::of(&self.strength).as_ref()].map(governing);
+        if is == due { Ok(()) } else { Err(format!("`governing` is {is}, and the largest utilisation is of {due}")) }
+    }
+}
+
+fn refused(name: &str, value: f64) -> String {
+    if value.is_nan() { format!("`{name}` is null where a number is due") } else { format!("`{name}` is {value}") }
+}
+
+/// A number, which may be infinite.
+fn number(name: &str, value: f64) -> Result<(), String> {
+    if value.is_nan() { Err(refused(name, value)) } else { Ok(()) }
+}
+
+fn finite(name: &str, value: f64) -> Result<(), String> {
+    if value.is_finite() { Ok(()) } else { Err(refused(name, value)) }
+}
+
+fn at_least_zero(name: &str, value: f64) -> Result<(), String> {
+    finite(name, value)?;
+    if value < 0.0 { Err(format!("`{name}` is {value}, which is below zero")) } else { Ok(()) }
+}
+
+/// A number that may be infinite and is not below zero.
+fn at_least_zero_or_infinite(name: &str, value: f64) -> Result<(), String> {
+    number(name, value)?;
+    if value < 0.0 { Err(format!("`{name}` is {value}, which is below zero")) } else { Ok(()) }
+}
+
+/// A largest pressure, which may be infinite.
+fn peak(name: &str, value: f64) -> Result<(), String> {
+    if value == f64::INFINITY { Ok(()) } else { at_least_zero(name, value) }
+}

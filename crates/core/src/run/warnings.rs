@@ -1,0 +1,270 @@
+//! Warnings about the results of a run, a sentence each.
+//!
+//! The theory is one of small strains and small slopes: under an indenter the strain is about the slope of its flank at
+//! the edge of contact, f′(a), and p₀ about ½ E* f′(a). Beyond a slope of ½, a peak pressure of E*/3, a real body is not linear.
+
+use super::accuracy::RefinementEnd;
+use super::words::{Numbered, STEEP, list, ratio};
+use super::{StepRecord, ended};
+use crate::counterbody::Shape;
+use crate::counterbody::roughness::Window;
+use crate::notation::number;
+use crate::numeric::search::largest;
+use crate::problem::Problem;
+use crate::reading::{Errors, FEW_SAMPLES, Reading};
+use crate::spectral::{MIN_POINTS, Stop};
+use std::f64::consts::PI;
+
+/// Part of load or contact on tapered heights from which on there is a warning.
+const TAPERED_PART: f64 = 0.02;
+/// Fraction in contact from which on the mean lateral stress is a large part of all stresses.
+const FILLED: f64 = 0.5;
+/// Relative error of the stresses on the surface from which on there is a warning.
+const SURFACE_ERROR: f64 = 0.02;
+
+/// Warnings about the steps of a run, and about its refinement by its `end` and last `change`.
+pub(crate) fn warnings(
+    problem: &Problem,
+    steps: &[StepRecord],
+    end: Option<RefinementEnd>,
+    change: Option<f64>,
+) -> Vec<String> {
+    let steps: Vec<Numbered> = (1..).zip(steps).collect();
+    let dropped = dropped(problem, &steps);
+    of_judged(problem, &steps, &steps, end, change).into_iter().chain(dropped).collect()
+}
+
+/// Warnings about the steps of a search: about the convergence of all, and about the results of those that are `judged`.
+pub(super) fn of_judged(
+    problem: &Problem,
+    all: &[Numbered],
+    judged: &[Numbered],
+    end: Option<RefinementEnd>,
+    change: Option<f64>,
+) -> Vec<String> {
+    let warnings = [
+        unresolved(all),
+        beyond_hardness(all),
+        not_converged(all),
+        at_window(problem, all),
+        without_errors(judged),
+        few_samples(judged),
+        small_spots(judged),
+        end.and_then(|end| not_accurate(end, change)),
+        rough_surface(judged),
+        edges_of_discs(problem, judged),
+        mean_matters(problem, judged),
+        at_border(problem, judged),
+        steep_flank(problem, judged),
+        ended::high_pressure(problem, judged),
+        ended::ended(problem, judged),
+        ended::beyond(problem, judged),
+    ];
+    warnings.into_iter().flatten().collect()
+}
+
+fn unresolved(steps: &[Numbered]) -> Option<String> {
+    let list = list(steps, |step| step.stop == Stop::Unresolved)?;
+    Some(format!(
+        "the penetration of step {list} reaches hardly a sample: contact is no wider than the grid's spacing, and its load \
+         is unknown; raise grid.points, or prescribe more"
+    ))
+}
+
+fn beyond_hardness(steps: &[Numbered]) -> Option<String> {
+    let list = list(steps, |step| step.stop == Stop::BeyondHardness)?;
+    Some(format!(
+        "step {list} takes all of the surface to its hardness, where it yields as a whole: any greater penetration has the same pressure, and \
+         a greater load no solution; prescribe less"
+    ))
+}
+
+/// Whether a stop has a warning of its own.
+fn is_told(stop: Stop) -> bool {
+    matches!(stop, Stop::Unresolved | Stop::AtBorder | Stop::BeyondHardness)
+}
+
+/// Warning of what a path presses into a softer body that slides away below the counterbody.
+fn dropped(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let (_, before) = steps.split_last()?;
+    let is_pressed_in = |step: &StepRecord| step.plastic.is_some_and(|own| own.is_pressed_in());
+    let list = list(before, is_pressed_in).filter(|_| problem.is_swept())?;
+    Some(format!(
+        "what step {list} has pressed in is dropped: the body is the softer one and moves away below the sliding counterbody ([friction]), so \
+         that each load meets it as it was at first; for loads one after another at one place leave [friction] out, or its coefficient 0"
+    ))
+}
+
+fn not_converged(steps: &[Numbered]) -> Option<String> {
+    let list = list(steps, |step| !step.converged() && !is_told(step.stop))?;
+    Some(format!("not converged: step {list}; judge it by its certificate"))
+}
+
+/// Isolated contact that reaches the border of its window.
+fn at_window(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let list = list(steps, |step| step.stop == Stop::AtBorder)?;
+    let [[width, _], [_, height]] = problem.cell().vectors();
+    Some(format!(
+        "contact reaches the border of the window of {} × {} in step {list}, and would go on beyond it: enlarge lattice.size, \
+         to twice that or more",
+        number(width),
+        number(height)
+    ))
+}
+
+/// Steps that no coarser grid has solved too.
+fn without_errors(steps: &[Numbered]) -> Option<String> {
+    let is_alone = |step: &StepRecord| {
+        let is_pressed = step.converged() && !step.is_given() && step.reading.max_pressure > 0.0;
+        is_pressed && step.reading.errors == Errors::default()
+    };
+    let list = list(steps, is_alone)?;
+    Some(format!(
+        "no coarser grid has solved step {list}, so that errors are not known, neither of contact nor of what follows from it: solver.method = \
+         \"preconditioned\" has one from grid.points = {} along each side on, where the load is not beyond its complete contact or its hardness; \
+         raise grid.points, or take a smaller load",
+        2 * MIN_POINTS
+    ))
+}
+
+fn few_samples(steps: &[Numbered]) -> Option<String> {
+    let coarse =
+        |step: &StepRecord| step.reading.levels.iter().any(|level| level.load > 0.0 && level.resolution < FEW_SAMPLES);
+    let list = list(steps, coarse)?;
+    Some(format!(
+        "a contact radius has less than {FEW_SAMPLES} samples in step {list}: its radius and peak pressure are rough; raise \
+         grid.points"
+    ))
+}
+
+/// Few samples in the spots of a topography; complete contact has no edge to be resolved.
+fn small_spots(steps: &[Numbered]) -> Option<String> {
+    let rough = |step: &StepRecord| {
+        let reading = &step.reading;
+        reading.levels.is_empty()
+            && 0.0 < reading.spot_resolution
+            && reading.spot_resolution < FEW_SAMPLES
+            && !is_complete(reading)
+    };
+    let list = list(steps, rough)?;
+    if steps.iter().any(|(_, step)| step.is_given()) {
+        return Some(format!(
+            "half of the load lies on spots of less than {FEW_SAMPLES} samples to the radius: stresses near the surface are rough; raise \
+             grid.points"
+        ));
+    }
+    Some(format!(
+        "half of the load lies on contact spots of less than {FEW_SAMPLES} samples to the radius in step {list}: contact area \
+         and pressures are rough; give the topography on more points"
+    ))
+}
+
+/// Whether contact is complete; that of an isolated contact never is.
+fn is_complete(reading: &Reading) -> bool {
+    reading.contact_fraction >= 1.0
+}
+
+fn not_accurate(end: RefinementEnd, change: Option<f64>) -> Option<String> {
+    let reached = match change {
+        Some(change) => format!("the last change was {change:.1e}"),
+        None => "there is one grid only".to_owned(),
+    };
+    (end != RefinementEnd::Reached).then(|| format!("grid.accuracy is not reached: {reached}, and {end}"))
+}
+
+fn rough_surface(steps: &[Numbered]) -> Option<String> {
+    let worst = largest(steps.iter().filter_map(|(_, step)| Some(step.stress.as_ref()?.surface_error)));
+    // An error that is not a number is reported too.
+    if worst <= SURFACE_ERROR {
+        return None;
+    }
+    Some(format!(
+        "stresses on the surface near the edge of contact may err by {:.0} % (stress.surface_error of each step); raise \
+         grid.points",
+        100.0 * worst
+    ))
+}
+
+/// Stresses on the surface at the edges of discs under a uniform traction, which no grid resolves.
+fn edges_of_discs(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let given = problem.counterbody().pressure()?;
+    let slides = problem.friction().is_some_and(|friction| friction.coefficient() > 0.0);
+    let is_read = slides && steps.iter().any(|(_, step)| has_stresses(step));
+    (is_read && !given.loaded_discs().is_empty()).then(|| {
+        "a traction that ends with a jump at the edge of a disc makes lateral stresses there that grow like the logarithm of the distance, \
+         without bound: what is stated on the surface is that at about a sample from the edge, and what fails there fails on a fine grid \
+         at less; give a pressure that falls to zero from a file, or judge below the surface"
+            .to_owned()
+    })
+}
+
+/// Whether stresses were searched, all or those of strengths.
+fn has_stresses(step: &StepRecord) -> bool {
+    step.stress.is_some() || !step.strength.is_empty()
+}
+
+/// Stresses of contacts that fill much of their cell, in which the mean lateral stress has a large part.
+fn mean_matters(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let fills = |step: &StepRecord| has_stresses(step) && step.reading.contact_fraction > FILLED;
+    problem.counterbody().indenters()?;
+    let list = list(steps, fills)?;
+    Some(format!(
+        "contact fills more than {:.0} % of the cell in step {list}: lateral stresses depend on stress.mean, which a periodic system \
+         does not determine: \"confined\" admits no mean lateral strain, \"half-space\" is a patch on a large body",
+        100.0 * FILLED
+    ))
+}
+
+/// Contact where the window of a topography tapers its heights.
+fn at_border(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let window = problem.counterbody().topography()?.run_out()?.window;
+    let part = |step: &StepRecord| step.tapered.map_or(0.0, |own| own.load.max(own.area));
+    let list = list(steps, |step| part(step) > TAPERED_PART)?;
+    let worst = steps.iter().filter_map(|(_, step)| step.tapered).max_by(|a, b| a.load.total_cmp(&b.load))?;
+    let advice = match window {
+        Window::Hann => {
+            "\"hann\" is below 1 everywhere and made for spectra: press the surface with surface.window = \"tukey\""
+        }
+        Window::Tukey => "press less, or a surface that is periodic without a window",
+    };
+    Some(format!(
+        "surface.window: up to {:.0} % of the load and {:.0} % of the contact stand where the window is below 1, in step {list}: \
+         heights there are not those of the surface; {advice}",
+        100.0 * worst.load,
+        100.0 * worst.area
+    ))
+}
+
+/// The steepest flank at an edge of contact; the slope of cones is given in the case.
+fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let levels = problem.counterbody().levels();
+    let flanks = steps.iter().flat_map(|&(number, step)| {
+        let touching = step.reading.levels.iter().filter(|level| level.load > 0.0);
+        // Merged contacts have no radius, but an area.
+        touching.map(move |level| (number, level.level, (level.contact_area / PI).sqrt()))
+    });
+    let slope = |level: usize, radius: f64| levels[level - 1].shape().slope(radius);
+    let steepest = flanks
+        .filter(|(_, level, _)| !matches!(levels[level - 1].shape(), Shape::Cone { .. }))
+        .max_by(|a: &(usize, usize, f64), b| slope(a.1, a.2).total_cmp(&slope(b.1, b.2)));
+    let (step, level, radius) = steepest.filter(|&(_, level, radius)| slope(level, radius) > STEEP)?;
+    let question = "are lengths, load and moduli in consistent units?";
+    Some(flank(&format!("step {step}"), level, levels[level - 1].shape(), radius, question))
+}
+
+/// Warning that the flank of a level is steep at the edge of a contact of radius a, with a question that says what to do.
+pub fn flank(context: &str, level: usize, shape: Shape, a: f64, question: &str) -> String {
+    let size = match shape {
+        Shape::Paraboloid { radius } | Shape::Sphere { radius } if a >= radius => {
+            format!("larger than its radius {}", number(radius))
+        }
+        Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
+            format!("{} of its radius {}", ratio(a / radius), number(radius))
+        }
+        _ => format!("where its flank has the slope {}", ratio(shape.slope(a))),
+    };
+    format!(
+        "{context}: the contact radius {} of level {level} is {size}: strains are not small any more; {question}",
+        number(a)
+    )
+}

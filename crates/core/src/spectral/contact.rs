@@ -1,0 +1,144 @@
+//! A contact solved on one grid.
+
+use super::iteration::{Certificate, Unknowns};
+use crate::counterbody::Surface;
+use crate::lattice::Grid;
+use crate::lattice::components::{Component, SpotCounts, contact_spots};
+use crate::numeric::array::view;
+use crate::numeric::sums;
+use crate::problem::Problem;
+use ndarray::ArrayView2;
+use std::sync::{Arc, OnceLock};
+
+/// Pressure and gap of a solved load step on one grid. It owns its fields and shares problem and surface, so that it
+/// outlives the solver.
+#[derive(Debug, Clone)]
+pub struct Contact {
+    problem: Arc<Problem>,
+    surface: Arc<Surface>,
+    pressure: Arc<Vec<f64>>,
+    gap: Arc<Vec<f64>>,
+    penetration: f64,
+    /// Depths pressed in by earlier loads, in the gap already; `None` without any.
+    indented: Option<Arc<Vec<f64>>>,
+    /// Counted at the first call of [`Self::spots`].
+    spots: OnceLock<SpotCounts>,
+}
+
+impl Contact {
+    /// `pressure` and `gap` have one value per sample of the surface's grid, a₂ fastest.
+    pub(super) fn new(
+        problem: &Arc<Problem>,
+        surface: &Arc<Surface>,
+        pressure: Arc<Vec<f64>>,
+        gap: Arc<Vec<f64>>,
+        penetration: f64,
+    ) -> Self {
+        let (problem, surface) = (Arc::clone(problem), Arc::clone(surface));
+        Self { problem, surface, pressure, gap, penetration, indented: None, spots: OnceLock::new() }
+    }
+
+    /// It after earlier loads that have pressed in these depths, sample by sample.
+    pub(super) fn after(self, indented: Option<Arc<Vec<f64>>>) -> Self {
+        Self { indented, ..self }
+    }
+
+    /// The contact under another pressure, closed wherever that presses.
+    pub(super) fn with_pressure(&self, pressure: Vec<f64>) -> Self {
+        let closed = |(gap, p): (&f64, &f64)| if *p > 0.0 { 0.0 } else { *gap };
+        let gap = Arc::new(self.gap.iter().zip(&pressure).map(closed).collect());
+        Self { pressure: Arc::new(pressure), gap, spots: OnceLock::new(), ..self.clone() }
+    }
+
+    /// Unknowns of the iteration, with their certificate.
+    pub(super) fn unknowns(&self, certificate: Certificate) -> Unknowns {
+        let Self { pressure, gap, penetration, .. } = self;
+        Unknowns { pressure: Arc::clone(pressure), gap: Arc::clone(gap), penetration: *penetration, certificate }
+    }
+
+    /// The problem.
+    pub fn problem(&self) -> &Arc<Problem> {
+        &self.problem
+    }
+
+    /// The counterbody's surface on the grid.
+    pub fn surface(&self) -> &Arc<Surface> {
+        &self.surface
+    }
+
+    /// The grid.
+    pub fn grid(&self) -> &Arc<Grid> {
+        self.surface.grid()
+    }
+
+    /// Pressure p ≥ 0, in the unit of Young's modulus; axes along a₁ and a₂.
+    pub fn pressure(&self) -> ArrayView2<'_, f64> {
+        view(self.grid().points(), &self.pressure)
+    }
+
+    /// Gap g = w + f − δ, a length; axes along a₁ and a₂.
+    pub fn gap(&self) -> ArrayView2<'_, f64> {
+        view(self.grid().points(), &self.gap)
+    }
+
+    /// Hardness H of the softer surface, which the pressure does not exceed, in its unit; infinite without one, and under a given pressure.
+    pub fn hardness(&self) -> f64 {
+        self.problem.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness)
+    }
+
+    /// Depths that the softer surface is pressed in for good by this load and those before it, lengths ≥ 0 sample by sample, a₂ fastest:
+    /// −g where p = H, added up over the loads. `None` without hardness, and under a given pressure.
+    pub fn indentation(&self) -> Option<Vec<f64>> {
+        let hardness = self.hardness();
+        hardness.is_finite().then(|| {
+            let before = |i: usize| self.indented.as_ref().map_or(0.0, |depths| depths[i]);
+            let now = |i: usize| if self.pressure[i] >= hardness { (-self.gap[i]).max(0.0) } else { 0.0 };
+            (0..self.gap.len()).map(|i| before(i) + now(i)).collect()
+        })
+    }
+
+    /// Penetration δ, from the mean plane of the deformed surface to the highest apex, a length: the additional
+    /// displacement w_a. On a rigid base it counts from that base and has the mean compression of the layers in it. Under a
+    /// given pressure it is the largest deflection of the samples.
+    pub fn penetration(&self) -> f64 {
+        self.penetration
+    }
+
+    /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length.
+    ///
+    /// It is the work ∫ P dδ of the force P on the cell along the load path: w has zero mean and δ is measured from the mean
+    /// plane, or both from a rigid base, and of E(p) = ½⟨p, Cp⟩ + ⟨p, f − δ⟩ the minimum over p ≥ 0 is −½⟨p, Cp⟩, whose derivative by δ is −P. Under
+    /// coupled friction it is the energy stored by the pressure, without the work of the traction.
+    pub fn elastic_energy(&self) -> f64 {
+        // Where a uniform pressure displaces, it does work: around an isolated contact, and on a rigid base.
+        let displaces = self.grid().cell().is_isolated() || self.problem.bodies().mean_compliance() > 0.0;
+        let (mean, shift) = if displaces { (0.0, self.penetration) } else { (sums::mean(&self.pressure), 0.0) };
+        // w = g − f + δ; a uniform part of the pressure does no work with a displacement without mean, and would add rounding alone.
+        let f = self.surface.gaps();
+        let [sum] = sums::of(f.len(), |i| [(self.pressure[i] - mean) * (self.gap[i] - f[i] + shift)]);
+        0.5 * sum * self.grid().sample_area()
+    }
+
+    /// Pressure sample by sample, a₂ fastest.
+    pub fn pressures(&self) -> &[f64] {
+        &self.pressure
+    }
+
+    /// Gap sample by sample, a₂ fastest.
+    pub fn gaps(&self) -> &[f64] {
+        &self.gap
+    }
+
+    /// Counts of the contact spots; `found`: their samples, if these are known.
+    pub(crate) fn spots(&self, found: Option<&[Component]>) -> &SpotCounts {
+        self.spots.get_or_init(|| match found {
+            Some(found) => SpotCounts::of(found, self.grid(), &self.pressure),
+            None => SpotCounts::of(&self.touching(), self.grid(), &self.pressure),
+        })
+    }
+
+    /// The contact spots: samples in contact whose cells share an edge or a corner; merged contacts are one.
+    pub(crate) fn touching(&self) -> Vec<Component> {
+        contact_spots(self.grid(), &self.pressure)
+    }
+}

@@ -1,0 +1,87 @@
+//! Stresses and displacements inside coating and substrate, exact per wavenumber.
+//!
+//! Each plane wave c e^{i**q**·**x**} of the pressure, with **n** = **q**/q, causes at the depth z
+//!
+//! σ_zz = s_zz c e^{i**q**·**x**},  σ_αz = −i n_α s_qz c e^{…},  σ_αβ = [n_α n_β s_qq + (δ_αβ − n_α n_β) s_tt] c e^{…},
+//! u_z = u_z c e^{…},  u_α = −i n_α u_q c e^{…}
+//!
+//! with the amplitudes of [`crate::body::Interior`]; the mean pressure adds the state of [`crate::MeanStress`]. At the
+//! depth z only waves with qz up to 41 count: shorter ones are lost in rounding.
+//!
+//! A counterbody that slides adds the stresses of its traction μp**e**, wave by wave: of the part μ**e**·**n** along **n** by
+//! the amplitudes of [`LayeredResponse::interior`](crate::body::LayeredResponse::interior), of the part across by those of
+//! [`Antiplane`](crate::body::Antiplane); its mean adds the shear σ_αz = −μe_α p̄ at every depth. The residual stress of a
+//! layer adds to its σ_xx and σ_yy. Coupled friction changes the pressure's square root at the edge of contact into the powers
+//! ½ ± η, |η| ≤ atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)): readings at edges treat them as square roots, and state the error
+//! that the grids show.
+//!
+//! - **planes**: inverse transforms of the components, from the waves that reach the depth, as arrays or row by row ([`StressField::plane`], [`StressField::stresses_by_rows`]);
+//! - **sections** and **lines**: the waves summed by their wavenumbers along the line ([`StressField::section`]);
+//! - **points**: the exact sum ([`StressField::points`]);
+//! - **paths**: the stresses that points of the body meet while the counterbody slides ([`SlidingPath`]);
+//! - **maxima** over each material and each face ([`maxima`]).
+
+mod beyond_window;
+mod chord;
+mod climb;
+mod constants;
+mod contender;
+mod crest;
+mod cubic;
+mod depth_response;
+mod disc_crest;
+mod disc_waves;
+mod eight_waves;
+mod enclosing_ball;
+mod expansion;
+mod far_field;
+mod far_plane;
+mod far_tables;
+mod field;
+mod fields;
+mod found;
+mod line_around;
+mod line_plane;
+mod loaded_window;
+pub mod maxima;
+mod mean_states;
+mod measure;
+mod path_measure;
+mod path_search;
+mod peak;
+mod plane;
+mod plane_search;
+mod rainflow;
+mod range_map;
+mod range_plane;
+mod regions;
+mod search;
+mod section;
+mod series;
+mod series_grid;
+mod sliding_path;
+mod smoothed_edge;
+mod smoothed_surface;
+mod strength_peaks;
+mod surroundings;
+mod tables;
+mod tensor;
+mod trace;
+mod transform;
+mod window_waves;
+
+pub use crest::Crest;
+pub use far_tables::FarTables;
+pub use field::StressField;
+pub use fields::StressFields;
+pub use loaded_window::bytes_around;
+pub use path_search::{PassOver, PathPeak, PathPeaks, PathSought, transmitted};
+pub use peak::{Peak, Rival};
+pub use plane::DepthPlane;
+pub use range_plane::RangePlane;
+pub use section::{SurfaceLine, VerticalSection};
+pub use sliding_path::SlidingPath;
+pub(crate) use sliding_path::period_along;
+pub(crate) use strength_peaks::StrengthPeaks;
+pub(crate) use tables::Tables;
+pub use tensor::StressState;

@@ -1,0 +1,3 @@
+//! Measured surfaces: [heights] from the files of instruments.
+
+pub mod heights;
