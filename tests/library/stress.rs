@@ -287,7 +287,6 @@ fn interfaces_transmit_what_they_should() {
                     assert!((jump[1] + above.yz / tangential).abs() < 1e-12);
                     assert!((jump[2] + above.zz / normal).abs() < 1e-12);
                 }
-                _ => unreachable!(),
             }
         }
         let surface = field.plane(Depth::SURFACE, [16, 16]).states();

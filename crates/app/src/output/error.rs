@@ -12,6 +12,7 @@ pub struct OutputError {
 }
 
 impl OutputError {
+    /// An error of the system at a path.
     pub fn new(path: &Path, source: io::Error) -> Self {
         Self { path: path.to_owned(), source }
     }

@@ -15,7 +15,9 @@ use super::unit;
 /// A length as written, and its unit where it has one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Length {
+    /// The number.
     pub value: f64,
+    /// Name of the unit, if it has one.
     pub unit: Option<String>,
 }
 
