@@ -1,15 +1,13 @@
 //! Letters as outlines, for files that look the same without the typeface.
 
 use super::text::placed;
-use super::typeface;
-use skrifa::GlyphId;
-use skrifa::font::glyph::outline::PathElement;
+use super::typeface::{self, Glyph, Segment};
 
 /// A letter of a line of text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Letter {
     /// Its glyph in the typeface.
-    pub glyph: GlyphId,
+    pub glyph: Glyph,
     /// Distance of its origin from the beginning of the line, in units of the size.
     pub x: f64,
 }
@@ -43,26 +41,18 @@ pub fn letters(text: &str) -> Vec<Letter> {
 }
 
 /// Outline of a glyph; empty for a space.
-pub fn outline(glyph: GlyphId) -> Vec<Piece> {
-    let at = |x: f32, y: f32| [x, y].map(f64::from);
+pub fn outline(glyph: Glyph) -> Vec<Piece> {
     // A parabola is a cubic whose control points lie two thirds of the way to that of the parabola.
     let toward = |aside: [f64; 2], end: [f64; 2]| [0, 1].map(|k| end[k] + 2.0 / 3.0 * (aside[k] - end[k]));
-    let (mut begin, mut end) = ([0.0; 2], [0.0; 2]);
-    let piece = |element| {
-        let piece = match element {
-            PathElement::MoveTo { x, y } => Piece::Move(at(x, y)),
-            PathElement::LineTo { x, y } => Piece::Line(at(x, y)),
-            PathElement::QuadTo { cx0, cy0, x, y } => {
-                let (aside, to) = (at(cx0, cy0), at(x, y));
-                Piece::Curve([toward(aside, end), toward(aside, to), to])
-            }
-            PathElement::CurveTo { cx0, cy0, cx1, cy1, x, y } => Piece::Curve([at(cx0, cy0), at(cx1, cy1), at(x, y)]),
-            PathElement::Close => Piece::Line(begin),
+    let mut end = [0.0; 2];
+    let piece = |segment| {
+        let piece = match segment {
+            Segment::Move(to) => Piece::Move(to),
+            Segment::Line(to) => Piece::Line(to),
+            Segment::Parabola(aside, to) => Piece::Curve([toward(aside, end), toward(aside, to), to]),
         };
-        (begin, end) = match piece {
-            Piece::Move(to) => (to, to),
-            Piece::Line(to) | Piece::Curve([_, _, to]) => (begin, to),
-        };
+        let (Piece::Move(to) | Piece::Line(to) | Piece::Curve([_, _, to])) = piece;
+        end = to;
         piece
     };
     typeface::outline(glyph).into_iter().map(piece).collect()

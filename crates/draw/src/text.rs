@@ -2,11 +2,9 @@
 //!
 //! Combining marks, as the bar of p̄, are centred over the letter before them.
 
-use super::typeface::{advance, bounds, glyph, kerning, outline};
+use super::typeface::{Glyph, Segment, advance, bounds, glyph, kerning, outline};
 use ab_glyph_rasterizer::{Point, Rasterizer, point};
 use percoat_common::plain;
-use skrifa::GlyphId;
-use skrifa::font::glyph::outline::PathElement;
 
 /// Height of capital letters over the size.
 pub const CAPITALS: f64 = 0.73;
@@ -14,13 +12,13 @@ pub const CAPITALS: f64 = 0.73;
 /// A glyph and the distance of its origin from the beginning of the line, in units of the size.
 #[derive(Debug, Clone, Copy)]
 pub struct Placed {
-    pub(crate) glyph: GlyphId,
+    pub(crate) glyph: Glyph,
     pub(crate) x: f64,
 }
 
 /// The glyphs of a text in a line, and its width, in units of the size.
 pub fn placed(text: &str) -> (Vec<Placed>, f64) {
-    let middle = |glyph: GlyphId| bounds(glyph).map_or(0.0, |[from, to]| 0.5 * (from[0] + to[0]));
+    let middle = |glyph: Glyph| bounds(glyph).map_or(0.0, |[from, to]| 0.5 * (from[0] + to[0]));
     let (mut glyphs, mut end, mut before): (Vec<Placed>, f64, Option<Placed>) = (Vec::new(), 0.0, None);
     for letter in text.chars() {
         let glyph = glyph(letter);
@@ -82,30 +80,21 @@ pub fn draw(text: &str, size: f64, [x, y]: [f64; 2], mut put: impl FnMut(i32, i3
         let [left, top] = [x + size * from[0], y - size * to[1]].map(f64::floor);
         let [right, bottom] = [x + size * to[0], y - size * from[1]].map(f64::ceil);
         let mut pixels = Rasterizer::new((right - left) as usize, (bottom - top) as usize);
-        fill(&mut pixels, &outline(glyph), |[u, v]| {
-            point((x - left + size * f64::from(u)) as f32, (y - top - size * f64::from(v)) as f32)
-        });
+        fill(&mut pixels, &outline(glyph), |[u, v]| point((x - left + size * u) as f32, (y - top - size * v) as f32));
         pixels.for_each_pixel_2d(|i, j, coverage| put(left as i32 + i as i32, top as i32 + j as i32, coverage));
     }
 }
 
 /// Covers the pixels within an outline, whose points stand `at` theirs.
-fn fill(pixels: &mut Rasterizer, outline: &[PathElement], at: impl Fn([f32; 2]) -> Point) {
-    let mut begin = point(0.0, 0.0);
-    let mut end = begin;
-    for element in outline {
-        let to = match *element {
-            PathElement::MoveTo { x, y } | PathElement::LineTo { x, y } => at([x, y]),
-            PathElement::QuadTo { x, y, .. } | PathElement::CurveTo { x, y, .. } => at([x, y]),
-            PathElement::Close => begin,
-        };
-        match *element {
-            PathElement::MoveTo { .. } => begin = to,
-            PathElement::LineTo { .. } | PathElement::Close => pixels.draw_line(end, to),
-            PathElement::QuadTo { cx0, cy0, .. } => pixels.draw_quad(end, at([cx0, cy0]), to),
-            PathElement::CurveTo { cx0, cy0, cx1, cy1, .. } => {
-                pixels.draw_cubic(end, at([cx0, cy0]), at([cx1, cy1]), to);
-            }
+fn fill(pixels: &mut Rasterizer, outline: &[Segment], at: impl Fn([f64; 2]) -> Point) {
+    let mut end = point(0.0, 0.0);
+    for segment in outline {
+        let (Segment::Move(to) | Segment::Line(to) | Segment::Parabola(_, to)) = *segment;
+        let to = at(to);
+        match *segment {
+            Segment::Move(_) => {}
+            Segment::Line(_) => pixels.draw_line(end, to),
+            Segment::Parabola(aside, _) => pixels.draw_quad(end, at(aside), to),
         }
         end = to;
     }

@@ -7,13 +7,10 @@
 use super::canvas::{Anchor, Canvas, Dash, Mark, Stroke};
 use super::colour::Colour;
 use super::letters::{Letter, Piece, letters, outline};
+use super::typeface::{EM, Glyph};
 use super::{raster, text};
 use png::Compression;
-use skrifa::GlyphId;
 use std::collections::BTreeSet;
-
-/// Units of letter outlines per em.
-const EM: f64 = 2048.0;
 
 /// The SVG file of a sheet, with its images compressed so.
 pub fn svg(canvas: &Canvas, compression: Compression) -> String {
@@ -22,7 +19,7 @@ pub fn svg(canvas: &Canvas, compression: Compression) -> String {
     let marks: String = canvas.marks.iter().map(|mark| element(mark, compression)).collect();
     let texts =
         canvas.marks.iter().filter_map(|mark| if let Mark::Text { text, .. } = mark { Some(text) } else { None });
-    let used: BTreeSet<GlyphId> = texts.flat_map(|text| letters(text)).map(|letter| letter.glyph).collect();
+    let used: BTreeSet<Glyph> = texts.flat_map(|text| letters(text)).map(|letter| letter.glyph).collect();
     let outlines: String = used.into_iter().map(outlined).collect();
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide}mm\" height=\"{high}mm\" \
@@ -32,7 +29,7 @@ pub fn svg(canvas: &Canvas, compression: Compression) -> String {
 }
 
 /// Definition of a letter's outline, y down, named by the index of the glyph, which is the same in all files.
-fn outlined(glyph: GlyphId) -> String {
+fn outlined(glyph: Glyph) -> String {
     let units = |[x, y]: [f64; 2]| format!("{:.0},{:.0}", EM * x, 0.0 - EM * y);
     let piece = |piece: Piece| match piece {
         Piece::Move(to) => format!("M{}", units(to)),
@@ -40,7 +37,7 @@ fn outlined(glyph: GlyphId) -> String {
         Piece::Curve(places) => format!("C{}", places.map(units).join(" ")),
     };
     let path: String = outline(glyph).into_iter().map(piece).collect();
-    format!("<path id=\"g{}\" d=\"{path}Z\"/>\n", glyph.to_u32())
+    format!("<path id=\"g{}\" d=\"{path}Z\"/>\n", glyph.0)
 }
 
 /// A mark as an element of the file.
@@ -68,8 +65,7 @@ fn element(mark: &Mark, compression: Compression) -> String {
                 Anchor::Right => length,
             };
             let rotation = if *upward { " rotate(-90)" } else { "" };
-            let used =
-                |Letter { glyph, x }: Letter| format!("<use href=\"#g{}\" x=\"{:.0}\"/>", glyph.to_u32(), EM * x);
+            let used = |Letter { glyph, x }: Letter| format!("<use href=\"#g{}\" x=\"{:.0}\"/>", glyph.0, EM * x);
             let used: String = letters(text).into_iter().map(used).collect();
             let ([x, y], colour, words) = (at.map(hundredths), hex(*colour), escaped(text));
             let (scale, start) = (format!("{:.5}", size / EM), hundredths(-before));
