@@ -14,59 +14,61 @@ use super::interior::SHIELDING;
 use super::minors::MAX_EXPONENT;
 use super::strata::Strata;
 use super::{Depth, Interface};
+use crate::numeric::number::Number;
 
 /// Amplitudes at one depth under a shear traction cos(qξ) on the body across the wavevector, in the direction t with
 /// (q, t, z) right-handed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Antiplane {
+pub struct Antiplane<N = f64> {
     /// σ_tz, of cos(qξ), over the traction.
-    pub stz: f64,
+    pub stz: N,
     /// σ_qt, of sin(qξ), over the traction.
-    pub sqt: f64,
+    pub sqt: N,
     /// u_t across the wavevector, of cos(qξ), a length per pressure.
-    pub ut: f64,
+    pub ut: N,
 }
 
 /// v and s; the true ones are these times e^`exponent`.
 #[derive(Debug, Clone, Copy)]
-struct ShearState {
-    v: f64,
-    s: f64,
+struct ShearState<N = f64> {
+    v: N,
+    s: N,
     exponent: f64,
 }
 
-impl ShearState {
+impl<N: Number> ShearState<N> {
     /// At a height `x` = q·(distance) ≥ 0 further up in the same material.
     fn raised(self, x: f64) -> Self {
         let x = x.min(MAX_EXPONENT);
         let [cosh, sinh] = [0.5 * (1.0 + (-2.0 * x).exp()), -0.5 * (-2.0 * x).exp_m1()];
-        Self { v: cosh * self.v + sinh * self.s, s: cosh * self.s + sinh * self.v, exponent: self.exponent + x }
+        Self { v: self.v * cosh + self.s * sinh, s: self.s * cosh + self.v * sinh, exponent: self.exponent + x }
             .normalised()
     }
 
-    /// The state scaled to v + s = 1.
+    /// The state scaled to v + s = 1, of complex numbers to the size 1.
     fn normalised(self) -> Self {
-        let scale = self.v + self.s;
+        let scale = (self.v + self.s).size();
         Self { v: self.v / scale, s: self.s / scale, exponent: self.exponent + scale.ln() }
     }
 }
 
 /// The state at the surface. Calls `face` with the state at the upper face of an elastic substrate, then at the lower face of each
 /// layer, seen from inside it, from the substrate up.
-fn surface_state(strata: &Strata, wavenumber: f64, mut face: impl FnMut(ShearState)) -> ShearState {
+fn surface_state<N: Number>(strata: &Strata<N>, wavenumber: f64, mut face: impl FnMut(ShearState<N>)) -> ShearState<N> {
+    let of = |v: f64, s: f64| ShearState { v: N::from(v), s: N::from(s), exponent: 0.0 };
     let mut below = strata.substrate.as_ref();
     let mut state = match below {
-        Some(_) => ShearState { v: 0.5, s: 0.5, exponent: 0.0 },
-        None => ShearState { v: 0.0, s: 1.0, exponent: 0.0 },
+        Some(_) => of(0.5, 0.5),
+        None => of(0.0, 1.0),
     };
     if below.is_some() {
         face(state);
     }
     for layer in strata.layers.iter().rev() {
-        let ratio = below.map_or(0.0, |below| layer.material.shear / below.shear);
+        let ratio = below.map_or(N::from(0.0), |below| layer.material.shear.over(below.shear));
         let [slip, _] = layer.interface.jumps(layer.material.shear * wavenumber);
         state = match layer.interface {
-            Interface::Frictionless => ShearState { v: 1.0, s: 0.0, exponent: 0.0 },
+            Interface::Frictionless => of(1.0, 0.0),
             _ => ShearState { v: ratio * state.v + slip * state.s, ..state }.normalised(),
         };
         face(state);
@@ -77,9 +79,9 @@ fn surface_state(strata: &Strata, wavenumber: f64, mut face: impl FnMut(ShearSta
 }
 
 /// Compliance û_t/q̂_T at the wavenumber q > 0 (1/length): a length per pressure.
-pub(super) fn compliance(strata: &Strata, wavenumber: f64) -> f64 {
+pub(super) fn compliance<N: Number>(strata: &Strata<N>, wavenumber: f64) -> N {
     let ShearState { v, s, .. } = surface_state(strata, wavenumber, |_| ());
-    v / s / (strata.surface_material().shear * wavenumber)
+    v.over(s).over(strata.surface_material().shear * wavenumber)
 }
 
 /// Amplitudes at a depth under a shear traction across the wavevector, of the wavenumber q > 0 (1/length). Depths outside
@@ -87,7 +89,7 @@ pub(super) fn compliance(strata: &Strata, wavenumber: f64) -> f64 {
 ///
 /// # Panics
 /// When there is no such material.
-pub(super) fn amplitudes(strata: &Strata, wavenumber: f64, depth: Depth) -> Antiplane {
+pub(super) fn amplitudes<N: Number>(strata: &Strata<N>, wavenumber: f64, depth: Depth) -> Antiplane<N> {
     let index = depth.material - 1;
     if index == 0 && is_shielded(strata, wavenumber) {
         return shielded(strata, wavenumber, depth.z.max(0.0));
@@ -120,27 +122,28 @@ pub(super) fn at_faces(strata: &Strata, wavenumber: f64) -> Vec<[Antiplane; 2]> 
 }
 
 /// Whether a wave does not reach the lower face of the surface material.
-fn is_shielded(strata: &Strata, wavenumber: f64) -> bool {
+fn is_shielded<N: Number>(strata: &Strata<N>, wavenumber: f64) -> bool {
     strata.layers.first().is_none_or(|layer| wavenumber * layer.thickness > SHIELDING)
 }
 
 /// Amplitudes at a depth z in a surface material whose lower face the wave does not reach.
-fn shielded(strata: &Strata, wavenumber: f64, z: f64) -> Antiplane {
+fn shielded<N: Number>(strata: &Strata<N>, wavenumber: f64, z: f64) -> Antiplane<N> {
     let decay = (-(wavenumber * z).min(MAX_EXPONENT)).exp();
-    Antiplane { stz: -decay, sqt: -decay, ut: decay / (strata.surface_material().shear * wavenumber) }
+    let stress = N::from(-decay);
+    Antiplane { stz: stress, sqt: stress, ut: N::from(decay).over(strata.surface_material().shear * wavenumber) }
 }
 
 /// One wave in all materials that the traction reaches.
-struct Wave<'a> {
-    strata: &'a Strata,
+struct Wave<'a, N> {
+    strata: &'a Strata<N>,
     wavenumber: f64,
     /// The state at the lower face of each layer, from inside it, then at the upper face of an elastic substrate.
-    faces: Vec<ShearState>,
-    surface: ShearState,
+    faces: Vec<ShearState<N>>,
+    surface: ShearState<N>,
 }
 
-impl<'a> Wave<'a> {
-    fn new(strata: &'a Strata, wavenumber: f64) -> Self {
+impl<'a, N: Number> Wave<'a, N> {
+    fn new(strata: &'a Strata<N>, wavenumber: f64) -> Self {
         let mut faces = Vec::with_capacity(strata.layers.len() + 1);
         let surface = surface_state(strata, wavenumber, |state| faces.push(state));
         faces.reverse();
@@ -148,7 +151,7 @@ impl<'a> Wave<'a> {
     }
 
     /// Amplitudes at a distance `below` the upper face of a material, from 0; a length.
-    fn at(&self, index: usize, below: f64) -> Antiplane {
+    fn at(&self, index: usize, below: f64) -> Antiplane<N> {
         let Self { strata, wavenumber, ref faces, surface } = *self;
         let (shear, state) = match strata.layers.get(index) {
             Some(layer) => {
@@ -163,8 +166,8 @@ impl<'a> Wave<'a> {
                 (substrate.shear, ShearState { exponent: state.exponent - x, ..state })
             }
         };
-        let scale = (state.exponent - surface.exponent).exp() / surface.s;
-        Antiplane { stz: -scale * state.s, sqt: -scale * state.v, ut: scale * state.v / (shear * wavenumber) }
+        let scale = N::from((state.exponent - surface.exponent).exp()).over(surface.s);
+        Antiplane { stz: -scale * state.s, sqt: -scale * state.v, ut: (scale * state.v).over(shear * wavenumber) }
     }
 }
 

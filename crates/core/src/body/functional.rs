@@ -5,35 +5,38 @@
 
 use super::Interface;
 use super::minors::{Minors, PlaneStrain};
+use crate::numeric::number::Number;
 
 /// The functional ℓ(y) = ℓ_U U + ℓ_w w + ℓ_t t + ℓ_p p; the true one is this times e^`exponent`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Functional {
-    pub u: f64,
-    pub w: f64,
-    pub t: f64,
-    pub p: f64,
+pub(super) struct Functional<N = f64> {
+    pub u: N,
+    pub w: N,
+    pub t: N,
+    pub p: N,
     pub exponent: f64,
 }
 
-impl Functional {
+impl<N: Number> Functional<N> {
     /// The shear traction at the top of a plane, scaled so that its contraction with the plane has p = 1.
-    pub fn shear(plane: &Minors) -> Self {
-        Self { u: 0.0, w: 0.0, t: 1.0 / plane.n, p: 0.0, exponent: -plane.exponent }
+    pub fn shear(plane: &Minors<N>) -> Self {
+        let zero = N::from(0.0);
+        Self { u: zero, w: zero, t: N::from(1.0).over(plane.n), p: zero, exponent: -plane.exponent }
     }
 
     /// The pressure on the top of a plane, scaled so that its contraction with the plane has t = −1.
-    pub fn pressure(plane: &Minors) -> Self {
-        Self { u: 0.0, w: 0.0, t: 0.0, p: 1.0 / plane.n, exponent: -plane.exponent }
+    pub fn pressure(plane: &Minors<N>) -> Self {
+        let zero = N::from(0.0);
+        Self { u: zero, w: zero, t: zero, p: N::from(1.0).over(plane.n), exponent: -plane.exponent }
     }
 
     /// The functional times a factor.
-    pub fn times(self, factor: f64) -> Self {
+    pub fn times(self, factor: N) -> Self {
         Self { u: factor * self.u, w: factor * self.w, t: factor * self.t, p: factor * self.p, ..self }
     }
 
     /// ℓ𝒜, the derivative of ℓ downwards.
-    fn slope(&self, &PlaneStrain { e, r, m, .. }: &PlaneStrain) -> Self {
+    fn slope(&self, &PlaneStrain { e, r, m, .. }: &PlaneStrain<N>) -> Self {
         Self {
             u: e * self.t - r * self.w,
             w: self.u,
@@ -44,13 +47,13 @@ impl Functional {
     }
 
     /// The functional a distance `d` = q·(distance) further down in the same material.
-    pub fn lowered(&self, material: &PlaneStrain, d: f64) -> Self {
+    pub fn lowered(&self, material: &PlaneStrain<N>, d: f64) -> Self {
         let (cosh, sinh, bending) = hyperbolic_coefficients(d);
         let l1 = self.slope(material);
         let l2 = l1.slope(material);
         let l3 = l2.slope(material);
-        let sum = |l0: f64, l1: f64, l2: f64, l3: f64| {
-            cosh * l0 + 0.5 * d * sinh * (l2 - l0) + sinh * l1 + 0.5 * bending * (l3 - l1)
+        let sum = |l0: N, l1: N, l2: N, l3: N| {
+            l0 * cosh + (l2 - l0) * (0.5 * d * sinh) + l1 * sinh + (l3 - l1) * (0.5 * bending)
         };
         Self {
             u: sum(self.u, l1.u, l2.u, l3.u),
@@ -62,9 +65,9 @@ impl Functional {
     }
 
     /// The functional just below an interface that carries shear, in the units of the material below.
-    pub fn below(self, interface: Interface, above: &PlaneStrain, below: &PlaneStrain, wavenumber: f64) -> Self {
+    pub fn below(self, interface: Interface, above: &PlaneStrain<N>, below: &PlaneStrain<N>, wavenumber: f64) -> Self {
         let [slip, closure] = interface.jumps(above.shear * wavenumber);
-        let ratio = above.shear / below.shear;
+        let ratio = above.shear.over(below.shear);
         Self {
             u: ratio * self.u,
             w: ratio * self.w,

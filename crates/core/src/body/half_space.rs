@@ -1,10 +1,11 @@
 //! The coated half-space: layers on a substrate, elastic or rigid.
 
 use super::{
-    Depth, Durability, Interface, InterfaceId, Layer, LayeredResponse, Material, MaterialError, MaterialId, Name, Side,
-    Strength, Substrate,
+    Depth, Durability, Interface, InterfaceId, Layer, LayeredResponse, Material, MaterialError, MaterialId, Moduli,
+    Name, Side, Strength, Substrate,
 };
 use crate::notation::number;
+use crate::numeric::number::Number;
 use std::fmt;
 use std::sync::Arc;
 
@@ -40,7 +41,7 @@ impl HalfSpace {
     }
 
     fn on(layers: Vec<Layer>, substrate: Substrate) -> Self {
-        let response = Arc::new(LayeredResponse::new(&layers, substrate));
+        let response = Arc::new(LayeredResponse::new(&layers, substrate, |_, material| material.into()));
         let (substrate_strength, substrate_durability) = (Strength::default(), Durability::default());
         Self { layers, substrate, substrate_strength, substrate_durability, side: None, response }
     }
@@ -75,6 +76,12 @@ impl HalfSpace {
     /// Response to harmonic tractions on the surface: compliances, and amplitudes at any depth.
     pub fn response(&self) -> &Arc<LayeredResponse> {
         &self.response
+    }
+
+    /// Response of the same layers and interfaces with other `moduli`, which are asked for by number and material from 1 at the surface
+    /// down: complex ones for a load e^{iωt} on viscoelastic materials.
+    pub fn response_of<N: Number>(&self, moduli: impl FnMut(usize, Material) -> Moduli<N>) -> LayeredResponse<N> {
+        LayeredResponse::new(&self.layers, self.substrate, moduli)
     }
 
     /// Layers from the surface down.
@@ -179,7 +186,7 @@ impl HalfSpace {
         if layers.is_empty() && self.substrate.is_rigid() {
             return None;
         }
-        let response = Arc::new(LayeredResponse::new(&layers, self.substrate));
+        let response = Arc::new(LayeredResponse::new(&layers, self.substrate, |_, material| material.into()));
         Some((Self { layers, response, ..self.clone() }, gone))
     }
 

@@ -16,6 +16,7 @@ use super::functional::Functional;
 use super::minors::{MAX_EXPONENT, Minors, PlaneStrain};
 use super::strata::Strata;
 use super::{Depth, Interface};
+use crate::numeric::number::Number;
 
 /// qh of a layer from which on it shields what lies below it: e^{−45} of the pressure comes through.
 pub(super) const SHIELDING: f64 = 45.0;
@@ -45,46 +46,46 @@ impl InPlane {
 /// Under a pressure σ_zz, σ_qq, σ_tt and u_z are of cos(qξ), σ_qz and u_q of sin(qξ); under a shear traction along the
 /// wavevector those are of sin(qξ) and these of cos(qξ).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Amplitudes {
+pub struct Amplitudes<N = f64> {
     /// σ_zz over the traction.
-    pub szz: f64,
+    pub szz: N,
     /// σ_qz over the traction.
-    pub sqz: f64,
+    pub sqz: N,
     /// σ_qq along the wavevector, over the traction.
-    pub sqq: f64,
+    pub sqq: N,
     /// σ_tt across the wavevector, over the traction.
-    pub stt: f64,
+    pub stt: N,
     /// u_z into the body, a length per pressure.
-    pub uz: f64,
+    pub uz: N,
     /// u_q along the wavevector, a length per pressure.
-    pub uq: f64,
+    pub uq: N,
 }
 
 /// One material with the plane and the functional from which the state at any depth of it follows.
 #[derive(Debug, Clone)]
-struct Stretch {
+struct Stretch<N = f64> {
     /// Depth of the upper face, a length.
     top: f64,
-    material: PlaneStrain,
+    material: PlaneStrain<N>,
     /// qh, no more than [`MAX_EXPONENT`]; infinite in the substrate.
     thickness: f64,
     /// The plane at the material's lower face (in the substrate: its upper face).
-    below: Minors,
+    below: Minors<N>,
     /// The functional at its upper face.
-    above: Functional,
+    above: Functional<N>,
 }
 
 /// Interior of a layered half-space under a traction of one wavenumber.
 #[derive(Debug, Clone)]
-pub struct Interior {
+pub struct Interior<N = f64> {
     wavenumber: f64,
     traction: InPlane,
-    stretches: Vec<Stretch>,
+    stretches: Vec<Stretch<N>>,
 }
 
-impl Interior {
+impl<N: Number> Interior<N> {
     /// Interior under a traction of the wavenumber q > 0 (1/length).
-    pub(super) fn new(strata: &Strata, traction: InPlane, wavenumber: f64) -> Self {
+    pub(super) fn new(strata: &Strata<N>, traction: InPlane, wavenumber: f64) -> Self {
         let Strata { layers, substrate } = strata;
         let mut planes = Vec::with_capacity(layers.len() + 1);
         let surface = strata.surface_minors(wavenumber, |minors| planes.push(minors));
@@ -142,31 +143,31 @@ impl Interior {
     }
 
     /// F and its first three derivatives at `x` = q · (depth below the upper face) in a material, from 0.
-    pub(super) fn derivatives(&self, material: usize, x: f64) -> [f64; 4] {
+    pub(super) fn derivatives(&self, material: usize, x: f64) -> [N; 4] {
         let stretch = &self.stretches[material];
         let [u, w, t, p] = stretch.state(x);
         let PlaneStrain { poisson, e, r, .. } = stretch.material;
-        [p, t, -e * u - r * p, (2.0 * w + (2.0 - poisson) * t) / (1.0 - poisson)]
+        [p, t, -e * u - r * p, (w * 2.0 + (N::from(2.0) - poisson) * t).over(N::from(1.0) - poisson)]
     }
 
     /// Amplitudes at a depth below the surface. Depths outside their material are brought back to its faces.
     ///
     /// # Panics
     /// When there is no such material.
-    pub fn at(&self, depth: Depth) -> Amplitudes {
+    pub fn at(&self, depth: Depth) -> Amplitudes<N> {
         let stretch = &self.stretches[depth.material - 1];
         let below = (depth.z - stretch.top).max(0.0);
         let [u, w, t, p] = stretch.state((self.wavenumber * below).min(stretch.thickness).min(MAX_EXPONENT));
         let PlaneStrain { shear, poisson, e, r, .. } = stretch.material;
         let sign = self.traction.sign();
         let sqq = -e * u - r * p;
-        let per_displacement = 1.0 / (shear * self.wavenumber);
+        let per_displacement = N::from(1.0).over(shear * self.wavenumber);
         Amplitudes {
-            szz: sign * -p,
+            szz: -p * sign,
             sqz: t,
-            sqq: sign * sqq,
-            stt: sign * poisson * (sqq - p),
-            uz: sign * w * per_displacement,
+            sqq: sqq * sign,
+            stt: poisson * sign * (sqq - p),
+            uz: w * sign * per_displacement,
             uq: -u * per_displacement,
         }
     }
@@ -174,37 +175,42 @@ impl Interior {
 
 /// Amplitudes at a depth under a traction of the wavenumber q > 0 (1/length). Under a surface material that shields what lies
 /// below it: in closed form, F = (1 + s)e^{−s} under a pressure, F = se^{−s} under a shear traction, s = qz.
-pub(super) fn amplitudes(strata: &Strata, traction: InPlane, wavenumber: f64, depth: Depth) -> Amplitudes {
+pub(super) fn amplitudes<N: Number>(
+    strata: &Strata<N>,
+    traction: InPlane,
+    wavenumber: f64,
+    depth: Depth,
+) -> Amplitudes<N> {
     if depth.material > 1 || strata.layers.first().is_some_and(|layer| wavenumber * layer.thickness < SHIELDING) {
         return Interior::new(strata, traction, wavenumber).at(depth);
     }
     let PlaneStrain { shear, poisson, .. } = *strata.surface_material();
     let s = (wavenumber * depth.z.max(0.0)).min(MAX_EXPONENT);
     let decay = (-s).exp();
-    let per_displacement = 0.5 * decay / (shear * wavenumber);
+    let per_displacement = N::from(0.5 * decay).over(shear * wavenumber);
     match traction {
         InPlane::Normal => Amplitudes {
-            szz: -(1.0 + s) * decay,
-            sqz: -s * decay,
-            sqq: -(1.0 - s) * decay,
-            stt: -2.0 * poisson * decay,
-            uz: (2.0 * (1.0 - poisson) + s) * per_displacement,
-            uq: (s - (1.0 - 2.0 * poisson)) * per_displacement,
+            szz: N::from(-(1.0 + s) * decay),
+            sqz: N::from(-s * decay),
+            sqq: N::from(-(1.0 - s) * decay),
+            stt: poisson * -2.0 * decay,
+            uz: ((N::from(1.0) - poisson) * 2.0 + N::from(s)) * per_displacement,
+            uq: (N::from(s) - (N::from(1.0) - poisson * 2.0)) * per_displacement,
         },
         InPlane::Along => Amplitudes {
-            szz: -s * decay,
-            sqz: -(1.0 - s) * decay,
-            sqq: -(2.0 - s) * decay,
-            stt: -2.0 * poisson * decay,
-            uz: (1.0 - 2.0 * poisson + s) * per_displacement,
-            uq: (2.0 * (1.0 - poisson) - s) * per_displacement,
+            szz: N::from(-s * decay),
+            sqz: N::from(-(1.0 - s) * decay),
+            sqq: N::from(-(2.0 - s) * decay),
+            stt: poisson * -2.0 * decay,
+            uz: (N::from(1.0) - poisson * 2.0 + N::from(s)) * per_displacement,
+            uq: ((N::from(1.0) - poisson) * 2.0 - N::from(s)) * per_displacement,
         },
     }
 }
 
-impl Stretch {
+impl<N: Number> Stretch<N> {
     /// (U, w, t, p) at `x` = q · (depth below the upper face), displacements in units of 1/(Gq).
-    fn state(&self, x: f64) -> [f64; 4] {
+    fn state(&self, x: f64) -> [N; 4] {
         let functional = self.above.lowered(&self.material, x);
         let plane = if self.thickness.is_finite() {
             self.below.raised(&self.material, self.thickness - x)

@@ -2,6 +2,7 @@
 
 use super::{Durability, Fatigue, InterfaceStrength, Material, MaterialError, Strength};
 use crate::notation::number;
+use crate::numeric::number::Number;
 use std::fmt;
 
 /// Kind of the interface below a layer. Interfaces never open: tension is carried.
@@ -23,10 +24,10 @@ pub enum Interface {
 impl Interface {
     /// Jumps of displacement that a unit of tangential and of normal traction makes, in the units of the layer above:
     /// Gq/k_t and Gq/k_n for its shear modulus times the wavenumber, `stiffness`; zero unless it is a spring.
-    pub(super) fn jumps(self, stiffness: f64) -> [f64; 2] {
+    pub(super) fn jumps<N: Number>(self, stiffness: N) -> [N; 2] {
         match self {
             Self::Spring { tangential, normal } => [stiffness / tangential, stiffness / normal],
-            Self::Bonded | Self::Frictionless => [0.0; 2],
+            Self::Bonded | Self::Frictionless => [N::from(0.0); 2],
         }
     }
 }

@@ -14,7 +14,8 @@
 //! five positive functions: no cancellation in thin layers, and e^{2x} is a common factor in thick ones.
 //! Source of the idea: J. W. Dunkin, Bull. Seismol. Soc. Am. 55, 335 (1965).
 
-use super::{Interface, Material};
+use super::{Interface, Moduli};
+use crate::numeric::number::Number;
 
 /// Largest distance times q: e^{−800} is 0 in double precision. Thicker layers are taken to be as thick as this, so that
 /// exponents stay small and exact.
@@ -22,45 +23,49 @@ pub(super) const MAX_EXPONENT: f64 = 800.0;
 
 /// Coefficients e, r, m of a material's plane-strain equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct PlaneStrain {
-    pub shear: f64,
-    pub poisson: f64,
+pub(super) struct PlaneStrain<N = f64> {
+    pub shear: N,
+    pub poisson: N,
     /// e = 2/(1−ν), in-plane stiffness over G.
-    pub e: f64,
+    pub e: N,
     /// r = ν/(1−ν).
-    pub r: f64,
+    pub r: N,
     /// m = (1−2ν)/(2(1−ν)), uniaxial compliance times G.
-    pub m: f64,
+    pub m: N,
 }
 
-impl PlaneStrain {
-    pub fn new(material: Material) -> Self {
-        let (shear, poisson) = (material.shear(), material.poisson());
-        let lateral = 1.0 - poisson;
-        Self { shear, poisson, e: 2.0 / lateral, r: poisson / lateral, m: (1.0 - 2.0 * poisson) / (2.0 * lateral) }
+impl<N: Number> PlaneStrain<N> {
+    pub fn new(Moduli { shear, poisson }: Moduli<N>) -> Self {
+        let lateral = N::from(1.0) - poisson;
+        let (e, r) = (N::from(2.0).over(lateral), poisson.over(lateral));
+        Self { shear, poisson, e, r, m: (N::from(1.0) - poisson * 2.0).over(lateral * 2.0) }
     }
 }
 
 /// Minors of the plane of admissible states, displacements in units of 1/(Gq) of the material they stand in.
 /// The true minors are these times e^`exponent`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Minors {
-    pub n: f64,
-    pub a: f64,
-    pub b: f64,
-    pub c: f64,
-    pub d: f64,
+pub(super) struct Minors<N = f64> {
+    pub n: N,
+    pub a: N,
+    pub b: N,
+    pub c: N,
+    pub d: N,
     pub exponent: f64,
 }
 
-impl Minors {
+impl<N: Number> Minors<N> {
     /// On a rigid base: no displacement, any tractions.
-    pub const RIGID: Self = Self { n: 1.0, a: 0.0, b: 0.0, c: 0.0, d: 0.0, exponent: 0.0 };
+    pub fn rigid() -> Self {
+        let zero = N::from(0.0);
+        Self { n: N::from(1.0), a: zero, b: zero, c: zero, d: zero, exponent: 0.0 }
+    }
 
     /// At the top of a homogeneous half-space: A/N = C/N = 1−ν, B/N = ½−ν, D/N = ¾−ν.
-    pub fn half_space(material: &PlaneStrain) -> Self {
-        let nu = material.poisson;
-        Self { n: 1.0, a: 1.0 - nu, b: 0.5 - nu, c: 1.0 - nu, d: 0.75 - nu, exponent: 0.0 }
+    pub fn half_space(material: &PlaneStrain<N>) -> Self {
+        let less_poisson = |number: f64| N::from(number) - material.poisson;
+        let [a, b, d] = [1.0, 0.5, 0.75].map(less_poisson);
+        Self { n: N::from(1.0), a, b, c: a, d, exponent: 0.0 }
     }
 
     /// The plane seen from above an interface, in the units of the layer above it (`wavenumber` q); `below` is `None` on a rigid
@@ -68,11 +73,11 @@ impl Minors {
     pub fn above(
         self,
         interface: Interface,
-        below: Option<&PlaneStrain>,
-        above: &PlaneStrain,
+        below: Option<&PlaneStrain<N>>,
+        above: &PlaneStrain<N>,
         wavenumber: f64,
     ) -> Self {
-        let ratio = below.map_or(0.0, |below| above.shear / below.shear);
+        let ratio = below.map_or(N::from(0.0), |below| above.shear.over(below.shear));
         let scaled =
             Self { a: ratio * self.a, b: ratio * self.b, c: ratio * self.c, d: ratio * ratio * self.d, ..self };
         let Self { n, a, b, c, d, exponent } = scaled;
@@ -90,20 +95,23 @@ impl Minors {
                 }
             }
             // The spring with k_t → 0, divided by its slip: U is free and t = 0.
-            Interface::Frictionless => Self { n: 0.0, a: n, b: 0.0, c: 0.0, d: c, exponent },
+            Interface::Frictionless => {
+                let zero = N::from(0.0);
+                Self { n: zero, a: n, b: zero, c: zero, d: c, exponent }
+            }
         }
         .normalised()
     }
 
     /// The plane at a height `x` = q·(distance) ≥ 0 further up in the same material.
-    pub fn raised(self, material: &PlaneStrain, x: f64) -> Self {
+    pub fn raised(self, material: &PlaneStrain<N>, x: f64) -> Self {
         let x = x.min(MAX_EXPONENT);
         let (one, s1, s2, s3, s4) = exponential_coefficients(x);
         let q1 = self.slope(material);
         let q2 = q1.slope(material);
         let q3 = q2.slope(material);
         let q4 = q3.slope(material);
-        let sum = |m: f64, m1: f64, m2: f64, m3: f64, m4: f64| one * m + s1 * m1 + s2 * m2 + s3 * m3 + s4 * m4;
+        let sum = |m: N, m1: N, m2: N, m3: N, m4: N| m * one + m1 * s1 + m2 * s2 + m3 * s3 + m4 * s4;
         Self {
             n: sum(self.n, q1.n, q2.n, q3.n, q4.n),
             a: sum(self.a, q1.a, q2.a, q3.a, q4.a),
@@ -116,12 +124,12 @@ impl Minors {
     }
 
     /// Q**m**.
-    fn slope(&self, &PlaneStrain { e, r, m, .. }: &PlaneStrain) -> Self {
+    fn slope(&self, &PlaneStrain { e, r, m, .. }: &PlaneStrain<N>) -> Self {
         Self {
             n: e * self.a,
-            a: 2.0 * self.b + self.n,
+            a: self.b * 2.0 + self.n,
             b: self.c - r * self.a,
-            c: e * self.d - 2.0 * r * self.b + m * self.n,
+            c: e * self.d - r * 2.0 * self.b + m * self.n,
             d: self.c + m * self.a,
             exponent: self.exponent,
         }
@@ -130,7 +138,7 @@ impl Minors {
     /// The plane by minors of order one.
     fn normalised(self) -> Self {
         let Self { n, a, b, c, d, exponent } = self;
-        let scale = n.abs().max(a.abs()).max(b.abs()).max(c.abs()).max(d.abs());
+        let scale = n.size().max(a.size()).max(b.size()).max(c.size()).max(d.size());
         Self { n: n / scale, a: a / scale, b: b / scale, c: c / scale, d: d / scale, exponent: exponent + scale.ln() }
     }
 }
@@ -164,9 +172,10 @@ fn exponential_coefficients(x: f64) -> (f64, f64, f64, f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::Material;
 
     fn material(shear: f64, poisson: f64) -> PlaneStrain {
-        PlaneStrain::new(Material::from_shear(shear, poisson).unwrap())
+        PlaneStrain::new(Material::from_shear(shear, poisson).unwrap().into())
     }
 
     #[test]

@@ -23,6 +23,8 @@
 //! On a rigid base U = w = 0: there the plane is that of (t, p), its only minor N. What holds of the layers on an elastic
 //! substrate holds of those on a rigid base, which is its limit; the recursion starts with the limit itself.
 //!
+//! The moduli G and ν may be complex ([`Moduli`]): wavenumbers and thicknesses are real, and so are all exponents.
+//!
 //! Everything belongs to the [`LayeredResponse`] of a [`HalfSpace`]. For many wavenumbers there are tables: of the surface
 //! compliance (`compliances`) and of the interior (`interior_table`).
 
@@ -41,6 +43,7 @@ mod layer;
 mod material;
 mod mean;
 mod minors;
+mod moduli;
 mod names;
 mod response;
 mod strata;
@@ -60,7 +63,10 @@ pub use interior_table::{InteriorTable, REACH};
 pub use layer::{Interface, Layer};
 pub use material::{Material, MaterialError};
 pub use mean::MeanStress;
+pub use moduli::Moduli;
 pub use names::{InterfaceId, MaterialId, Name, Side};
 pub use response::{LayeredResponse, SurfaceResponse};
 pub use strength::{InterfaceStrength, Strength};
 pub use substrate::Substrate;
+
+pub use crate::numeric::number::Number;

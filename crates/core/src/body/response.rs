@@ -20,26 +20,32 @@
 //! relative error stays below 1e-12 for shear ratios 1e-6…1e6, ν 0…0.5, qh 1e-8…1e3 and up to 20 layers with any
 //! interfaces.
 //!
+//! **Loss.** A response is of real moduli, or of complex ones G = G′ + iG″ of viscoelastic materials under a load e^{iωt}
+//! ([`Moduli`]): then C, K, L, S are complex with Im C, Im L, Im S ≤ 0 for G″ ≥ 0, and the matrix is no longer Hermitian but still
+//! has the one K. All are analytic functions of the moduli: a modulus G + iε has Im C = ε ∂C/∂G, to rounding.
+//!
 //! **Interior.** Amplitudes of stress and displacement at any depth (`interior`, `across`).
 
 use super::across::{self, Antiplane};
 use super::interior::{self, Amplitudes, InPlane, Interior};
+use super::minors::Minors;
 use super::strata::Strata;
-use super::{Depth, Layer, Substrate};
+use super::{Depth, Layer, Material, Moduli, Substrate};
+use crate::numeric::number::Number;
 use rustfft::num_complex::Complex64;
 
 /// Displacements of the surface per traction at one wavenumber, lengths per pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfaceResponse {
+pub struct SurfaceResponse<N = f64> {
     /// C: u_z from the pressure.
-    pub normal: f64,
+    pub normal: N,
     /// K: u_q from the pressure a quarter wave ahead of it, and u_z from the shear traction a quarter wave behind it. It
     /// changes its sign on soft coatings.
-    pub coupling: f64,
+    pub coupling: N,
     /// L: u_q from the shear traction along the wavevector.
-    pub along: f64,
+    pub along: N,
     /// S: u_t from the shear traction across the wavevector.
-    pub across: f64,
+    pub across: N,
 }
 
 impl SurfaceResponse {
@@ -52,50 +58,60 @@ impl SurfaceResponse {
 }
 
 /// Response of a layered half-space to harmonic tractions. It belongs to its half-space
-/// ([`HalfSpace::response`](super::HalfSpace::response)), which sets it up once.
+/// ([`HalfSpace::response`](super::HalfSpace::response)), which sets it up once; one of complex moduli is made by
+/// [`HalfSpace::response_of`](super::HalfSpace::response_of).
 #[derive(Debug, Clone, PartialEq)]
-pub struct LayeredResponse {
-    strata: Strata,
+pub struct LayeredResponse<N = f64> {
+    strata: Strata<N>,
 }
 
-impl LayeredResponse {
-    /// Response of `layers`, from the surface down, on a substrate.
-    pub(super) fn new(layers: &[Layer], substrate: Substrate) -> Self {
-        Self { strata: Strata::new(layers, substrate) }
+impl<N: Number> LayeredResponse<N> {
+    /// Response of `layers`, from the surface down, on a substrate, with the `moduli` of material number 1, 2, ….
+    pub(super) fn new(
+        layers: &[Layer],
+        substrate: Substrate,
+        moduli: impl FnMut(usize, Material) -> Moduli<N>,
+    ) -> Self {
+        Self { strata: Strata::new(layers, substrate, moduli) }
     }
 
-    pub(super) fn strata(&self) -> &Strata {
+    pub(super) fn strata(&self) -> &Strata<N> {
         &self.strata
     }
 
+    /// Minors of the plane of admissible states at the surface.
+    fn minors(&self, wavenumber: f64) -> Minors<N> {
+        self.strata.surface_minors(wavenumber, |_| ())
+    }
+
     /// Compliance C = ŵ/p̂ at the wavenumber q > 0 (1/length): a length per pressure.
-    pub fn compliance(&self, wavenumber: f64) -> f64 {
-        let minors = self.strata.surface_minors(wavenumber, |_| ());
-        minors.c / minors.n / (self.strata.surface_material().shear * wavenumber)
+    pub fn compliance(&self, wavenumber: f64) -> N {
+        let Minors { c, n, .. } = self.minors(wavenumber);
+        c.over(n).over(self.strata.surface_material().shear * wavenumber)
     }
 
     /// Layer correction T = compliance · G₁q/(1−ν₁) at the wavenumber q > 0 (1/length); 1 for an uncoated half-space.
-    pub fn correction(&self, wavenumber: f64) -> f64 {
-        let minors = self.strata.surface_minors(wavenumber, |_| ());
-        minors.c / minors.n / (1.0 - self.strata.surface_material().poisson)
+    pub fn correction(&self, wavenumber: f64) -> N {
+        let Minors { c, n, .. } = self.minors(wavenumber);
+        c.over(n).over(N::from(1.0) - self.strata.surface_material().poisson)
     }
 
     /// Compliance at the wavenumber q > 0 (1/length) with the given layer correction T.
-    pub(super) fn compliance_of(&self, correction: f64, wavenumber: f64) -> f64 {
+    pub(super) fn compliance_of(&self, correction: N, wavenumber: f64) -> N {
         let material = self.strata.surface_material();
-        (1.0 - material.poisson) * correction / (material.shear * wavenumber)
+        ((N::from(1.0) - material.poisson) * correction).over(material.shear * wavenumber)
     }
 
     /// K/C at the wavenumber q > 0 (1/length).
-    pub(super) fn coupling_ratio(&self, wavenumber: f64) -> f64 {
-        let minors = self.strata.surface_minors(wavenumber, |_| ());
-        minors.b / minors.c
+    pub(super) fn coupling_ratio(&self, wavenumber: f64) -> N {
+        let Minors { b, c, .. } = self.minors(wavenumber);
+        b.over(c)
     }
 
     /// Displacements of the surface under all three tractions at the wavenumber q > 0 (1/length).
-    pub fn surface(&self, wavenumber: f64) -> SurfaceResponse {
-        let minors = self.strata.surface_minors(wavenumber, |_| ());
-        let unit = 1.0 / (minors.n * self.strata.surface_material().shear * wavenumber);
+    pub fn surface(&self, wavenumber: f64) -> SurfaceResponse<N> {
+        let minors = self.minors(wavenumber);
+        let unit = N::from(1.0).over(minors.n * self.strata.surface_material().shear * wavenumber);
         SurfaceResponse {
             normal: minors.c * unit,
             coupling: minors.b * unit,
@@ -105,7 +121,7 @@ impl LayeredResponse {
     }
 
     /// Interior under a traction of the wavenumber q > 0 (1/length), for amplitudes at many depths.
-    pub fn interior(&self, traction: InPlane, wavenumber: f64) -> Interior {
+    pub fn interior(&self, traction: InPlane, wavenumber: f64) -> Interior<N> {
         Interior::new(&self.strata, traction, wavenumber)
     }
 
@@ -113,7 +129,7 @@ impl LayeredResponse {
     ///
     /// # Panics
     /// When there is no such material.
-    pub fn amplitudes(&self, traction: InPlane, wavenumber: f64, depth: Depth) -> Amplitudes {
+    pub fn amplitudes(&self, traction: InPlane, wavenumber: f64, depth: Depth) -> Amplitudes<N> {
         interior::amplitudes(&self.strata, traction, wavenumber, depth)
     }
 
@@ -122,7 +138,7 @@ impl LayeredResponse {
     ///
     /// # Panics
     /// When there is no such material.
-    pub fn antiplane(&self, wavenumber: f64, depth: Depth) -> Antiplane {
+    pub fn antiplane(&self, wavenumber: f64, depth: Depth) -> Antiplane<N> {
         across::amplitudes(&self.strata, wavenumber, depth)
     }
 }

@@ -1,5 +1,5 @@
-//! General numerics that the physics rests on: sums in a fixed order, small systems of equations, quadrature, Chebyshev series,
-//! maxima, closed lines around an axis with Fourier series in the angle, fields as arrays, and transforms and passes over rows
+//! General numerics that the physics rests on: real or complex moduli, sums in a fixed order, small systems of equations,
+//! quadrature, Chebyshev series, maxima, closed lines around an axis with Fourier series in the angle, fields as arrays, and transforms and passes over rows
 //! with eight samples at a time.
 
 pub(crate) mod aligned;
@@ -11,6 +11,7 @@ pub(crate) mod lanes;
 pub mod least_squares;
 pub(crate) mod limited_cubic;
 pub mod linear;
+pub mod number;
 pub(crate) mod paraboloid;
 pub mod quadrature;
 pub(crate) mod rows;
