@@ -1,6 +1,6 @@
 //! A contact solved on one grid.
 
-use super::iteration::{Certificate, Unknowns};
+use super::iteration::{Bounds, Certificate, Unknowns};
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::lattice::components::{Component, SpotCounts, contact_spots};
@@ -89,11 +89,10 @@ impl Contact {
     /// Depths that the softer surface is pressed in for good by this load and those before it, lengths ≥ 0 sample by sample, a₂ fastest:
     /// −g where p = H, added up over the loads. `None` without hardness, and under a given pressure.
     pub fn indentation(&self) -> Option<Vec<f64>> {
-        let hardness = self.hardness();
-        hardness.is_finite().then(|| {
+        let bounds = Bounds::up_to(self.hardness());
+        bounds.is_finite().then(|| {
             let before = |i: usize| self.indented.as_ref().map_or(0.0, |depths| depths[i]);
-            let now = |i: usize| if self.pressure[i] >= hardness { (-self.gap[i]).max(0.0) } else { 0.0 };
-            (0..self.gap.len()).map(|i| before(i) + now(i)).collect()
+            (0..self.gap.len()).map(|i| before(i) + bounds.indentation(self.pressure[i], self.gap[i])).collect()
         })
     }
 

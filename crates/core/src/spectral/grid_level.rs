@@ -3,7 +3,7 @@
 use super::body_operator::BodyOperator;
 use super::depth_search::{DepthSearch, Found};
 use super::iteration::{
-    AdmissibleSet, Certificate, ContactProblem, Progress, Report, Settings, Stop, Unknowns, Working,
+    AdmissibleSet, Bounds, Certificate, ContactProblem, Progress, Report, Settings, Stop, Unknowns, Working,
 };
 use super::operator::{ElasticOperator, Workspace};
 use super::prolongation::prolonged;
@@ -37,8 +37,8 @@ pub(super) struct GridLevel {
     largest_gap: f64,
     /// Whether contact may occur, one value per sample; `None`: everywhere.
     mask: Option<Vec<bool>>,
-    /// Hardness of the softer surface, a pressure; infinite without one, and under a given pressure.
-    hardness: f64,
+    /// Bounds of the pressure, 0 ≤ p ≤ H with the hardness of the softer surface; without that, and under a given pressure, p ≥ 0.
+    bounds: Bounds,
     /// Law by which the hardness follows from the penetration; `None` where one holds at any.
     composite: Option<CompositeHardness>,
     operator: BodyOperator,
@@ -102,7 +102,7 @@ impl GridLevel {
             largest_gap: surface.largest(),
             indented: None,
             mask: None,
-            hardness: problem.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness),
+            bounds: Bounds::up_to(problem.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness)),
             composite: problem.composite_hardness().copied(),
             operator,
             given,
@@ -129,7 +129,7 @@ impl GridLevel {
     /// Sets the unknowns from which the next load starts.
     pub fn set_unknowns(&mut self, unknowns: Unknowns) {
         if let Some(composite) = &self.composite {
-            self.hardness = composite.at(unknowns.penetration);
+            self.bounds = Bounds::up_to(composite.at(unknowns.penetration));
         }
         self.unknowns = unknowns;
     }
@@ -214,7 +214,7 @@ impl GridLevel {
 
     /// Whether contact may occur at any sample.
     pub fn has_admissible(&self) -> bool {
-        self.mask.as_ref().is_none_or(|mask| mask.contains(&true))
+        AdmissibleSet::new(self.mask.as_deref()).is_anywhere()
     }
 
     /// Working memory for this grid and all coarser ones.
@@ -242,7 +242,7 @@ impl GridLevel {
     /// The contact of the last load on this grid, under the composite hardness that it has met.
     pub fn contact(&self, problem: &Arc<Problem>) -> Contact {
         let problem = &match self.composite {
-            Some(_) => Arc::new(problem.with_surface_hardness(self.hardness)),
+            Some(_) => Arc::new(problem.with_surface_hardness(self.bounds.largest())),
             None => Arc::clone(problem),
         };
         let Unknowns { pressure, gap, penetration, .. } = &self.unknowns;
@@ -301,7 +301,7 @@ impl GridLevel {
         let mut search = DepthSearch::new(composite, nearly, tolerance);
         let (mut iterations, mut convolutions) = (0, 0.0);
         loop {
-            self.harden(search.hardness());
+            self.harden(Bounds::up_to(search.hardness()));
             let (mut report, work) = self.solve_at_hardness(coarser.take(), load, settings, working, progress);
             (iterations, convolutions) = (iterations + report.iterations, convolutions + work);
             report.iterations = iterations;
@@ -309,25 +309,24 @@ impl GridLevel {
                 Found::Another => {}
                 Found::NotBorne => self.forget(),
                 Found::End(stop) => {
-                    self.settle(composite.at(self.unknowns.penetration));
+                    self.settle(Bounds::up_to(composite.at(self.unknowns.penetration)));
                     return (Report { stop, ..report }, convolutions);
                 }
             }
         }
     }
 
-    /// Gives the surface another hardness, a pressure, which the pressure of earlier loads does not exceed either.
-    fn harden(&mut self, hardness: f64) {
-        self.hardness = hardness;
-        self.set_pressures(|p| p.min(hardness));
+    /// Gives the surface another hardness, which the pressure of earlier loads does not exceed either.
+    fn harden(&mut self, bounds: Bounds) {
+        self.bounds = bounds;
+        self.set_pressures(|p| bounds.clamp(p));
     }
 
     /// Gives the surface the hardness of its last penetration, nearly that at which it was solved: the pressure that was the hardness is
     /// this one.
-    fn settle(&mut self, hardness: f64) {
-        let before = self.hardness;
-        self.hardness = hardness;
-        self.set_pressures(|p| if p >= before { hardness } else { p.min(hardness) });
+    fn settle(&mut self, bounds: Bounds) {
+        let before = std::mem::replace(&mut self.bounds, bounds);
+        self.set_pressures(|p| bounds.follow(before, p));
     }
 
     fn set_pressures(&mut self, of: impl Fn(f64) -> f64 + Sync) {
@@ -353,12 +352,12 @@ impl GridLevel {
         if let Some(coarser) = coarser {
             self.add_change(&coarser, settings.tolerance);
         }
-        let Self { surface, largest_gap, mask, hardness, operator, unknowns, .. } = self;
+        let Self { surface, largest_gap, mask, bounds, operator, unknowns, .. } = self;
         let (samples, before) = (surface.grid().len(), operator.convolutions());
         let with = ContactOf {
             surface,
             largest_gap: *largest_gap,
-            admissible: AdmissibleSet::new(mask.as_deref()).at_most(*hardness),
+            admissible: AdmissibleSet::new(mask.as_deref()).within(*bounds),
             load: load.on(surface.grid().cell()),
             settings,
         };
@@ -399,9 +398,8 @@ impl GridLevel {
     /// contact begins. `None` where the surface is as at first, or touches.
     fn without_contact(&self, load: Control) -> Option<f64> {
         self.indented.as_ref()?;
-        let mask = |i: usize| self.mask.as_ref().is_none_or(|mask| mask[i]);
-        let gaps = self.surface.gaps();
-        let begins = sums::least(gaps.len(), |i| if mask(i) { gaps[i] } else { f64::INFINITY });
+        let (set, gaps) = (AdmissibleSet::new(self.mask.as_deref()), self.surface.gaps());
+        let begins = sums::least(gaps.len(), |i| if set.may_touch(i) { gaps[i] } else { f64::INFINITY });
         match load {
             Control::MeanPressure(mean) => (mean == 0.0).then_some(begins),
             Control::Penetration(penetration) => (0.0..=begins).contains(&penetration).then_some(penetration),
@@ -429,10 +427,10 @@ impl GridLevel {
         // A change below the tolerance is dropped: it would leave traces of pressure around the contact, which no iteration
         // removes where none is needed.
         let least = -tolerance * sums::least(after.len(), |i| -after[i]);
-        let (pressure, hardness) = (Arc::make_mut(&mut self.unknowns.pressure), self.hardness);
+        let (pressure, bounds) = (Arc::make_mut(&mut self.unknowns.pressure), self.bounds);
         sums::update(pressure, |i, p| {
             let rise = after[i] - before[i];
-            if rise.abs() > least { (p + rise).max(0.0).min(hardness) } else { p }
+            if rise.abs() > least { bounds.clamp(p + rise) } else { p }
         });
     }
 }

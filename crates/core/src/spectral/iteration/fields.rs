@@ -14,15 +14,10 @@
 //! working.direction   —                              direction t (4)
 //! ```
 
-use super::admissible::{AdmissibleSet, LoadSums, UpperBound};
+use super::admissible::AdmissibleSet;
 use super::certificate::Certificate;
 use crate::load::Control;
-use crate::numeric::lanes::{LANES, all_zero, vectorised};
-use crate::numeric::rows::{self, Totals};
-use crate::numeric::sums::{self, BLOCK};
 use crate::spectral::operator::{ElasticOperator, Workspace};
-use fearless_simd::prelude::*;
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Pressure, gap and certificate on one grid, fields with one value per sample: the start of an iteration and its result. A
@@ -51,68 +46,10 @@ impl Unknowns {
         self.pressure = Arc::new(vec![0.0; self.pressure.len()]);
     }
 
-    /// Clips the pressure at zero and at the hardness and, under load control, scales it to the mean; where nothing is left to scale, what
-    /// is missing is uniform on the admissible samples below the hardness.
+    /// Projects the pressure onto the admissible ones, of the mean under load control.
     pub(super) fn admit(&mut self, load: Control, admissible: AdmissibleSet<'_>) {
-        let pressure = Arc::make_mut(&mut self.pressure);
-        let bound = admissible.bound();
-        admissible.restrict(pressure);
-        let sums = bounded(pressure, bound);
-        let Control::MeanPressure(mean) = load else { return };
-        let total = mean * pressure.len() as f64;
-        if !scaled(pressure, sums, total, bound) {
-            admissible.fill(pressure, mean);
-        }
+        admissible.project(&mut Arc::make_mut(&mut self.pressure)[..], load);
     }
-}
-
-/// Scales a pressure with these sums to a total; false where nothing is left to scale. What is below H is scaled, cut where it exceeds H,
-/// and scaled again until nothing does; where H alone exceeds the total, all of it is scaled.
-fn scaled(pressure: &mut [f64], mut sums: LoadSums, total: f64, bound: UpperBound) -> bool {
-    loop {
-        let rest = if sums.full > 0.0 { total - sums.full * bound.most } else { total };
-        let [free, full] = match (rest > 0.0, sums.free > 0.0) {
-            (true, true) => [rest / sums.free, 1.0],
-            (false, _) if sums.full > 0.0 => [total / sums.total(bound.most); 2],
-            _ => return false,
-        };
-        sums::update(pressure, |_, p| if p < bound.most { free * p } else { full * p });
-        if !bound.is_finite() {
-            return true;
-        }
-        let before = std::mem::replace(&mut sums, bounded(pressure, bound));
-        if sums.full <= before.full {
-            return true;
-        }
-    }
-}
-
-/// p ← min(max(p, 0), H), and the sums of it.
-fn bounded(pressure: &mut [f64], bound: UpperBound) -> LoadSums {
-    let Totals { sums: [free, full], least: [] } =
-        rows::row_totals(BLOCK, pressure.par_chunks_mut(BLOCK), |_, p| vectorised!(simd => clipped(simd, p, bound)));
-    LoadSums { free, full }
-}
-
-/// p ← min(max(p, 0), H); Σ p where p < H, and the number of samples where p = H.
-#[inline(always)]
-fn clipped<S: Simd>(simd: S, p: &mut [f64], bound: UpperBound) -> Totals<2, 0> {
-    let (mut sum, mut full) = (0.0, 0.0);
-    for group in p.chunks_mut(LANES) {
-        if all_zero(simd, group) {
-            continue;
-        }
-        for p in group {
-            if *p > bound.nearly {
-                *p = bound.most;
-                full += 1.0;
-            } else {
-                *p = p.max(0.0);
-                sum += *p;
-            }
-        }
-    }
-    Totals { sums: [sum, full], least: [] }
 }
 
 /// Working fields in single precision and memory for the transforms, shared by all grids of a problem: each uses as much of

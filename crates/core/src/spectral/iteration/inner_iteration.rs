@@ -1,9 +1,10 @@
 //! Lines 3 to 5 of the method, and line 1 by changes: iterations in single precision from one gap in double precision to the
 //! next.
 
-use super::admissible::{LoadSums, UpperBound, WeightedSums, between};
+use super::bounds::Bounds;
 use super::check::ConvergenceCheck;
 use super::direction;
+use super::duality::{LoadSums, WeightedSums};
 use super::fields::{Fields, Unknowns};
 use super::problem::ContactProblem;
 use super::update::{self, ActiveSet};
@@ -108,8 +109,8 @@ impl InnerIteration {
             problem.admissible.open(&mut Arc::make_mut(&mut unknowns.gap)[..], FAR * length);
         }
         let (gap, residual) = problem.working.gap_and_residual(problem.operator);
-        let most = problem.admissible.bound().most;
-        let active = update::gap_from(&unknowns.pressure, &unknowns.gap, [length / share, most], gap, residual);
+        let bounds = problem.admissible.bounds();
+        let active = update::gap_from(&unknowns.pressure, &unknowns.gap, (length / share, bounds), gap, residual);
         let (blocks, pressure) = (problem.operator.blocks(), length / problem.operator.unit());
         Self { blocks, variant, length, pressure, active, penetration: unknowns.penetration, check }
     }
@@ -191,13 +192,13 @@ impl InnerIteration {
         Direction { beta, mut tau, .. }: Direction,
         is_first: bool,
     ) -> Option<TakenStep> {
-        let (blocks, unit, bound) = (self.blocks, self.pressure, problem.admissible.bound());
+        let (blocks, unit, bounds) = (self.blocks, self.pressure, problem.admissible.bounds());
         let prescribed = problem.load;
         let operator = &mut *problem.operator;
         let Fields { gap, direction, image, weight: step, residual, memory, .. } = problem.working.of(operator, double);
         for backtracks in 0..=MAX_BACKTRACKS {
             let along = [&*gap, &*direction, &*image, &*residual];
-            let mut advance = update::advance(p, along, [-tau, 0.0, unit], bound, step);
+            let mut advance = update::advance(p, along, [-tau, 0.0, unit], bounds, step);
             if backtracks == 0 && !advance.clipped {
                 // C d = −τ C t.
                 return Some(TakenStep { restart: false, factor: -tau, load: advance.load, work: advance.work });
@@ -209,23 +210,23 @@ impl InnerIteration {
             let mut is_full = advance.load.full > 0.0;
             if let Some(total) = total.filter(|_| !is_full) {
                 if advance.load.free <= 0.0 {
-                    update::retreat(p, step, unit, bound);
+                    update::retreat(p, step, unit, bounds);
                     return None;
                 }
                 let scale = total / advance.load.free;
-                is_full = scale != 1.0 && update::rescale(p, scale, unit, bound, step);
+                is_full = scale != 1.0 && update::rescale(p, scale, unit, bounds, step);
                 // ⟨g, p⟩ = 0 under load control: the scale adds nothing to the slope.
                 advance.slope *= scale;
             }
             if let Some(total) = total.filter(|_| is_full) {
                 // Where pressures are H the load is restored by a shift of the active set.
-                update::retreat(p, step, unit, bound);
-                let shift = shift_to(total, p, [direction, residual], [-tau, unit], bound);
-                advance = update::advance(p, along, [-tau, shift, unit], bound, step);
+                update::retreat(p, step, unit, bounds);
+                let shift = shift_to(total, p, [direction, residual], [-tau, unit], bounds);
+                advance = update::advance(p, along, [-tau, shift, unit], bounds, step);
             }
             let mut sums = blocks.totals();
             let displaced = operator.displaced_single(self.variant.traction, memory, rows_of(blocks, step));
-            displaced.rows(update::after_step(blocks, (p, bound.most), [gap, step], image, &mut sums));
+            displaced.rows(update::after_step(blocks, (p, bounds), [gap, step], image, &mut sums));
             let [curvature, free, full, work, weight, weighted] = Totals::of(sums).sums;
             let slope = advance.slope;
             let (load, work) = (LoadSums { free, full }, WeightedSums { work, weight, weighted });
@@ -235,13 +236,13 @@ impl InnerIteration {
             }
             let is_last = backtracks == MAX_BACKTRACKS;
             if is_last && !uphill && part.is_finite() {
-                update::retreat(p, step, (1.0 - part) * unit, bound);
-                let (load, work) = update::load_and_work((p, bound.most), gap, (image, part));
+                update::retreat(p, step, (1.0 - part) * unit, bounds);
+                let (load, work) = update::load_and_work((p, bounds), gap, (image, part));
                 return Some(TakenStep { restart: false, factor: part, load, work });
             }
-            update::retreat(p, step, unit, bound);
+            update::retreat(p, step, unit, bounds);
             if uphill && beta > 0.0 {
-                let (load, work) = update::load_and_work((p, bound.most), gap, (image, 0.0));
+                let (load, work) = update::load_and_work((p, bounds), gap, (image, 0.0));
                 return Some(TakenStep { restart: true, factor: 0.0, load, work });
             }
             if !curvature.is_finite() {
@@ -260,7 +261,7 @@ impl InnerIteration {
         double: &mut [f64],
         step: TakenStep,
     ) {
-        let most = problem.admissible.bound().most;
+        let bounds = problem.admissible.bounds();
         problem.working.keep_residual();
         let Fields { gap, residual, image, .. } = problem.working.of(problem.operator, double);
         let samples = || {
@@ -269,11 +270,11 @@ impl InnerIteration {
             p.iter().copied().zip(gaps)
         };
         let shift = match problem.load {
-            Control::MeanPressure(_) => step.work.mean(step.load).unwrap_or_else(|| between(samples(), most)),
+            Control::MeanPressure(_) => step.work.mean(step.load).unwrap_or_else(|| bounds.between(samples())),
             Control::Penetration(_) => 0.0,
         };
         self.penetration += shift * self.length;
-        let (active, sums) = update::update_gap(p, step.load, (image, step.factor), [shift, most], gap, residual);
+        let (active, sums) = update::update_gap(p, step.load, (image, step.factor), (shift, bounds), gap, residual);
         self.active = active;
         self.check = ConvergenceCheck::of(sums.times(self.length), self.penetration, self.check.energy, problem);
     }
@@ -286,12 +287,12 @@ fn shift_to(
     p: &[f64],
     [direction, residual]: [&[f32]; 2],
     [factor, unit]: [f64; 2],
-    bound: UpperBound,
+    bounds: Bounds,
 ) -> f64 {
     let [mut low, mut high] = [f64::NEG_INFINITY, f64::INFINITY];
     let mut shift = 0.0;
     for _ in 0..MAX_SHIFTS {
-        let [load, moves] = update::shifted_load(p, [direction, residual], [factor, shift, unit], bound);
+        let [load, moves] = update::shifted_load(p, [direction, residual], [factor, shift, unit], bounds);
         let missing = total - load;
         if missing.abs() <= SHIFT_TOLERANCE * total {
             break;
@@ -302,7 +303,7 @@ fn shift_to(
             high = shift
         };
         // Where no sample moves, a step as large as H reaches some.
-        let step = if moves > 0.0 { missing / moves } else { missing.signum() * bound.most };
+        let step = if moves > 0.0 { missing / moves } else { missing.signum() * bounds.largest() };
         let next = shift + step / unit;
         let middle = 0.5 * (low + high);
         shift = match low < next && next < high {

@@ -8,14 +8,15 @@
 //!
 //! ```text
 //! init       problem          operator, initial gap, load, tolerance
-//!            admissible       where contact may occur
+//!            admissible       where contact may occur, and between which bounds a pressure lies; projection onto these pressures
 //!            fields           unknowns and working fields, and what lies in whose memory
 //!            route, fallback  what iterates: nothing, a variant of the method, a search for the load
 //!            full_step        pressures of zero and the hardness alone
 //! step       preconditioned   the method, by inner_iteration; direction and update are its fused loops
 //!            plain            its twin in plain lines
 //!            polonsky_keer    the baseline
-//! terminate  check            criteria of convergence from one convolution, with the certificate
+//! terminate  duality          what bounds and gap say of penetration and energy
+//!            check            criteria of convergence from one convolution, with the certificate
 //!            stopping         no progress, or nothing but rounding
 //!            report           reason and route
 //! ```
@@ -35,9 +36,11 @@
 //! Where an iteration stalls and rounding alone keeps it from these, it has converged to rounding (`stopping`).
 
 mod admissible;
+mod bounds;
 mod certificate;
 mod check;
 mod direction;
+mod duality;
 mod fallback;
 mod fields;
 mod full_step;
@@ -47,12 +50,14 @@ mod plain;
 mod polonsky_keer;
 mod preconditioned;
 mod problem;
+mod projection;
 mod report;
 mod route;
 mod stopping;
 mod update;
 
 pub use admissible::AdmissibleSet;
+pub use bounds::Bounds;
 pub use certificate::Certificate;
 pub use fields::{Unknowns, Working};
 pub use problem::{ContactProblem, Method, Settings};

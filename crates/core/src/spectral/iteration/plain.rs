@@ -1,7 +1,7 @@
 //! The preconditioned method in plain lines and double precision, line by line as the head of `preconditioned` has it: its
 //! documentation, and the twin that its fused loops are tested against.
 
-use super::admissible::between;
+use super::bounds::Bounds;
 use super::inner_iteration::{Continuation, MAX_BACKTRACK, MAX_BACKTRACKS, MIN_BACKTRACK, Variant};
 use super::preconditioned::OUTER_REDUCTION;
 use crate::load::Control;
@@ -20,8 +20,7 @@ pub(super) struct Plain {
     /// f ≥ 0, a length.
     pub initial_gap: Field,
     pub load: Control,
-    /// H, infinite without hardness.
-    pub hardness: f64,
+    pub bounds: Bounds,
     pub variant: Variant,
 }
 
@@ -38,7 +37,7 @@ impl Plain {
         let lagged = self.variant.traction == TractionUpdate::Lagged;
         let share = if lagged { 1.0 / (1.0 + self.body.coupling().powi(2)) } else { 1.0 };
         let (mut last, mut all) = (None, Vec::new());
-        p.iter_mut().for_each(|p| *p = self.bounded(*p));
+        p.iter_mut().for_each(|p| *p = self.bounds.project(*p));
         let (mut g, mut penetration) = self.gap(&p);
         let (mut energy, mut measure) = (self.energy(&p), f64::INFINITY);
         for number in 0..iterations {
@@ -51,8 +50,7 @@ impl Plain {
                 g.iter_mut().for_each(|g| *g *= share);
             }
             // 3. Active set I and residual r on it, without its mean under load control.
-            let is_active = |(&p, &g): (&f64, &f64)| (p > 0.0 || g < 0.0) && (p < self.hardness || g > 0.0);
-            let active: Vec<bool> = p.iter().zip(&g).map(is_active).collect();
+            let active: Vec<bool> = p.iter().zip(&g).map(|(&p, &g)| self.bounds.is_active(p, g)).collect();
             let r = self.without_mean(&on(&active, &g), &active);
             // 4. Direction t = z + βt′ with z = M r.
             let z = self.preconditioned(&r, &active);
@@ -67,7 +65,7 @@ impl Plain {
             // 5. Step d.
             let tau = dot(&g, &t) / dot(&t, &self.displacement(&t));
             let (d, restart) = self.step(&p, &g, (&t, tau, beta), &active, number == 0);
-            p = p.iter().zip(&d).map(|(p, d)| self.bounded(p + d)).collect();
+            p = p.iter().zip(&d).map(|(p, d)| self.bounds.project(p + d)).collect();
             last = (!restart).then_some(Last { direction: t, residual: r, norm });
             // 1. The gap by its change.
             let change = self.displacement(&d);
@@ -131,16 +129,17 @@ impl Plain {
     ) -> (Field, bool) {
         for backtracks in 0.. {
             let mut end: Field = p.iter().zip(t).map(|(p, t)| p - tau * t).collect();
-            let is_clipped =
-                end.iter().zip(p).any(|(&end, &p)| end < 0.0 || (end > self.hardness && p < self.hardness));
-            end.iter_mut().for_each(|p| *p = self.bounded(*p));
+            let is_clipped = end.iter().zip(p).any(|(&end, &p)| {
+                self.bounds.clamp(end) != end && !(self.bounds.is_full(p) && self.bounds.is_full(end))
+            });
+            end.iter_mut().for_each(|p| *p = self.bounds.project(*p));
             if let (Control::MeanPressure(mean), true) = (self.load, is_clipped || backtracks > 0) {
                 let total = mean * p.len() as f64;
-                if end.iter().all(|&p| p < self.hardness) {
+                if !end.iter().any(|&p| self.bounds.is_full(p)) {
                     let scale = total / end.iter().sum::<f64>();
                     end.iter_mut().for_each(|p| *p *= scale);
                 }
-                if end.iter().any(|&p| self.bounded(p) >= self.hardness) {
+                if end.iter().any(|&p| self.bounds.is_nearly_full(p)) {
                     end = self.shifted_to(total, p, t, tau, active);
                 }
             }
@@ -160,31 +159,27 @@ impl Plain {
         panic!("no step lowers the energy");
     }
 
-    /// min(max(p, 0), H); what is within rounding of H is H.
-    fn bounded(&self, p: f64) -> f64 {
-        if p > (1.0 - 1e-15) * self.hardness { self.hardness } else { p.max(0.0) }
-    }
-
     /// The mean of g by which δ moves: with the weights p, and p(1 − p/H) where any sample is full; between the gaps inside and outside
     /// contact where no sample is free.
     fn mean(&self, p: &[f64], g: &[f64]) -> f64 {
-        let is_full = p.iter().any(|&p| p >= self.hardness);
-        let weights: Field = p.iter().map(|&p| if is_full { p * (1.0 - p / self.hardness) } else { p }).collect();
+        let is_full = p.iter().any(|&p| self.bounds.is_full(p));
+        let weights: Field = p.iter().map(|&p| if is_full { self.bounds.weight(p) } else { p }).collect();
         match weights.iter().sum::<f64>() {
             sum if sum > 0.0 => dot(&weights, g) / sum,
-            _ => between(p.iter().copied().zip(g.iter().copied()), self.hardness),
+            _ => self.bounds.between(p.iter().copied().zip(g.iter().copied())),
         }
     }
 
     /// min(max(p − τt + λ, 0), H) on I with the λ that makes its sum `total`, by bisection.
     fn shifted_to(&self, total: f64, p: &[f64], t: &[f64], tau: f64, active: &[bool]) -> Field {
         let shifted = |shift: f64| -> Field {
-            let end =
-                |((p, t), active): ((&f64, &f64), &bool)| self.bounded(p - tau * t + if *active { shift } else { 0.0 });
+            let end = |((p, t), active): ((&f64, &f64), &bool)| {
+                self.bounds.project(p - tau * t + if *active { shift } else { 0.0 })
+            };
             p.iter().zip(t).zip(active).map(end).collect()
         };
         // From where all of I is empty to where all of it is full.
-        let reach = self.hardness + t.iter().fold(0.0, |most: f64, t| most.max((tau * t).abs()));
+        let reach = self.bounds.largest() + t.iter().fold(0.0, |most: f64, t| most.max((tau * t).abs()));
         let [mut low, mut high] = [-reach, reach];
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
@@ -233,19 +228,14 @@ impl Plain {
         let least = g.iter().copied().fold(f64::INFINITY, f64::min);
         let least = if self.load.is_mean_pressure() { least } else { least.min(0.0) };
         let outside = p.iter().zip(g).filter(|(p, _)| **p == 0.0).fold(0.0, |least: f64, (_, g)| least.min(*g));
-        let away = |(&p, &g): (&f64, &f64)| g.abs() * if g > 0.0 { p } else { p.min(self.hardness - p) };
+        let away = |(&p, &g): (&f64, &f64)| g.abs() * self.bounds.away(p, g);
         let residual = p.iter().zip(g).map(away).sum::<f64>() / (load * penetration);
-        let gap = match p.iter().any(|&p| p >= self.hardness) {
+        let gap = match p.iter().any(|&p| self.bounds.is_full(p)) {
             false => dot(p, g) - least * load,
             true => {
-                let at = |theta: f64| -> f64 {
-                    let of = |(&p, &g): (&f64, &f64)| match p < self.hardness {
-                        true => p * (g - theta) + self.hardness * (theta - g).max(0.0),
-                        false => self.hardness * (g.max(0.0) - theta),
-                    };
-                    p.iter().zip(g).map(of).sum()
-                };
-                let below = p.iter().zip(g).filter(|(p, _)| **p < self.hardness).map(|(_, g)| *g);
+                let at =
+                    |theta: f64| -> f64 { p.iter().zip(g).map(|(&p, &g)| self.bounds.energy_share(p, g, theta)).sum() };
+                let below = p.iter().zip(g).filter(|(p, _)| !self.bounds.is_full(**p)).map(|(_, g)| *g);
                 at(0.0).min(at(below.fold(0.0, f64::min)))
             }
         };
@@ -330,18 +320,18 @@ mod tests {
         let mean = if let Control::MeanPressure(mean) = load { mean } else { 0.1 * unit };
         let heights: Field = initial_gap.iter().map(|f| length - f).collect();
         let scale = mean * grid.len() as f64 / heights.iter().sum::<f64>();
-        let hardness = hardness * unit;
+        let bounds = Bounds::up_to(hardness * unit);
         let mut start: Field = heights.into_iter().map(|height| scale * height).collect();
         // At most H, and of the mean.
         for _ in 0..200 {
-            start.iter_mut().for_each(|p| *p = p.min(hardness));
+            start.iter_mut().for_each(|p| *p = bounds.clamp(*p));
             let scale = mean * grid.len() as f64 / start.iter().sum::<f64>();
             start.iter_mut().for_each(|p| *p *= scale);
         }
-        start.iter_mut().for_each(|p| *p = p.min(hardness));
+        start.iter_mut().for_each(|p| *p = bounds.clamp(*p));
         let symmetric = LayeredOperator::new(&grid, &half_space);
         let mut plain =
-            Plain { points, body: operator(), symmetric, initial_gap: initial_gap.clone(), load, hardness, variant };
+            Plain { points, body: operator(), symmetric, initial_gap: initial_gap.clone(), load, bounds, variant };
         let expected = plain.iterates(start.clone(), iterations);
 
         // Each iteration rounds a gap of at most the largest f to 2⁻²⁴ of it; C⁻¹ makes of that at most κ such pressures,
@@ -360,7 +350,7 @@ mod tests {
                 operator: &mut fused,
                 initial_gap: &initial_gap,
                 largest_gap: length,
-                admissible: AdmissibleSet::default().at_most(hardness),
+                admissible: AdmissibleSet::default().within(bounds),
                 load,
                 settings: Settings { tolerance: 0.0, max_iterations: k, ..Settings::default() },
                 outer: 0,

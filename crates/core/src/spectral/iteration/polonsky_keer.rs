@@ -25,10 +25,7 @@ pub(super) fn solve<O: ElasticOperator>(
 ) -> Report {
     let len = problem.initial_gap.len();
     let (load, load_control) = (problem.load, problem.load.is_mean_pressure());
-    let most = problem.admissible.bound().most;
-    let is_free = |p: f64| p > 0.0 && p < most;
-    // What is at a bound on the wrong side of the surface.
-    let is_wrong = |p: f64, g: f64| if p < most { p == 0.0 && g < 0.0 } else { g > 0.0 };
+    let bounds = problem.admissible.bounds();
     let mut stall = StallDetector::new(FIRST_WINDOW);
     let (mut norm_before, mut conjugate) = (1.0, false);
     let (mut t, mut image) = (vec![0.0; len], vec![0.0; len]);
@@ -44,20 +41,20 @@ pub(super) fn solve<O: ElasticOperator>(
         let (p, g) = (Arc::make_mut(&mut unknowns.pressure), Arc::make_mut(&mut unknowns.gap));
         problem.admissible.open(g, f64::MAX);
         let over_contact = |field: &[f64]| {
-            let [size, sum] = sums::of(len, |i| if is_free(p[i]) { [1.0, field[i]] } else { [0.0; 2] });
+            let [size, sum] = sums::of(len, |i| if bounds.is_free(p[i]) { [1.0, field[i]] } else { [0.0; 2] });
             if load_control && size > 0.0 { sum / size } else { 0.0 }
         };
         let mean = over_contact(g);
         sums::update(g, |_, g| g - mean);
-        let [norm, violation] = sums::of(len, |i| match is_free(p[i]) {
+        let [norm, violation] = sums::of(len, |i| match bounds.is_free(p[i]) {
             true => [g[i] * g[i], 0.0],
-            false => [0.0, if is_wrong(p[i], g[i]) { g[i] * g[i] } else { 0.0 }],
+            false => [0.0, if bounds.is_violated(p[i], g[i]) { g[i] * g[i] } else { 0.0 }],
         });
         let beta = if conjugate { norm / norm_before } else { 0.0 };
         norm_before = norm;
         // Contact of one sample (or of equal ones) has no direction within contact: the penetrating samples give it.
         let lonely = norm <= 1e-24 * violation;
-        let takes_part = |i: usize| is_free(p[i]) || (lonely && is_wrong(p[i], g[i]));
+        let takes_part = |i: usize| bounds.is_free(p[i]) || (lonely && bounds.is_violated(p[i], g[i]));
         sums::update(&mut t, |i, t| if takes_part(i) { g[i] + beta * t } else { 0.0 });
 
         image.copy_from_slice(&t);
@@ -75,9 +72,9 @@ pub(super) fn solve<O: ElasticOperator>(
             ConvergenceCheck::new(problem, unknowns);
             return ended(Stop::Stalled, iterations);
         }
-        sums::update(p, |i, p| if is_free(p) { (p - step * t[i]).clamp(0.0, most) } else { p });
-        let [joined] = sums::of(len, |i| [f64::from(u8::from(is_wrong(p[i], g[i])))]);
-        sums::update(p, |i, p| if is_wrong(p, g[i]) { p - step * g[i] } else { p });
+        sums::update(p, |i, p| if bounds.is_free(p) { bounds.clamp(p - step * t[i]) } else { p });
+        let [joined] = sums::of(len, |i| [f64::from(u8::from(bounds.is_violated(p[i], g[i])))]);
+        sums::update(p, |i, p| if bounds.is_violated(p, g[i]) { p - step * g[i] } else { p });
         conjugate = joined == 0.0;
         unknowns.admit(load, problem.admissible);
         if (problem.progress)(Progress { iteration: iterations, residual: check.residual }).is_break() {

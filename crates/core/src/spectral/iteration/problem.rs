@@ -48,7 +48,7 @@ pub struct ContactProblem<'a, O> {
     pub initial_gap: &'a [f64],
     /// Its largest value.
     pub largest_gap: f64,
-    /// Where contact may occur, and the largest pressure.
+    /// The admissible pressures.
     pub admissible: AdmissibleSet<'a>,
     /// Prescribed mean pressure or penetration.
     pub load: Control,

@@ -38,8 +38,7 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
     /// Whether all of the surface is at the hardness H at a `penetration`: from max f and the mean displacement under H on, which is all
     /// that a uniform pressure displaces.
     fn is_filled_at(&self, penetration: f64) -> bool {
-        let most = self.admissible.bound().most;
-        let displaced = if most.is_finite() { self.operator.mean_compliance() * most } else { f64::INFINITY };
+        let displaced = self.admissible.bounds().largest_displacement(self.operator.mean_compliance());
         penetration >= self.largest_gap + displaced
     }
 
@@ -76,7 +75,7 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
             Control::MeanPressure(_) => iterate(self, 0, unknowns),
             Control::Penetration(penetration) => {
                 // Complete contact on a rigid base, and a surface that is pressed in, bear any penetration.
-                let yields = self.admissible.bound().is_finite();
+                let yields = self.admissible.bounds().is_finite();
                 let is_limited = may_be_complete && self.operator.mean_compliance() == 0.0 && !yields;
                 if is_limited && penetration >= sums::mean(gap) {
                     // Nothing of the step before is an answer.
@@ -157,7 +156,7 @@ fn search_load<O: ElasticOperator>(
         }
         pressure = match high {
             // Not up to the hardness, which no mean pressure reaches.
-            None => (2.0 * pressure).min(0.5 * (pressure + problem.admissible.bound().most)),
+            None => (2.0 * pressure).min(problem.admissible.bounds().halfway(pressure)),
             Some(high) => low.0 + (high.0 - low.0) * low.1 / (low.1 - high.1),
         };
     }

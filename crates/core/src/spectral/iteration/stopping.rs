@@ -95,12 +95,7 @@ fn rounding<O: ElasticOperator>(
     let mean = if problem.load.is_mean_pressure() && load > 0.0 { work / load } else { 0.0 };
     let [complementarity] = sums::of(len, |i| [p[i] * (again[i] - mean).abs()]);
     let largest = -sums::least(len, |i| -(again[i] - mean).abs());
-    // Where the bound p ≤ H is reached, the energy gap has H |d| of the samples in contact in the place of p max |d|.
-    let most = problem.admissible.bound().most;
-    let beyond = match p.iter().any(|&p| p >= most) {
-        true => sums::of(len, |i| [if p[i] > 0.0 { most * (again[i] - mean).abs() } else { 0.0 }])[0],
-        false => largest * load,
-    };
+    let beyond = problem.admissible.bounds().gap_of_change(p, |i| (again[i] - mean).abs(), largest, load);
     ConvergenceCheck::criteria_of([
         complementarity / (load * penetration),
         (complementarity + beyond) / (len as f64 * check.energy),

@@ -7,8 +7,8 @@
 //!
 //! Sums are taken in double precision, whatever the fields are stored in.
 
-use super::admissible::{LoadSums, UpperBound, WeightedSums};
-use super::check::{GapSums, PointSums, weight_of};
+use super::bounds::{Bounded, Bounds};
+use super::duality::{GapLanes, GapSums, LoadLanes, LoadSums, WeightedSums};
 use crate::numeric::lanes::{LANES, RUN, Real, all_zero, lowest, splat, total, vectorised};
 use crate::numeric::rows::{RowBlocks, Totals, each_row, next, row_totals};
 use crate::numeric::sums::BLOCK;
@@ -35,7 +35,7 @@ impl ActiveSet {
 pub(super) fn gap_from(
     p: &[f64],
     g: &[f64],
-    [length, most]: [f64; 2],
+    (length, bounds): (f64, Bounds),
     gap: &mut [f32],
     residual: &mut [f32],
 ) -> ActiveSet {
@@ -43,7 +43,7 @@ pub(super) fn gap_from(
     let Totals { sums: [size, sum], .. } = row_totals(
         BLOCK,
         fields,
-        |_, (p, g, gap, residual)| vectorised!(simd => gap_from_block(simd, [p, g], [1.0 / length, most], gap, residual)),
+        |_, (p, g, gap, residual)| vectorised!(simd => gap_from_block(simd, [p, g], (1.0 / length, bounds), gap, residual)),
     );
     ActiveSet { size, sum }
 }
@@ -52,17 +52,17 @@ pub(super) fn gap_from(
 fn gap_from_block<S: Simd>(
     simd: S,
     [p, g]: [&[f64]; 2],
-    [factor, most]: [f64; 2],
+    (factor, bounds): (f64, Bounds),
     gap: &mut [f32],
     residual: &mut [f32],
 ) -> Totals<2, 0> {
-    let (zero, most) = (splat(simd, 0.0), splat(simd, most));
+    let (zero, bounds) = (splat(simd, 0.0), bounds.lanes(simd));
     let (mut size, mut sum) = (zero, zero);
     for at in (0..p.len()).step_by(LANES) {
         let pressure = f64::group(simd, p, at, 0.0);
         let g = f64::group(simd, g, at, f64::MAX) * factor;
         Real::put(g, gap, at);
-        let (active, r) = on_active(simd, pressure, g, most);
+        let (active, r) = bounds.on_active(pressure, g);
         Real::put(r, residual, at);
         size += active;
         sum += r;
@@ -70,32 +70,23 @@ fn gap_from_block<S: Simd>(
     Totals { sums: [total(size), total(sum)], least: [] }
 }
 
-/// χ and r = χ g, which is never exactly zero on the active set.
-#[inline(always)]
-fn on_active<S: Simd>(simd: S, pressure: f64x8<S>, g: f64x8<S>, most: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
-    let (zero, tiny) = (splat(simd, 0.0), splat(simd, f64::from(f32::MIN_POSITIVE)));
-    let active = (pressure.simd_gt(zero) | g.simd_lt(zero)) & (pressure.simd_lt(most) | g.simd_gt(zero));
-    let r = active.select(g.abs().simd_lt(tiny).select(tiny, g), zero);
-    (active.select(splat(simd, 1.0), zero), r)
-}
-
 /// g ← g + factor · changes − shift; r is the gap on the active set. `load` are the sums of p.
 pub(super) fn update_gap(
     p: &[f64],
     load: LoadSums,
     (changes, factor): (&[f32], f64),
-    [shift, most]: [f64; 2],
+    (shift, bounds): (f64, Bounds),
     gap: &mut [f32],
     residual: &mut [f32],
 ) -> (ActiveSet, GapSums) {
     let fields =
         (p.par_chunks(BLOCK), changes.par_chunks(BLOCK), gap.par_chunks_mut(BLOCK), residual.par_chunks_mut(BLOCK));
-    let Totals { sums: [size, sum, work, complementarity, beyond, open], least: [least, below, outside] } = row_totals(
+    let Totals { sums: [size, sum, gap @ ..], least } = row_totals(
         BLOCK,
         fields,
-        |_, (p, changes, gap, residual)| vectorised!(simd => update_gap_block(simd, p, (changes, factor), [shift, most], gap, residual)),
+        |_, (p, changes, gap, residual)| vectorised!(simd => update_gap_block(simd, p, (changes, factor), (shift, bounds), gap, residual)),
     );
-    (ActiveSet { size, sum }, GapSums { load, work, complementarity, beyond, open, least, below, outside })
+    (ActiveSet { size, sum }, GapSums::of(load, Totals { sums: gap, least }))
 }
 
 #[inline(always)]
@@ -103,32 +94,24 @@ fn update_gap_block<S: Simd>(
     simd: S,
     p: &[f64],
     (changes, factor): (&[f32], f64),
-    [shift, most]: [f64; 2],
+    (shift, bounds): (f64, Bounds),
     gap: &mut [f32],
     residual: &mut [f32],
 ) -> Totals<6, 3> {
-    let (zero, far, most) = (splat(simd, 0.0), splat(simd, f64::INFINITY), splat(simd, most));
-    let (mut size, mut sum, mut work, mut complementarity) = (zero, zero, zero, zero);
-    let (mut beyond, mut open, mut least, mut below, mut outside) = (zero, zero, far, far, far);
+    let (zero, bounds) = (splat(simd, 0.0), bounds.lanes(simd));
+    let (mut size, mut sum, mut sums) = (zero, zero, GapLanes::new(simd, bounds));
     for at in (0..p.len()).step_by(LANES) {
         let (pressure, before) = (f64::group(simd, p, at, 0.0), f32::group(simd, gap, at, f32::MAX) - shift);
         let g = f32::group(simd, changes, at, 0.0).mul_add(splat(simd, factor), before);
         Real::put(g, gap, at);
-        let (active, r) = on_active(simd, pressure, g, most);
+        let (active, r) = bounds.on_active(pressure, g);
         Real::put(r, residual, at);
         size += active;
         sum += r;
-        let sums = PointSums::of(simd, pressure, g, most);
-        work = sums.free.mul_add(g, work);
-        complementarity = sums.away.mul_add(g.abs(), complementarity);
-        beyond += sums.beyond;
-        open += sums.open;
-        least = least.min(g);
-        below = below.min(pressure.simd_lt(most).select(g, far));
-        outside = outside.min(pressure.simd_gt(zero).select(far, g));
+        sums.add(pressure, g);
     }
-    let sums = [size, sum, work, complementarity, beyond, open].map(total);
-    Totals { sums, least: [least, below, outside].map(lowest) }
+    let Totals { sums: [work, complementarity, beyond, open], least } = sums.totals();
+    Totals { sums: [total(size), total(sum), work, complementarity, beyond, open], least }
 }
 
 /// Sums over a step p + d.
@@ -150,7 +133,7 @@ pub(super) fn advance(
     p: &mut [f64],
     [gap, direction, image, residual]: [&[f32]; 4],
     [factor, shift, unit]: [f64; 3],
-    bound: UpperBound,
+    bounds: Bounds,
     step: &mut [f32],
 ) -> Advance {
     let fields = (
@@ -164,7 +147,7 @@ pub(super) fn advance(
     let Totals { sums: [free, full, slope, work, weight, weighted], least: [clipped] } = row_totals(
         BLOCK,
         fields,
-        |_, (p, gap, direction, image, residual, step)| vectorised!(simd => advance_block(simd, p, [gap, direction, image, residual], [factor, shift, unit], bound, step)),
+        |_, (p, gap, direction, image, residual, step)| vectorised!(simd => advance_block(simd, p, [gap, direction, image, residual], [factor, shift, unit], bounds, step)),
     );
     let work = WeightedSums { work, weight, weighted };
     Advance { load: LoadSums { free, full }, slope, work, clipped: clipped < 0.0 }
@@ -176,13 +159,11 @@ fn advance_block<S: Simd>(
     p: &mut [f64],
     [gap, direction, image, residual]: [&[f32]; 4],
     [factor, shift, unit]: [f64; 3],
-    bound: UpperBound,
+    bounds: Bounds,
     step: &mut [f32],
 ) -> Totals<6, 1> {
-    let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
-    let [most, nearly] = [bound.most, bound.nearly].map(|bound| splat(simd, bound));
-    let (mut free, mut full, mut slope, mut lowest_end) = (zero, zero, zero, zero);
-    let (mut work, mut weight, mut weighted) = (zero, zero, zero);
+    let (zero, bounds) = (splat(simd, 0.0), bounds.lanes(simd));
+    let (mut slope, mut lowest_end, mut load) = (zero, zero, LoadLanes::new(simd, bounds));
     for run in (0..p.len()).step_by(RUN) {
         let last = p.len().min(run + RUN);
         if all_zero(simd, &direction[run..last]) && all_zero(simd, &p[run..last]) {
@@ -195,31 +176,17 @@ fn advance_block<S: Simd>(
             let along = f32::group(simd, direction, at, 0.0) * factor;
             let along =
                 if shift == 0.0 { along } else { along + shifted(simd, f32::group(simd, residual, at, 0.0), shift) };
-            let d = rounded(simd, along);
-            let end = d.mul_add(splat(simd, unit), pressure);
-            let (short, long) = (end.simd_lt(zero), end.simd_gt(nearly));
-            let d = short.select(pressure * (-1.0 / unit), d);
-            let d = long.select((most - pressure) * (1.0 / unit), d);
-            let end = long.select(most, end.max(zero));
-            // A full sample that stays full has no step.
-            let clipped = short | (long & pressure.simd_lt(most));
-            lowest_end = lowest_end.min(clipped.select(splat(simd, -1.0), zero));
+            let Bounded { end, step: d, full, clipped } = bounds.stepped(pressure, rounded(simd, along), unit);
+            lowest_end = lowest_end.min(clipped);
             let g = f32::group(simd, gap, at, 0.0);
-            let below = long.select(zero, end);
-            free += below;
-            full += long.select(one, zero);
             slope = g.mul_add(d, slope);
-            let after = f32::group(simd, image, at, 0.0).mul_add(splat(simd, factor), g);
-            work = below.mul_add(after, work);
-            let own = weight_of(end, most);
-            weight += own;
-            weighted = own.mul_add(after, weighted);
+            load.add(full, end, f32::group(simd, image, at, 0.0).mul_add(splat(simd, factor), g));
             Real::put(end, p, at);
             Real::put(d, step, at);
         }
     }
-    let sums = [free, full, slope, work, weight, weighted].map(total);
-    Totals { sums, least: [lowest(lowest_end)] }
+    let [free, full, work, weight, weighted] = load.totals();
+    Totals { sums: [free, full, total(slope), work, weight, weighted], least: [lowest(lowest_end)] }
 }
 
 /// λ on the active set, where r is not zero.
@@ -234,13 +201,13 @@ pub(super) fn shifted_load(
     p: &[f64],
     [direction, residual]: [&[f32]; 2],
     [factor, shift, unit]: [f64; 3],
-    bound: UpperBound,
+    bounds: Bounds,
 ) -> [f64; 2] {
     let fields = (p.par_chunks(BLOCK), direction.par_chunks(BLOCK), residual.par_chunks(BLOCK));
     let Totals { sums, least: [] } = row_totals(
         BLOCK,
         fields,
-        |_, (p, direction, residual)| vectorised!(simd => shifted_load_of(simd, p, [direction, residual], [factor, shift, unit], bound)),
+        |_, (p, direction, residual)| vectorised!(simd => shifted_load_of(simd, p, [direction, residual], [factor, shift, unit], bounds)),
     );
     sums
 }
@@ -251,9 +218,9 @@ fn shifted_load_of<S: Simd>(
     p: &[f64],
     [direction, residual]: [&[f32]; 2],
     [factor, shift, unit]: [f64; 3],
-    bound: UpperBound,
+    bounds: Bounds,
 ) -> Totals<2, 0> {
-    let (zero, one, most) = (splat(simd, 0.0), splat(simd, 1.0), splat(simd, bound.most));
+    let (zero, bounds) = (splat(simd, 0.0), bounds.lanes(simd));
     let (mut load, mut moves) = (zero, zero);
     for run in (0..p.len()).step_by(RUN) {
         let last = p.len().min(run + RUN);
@@ -264,9 +231,8 @@ fn shifted_load_of<S: Simd>(
             let (pressure, r) = (f64::group(simd, p, at, 0.0), f32::group(simd, residual, at, 0.0));
             let along = f32::group(simd, direction, at, 0.0) * factor + shifted(simd, r, shift);
             let end = along.mul_add(splat(simd, unit), pressure);
-            let inside = end.simd_gt(zero) & end.simd_lt(most);
-            load += end.max(zero).min(most);
-            moves += r.simd_eq(zero).select(zero, inside.select(one, zero));
+            load += bounds.clamp(end);
+            moves += bounds.unless(r.simd_eq(zero), bounds.count(bounds.is_free(end)));
         }
     }
     Totals { sums: [total(load), total(moves)], least: [] }
@@ -281,10 +247,13 @@ fn rounded<S: Simd>(simd: S, group: f64x8<S>) -> f64x8<S> {
 }
 
 /// p ← s p after a step d, which becomes the whole step from the pressure before it. Whether any of it is beyond H then.
-pub(super) fn rescale(p: &mut [f64], scale: f64, unit: f64, bound: UpperBound, step: &mut [f32]) -> bool {
+pub(super) fn rescale(p: &mut [f64], scale: f64, unit: f64, bounds: Bounds, step: &mut [f32]) -> bool {
     let fields = (p.par_chunks_mut(BLOCK), step.par_chunks_mut(BLOCK));
-    let Totals { sums: [], least: [beyond] } =
-        row_totals(BLOCK, fields, |_, (p, step)| vectorised!(simd => rescale_block(simd, p, scale, unit, bound, step)));
+    let Totals { sums: [], least: [beyond] } = row_totals(
+        BLOCK,
+        fields,
+        |_, (p, step)| vectorised!(simd => rescale_block(simd, p, scale, unit, bounds, step)),
+    );
     beyond < 0.0
 }
 
@@ -294,10 +263,10 @@ fn rescale_block<S: Simd>(
     p: &mut [f64],
     scale: f64,
     unit: f64,
-    bound: UpperBound,
+    bounds: Bounds,
     step: &mut [f32],
 ) -> Totals<0, 1> {
-    let (zero, nearly) = (splat(simd, 0.0), splat(simd, bound.nearly));
+    let (zero, bounds) = (splat(simd, 0.0), bounds.lanes(simd));
     let mut beyond = zero;
     for run in (0..p.len()).step_by(RUN) {
         let last = p.len().min(run + RUN);
@@ -308,8 +277,8 @@ fn rescale_block<S: Simd>(
             let (end, d) = (f64::group(simd, p, at, 0.0), f32::group(simd, step, at, 0.0));
             let whole = rounded(simd, end.mul_add(splat(simd, (scale - 1.0) / unit), d));
             let before = end - d * unit;
-            let scaled = (before.max(zero) + whole * unit).max(zero);
-            beyond = beyond.min(scaled.simd_gt(nearly).select(splat(simd, -1.0), zero));
+            let scaled = bounds.raise(bounds.raise(before) + whole * unit);
+            beyond = beyond.min(bounds.is_nearly_full(scaled).select(splat(simd, -1.0), zero));
             Real::put(scaled, p, at);
             Real::put(whole, step, at);
         }
@@ -318,26 +287,25 @@ fn rescale_block<S: Simd>(
 }
 
 /// p ← max(p − unit d, 0), at most H.
-pub(super) fn retreat(p: &mut [f64], step: &[f32], unit: f64, bound: UpperBound) {
+pub(super) fn retreat(p: &mut [f64], step: &[f32], unit: f64, bounds: Bounds) {
     each_row(BLOCK, (p.par_chunks_mut(BLOCK), step.par_chunks(BLOCK)), |_, (p, step)| {
-        vectorised!(simd => retreat_block(simd, p, step, unit, bound));
+        vectorised!(simd => retreat_block(simd, p, step, unit, bounds));
     });
 }
 
 #[inline(always)]
-fn retreat_block<S: Simd>(simd: S, p: &mut [f64], step: &[f32], unit: f64, bound: UpperBound) {
-    let [most, nearly] = [bound.most, bound.nearly].map(|bound| splat(simd, bound));
+fn retreat_block<S: Simd>(simd: S, p: &mut [f64], step: &[f32], unit: f64, bounds: Bounds) {
+    let bounds = bounds.lanes(simd);
     for at in (0..p.len()).step_by(LANES) {
         let end = f64::group(simd, p, at, 0.0) - f32::group(simd, step, at, 0.0) * unit;
-        let end = end.simd_gt(nearly).select(most, end.max(splat(simd, 0.0)));
-        Real::put(end, p, at);
+        Real::put(bounds.project(end), p, at);
     }
 }
 
 /// Sinks that put the rows of C d for a step d into `image`; ⟨d, C d⟩ and the sums with g + C d go to `sums`.
 pub(super) fn after_step<'a>(
     blocks: RowBlocks,
-    (p, most): (&'a [f64], f64),
+    (p, bounds): (&'a [f64], Bounds),
     [gap, step]: [&'a [f32]; 2],
     image: &'a mut [f32],
     sums: &'a mut [Totals<6, 0>],
@@ -348,24 +316,24 @@ pub(super) fn after_step<'a>(
         move |row: &mut [f32]| {
             let (((p, gap), step), image) = next(&mut rows);
             image.copy_from_slice(row);
-            sums.add(vectorised!(simd => step_sums(simd, (p, most), [gap, step, row])));
+            sums.add(vectorised!(simd => step_sums(simd, (p, bounds), [gap, step, row])));
         }
     })
 }
 
 #[inline(always)]
-fn step_sums<S: Simd>(simd: S, (p, most): (&[f64], f64), [gap, step, image]: [&[f32]; 3]) -> Totals<6, 0> {
+fn step_sums<S: Simd>(simd: S, (p, bounds): (&[f64], Bounds), [gap, step, image]: [&[f32]; 3]) -> Totals<6, 0> {
     let mut curvature = splat(simd, 0.0);
     for at in (0..p.len()).step_by(LANES) {
         curvature = f32::group(simd, step, at, 0.0).mul_add(f32::group(simd, image, at, 0.0), curvature);
     }
-    let [free, full, work, weight, weighted] = load_and_work_of(simd, (p, most), gap, (image, 1.0)).sums;
+    let [free, full, work, weight, weighted] = load_and_work_of(simd, (p, bounds), gap, (image, 1.0)).sums;
     Totals { sums: [total(curvature), free, full, work, weight, weighted], least: [] }
 }
 
 /// Sums of p, and those with g + factor · changes.
 pub(super) fn load_and_work(
-    (p, most): (&[f64], f64),
+    (p, bounds): (&[f64], Bounds),
     gap: &[f32],
     (changes, factor): (&[f32], f64),
 ) -> (LoadSums, WeightedSums) {
@@ -373,7 +341,7 @@ pub(super) fn load_and_work(
     let Totals { sums: [free, full, work, weight, weighted], least: [] } = row_totals(
         BLOCK,
         fields,
-        |_, (p, gap, changes)| vectorised!(simd => load_and_work_of(simd, (p, most), gap, (changes, factor))),
+        |_, (p, gap, changes)| vectorised!(simd => load_and_work_of(simd, (p, bounds), gap, (changes, factor))),
     );
     (LoadSums { free, full }, WeightedSums { work, weight, weighted })
 }
@@ -381,23 +349,16 @@ pub(super) fn load_and_work(
 #[inline(always)]
 fn load_and_work_of<S: Simd>(
     simd: S,
-    (p, most): (&[f64], f64),
+    (p, bounds): (&[f64], Bounds),
     gap: &[f32],
     (changes, factor): (&[f32], f64),
 ) -> Totals<5, 0> {
-    let (zero, one, most) = (splat(simd, 0.0), splat(simd, 1.0), splat(simd, most));
-    let (mut load, mut full, mut work, mut weight, mut weighted) = (zero, zero, zero, zero, zero);
+    let bounds = bounds.lanes(simd);
+    let mut load = LoadLanes::new(simd, bounds);
     for at in (0..p.len()).step_by(LANES) {
         let pressure = f64::group(simd, p, at, 0.0);
         let g = f32::group(simd, changes, at, 0.0).mul_add(splat(simd, factor), f32::group(simd, gap, at, 0.0));
-        let below = pressure.simd_lt(most);
-        let free = below.select(pressure, zero);
-        load += free;
-        full += below.select(zero, one);
-        work = free.mul_add(g, work);
-        let own = weight_of(pressure, most);
-        weight += own;
-        weighted = own.mul_add(g, weighted);
+        load.add(bounds.is_full(pressure), pressure, g);
     }
-    Totals { sums: [load, full, work, weight, weighted].map(total), least: [] }
+    Totals { sums: load.totals(), least: [] }
 }
