@@ -58,6 +58,11 @@ impl<T: Real> Convolution<T> {
         Self { points, blocks: RowBlocks::new(window), rows: Rows::new(n2), order: columns.order(n1), columns }
     }
 
+    /// [N₁, N₂].
+    pub fn points(&self) -> [usize; 2] {
+        self.points
+    }
+
     /// The blocks of the rows that sources and sinks are for.
     pub fn blocks(&self) -> RowBlocks {
         self.blocks

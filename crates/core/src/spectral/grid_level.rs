@@ -1,13 +1,12 @@
 //! One of the nested grids of a problem: surface, operator and unknowns.
 
-use super::body_operator::BodyOperator;
 use super::depth_search::{DepthSearch, Found};
 use super::iteration::{
     AdmissibleSet, Bounds, Certificate, ContactProblem, Progress, Report, Settings, Stop, Unknowns, Working,
 };
 use super::operator::{ElasticOperator, Workspace};
 use super::prolongation::prolonged;
-use super::{Contact, Tangent};
+use super::{Contact, LayeredOperator, Tangent};
 use crate::body::CompositeHardness;
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
@@ -41,7 +40,7 @@ pub(super) struct GridLevel {
     bounds: Bounds,
     /// Law by which the hardness follows from the penetration; `None` where one holds at any.
     composite: Option<CompositeHardness>,
-    operator: BodyOperator,
+    operator: LayeredOperator,
     /// A given pressure with the mean 1, one value per sample; `None` where contact is solved.
     given: Option<Vec<f64>>,
     unknowns: Unknowns,
@@ -56,43 +55,11 @@ pub(super) struct Coarser {
     pub after: Unknowns,
 }
 
-/// A load step on one grid, for any operator.
-struct ContactOf<'a> {
-    surface: &'a Surface,
-    largest_gap: f64,
-    admissible: AdmissibleSet<'a>,
-    load: Control,
-    settings: Settings,
-}
-
-impl ContactOf<'_> {
-    fn solve<O: ElasticOperator>(
-        self,
-        operator: &mut O,
-        working: &mut Working,
-        progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
-        unknowns: &mut Unknowns,
-    ) -> Report {
-        ContactProblem {
-            operator,
-            working,
-            initial_gap: self.surface.gaps(),
-            largest_gap: self.largest_gap,
-            admissible: self.admissible,
-            load: self.load,
-            settings: self.settings,
-            outer: 0,
-            progress,
-        }
-        .solve(unknowns)
-    }
-}
-
 impl GridLevel {
     /// The problem on the grid of a surface.
     pub fn new(problem: &Problem, surface: Surface) -> Self {
         let (grid, bodies) = (surface.grid(), problem.bodies());
-        let operator = BodyOperator::new(problem, grid);
+        let operator = LayeredOperator::of_problem(problem, grid);
         let given = problem.counterbody().pressure().map(|given| {
             let (pressure, mean) = (given.on(grid), given.force() / grid.cell().area());
             pressure.into_iter().map(|p| p / mean).collect()
@@ -165,8 +132,8 @@ impl GridLevel {
         self.indented = Some((original, depths));
     }
 
-    /// The operator, to which a step of wear adds its compliance.
-    pub fn operator(&mut self) -> &mut BodyOperator {
+    /// The operator, which a local compliance may soften for a while.
+    pub fn operator(&mut self) -> &mut LayeredOperator {
         &mut self.operator
     }
 
@@ -219,23 +186,15 @@ impl GridLevel {
 
     /// Working memory for this grid and all coarser ones.
     pub fn working_memory(&self) -> Working {
-        match &self.operator {
-            BodyOperator::Periodic(operator) => Working::of_finest(operator.as_ref()),
-            BodyOperator::FreeSpace(operator) => Working::of_finest(operator.as_ref()),
-        }
+        Working::of_finest(&self.operator)
     }
 
     /// Least mean pressure of complete contact: that of the pressure which displaces the surface by mean f − f.
     pub fn full_contact_pressure(&mut self) -> f64 {
         let mean = self.surface.mean();
         let mut pressure: Vec<f64> = self.surface.gaps().iter().map(|f| f - mean).collect();
-        match &mut self.operator {
-            BodyOperator::Periodic(operator) => operator.pressure(&mut pressure, &mut Workspace::default()),
-            // Of the window repeated: a pressure of the order at which contact fills it.
-            BodyOperator::FreeSpace(operator) => {
-                operator.symmetric_pressure(&mut pressure, &mut Workspace::default());
-            }
-        }
+        // In free space that of the window repeated: a pressure of the order at which contact fills it.
+        self.operator.pressure(&mut pressure, &mut Workspace::default());
         -sums::least(pressure.len(), |i| -pressure[i])
     }
 
@@ -354,17 +313,18 @@ impl GridLevel {
         }
         let Self { surface, largest_gap, mask, bounds, operator, unknowns, .. } = self;
         let (samples, before) = (surface.grid().len(), operator.convolutions());
-        let with = ContactOf {
-            surface,
+        let report = ContactProblem {
+            operator: &mut *operator,
+            working,
+            initial_gap: surface.gaps(),
             largest_gap: *largest_gap,
             admissible: AdmissibleSet::new(mask.as_deref()).within(*bounds),
             load: load.on(surface.grid().cell()),
             settings,
-        };
-        let report = match operator {
-            BodyOperator::Periodic(operator) => with.solve(operator.as_mut(), working, progress, unknowns),
-            BodyOperator::FreeSpace(operator) => with.solve(operator.as_mut(), working, progress, unknowns),
-        };
+            outer: 0,
+            progress,
+        }
+        .solve(unknowns);
         (report, (operator.convolutions() - before) * samples as f64)
     }
 

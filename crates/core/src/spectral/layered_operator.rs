@@ -1,45 +1,70 @@
-//! The operator of layered half-spaces: pressure on the cell → normal surface displacement.
+//! The operator of layered half-spaces by convolutions: pressure on the samples of a grid → normal surface displacement.
 //!
-//! ŵ(q) = C(q) p̂(q) with the layered compliance C(q) at the shortest alias of each grid wavevector; its inverse makes the
-//! preconditioner. Both are diagonal in Fourier space. Under coupled friction the traction μ p **e** displaces too,
+//! - On a periodic cell ŵ = C p̂, or C(1 − iT) p̂ under coupled friction, and the inverse is exact (`periodic_operator`).
+//! - In free space w is the convolution with a [kernel](super::free_space), of which the transform H, or H − iG, is multiplied with on a
+//!   padded grid; the C⁻¹ of the window repeated periodically stands for the inverse (`free_space`).
 //!
-//! ŵ = (C − iμK cos θ) p̂ = C(1 − iT) p̂,  T = μ (K/C) cos θ,
-//!
-//! θ between **q** and **e**: a skew part, which is odd in **q**, so that tied aliases are averaged and what is its own
-//! conjugate has none.
-//!
-//! The mean displacement of a half-space is infinite and left out; that of layers on a rigid base is the mean pressure times
-//! [`Bodies::mean_compliance`].
+//! The surfaces themselves may give way too for a while ([`LocalCompliance`]).
 
 use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
 use super::convolution::{Convolution, Convolved};
-use super::multiplier::{Action, Multiplier, SkewRatio};
-use super::operator::{ElasticOperator, TractionUpdate, Workspace};
-use super::wear::GridWear;
-use crate::body::{Bodies, Compliances};
-use crate::friction::Friction;
-use crate::lattice::Grid;
+use super::local_compliance::LocalCompliance;
+use super::multiplier::{Action, Multiplier, SkewPart, SkewRatio};
+use super::operator::{ElasticOperator, Surroundings, TractionUpdate, Workspace};
 use crate::numeric::lanes::Real;
 use crate::numeric::rows::RowBlocks;
 
 /// Displacement operator of a layered half-space, or of two in contact, on a grid, with its inverse.
 #[derive(Debug)]
 pub struct LayeredOperator {
-    double: Convolution<f64>,
-    single: Convolution<f32>,
+    transforms: Transforms,
+    /// C, or the transform H of a kernel.
     compliance: Multiplier,
-    /// T, and the largest |T|, under coupled friction.
-    skew: Option<(SkewRatio, f64)>,
+    /// What coupled friction adds.
+    skew: Option<Skew>,
+    /// Largest |C⁻¹(A − C)| without a local compliance.
+    coupling: f64,
+    /// Transforms and compliance of the window repeated periodically, of which the inverse is taken in free space; `None` on a periodic
+    /// cell.
+    repeated: Option<(Transforms, Multiplier)>,
     /// Compliance at the least wavenumber, and under a uniform pressure.
     unit: f64,
     mean: f64,
-    worn: AddedWear,
+    softened: Softened,
     convolutions: f64,
 }
 
-/// What a step of wear has added.
+/// Transforms of a field in both precisions.
+#[derive(Debug)]
+pub(super) struct Transforms {
+    pub double: Convolution<f64>,
+    pub single: Convolution<f32>,
+}
+
+impl Transforms {
+    /// Transforms of `points` = [N₁, N₂].
+    pub fn new(points: [usize; 2]) -> Self {
+        Self { double: Convolution::new(points), single: Convolution::new(points) }
+    }
+
+    /// Transforms of `points` = [N₁, N₂], the samples outside a `window` of the first ones being zero.
+    pub fn padded(window: [usize; 2], points: [usize; 2]) -> Self {
+        Self { double: Convolution::padded(window, points), single: Convolution::padded(window, points) }
+    }
+}
+
+/// Skew part of an operator under coupled friction.
+#[derive(Debug)]
+pub(super) enum Skew {
+    /// T: C(1 − iT).
+    Ratio(SkewRatio),
+    /// G: H − iG.
+    Part(SkewPart),
+}
+
+/// What a local compliance has changed.
 #[derive(Debug, Default)]
-struct AddedWear {
+struct Softened {
     /// Compliance under a uniform pressure.
     mean: f64,
     /// Ratios T of before, by their index in the table.
@@ -47,63 +72,26 @@ struct AddedWear {
 }
 
 impl LayeredOperator {
-    /// Operator of the bodies on a grid, without friction.
-    pub fn new(grid: &Grid, bodies: impl Into<Bodies>) -> Self {
-        Self::combined(grid, &[(1.0, &bodies.into())])
+    /// Operator of transforms and the multiplier between them, whose compliance at the least wavenumber is `unit`, on a periodic cell, where
+    /// displacements have zero mean.
+    pub(super) fn of(transforms: Transforms, compliance: Multiplier, unit: f64) -> Self {
+        let (skew, repeated, softened) = (None, None, Softened::default());
+        Self { transforms, compliance, skew, coupling: 0.0, repeated, unit, mean: 0.0, softened, convolutions: 0.0 }
     }
 
-    /// Σ wᵢ Cᵢ of several bodies, without friction.
-    pub(super) fn combined(grid: &Grid, bodies: &[(f64, &Bodies)]) -> Self {
-        let own = bodies.iter().map(|(weight, own)| (*weight, Compliances::new(own, range(grid), grid.len() / 2)));
-        let compliances: Vec<(f64, Compliances<'_>)> = own.collect();
-        Self::with(grid, &compliances)
+    /// The operator whose displacement under a uniform pressure is `mean` times that.
+    pub(super) fn with_mean(self, mean: f64) -> Self {
+        Self { mean, ..self }
     }
 
-    /// Operator of the bodies on a grid, the counterbody sliding with `friction`.
-    pub fn sliding(grid: &Grid, bodies: impl Into<Bodies>, friction: &Friction) -> Self {
-        let bodies = bodies.into();
-        let [x, y] = friction.traction();
-        if !friction.couples() {
-            return Self::new(grid, bodies);
-        }
-        let compliances = Compliances::coupled(&bodies, range(grid), grid.len() / 2);
-        let compliances = [(1.0, compliances)];
-        let own = Self::with(grid, &compliances);
-        let [(_, compliances)] = compliances;
-        let ratio = |component| match grid.mean_direction(component) {
-            [0.0, 0.0] => 0.0,
-            [nx, ny] => (x * nx + y * ny) * compliances.coupling_ratio(grid.wavenumber(component)),
-        };
-        let skew = own.double.skew_ratio(|[k1, k2], values| {
-            values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = ratio([k1, k2]));
-        });
-        let largest = skew.largest();
-        Self { skew: Some((skew, largest)), ..own }
+    /// The operator in free space, where the inverse is that of the window repeated periodically.
+    pub(super) fn in_window(self, transforms: Transforms, compliance: Multiplier) -> Self {
+        Self { repeated: Some((transforms, compliance)), ..self }
     }
 
-    /// Σ wᵢ Cᵢ of several compliances.
-    fn with(grid: &Grid, compliances: &[(f64, Compliances<'_>)]) -> Self {
-        let (double, single) = (Convolution::new(grid.points()), Convolution::new(grid.points()));
-        let at = |k: f64| compliances.iter().map(|(weight, own)| weight * own.at(k)).sum::<f64>();
-        let unit = at(grid.least_wavenumber());
-        let mean: f64 = compliances.iter().map(|(weight, own)| weight * own.mean()).sum();
-        // Where displacements have zero mean the inverse must stay positive: it takes the mean for a component of the least
-        // wavenumber.
-        let compliance = double.multiplier(grid.cell().is_rectangular(), |first, values| {
-            grid.wavenumbers(first, values);
-            if first == [0, 0] {
-                values[0] = grid.least_wavenumber();
-            }
-            match compliances {
-                [(1.0, own)] => own.replace(values),
-                _ => values.iter_mut().for_each(|k| *k = at(*k)),
-            }
-            if first == [0, 0] && mean != 0.0 {
-                values[0] = mean;
-            }
-        });
-        let compliance = if mean != 0.0 { compliance } else { compliance.dropping_mean() };
-        Self { double, single, compliance, skew: None, unit, mean, worn: AddedWear::default(), convolutions: 0.0 }
+    /// The operator under friction that couples, with its skew part and the largest |C⁻¹(A − C)|.
+    pub(super) fn coupled(self, skew: Skew, coupling: f64) -> Self {
+        Self { skew: Some(skew), coupling, ..self }
     }
 
     /// Convolutions so far; one in single precision counts half.
@@ -111,12 +99,14 @@ impl LayeredOperator {
         self.convolutions
     }
 
-    /// The largest part |T| that coupling adds to the operator, without the compliance of a step of wear; 0 without coupling.
+    /// The largest part |C⁻¹(A − C)| that coupling adds to the operator A, on a periodic cell |T|, without a local
+    /// compliance; 0 without coupling.
     pub fn coupling(&self) -> f64 {
-        self.skew.as_ref().map_or(0.0, |&(_, largest)| largest)
+        self.coupling
     }
 
-    /// p → w: displacement into the body (a length), with zero mean unless a body has a rigid base, from pressure and the traction that goes with it.
+    /// p → w: displacement into the body (a length), from pressure and the traction that goes with it; on a periodic cell with zero mean
+    /// unless a body has a rigid base.
     pub fn displacement(&mut self, field: &mut [f64], workspace: &mut Workspace) {
         // On the threads that share the work, where no pass has to wake them.
         rayon::scope(|_| self.displace(field, workspace));
@@ -125,41 +115,70 @@ impl LayeredOperator {
     /// p → w in single precision, as iterations use it for changes.
     pub fn displacement_single(&mut self, field: &mut [f32], workspace: &mut Workspace) {
         self.convolutions += 0.5;
-        let action = self.multiplied(1.0);
-        in_place(&self.single, action, &self.compliance, field, workspace);
+        in_place(&self.transforms.single, self.multiplied(1.0), &self.compliance, field, workspace);
     }
 
     /// w → p: the pressure that displaces so. Where displacements have zero mean it is treated like a component of the least
-    /// wavenumber.
+    /// wavenumber. In free space it is that of the window repeated periodically, without friction.
     pub fn pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        let action = match &self.skew {
+            Some(Skew::Ratio(ratio)) => Action::DivideSkewed(1.0, ratio),
+            _ => Action::Divide(1.0),
+        };
+        let (transforms, compliance) = self.inverse();
+        in_place(&transforms.double, action, compliance, field, workspace);
         self.convolutions += 1.0;
-        let action = self.skew.as_ref().map_or(Action::Divide(1.0), |(ratio, _)| Action::DivideSkewed(1.0, ratio));
-        in_place(&self.double, action, &self.compliance, field, workspace);
     }
 
-    /// Adds the compliance k_c Δs of every wave and k_b Δs of those constant along the path of a step of wear. What the traction of
-    /// coupled friction displaces stays as it is.
-    pub(super) fn add_wear(&mut self, wear: &GridWear) {
-        self.remove_wear();
-        let index = self.double.indices();
-        let along = wear.along().into_iter().filter_map(|(component, value)| Some((index(component)?, value)));
-        self.compliance.add(wear.uniform(), &along.collect::<Vec<_>>());
-        let ratios = self.skew.as_mut().map(|(skew, _)| skew.keep_part(&self.compliance)).unwrap_or_default();
-        self.worn = AddedWear { mean: wear.mean(), ratios };
+    /// Adds a local compliance, in the place of one before. What the traction of coupled friction displaces stays as
+    /// it is.
+    pub(super) fn soften(&mut self, local: &LocalCompliance) {
+        self.restore();
+        let points = self.transforms.double.points();
+        let lines = if self.repeated.is_some() { local.of_lines_padded(points) } else { local.of_lines() };
+        add(local, lines, &self.transforms, &mut self.compliance);
+        if let Some((transforms, compliance)) = &mut self.repeated {
+            add(local, local.of_lines(), transforms, compliance);
+        }
+        let ratios = match &mut self.skew {
+            Some(Skew::Ratio(ratio)) => ratio.keep_part(&self.compliance),
+            _ => Vec::new(),
+        };
+        self.softened = Softened { mean: local.mean(), ratios };
     }
 
-    /// Takes off the compliance of a step of wear: the operator is that of before, bit for bit.
-    pub(super) fn remove_wear(&mut self) {
-        let AddedWear { ratios, .. } = std::mem::take(&mut self.worn);
+    /// Takes off a local compliance: the operator is that of before, bit for bit.
+    pub(super) fn restore(&mut self) {
+        let Softened { ratios, .. } = std::mem::take(&mut self.softened);
         self.compliance.restore();
-        if let Some((skew, _)) = &mut self.skew {
-            skew.restore(&ratios);
+        if let Some((_, compliance)) = &mut self.repeated {
+            compliance.restore();
+        }
+        if let Some(Skew::Ratio(ratio)) = &mut self.skew {
+            ratio.restore(&ratios);
         }
     }
 
-    /// Multiplication with the compliance and a common factor, and with 1 − iT under coupled friction.
+    /// Numbers of the tables of compliance.
+    #[cfg(test)]
+    pub(super) fn numbers(&self) -> usize {
+        self.compliance.len() + self.repeated.as_ref().map_or(0, |(_, compliance)| compliance.len())
+    }
+
+    /// Multiplication with the compliance and a common factor, and with what coupled friction adds.
     fn multiplied(&self, factor: f64) -> Action<'_> {
-        self.skew.as_ref().map_or(Action::Multiply(factor), |(ratio, _)| Action::MultiplySkewed(factor, ratio))
+        match &self.skew {
+            None => Action::Multiply(factor),
+            Some(Skew::Ratio(ratio)) => Action::MultiplySkewed(factor, ratio),
+            Some(Skew::Part(part)) => Action::MultiplyComplex(factor, part),
+        }
+    }
+
+    /// Transforms and compliance of which the inverse is taken.
+    fn inverse(&self) -> (&Transforms, &Multiplier) {
+        self.repeated
+            .as_ref()
+            .map_or((&self.transforms, &self.compliance), |(transforms, compliance)| (transforms, compliance))
     }
 }
 
@@ -167,19 +186,26 @@ impl ElasticOperator for LayeredOperator {
     type Rows<'a, T: Real> = Convolved<'a, T>;
 
     fn blocks(&self) -> RowBlocks {
-        self.double.blocks()
+        self.transforms.double.blocks()
+    }
+
+    fn surroundings(&self) -> Surroundings {
+        if self.repeated.is_some() { Surroundings::FreeSpace } else { Surroundings::Periodic }
     }
 
     fn unit(&self) -> f64 {
-        self.unit + self.worn.mean
+        self.unit + self.softened.mean
     }
 
     fn mean_compliance(&self) -> f64 {
-        self.mean + self.worn.mean
+        match self.surroundings() {
+            Surroundings::Periodic => self.mean + self.softened.mean,
+            Surroundings::FreeSpace => 0.0,
+        }
     }
 
     fn coupling(&self) -> f64 {
-        self.coupling()
+        self.coupling
     }
 
     fn convolutions(&self) -> f64 {
@@ -187,18 +213,18 @@ impl ElasticOperator for LayeredOperator {
     }
 
     fn split<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
-        let [n1, n2] = self.blocks().points();
+        let ([n1, n2], (inverse, _)) = (self.blocks().points(), self.inverse());
+        let single = self.transforms.single.memory().max(inverse.single.memory());
+        let double = self.transforms.double.memory().max(inverse.double.memory());
         // Of few columns a tile in single precision has as many bytes as those in double precision.
-        let single = self.single.memory();
-        let size = self.double.memory().max(single + (n1 * n2).div_ceil(2));
-        let (memory, rest) = workspace.of(size).split_at_mut(single);
+        let (memory, rest) = workspace.of(double.max(single + (n1 * n2).div_ceil(2))).split_at_mut(single);
         (memory, &mut bytemuck::cast_slice_mut(rest)[..n1 * n2])
     }
 
     fn displaced<'a>(&'a mut self, workspace: &'a mut Workspace, pressure: impl ByRows<f64>) -> Convolved<'a, f64> {
         self.convolutions += 1.0;
-        let memory = workspace.of(self.double.memory());
-        self.double.convolve(self.multiplied(1.0), &self.compliance, memory, pressure)
+        let memory = workspace.of(self.transforms.double.memory());
+        self.transforms.double.convolve(self.multiplied(1.0), &self.compliance, memory, pressure)
     }
 
     fn displaced_single<'a>(
@@ -213,23 +239,27 @@ impl ElasticOperator for LayeredOperator {
             TractionUpdate::Updated => self.multiplied(factor),
             TractionUpdate::Lagged => Action::Multiply(factor),
         };
-        self.single.convolve(action, &self.compliance, memory, pressure)
+        self.transforms.single.convolve(action, &self.compliance, memory, pressure)
     }
 
     fn preconditioned<'a>(&'a mut self, memory: &'a mut [f64], residual: impl ByRows<f32>) -> Convolved<'a, f32> {
         self.convolutions += 0.5;
-        self.single.convolve(Action::Divide(self.unit()), &self.compliance, memory, residual)
+        let (transforms, compliance) = self.inverse();
+        transforms.single.convolve(Action::Divide(self.unit()), compliance, memory, residual)
     }
 
     fn symmetric_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
         self.convolutions += 1.0;
-        in_place(&self.double, Action::Divide(1.0), &self.compliance, field, workspace);
+        let (transforms, compliance) = self.inverse();
+        in_place(&transforms.double, Action::Divide(1.0), compliance, field, workspace);
     }
 }
 
-/// Least and largest wavenumber of a grid.
-fn range(grid: &Grid) -> [f64; 2] {
-    [grid.least_wavenumber(), grid.largest_wavenumber()]
+/// Adds a local compliance, with that of `lines` by its components, to a multiplier of `transforms`.
+fn add(local: &LocalCompliance, lines: Vec<([usize; 2], f64)>, transforms: &Transforms, compliance: &mut Multiplier) {
+    let index = transforms.double.indices();
+    let lines = lines.into_iter().filter_map(|(component, value)| Some((index(component)?, value)));
+    compliance.add(local.uniform(), &lines.collect::<Vec<_>>());
 }
 
 fn in_place<T: Real>(

@@ -1,14 +1,14 @@
 //! The spectral method: the whole cell on a doubly periodic grid, the half-space exact in Fourier space.
 //!
-//! - [`operator`]: the elastic body as the iteration uses it, a trait; `layered_operator`: the layered half-space, periodic; `free_space`: one
-//!   contact without images;
+//! - [`operator`]: the elastic body as the iteration uses it, a trait; [`LayeredOperator`]: layered half-spaces, `periodic_operator` on a
+//!   periodic cell, `free_space` without images, `body_operator` those of a problem; `local_compliance`: surfaces that give way themselves;
 //!   `convolution`, `multiplier`, `by_rows`: transforms there and back in one fused pass;
 //! - `iteration`: conjugate gradients on one grid, with the certificate of their result; `extension`: the residual continued
 //!   beyond the contact, for the preconditioner;
 //! - `grid_level`: a problem on one of its nested grids; `prolongation`: a solution carried over to the next finer one;
 //! - [`Solver`]: a problem on all of them, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid;
 //!   [`Checkpoint`]: the state from which an interrupted run continues;
-//! - [`Wear`]: implicit steps of wear, `sliding_mean` of the body that is swept; [`Worn`]: the depths worn off.
+//! - [`Wear`]: implicit steps of wear around the operator of each grid, `sliding_mean` of the body that is swept; [`Worn`]: the depths worn off.
 
 mod body_operator;
 mod by_rows;
@@ -22,8 +22,10 @@ mod free_space;
 mod grid_level;
 mod iteration;
 mod layered_operator;
+mod local_compliance;
 mod multiplier;
 pub mod operator;
+mod periodic_operator;
 mod prolongation;
 mod sliding_mean;
 mod solver;
@@ -37,7 +39,7 @@ mod worn;
 pub use checkpoint::{Checkpoint, OtherGrids};
 pub use contact::Contact;
 pub use field_error::FieldError;
-pub use free_space::{Coupling, FreeSpaceOperator, OfWavenumber};
+pub use free_space::{Coupling, OfWavenumber};
 pub use iteration::{Certificate, Method, Progress, Report, Route, Settings, Stop, Unknowns};
 pub use layered_operator::LayeredOperator;
 pub use operator::Workspace;

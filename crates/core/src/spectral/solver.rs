@@ -5,7 +5,7 @@
 //! the next coarser one, carried over, so that nothing unchanged by a step is interpolated twice. The baseline method
 //! works on the finest grid alone, as published.
 
-use super::free_space::FreeSpaceOperator;
+use super::free_space::{bytes_per_sample, bytes_while_made};
 use super::grid_level::{Coarser, GridLevel};
 use super::iteration::{Method, Progress, Report, Settings, Stop, Unknowns, Working};
 use super::worn::Worn;
@@ -302,11 +302,8 @@ impl Memory {
     /// and three tables while the kernel is made.
     pub fn of(cell: Cell, points: [usize; 2], method: Method, coupled: bool) -> Self {
         let isolated = cell.is_isolated();
-        let multipliers = if isolated {
-            FreeSpaceOperator::bytes_per_sample(points, coupled).ceil() as usize
-        } else {
-            4 + 4 * usize::from(coupled)
-        };
+        let multipliers =
+            if isolated { bytes_per_sample(points, coupled).ceil() as usize } else { 4 + 4 * usize::from(coupled) };
         let (grid, rows) = (3 * 8 + 4 + multipliers, 512);
         let spectrum = if isolated { 3 * 8 } else { 8 };
         let working = match method {
@@ -317,7 +314,7 @@ impl Memory {
         // A surface may be constant along either axis.
         let grids = [None, Some(0), Some(1)].map(|line| nested_points(points, method, line));
         let kept = grids.map(|grids| grids.into_iter().map(of_grid).sum()).into_iter().max().unwrap_or(0);
-        let setup = if isolated { FreeSpaceOperator::bytes_while_made(cell, points) } else { 0 };
+        let setup = if isolated { bytes_while_made(cell, points) } else { 0 };
         Self { kept, working: setup.max(points[0] * points[1] * working) }
     }
 }

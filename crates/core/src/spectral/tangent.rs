@@ -11,9 +11,8 @@
 //!
 //! dδ = ⟨p′, dC p + df⟩ / ⟨p′, 1⟩,  as ⟨p′, C dp⟩ = ⟨1, dp⟩ = 0.
 
-use super::Contact;
-use super::body_operator::BodyOperator;
 use super::operator::{ElasticOperator, Workspace};
+use super::{Contact, LayeredOperator};
 use crate::body::Bodies;
 use crate::counterbody::Surface;
 use crate::notation::number;
@@ -41,11 +40,8 @@ pub struct Tangent {
 impl Tangent {
     /// The tangent for the operator of a contact without friction that couples; `None` without contact, and where the iteration
     /// does not converge.
-    pub(super) fn new(operator: &mut BodyOperator, contact: &Contact) -> Option<Self> {
-        let (rate, iterations) = match operator {
-            BodyOperator::Periodic(operator) => rate(operator.as_mut(), contact.pressures()),
-            BodyOperator::FreeSpace(operator) => rate(operator.as_mut(), contact.pressures()),
-        }?;
+    pub(super) fn new(operator: &mut LayeredOperator, contact: &Contact) -> Option<Self> {
+        let (rate, iterations) = rate(operator, contact.pressures())?;
         let [sum, samples] = sums::of(rate.len(), |i| [rate[i], f64::from(u8::from(rate[i] != 0.0))]);
         let joining = if contact.grid().cell().is_rectangular() { 8.0 } else { 12.0 };
         let stiffness = sum * contact.grid().sample_area();
@@ -73,7 +69,7 @@ impl Tangent {
         assert!(problems.iter().all(|(_, other)| other.cell() == grid.cell()), "problems on other cells");
         let bodies: Vec<(f64, &Bodies)> = problems.iter().map(|&(weight, own)| (weight, own.bodies())).collect();
         let mut displaced = p.to_vec();
-        BodyOperator::combined(grid, &bodies).displace(&mut displaced, &mut Workspace::default());
+        LayeredOperator::of_bodies(grid, &bodies).displace(&mut displaced, &mut Workspace::default());
         let gaps = |&(weight, own): &(f64, &Problem)| {
             let surface = Surface::new(own.counterbody(), grid.points()).expect("the grid of a contact has samples");
             (weight, surface)

@@ -13,10 +13,11 @@
 //!
 //! In complete contact a wave of the pressure falls by 1/(1 + kΔs/Ĉ) in each step, and → e^{−ks/Ĉ}.
 //!
-//! The compliance is added to the tables of the operator for the step alone, one number for all waves and one for each of those constant
-//! along **e**: no second table.
+//! For the step alone the operators of all grids have this [local compliance](LocalCompliance) beside that of the bodies ([`Wearing`]): they
+//! know nothing of wear.
 
 use super::grid_level::GridLevel;
+use super::local_compliance::LocalCompliance;
 use super::sliding_mean::{SlidingMean, vector_along};
 use super::wear_error::WearError;
 use super::worn::Worn;
@@ -24,9 +25,7 @@ use super::{Progress, Solver, Step};
 use crate::body::Side;
 use crate::lattice::{Cell, Grid};
 use crate::load::Load;
-use crate::numeric::array::field;
 use crate::problem::Problem;
-use ndarray::Array2;
 use std::ops::ControlFlow;
 
 /// Coefficients of wear of both bodies and the direction of sliding.
@@ -99,65 +98,36 @@ impl Wear {
     pub fn direction(&self) -> [f64; 2] {
         self.direction
     }
-}
 
-/// One step of wear on one grid.
-#[derive(Debug)]
-pub(super) struct GridWear {
-    points: [usize; 2],
-    /// k_b Δs, times the width of the window over the stroke around an isolated contact, and the mean; `None` where the body does not
-    /// wear.
-    body: Option<(f64, SlidingMean)>,
-    /// k_c Δs.
-    counterbody: f64,
-}
-
-impl GridWear {
-    /// Wear over a `distance` of sliding on a grid.
-    pub fn new(wear: &Wear, distance: f64, grid: &Grid) -> Result<Self, WearError> {
-        let body = wear.body * distance;
-        let body = if body > 0.0 {
-            let mean = SlidingMean::new(grid, wear.direction)?;
-            Some((body * passes(wear, grid), mean))
+    /// Compliance of the surfaces of a grid that wear over a `distance` Δs of sliding: k_b Δs under the mean along the path, times the
+    /// width of the window over the stroke around an isolated contact, and k_c Δs under the pressure of a sample.
+    pub(super) fn compliance(&self, distance: f64, grid: &Grid) -> Result<LocalCompliance, WearError> {
+        let body = self.body * distance;
+        let on_lines = if body > 0.0 {
+            let mean = SlidingMean::new(grid, self.direction)?;
+            Some((body * passes(self, grid), mean))
         } else {
             None
         };
-        Ok(Self { points: grid.points(), body, counterbody: wear.counterbody * distance })
-    }
-
-    /// k_c Δs, a length per pressure: the compliance of every wave.
-    pub fn uniform(&self) -> f64 {
-        self.counterbody
-    }
-
-    /// Compliance of the wave q = 0, a length per pressure.
-    pub fn mean(&self) -> f64 {
-        self.counterbody + self.body.as_ref().map_or(0.0, |(body, _)| *body)
-    }
-
-    /// Components (k₁, k₂) of the grid that are constant along the path, each once with its compliance, a length per pressure.
-    pub fn along(&self) -> Vec<([usize; 2], f64)> {
-        let times = |(body, mean): &(f64, SlidingMean)| scaled(*body, mean.components());
-        self.body.as_ref().map(times).unwrap_or_default()
-    }
-
-    /// The same for a window that is padded to a grid of `points`.
-    pub fn along_padded(&self, points: [usize; 2]) -> Vec<([usize; 2], f64)> {
-        let times = |(body, mean): &(f64, SlidingMean)| scaled(*body, &mean.padded(points));
-        self.body.as_ref().map(times).unwrap_or_default()
-    }
-
-    /// Depths that a pressure wears off the body and the counterbody, lengths, axes along a₁ and a₂; `None` of one that does not wear.
-    pub fn depths(&self, pressure: &[f64]) -> [Option<Array2<f64>>; 2] {
-        let body = self.body.as_ref().map(|(body, mean)| field(self.points, mean.of(pressure)) * *body);
-        let own = (self.counterbody > 0.0)
-            .then(|| field(self.points, pressure.iter().map(|p| self.counterbody * p).collect()));
-        [body, own]
+        Ok(LocalCompliance::new(grid.points(), on_lines, self.counterbody * distance))
     }
 }
 
-fn scaled(factor: f64, parts: &[([usize; 2], f64)]) -> Vec<([usize; 2], f64)> {
-    parts.iter().map(|&(component, part)| (component, factor * part)).collect()
+/// A solver whose surfaces wear: while this lives its operators have the local compliance of the step.
+struct Wearing<'a>(&'a mut Solver);
+
+impl<'a> Wearing<'a> {
+    /// Adds a compliance to the operator of each grid.
+    fn new(solver: &'a mut Solver, compliances: &[LocalCompliance]) -> Self {
+        solver.levels.iter_mut().zip(compliances).for_each(|(level, compliance)| level.operator().soften(compliance));
+        Self(solver)
+    }
+}
+
+impl Drop for Wearing<'_> {
+    fn drop(&mut self) {
+        self.0.levels.iter_mut().for_each(|level| level.operator().restore());
+    }
 }
 
 /// Width of the window along the path over the stroke of an isolated contact; 1 on a periodic cell.
@@ -207,9 +177,7 @@ impl Solver {
             return Err(WearError::Given);
         }
         let on_grids = on_grids(self, wear, distance)?;
-        self.levels.iter_mut().zip(&on_grids).for_each(|(level, own)| level.operator().add_wear(own));
-        let step = self.solve_with_progress(load, progress);
-        self.levels.iter_mut().for_each(|level| level.operator().remove_wear());
+        let step = Wearing::new(self, &on_grids).0.solve_with_progress(load, progress);
         if !step.report.stop.solved() {
             return Ok(step);
         }
@@ -222,13 +190,13 @@ impl Solver {
     /// Takes off all grids what pressures wear, those of a grid by its number.
     pub(super) fn wear_off(
         &mut self,
-        on_grids: &[GridWear],
+        on_grids: &[LocalCompliance],
         pressures: impl Fn(usize, &GridLevel) -> Vec<f64>,
         distance: f64,
     ) {
         let mut worn = self.worn.take().unwrap_or_else(|| Worn::none(self.grid()));
         for (number, (level, own)) in self.levels.iter_mut().zip(on_grids).enumerate() {
-            let depths = own.depths(&pressures(number, level));
+            let depths = own.displacements(&pressures(number, level));
             let whole = depths.iter().flatten().cloned().reduce(|all, depth| all + depth);
             let recession = whole.map_or(0.0, |whole| level.wear_by(&whole));
             if number == 0 {
@@ -239,9 +207,9 @@ impl Solver {
     }
 }
 
-/// Wear over a `distance` of sliding on all grids of a solver.
-pub(super) fn on_grids(solver: &Solver, wear: &Wear, distance: f64) -> Result<Vec<GridWear>, WearError> {
-    solver.levels.iter().map(|level| GridWear::new(wear, distance, level.surface().grid())).collect()
+/// Compliances of wear over a `distance` of sliding on all grids of a solver.
+pub(super) fn on_grids(solver: &Solver, wear: &Wear, distance: f64) -> Result<Vec<LocalCompliance>, WearError> {
+    solver.levels.iter().map(|level| wear.compliance(distance, level.surface().grid())).collect()
 }
 
 #[cfg(test)]
@@ -249,9 +217,9 @@ mod tests {
     use super::*;
     use crate::body::{HalfSpace, Interface, Layer, Material};
     use crate::friction::Friction;
+    use crate::spectral::LayeredOperator;
     use crate::spectral::by_rows::{ResultRows, rows_of, rows_to};
     use crate::spectral::operator::{ElasticOperator, TractionUpdate, Workspace};
-    use crate::spectral::{FreeSpaceOperator, LayeredOperator};
 
     fn layers() -> Vec<Layer> {
         vec![Layer::new(Material::from_shear(3.0, 0.2).unwrap(), 0.2, Interface::Bonded).unwrap()]
@@ -285,25 +253,22 @@ mod tests {
         [double, w.into_iter().map(|w| unit * f64::from(w)).collect()]
     }
 
-    /// A change of an operator by a step of wear.
-    type Change<'a, O> = &'a dyn Fn(&mut O, &GridWear);
-
     /// Displacement of the plain operator, with k_c Δs p + k_b Δs ⟨p⟩, and plain again.
-    fn check<O: ElasticOperator>(operator: &mut O, grid: &Grid, wear: &GridWear, [add, remove]: [Change<'_, O>; 2]) {
+    fn check(operator: &mut LayeredOperator, grid: &Grid, wear: &LocalCompliance) {
         let p = noise(grid.len());
         let plain = displaced(operator, &p);
         let (unit, mean) = (operator.unit(), operator.mean_compliance());
-        add(operator, wear);
+        operator.soften(wear);
         let worn = displaced(operator, &p);
         let mut expected = plain[0].clone();
-        for depth in wear.depths(&p).iter().flatten() {
+        for depth in wear.displacements(&p).iter().flatten() {
             expected.iter_mut().zip(depth).for_each(|(w, depth)| *w += depth);
         }
         let scale = expected.iter().fold(0.0f64, |most, w| most.max(w.abs()));
         let errors = worn.map(|worn| difference(&worn, &expected) / scale);
         assert!(errors[0] < 2e-15 && errors[1] < 1e-6, "{grid}: {errors:?} with {wear:?}");
         assert!((operator.unit() - unit - wear.mean()).abs() < 1e-14 * operator.unit());
-        remove(operator, wear);
+        operator.restore();
         assert_eq!(displaced(operator, &p), plain, "{grid}: not restored");
         assert_eq!((operator.unit(), operator.mean_compliance()), (unit, mean));
     }
@@ -323,7 +288,7 @@ mod tests {
                 let direction = grid.cell().vector(parts);
                 for [body, counterbody] in [[0.0, 1e-3], [0.2, 0.0], [30.0, 0.7], [1e6, 1e5]] {
                     let wear = Wear::new(body, counterbody, direction).unwrap();
-                    let wear = GridWear::new(&wear, 0.5, &grid).unwrap();
+                    let wear = wear.compliance(0.5, &grid).unwrap();
                     let friction = Friction::new(0.8, [0.6, -0.8]).unwrap();
                     let bodies = coated();
                     for mut operator in [
@@ -332,12 +297,7 @@ mod tests {
                         LayeredOperator::sliding(&grid, &bodies, &friction),
                         LayeredOperator::sliding(&grid, &bodies, &Friction::new(0.8, direction).unwrap()),
                     ] {
-                        check(
-                            &mut operator,
-                            &grid,
-                            &wear,
-                            [&|own, wear| own.add_wear(wear), &|own, _| own.remove_wear()],
-                        );
+                        check(&mut operator, &grid, &wear);
                     }
                 }
             }
@@ -349,10 +309,10 @@ mod tests {
     fn the_inverse_has_the_compliance_of_wear_too() {
         let grid = Grid::new(Cell::hexagonal(1.0).unwrap(), [18, 15]).unwrap();
         let wear = Wear::new(0.4, 0.3, [1.0, 0.0]).unwrap();
-        let wear = GridWear::new(&wear, 1.0, &grid).unwrap();
+        let wear = wear.compliance(1.0, &grid).unwrap();
         for (bodies, mean) in [(coated(), 0.0), (on_rigid_base(), 1.0)] {
             let mut operator = LayeredOperator::new(&grid, bodies);
-            operator.add_wear(&wear);
+            operator.soften(&wear);
             let mut p = noise(grid.len());
             let own = p.iter().sum::<f64>() / p.len() as f64;
             p.iter_mut().for_each(|p| *p += mean - own);
@@ -374,22 +334,21 @@ mod tests {
                 {
                     let wear = Wear::new(k[0], k[1], direction).unwrap();
                     let wear = stroke.map_or(wear, |stroke| wear.with_stroke(stroke).unwrap());
-                    let own = GridWear::new(&wear, 0.5, &grid).unwrap();
+                    let own = wear.compliance(0.5, &grid).unwrap();
                     for mut operator in [
-                        FreeSpaceOperator::new(&grid, coated()),
-                        FreeSpaceOperator::sliding(&grid, coated(), &Friction::new(0.5, direction).unwrap()),
-                    ] {
-                        check(
-                            &mut operator,
+                        LayeredOperator::in_free_space(&grid, coated()),
+                        LayeredOperator::sliding_in_free_space(
                             &grid,
-                            &own,
-                            [&|own, wear| own.add_wear(wear), &|own, _| own.remove_wear()],
-                        );
+                            coated(),
+                            &Friction::new(0.5, direction).unwrap(),
+                        ),
+                    ] {
+                        check(&mut operator, &grid, &own);
                     }
                     // k_b (Δs/L) ∫p dx of a single sample, on its line.
                     let mut p = vec![0.0; grid.len()];
                     p[3 * points[1] + 4] = 2.0;
-                    let [body, counterbody] = own.depths(&p);
+                    let [body, counterbody] = own.displacements(&p);
                     let axis = usize::from(direction[0] == 0.0);
                     let length = stroke.unwrap_or(sides[axis]);
                     let expected = k[0] * 0.5 / length * 2.0 * sides[axis] / points[axis] as f64;

@@ -2,7 +2,7 @@
 
 use super::grid_level::{GridLevel, Indented};
 use super::iteration::Unknowns;
-use super::wear::{GridWear, on_grids};
+use super::wear::on_grids;
 use super::worn::Worn;
 use super::{Solver, Wear, WearError};
 use crate::counterbody::Surface;
@@ -70,9 +70,9 @@ impl Solver {
     /// # Errors
     /// As for [`Self::wear_by`].
     pub fn depth_by(&self, moments: &[(&WearState, f64)], wear: &Wear) -> Result<Array2<f64>, WearError> {
-        let own = GridWear::new(wear, 1.0, self.grid())?;
+        let own = wear.compliance(1.0, self.grid())?;
         let mut depth = Array2::zeros(self.grid().points());
-        own.depths(&weighted(moments, 0)).iter().flatten().for_each(|own| depth += own);
+        own.displacements(&weighted(moments, 0)).iter().flatten().for_each(|own| depth += own);
         Ok(depth)
     }
 

@@ -1,7 +1,7 @@
 //! One contact in free space: no periodic images, displacements that vanish far away.
 //!
 //! `kernel` is the displacement of a sample by another one, an integral over the zone of the grid in two parts, between which
-//! `cut` divides: `radial` at small wavenumbers, `filon` at large ones. [`FreeSpaceOperator`] convolves with it on a padded grid;
+//! `cut` divides: `radial` at small wavenumbers, `filon` at large ones. `operator`: the convolution with it on a padded grid;
 //! `quadrant`: transforms of kernels that are even or odd.
 
 mod cut;
@@ -12,11 +12,11 @@ mod quadrant;
 mod radial;
 
 pub use kernel::OfWavenumber;
-pub use operator::{Coupling, FreeSpaceOperator};
+pub use operator::Coupling;
+pub(super) use operator::{bytes_per_sample, bytes_while_made};
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::body::{HalfSpace, Interface, Layer, Material};
     use crate::friction::Friction;
     use crate::lattice::{Cell, Grid};
@@ -91,8 +91,8 @@ mod tests {
         Settings { method, ..Settings::default() }
     }
 
-    fn bare(grid: &Grid) -> FreeSpaceOperator {
-        FreeSpaceOperator::with(grid, &|_| 2.0, None)
+    fn bare(grid: &Grid) -> LayeredOperator {
+        LayeredOperator::of_kernel(grid, &|_| 2.0, None)
     }
 
     /// p₀ = 2a/π, δ = a², P = 4a³/3 for E* = 1, with the errors of an independent program at the same radii, to a tenth, by either
@@ -161,7 +161,7 @@ mod tests {
             };
             let errors = [24.1, 24.37, 24.71].map(|samples| {
                 let sphere = Sphere::new(a / samples, [64, 64]);
-                let mut operator = FreeSpaceOperator::with(&sphere.grid, &c, None);
+                let mut operator = LayeredOperator::of_kernel(&sphere.grid, &c, None);
                 let (_, found) = sphere.solved(&mut operator, sphere.mean(load), Settings::default());
                 let radius = sphere.radius(&found.pressure);
                 [peak(&found.pressure) / p0, found.penetration / penetration, radius / a].map(|x| x - 1.0)
@@ -192,8 +192,8 @@ mod tests {
             let found = [[48, 48], [64, 64], [60, 96]].map(|points| {
                 let sphere = Sphere::new(1.0, points);
                 let mut operator = match &friction {
-                    Some(friction) => FreeSpaceOperator::sliding(&sphere.grid, body, friction),
-                    None => FreeSpaceOperator::new(&sphere.grid, body),
+                    Some(friction) => LayeredOperator::sliding_in_free_space(&sphere.grid, body, friction),
+                    None => LayeredOperator::in_free_space(&sphere.grid, body),
                 };
                 let load = if body.layers().is_empty() { 4.0 / 3.0 * a * a * a } else { 2000.0 };
                 let settings = Settings { tolerance: 1e-14, ..by(method) };
@@ -221,7 +221,7 @@ mod tests {
         for body in [HalfSpace::new(vec![], substrate), HalfSpace::new(vec![stiff], substrate)] {
             for n in [64, 256] {
                 let sphere = Sphere::new(64.0 / n as f64, [n, n]);
-                let mut free = FreeSpaceOperator::new(&sphere.grid, &body);
+                let mut free = LayeredOperator::in_free_space(&sphere.grid, &body);
                 let mut periodic = LayeredOperator::new(&sphere.grid, &body);
                 let (own, found) = sphere.solved(&mut free, sphere.mean(8000.0), Settings::default());
                 let (images, _) = sphere.solved(&mut periodic, sphere.mean(8000.0), Settings::default());
@@ -291,7 +291,7 @@ mod tests {
         let sphere = Sphere::new(1.0, [65, 65]);
         let body = HalfSpace::new(vec![], Material::from_shear(0.5, 0.0).unwrap());
         let slid = |friction: Friction| {
-            let mut operator = FreeSpaceOperator::sliding(&sphere.grid, &body, &friction);
+            let mut operator = LayeredOperator::sliding_in_free_space(&sphere.grid, &body, &friction);
             let settings = Settings { tolerance: 1e-12, ..Settings::default() };
             let (_, found) = sphere.solved(&mut operator, sphere.mean(4.0 / 3.0 * a * a * a), settings);
             let load: f64 = found.pressure.iter().sum();

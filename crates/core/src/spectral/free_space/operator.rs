@@ -13,12 +13,9 @@ use crate::friction::Friction;
 use crate::lattice::{Cell, Grid};
 use crate::numeric::fourier::fast_points;
 use crate::numeric::lanes::Real;
-use crate::numeric::rows::RowBlocks;
-use crate::spectral::by_rows::{ByRows, ResultRows, rows_of, rows_to};
-use crate::spectral::convolution::{Convolution, Convolved};
-use crate::spectral::multiplier::{Action, Multiplier, SkewPart};
-use crate::spectral::operator::{ElasticOperator, Surroundings, TractionUpdate, Workspace};
-use crate::spectral::wear::GridWear;
+use crate::spectral::convolution::Convolution;
+use crate::spectral::layered_operator::{LayeredOperator, Skew, Transforms};
+use crate::spectral::multiplier::{Multiplier, SkewPart};
 use ndarray::Array2;
 use std::fmt;
 
@@ -49,50 +46,32 @@ impl fmt::Debug for Coupling<'_> {
     }
 }
 
-/// Displacement operator of one contact in free space.
-pub struct FreeSpaceOperator {
-    double: Convolution<f64>,
-    single: Convolution<f32>,
-    /// The window repeated periodically, for the preconditioner.
-    periodic: (Convolution<f64>, Convolution<f32>),
-    compliance: Multiplier,
-    /// Transform H of the kernel, and G of the odd one under coupled friction.
-    kernel: Multiplier,
-    skew: Option<SkewPart>,
-    /// Largest |C⁻¹(A − C)|.
-    coupling: f64,
-    /// Compliance at the least wavenumber of the window.
-    unit: f64,
-    /// Compliance that a step of wear has added under a uniform pressure.
-    worn: f64,
-    convolutions: f64,
-}
-
-impl FreeSpaceOperator {
-    /// Operator of the bodies, without friction.
+impl LayeredOperator {
+    /// Operator of the bodies in free space, without friction.
     ///
     /// # Panics
     /// When the cell of the grid, the window, is not a rectangle.
-    pub fn new(grid: &Grid, bodies: impl Into<Bodies>) -> Self {
-        Self::combined(grid, &[(1.0, &bodies.into())])
+    pub fn in_free_space(grid: &Grid, bodies: impl Into<Bodies>) -> Self {
+        Self::combined_in_free_space(grid, &[(1.0, &bodies.into())])
     }
 
-    /// Σ wᵢ Cᵢ of several bodies, without friction.
-    pub(in crate::spectral) fn combined(grid: &Grid, bodies: &[(f64, &Bodies)]) -> Self {
-        let own = bodies.iter().map(|(weight, own)| (*weight, Compliances::new(own, range(grid), EVALUATIONS)));
-        let compliances: Vec<(f64, Compliances<'_>)> = own.collect();
-        let c = |k: f64| k * compliances.iter().map(|(weight, own)| weight * own.at(k)).sum::<f64>();
-        Self::with(grid, &c, None)
+    /// Σ wᵢ Cᵢ of several bodies in free space, without friction.
+    pub(in crate::spectral) fn combined_in_free_space(grid: &Grid, bodies: &[(f64, &Bodies)]) -> Self {
+        let weighted =
+            bodies.iter().map(|(weight, bodies)| (*weight, Compliances::new(bodies, range(grid), EVALUATIONS)));
+        let compliances: Vec<(f64, Compliances<'_>)> = weighted.collect();
+        let c = |k: f64| k * compliances.iter().map(|(weight, compliance)| weight * compliance.at(k)).sum::<f64>();
+        Self::of_kernel(grid, &c, None)
     }
 
-    /// Operator of the bodies, the counterbody sliding with `friction`.
+    /// Operator of the bodies in free space, the counterbody sliding with `friction`.
     ///
     /// # Panics
     /// When the cell of the grid, the window, is not a rectangle.
-    pub fn sliding(grid: &Grid, bodies: impl Into<Bodies>, friction: &Friction) -> Self {
+    pub fn sliding_in_free_space(grid: &Grid, bodies: impl Into<Bodies>, friction: &Friction) -> Self {
         let bodies = bodies.into();
         if !friction.couples() {
-            return Self::new(grid, bodies);
+            return Self::in_free_space(grid, bodies);
         }
         let compliances = Compliances::coupled(&bodies, range(grid), EVALUATIONS);
         let c = |k: f64| k * compliances.at(k);
@@ -104,160 +83,54 @@ impl FreeSpaceOperator {
             response: &|k| c(k) * compliances.coupling_ratio(k),
             largest_ratio: ratios.fold(0.0, f64::max),
         };
-        Self::with(grid, &c, Some(coupling))
+        Self::of_kernel(grid, &c, Some(coupling))
     }
 
-    /// Operator of bodies with c(k) = kĈ(k), the compliance of both together times the wavenumber, a length per pressure times
-    /// 1/length, finite at k = 0; with the coupling of both where friction couples.
+    /// Operator in free space of bodies with c(k) = kĈ(k), the compliance of both together times the wavenumber, a length per pressure
+    /// times 1/length, finite at k = 0; with the coupling of both where friction couples.
     ///
     /// # Panics
     /// When the cell of the grid, the window, is not a rectangle.
-    pub fn with(grid: &Grid, c: OfWavenumber<'_>, coupling: Option<Coupling<'_>>) -> Self {
+    pub fn of_kernel(grid: &Grid, c: OfWavenumber<'_>, coupling: Option<Coupling<'_>>) -> Self {
         assert!(grid.cell().is_rectangular(), "the window of a contact in free space is a rectangle");
         let steps = grid.steps();
         let window = Window { spacings: steps.map(|[x, y]| x.hypot(y)), points: grid.points() };
-        let padded = padded(window.points);
-        let double = Convolution::padded(window.points, padded);
+        let transforms = Transforms::padded(window.points, padded(window.points));
         let skew = coupling.map(|coupling| {
             let along = [0, 1].map(|axis| {
                 let [x, y] = steps[axis];
                 (coupling.traction[0] * x + coupling.traction[1] * y) / window.spacings[axis]
             });
-            skew_part(&double, window, along, coupling.response)
+            let Coupling { traction: [x, y], largest_ratio, .. } = coupling;
+            (skew_part(&transforms.double, window, along, coupling.response), x.hypot(y) * largest_ratio)
         });
-        Self {
-            kernel: multiplier(&double, window, c),
-            skew,
-            coupling: coupling
-                .map_or(0.0, |Coupling { traction: [x, y], largest_ratio, .. }| x.hypot(y) * largest_ratio),
-            single: Convolution::padded(window.points, padded),
-            periodic: (Convolution::new(window.points), Convolution::new(window.points)),
-            compliance: periodic_compliance(grid, c),
-            unit: c(grid.least_wavenumber()) / grid.least_wavenumber(),
-            worn: 0.0,
-            convolutions: 0.0,
-            double,
+        let kernel = multiplier(&transforms.double, window, c);
+        let unit = c(grid.least_wavenumber()) / grid.least_wavenumber();
+        let (repeated, compliance) = repeated(grid, c);
+        let operator = Self::of(transforms, kernel, unit).in_window(repeated, compliance);
+        match skew {
+            Some((part, largest)) => operator.coupled(Skew::Part(part), largest),
+            None => operator,
         }
     }
-
-    /// Memory that an operator on a window of `points` keeps, bytes per sample: the transforms of the kernel and, `coupled`, of
-    /// the odd one, 16 each where no padding beyond twice the window is needed, and the periodic compliance, 4. The
-    /// [`Workspace`] has 16 further ones. While a kernel is made, three tables of 8 live besides.
-    pub fn bytes_per_sample(points: [usize; 2], coupled: bool) -> f64 {
-        let components = |[n1, n2]: [usize; 2]| (n1 * (n2 / 2 + 1).next_multiple_of(f32::WIDTH)) as f64;
-        let tables = components(padded(points)) * f64::from(1 + u8::from(coupled)) + components(points);
-        8.0 * tables / (points[0] * points[1]) as f64
-    }
-
-    /// Memory while the kernel of a window is made besides its tables, bytes; much where the samples are oblong.
-    pub fn bytes_while_made(window: Cell, points: [usize; 2]) -> usize {
-        let [a1, a2] = window.vectors();
-        let spacings = [a1[0] / points[0] as f64, a2[1] / points[1] as f64];
-        Window { spacings, points }.bytes_while_made()
-    }
-
-    /// p → w: displacement into the body (a length), from pressure and the traction that goes with it.
-    pub fn displacement(&mut self, field: &mut [f64], workspace: &mut Workspace) {
-        // On the threads that share the work, where no pass has to wake them.
-        rayon::scope(|_| self.displace(field, workspace));
-    }
-
-    /// Adds the compliance of a step of wear: k_c Δs of every wave, and of the body in its groove the same displacement of all samples on
-    /// a line along the path by the pressure of each of them, on the padded grid and on the window repeated periodically.
-    pub(in crate::spectral) fn add_wear(&mut self, wear: &GridWear) {
-        let table = |index: &dyn Fn([usize; 2]) -> Option<usize>, along: Vec<([usize; 2], f64)>| {
-            let along = along.into_iter().filter_map(|(component, value)| Some((index(component)?, value)));
-            along.collect::<Vec<_>>()
-        };
-        let padded = wear.along_padded(padded(self.blocks().points()));
-        self.kernel.add(wear.uniform(), &table(&self.double.indices(), padded));
-        self.compliance.add(wear.uniform(), &table(&self.periodic.0.indices(), wear.along()));
-        self.worn = wear.mean();
-    }
-
-    /// Takes off the compliance of a step of wear: the operator is that of before, bit for bit.
-    pub(in crate::spectral) fn remove_wear(&mut self) {
-        self.kernel.restore();
-        self.compliance.restore();
-        self.worn = 0.0;
-    }
-
-    /// Use of the kernel times a common factor, and of the odd one under coupled friction.
-    fn applied(&self, factor: f64) -> Action<'_> {
-        self.skew.as_ref().map_or(Action::Multiply(factor), |skew| Action::MultiplyComplex(factor, skew))
-    }
 }
 
-impl ElasticOperator for FreeSpaceOperator {
-    type Rows<'a, T: Real> = Convolved<'a, T>;
-
-    fn blocks(&self) -> RowBlocks {
-        self.double.blocks()
-    }
-
-    fn surroundings(&self) -> Surroundings {
-        Surroundings::FreeSpace
-    }
-
-    fn unit(&self) -> f64 {
-        self.unit + self.worn
-    }
-
-    fn coupling(&self) -> f64 {
-        self.coupling
-    }
-
-    fn convolutions(&self) -> f64 {
-        self.convolutions
-    }
-
-    fn split<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
-        let [n1, n2] = self.blocks().points();
-        let single = self.single.memory().max(self.periodic.1.memory());
-        let double = self.double.memory().max(self.periodic.0.memory());
-        let (memory, rest) = workspace.of(double.max(single + (n1 * n2).div_ceil(2))).split_at_mut(single);
-        (memory, &mut bytemuck::cast_slice_mut(rest)[..n1 * n2])
-    }
-
-    fn displaced<'a>(&'a mut self, workspace: &'a mut Workspace, pressure: impl ByRows<f64>) -> Convolved<'a, f64> {
-        self.convolutions += 1.0;
-        let memory = workspace.of(self.double.memory());
-        self.double.convolve(self.applied(1.0), &self.kernel, memory, pressure)
-    }
-
-    fn displaced_single<'a>(
-        &'a mut self,
-        traction: TractionUpdate,
-        memory: &'a mut [f64],
-        pressure: impl ByRows<f32>,
-    ) -> Convolved<'a, f32> {
-        self.convolutions += 0.5;
-        let factor = 1.0 / self.unit();
-        let action = match traction {
-            TractionUpdate::Updated => self.applied(factor),
-            TractionUpdate::Lagged => Action::Multiply(factor),
-        };
-        self.single.convolve(action, &self.kernel, memory, pressure)
-    }
-
-    fn preconditioned<'a>(&'a mut self, memory: &'a mut [f64], residual: impl ByRows<f32>) -> Convolved<'a, f32> {
-        self.convolutions += 0.5;
-        self.periodic.1.convolve(Action::Divide(self.unit()), &self.compliance, memory, residual)
-    }
-
-    fn symmetric_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
-        self.convolutions += 1.0;
-        let convolution = &self.periodic.0;
-        let (blocks, memory) = (convolution.blocks(), workspace.of(convolution.memory()));
-        let convolved = convolution.convolve(Action::Divide(1.0), &self.compliance, memory, rows_of(blocks, field));
-        convolved.rows(rows_to(blocks, field));
-    }
+/// Memory that an operator in free space on a window of `points` keeps, bytes per sample: the transforms of the kernel and, `coupled`, of
+/// the odd one, 16 each where no padding beyond twice the window is needed, and the periodic compliance, 4. The [`Workspace`] has 16
+/// further ones. While a kernel is made, three tables of 8 live besides.
+///
+/// [`Workspace`]: crate::spectral::Workspace
+pub(in crate::spectral) fn bytes_per_sample(points: [usize; 2], coupled: bool) -> f64 {
+    let components = |[n1, n2]: [usize; 2]| (n1 * (n2 / 2 + 1).next_multiple_of(f32::WIDTH)) as f64;
+    let tables = components(padded(points)) * f64::from(1 + u8::from(coupled)) + components(points);
+    8.0 * tables / (points[0] * points[1]) as f64
 }
 
-impl fmt::Debug for FreeSpaceOperator {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("FreeSpaceOperator").field("window", &self.blocks().points()).finish_non_exhaustive()
-    }
+/// Memory while the kernel of a window is made besides its tables, bytes; much where the samples are oblong.
+pub(in crate::spectral) fn bytes_while_made(window: Cell, points: [usize; 2]) -> usize {
+    let [a1, a2] = window.vectors();
+    let spacings = [a1[0] / points[0] as f64, a2[1] / points[1] as f64];
+    Window { spacings, points }.bytes_while_made()
 }
 
 /// Wavenumbers at which a grid asks the bodies, from its spacings alone, so that every window has the same compliance.
@@ -298,15 +171,17 @@ fn skew_part(convolution: &Convolution<f64>, window: Window, along: [f64; 2], b:
     })
 }
 
-/// Ĉ of the window repeated periodically, the mean taken for a component of the least wavenumber.
-fn periodic_compliance(grid: &Grid, c: OfWavenumber<'_>) -> Multiplier {
-    Convolution::<f64>::new(grid.points()).multiplier(true, |first, values| {
+/// The window repeated periodically: its transforms and Ĉ, the mean taken for a component of the least wavenumber.
+fn repeated(grid: &Grid, c: OfWavenumber<'_>) -> (Transforms, Multiplier) {
+    let transforms = Transforms::new(grid.points());
+    let compliance = transforms.double.multiplier(true, |first, values| {
         grid.wavenumbers(first, values);
         if first == [0, 0] {
             values[0] = grid.least_wavenumber();
         }
         values.iter_mut().for_each(|k| *k = c(*k) / *k);
-    })
+    });
+    (transforms, compliance)
 }
 
 #[cfg(test)]
@@ -314,6 +189,8 @@ mod tests {
     use super::*;
     use crate::body::{HalfSpace, Interface, Layer, Material};
     use crate::lattice::Cell;
+    use crate::spectral::by_rows::{ResultRows, rows_of, rows_to};
+    use crate::spectral::operator::{ElasticOperator, TractionUpdate, Workspace};
 
     fn coated() -> HalfSpace {
         let layer = Layer::new(Material::from_shear(3.0, 0.2).unwrap(), 0.8, Interface::Bonded).unwrap();
@@ -360,8 +237,8 @@ mod tests {
                 let friction = friction.map(|direction| Friction::new(0.7, direction).unwrap());
                 let grid = grid(spacings, points);
                 let mut operator = match &friction {
-                    Some(friction) => FreeSpaceOperator::sliding(&grid, &half_space, friction),
-                    None => FreeSpaceOperator::new(&grid, &half_space),
+                    Some(friction) => LayeredOperator::sliding_in_free_space(&grid, &half_space, friction),
+                    None => LayeredOperator::in_free_space(&grid, &half_space),
                 };
                 let traction = friction.map_or([0.0; 2], |friction| friction.traction());
                 let p = noise(grid.len());
@@ -397,7 +274,7 @@ mod tests {
             for (k, p) in noise(20 * 30).into_iter().enumerate() {
                 w[k / 30 * points[1] + k % 30] = p;
             }
-            let mut operator = FreeSpaceOperator::sliding(&grid, &half_space, &friction);
+            let mut operator = LayeredOperator::sliding_in_free_space(&grid, &half_space, &friction);
             operator.displacement(&mut w, &mut Workspace::default());
             (0..20 * 30).map(|k| w[k / 30 * points[1] + k % 30]).collect::<Vec<_>>()
         };
@@ -414,7 +291,7 @@ mod tests {
         let grid = grid([0.2, 0.3], [30, 24]);
         let stiff = Layer::new(Material::from_shear(1e3, 0.2).unwrap(), 0.05, Interface::Bonded).unwrap();
         for half_space in [coated(), HalfSpace::new(vec![stiff], Material::from_shear(1.0, 0.3).unwrap())] {
-            let mut operator = FreeSpaceOperator::new(&grid, &half_space);
+            let mut operator = LayeredOperator::in_free_space(&grid, &half_space);
             let mut displaced = |p: &[f64]| {
                 let mut w = p.to_vec();
                 operator.displacement(&mut w, &mut Workspace::default());
@@ -438,7 +315,7 @@ mod tests {
     #[test]
     fn rows_that_are_left_out_change_no_other() {
         let grid = grid([0.2, 0.3], [150, 40]);
-        let mut operator = FreeSpaceOperator::new(&grid, coated());
+        let mut operator = LayeredOperator::in_free_space(&grid, coated());
         let is_used = |row: usize| (20..45).contains(&row);
         let mut p = noise(grid.len());
         p.chunks_mut(40).enumerate().filter(|(row, _)| !is_used(*row)).for_each(|(_, row)| row.fill(0.0));
@@ -455,9 +332,9 @@ mod tests {
     #[test]
     fn the_memory_is_that_of_its_tables() {
         for (points, most) in [([64, 64], 26.0), ([60, 96], 24.1), ([512, 512], 21.0)] {
-            let operator = FreeSpaceOperator::new(&grid([1.0, 1.0], points), coated());
-            let numbers = (operator.kernel.len() + operator.compliance.len()) as f64;
-            let bytes = FreeSpaceOperator::bytes_per_sample(points, false);
+            let operator = LayeredOperator::in_free_space(&grid([1.0, 1.0], points), coated());
+            let numbers = operator.numbers() as f64;
+            let bytes = bytes_per_sample(points, false);
             assert_eq!(bytes, 8.0 * numbers / (points[0] * points[1]) as f64);
             assert!(bytes <= most, "{points:?}: {bytes}");
         }
@@ -471,7 +348,7 @@ mod tests {
         let grid = grid([1.0, 1.0], [n, n]);
         let operators = [1.0, 0.5].map(|b| {
             let coupling = Coupling { traction: [b, 0.0], response: &|_| 1.0, largest_ratio: 0.5 };
-            FreeSpaceOperator::with(&grid, &|_| 2.0, Some(coupling))
+            LayeredOperator::of_kernel(&grid, &|_| 2.0, Some(coupling))
         });
         let place = |k: usize| [(k / n) as f64 - 64.0, (k % n) as f64 - 64.0];
         let part = |k: usize| (1.0 - (place(k)[0].hypot(place(k)[1]) / a).powi(2)).max(0.0);
