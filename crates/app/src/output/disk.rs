@@ -9,13 +9,11 @@
 //! A log line or list that names a file as finished is written after that file is on the disk: its content by [`sync`], its
 //! name by [`sync_folder`]. A file system that does not support the latter is not an error.
 
+use super::system;
 use percoat_common::plain;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
-
-#[cfg(test)]
-use super::journal::{Change, note};
 
 /// Metadata of a path, links not followed; `None` where nothing exists.
 pub fn found(path: &Path) -> io::Result<Option<Metadata>> {
@@ -79,10 +77,7 @@ pub fn read_text(path: &Path) -> io::Result<String> {
 /// # Errors
 /// Those of the system; [`io::ErrorKind::AlreadyExists`] where anything has the name, even a link without a target.
 pub(crate) fn create(path: &Path) -> io::Result<File> {
-    let file = OpenOptions::new().read(true).write(true).create_new(true).open(path)?;
-    #[cfg(test)]
-    note(Change::Created(path));
-    Ok(file)
+    system::create_new(path)
 }
 
 /// Opens an existing file for writing; its content stays.
@@ -93,45 +88,29 @@ pub(crate) fn open_to_change(path: &Path) -> io::Result<File> {
     open_as(path, OpenOptions::new().read(true).write(true))
 }
 
-/// A file to which bytes are appended.
-#[derive(Debug)]
-pub(crate) struct Appended {
-    file: File,
-    #[cfg_attr(not(test), allow(dead_code, reason = "the journal of the tests reads it"))]
-    path: PathBuf,
+/// Opens a file that percoat has just written, to [append] to it.
+///
+/// # Errors
+/// Those of [`open`].
+pub(crate) fn open_to_append(path: &Path) -> io::Result<File> {
+    open_as(path, OpenOptions::new().append(true))
 }
 
-impl Appended {
-    /// Opens a file that percoat has just written.
-    ///
-    /// # Errors
-    /// Those of [`open`].
-    pub(crate) fn open(path: &Path) -> io::Result<Self> {
-        Ok(Self { file: open_as(path, OpenOptions::new().append(true))?, path: path.to_owned() })
-    }
-
-    /// Appends bytes and syncs them to the disk.
-    ///
-    /// # Errors
-    /// Those of the system.
-    pub(crate) fn add(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.file.write_all(bytes)?;
-        #[cfg(test)]
-        note(Change::Appended(&self.path, bytes));
-        sync(&self.file, &self.path)
-    }
-}
-
-/// Syncs the content of a file at `path` to the disk.
+/// Appends bytes to a file and syncs them to the disk.
 ///
 /// # Errors
 /// Those of the system.
-#[cfg_attr(not(test), allow(unused_variables, reason = "the journal of the tests reads the path"))]
-pub(crate) fn sync(file: &File, path: &Path) -> io::Result<()> {
-    #[cfg(test)]
-    note(Change::Synced(path));
-    // Unit tests simulate power cuts by the journal.
-    if cfg!(test) { Ok(()) } else { unless_refused(file.sync_data()) }
+pub(crate) fn append(file: &mut File, bytes: &[u8]) -> io::Result<()> {
+    file.write_all(bytes)?;
+    sync(file)
+}
+
+/// Syncs the content of a file to the disk.
+///
+/// # Errors
+/// Those of the system.
+pub(crate) fn sync(file: &File) -> io::Result<()> {
+    unless_refused(system::sync(file))
 }
 
 /// Syncs the names in a folder to the disk: files created, moved and removed there.
@@ -139,18 +118,11 @@ pub(crate) fn sync(file: &File, path: &Path) -> io::Result<()> {
 /// # Errors
 /// Those of the system.
 pub fn sync_folder(folder: &Path) -> io::Result<()> {
-    #[cfg(test)]
-    note(Change::SyncedFolder(folder));
-    // Elsewhere a folder cannot be opened.
-    if cfg!(test) || cfg!(not(unix)) {
-        return Ok(());
-    }
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    match File::open(folder) {
-        Ok(folder) => unless_refused(folder.sync_all()),
+    match system::sync_folder(folder) {
         // A folder that may be written and not listed cannot be opened.
         Err(error) if error.kind() == io::ErrorKind::PermissionDenied => Ok(()),
-        Err(error) => Err(error),
+        synced => unless_refused(synced),
     }
 }
 
@@ -170,10 +142,7 @@ pub(crate) fn replace(from: &Path, to: &Path) -> io::Result<()> {
     if let Some(own) = found(to)?.filter(|own| !own.is_file()) {
         return Err(not_a_file(&own));
     }
-    fs::rename(from, to)?;
-    #[cfg(test)]
-    note(Change::Moved(from, to));
-    Ok(())
+    system::rename(from, to)
 }
 
 /// Moves a file or a folder to a free path.
@@ -184,10 +153,7 @@ pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
     if found(to)?.is_some() {
         return Err(io::ErrorKind::AlreadyExists.into());
     }
-    fs::rename(from, to)?;
-    #[cfg(test)]
-    note(Change::Moved(from, to));
-    Ok(())
+    system::rename(from, to)
 }
 
 /// Gives a file a second name (hard link).
@@ -195,14 +161,7 @@ pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
 /// # Errors
 /// Those of the system, also without support of hard links; [`io::ErrorKind::AlreadyExists`] where anything has that name.
 pub(crate) fn link(file: &Path, second: &Path) -> io::Result<()> {
-    #[cfg(test)]
-    if super::journal::refuses_links(second) {
-        return Err(io::ErrorKind::Unsupported.into());
-    }
-    fs::hard_link(file, second)?;
-    #[cfg(test)]
-    note(Change::Linked(file, second));
-    Ok(())
+    system::hard_link(file, second)
 }
 
 /// Removes the name of a file.
@@ -213,10 +172,7 @@ pub(crate) fn remove(path: &Path) -> io::Result<()> {
     if let Some(own) = found(path)?.filter(|own| !own.is_file()) {
         return Err(not_a_file(&own));
     }
-    fs::remove_file(path)?;
-    #[cfg(test)]
-    note(Change::Removed(path));
-    Ok(())
+    system::remove_file(path)
 }
 
 /// Removes an empty folder.
@@ -224,10 +180,7 @@ pub(crate) fn remove(path: &Path) -> io::Result<()> {
 /// # Errors
 /// Those of the system; [`io::ErrorKind::DirectoryNotEmpty`] for a folder that is not empty.
 pub(crate) fn remove_folder(path: &Path) -> io::Result<()> {
-    fs::remove_dir(path)?;
-    #[cfg(test)]
-    note(Change::Removed(path));
-    Ok(())
+    system::remove_dir(path)
 }
 
 /// Creates a folder that must not exist.
@@ -235,10 +188,7 @@ pub(crate) fn remove_folder(path: &Path) -> io::Result<()> {
 /// # Errors
 /// Those of the system; [`io::ErrorKind::AlreadyExists`] where anything has the name.
 pub(crate) fn create_folder(path: &Path) -> io::Result<()> {
-    fs::create_dir(path)?;
-    #[cfg(test)]
-    note(Change::CreatedFolder(path));
-    Ok(())
+    system::create_dir(path)
 }
 
 /// Creates a folder and its parents. Returns the folders in which one was created, innermost first.
@@ -309,7 +259,7 @@ mod tests {
                 read(&path).map(drop),
                 read_text(&path).map(drop),
                 open_to_change(&path).map(drop),
-                Appended::open(&path).map(drop),
+                open_to_append(&path).map(drop),
                 create(&path).map(drop),
                 replace(&own, &path),
                 move_to(&own, &path),

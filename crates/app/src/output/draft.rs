@@ -57,10 +57,9 @@ impl Draft {
 
     /// Syncs its content to the disk and renames it.
     pub(super) fn keep(mut self) -> Result<(), OutputError> {
-        let temporary = self.temporary.clone();
         self.write(|writer| {
             writer.flush()?;
-            disk::sync(writer.get_ref(), &temporary)
+            disk::sync(writer.get_ref())
         })?;
         self.writer = None;
         let kept = disk::replace(&self.temporary, &self.path);

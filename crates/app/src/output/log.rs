@@ -4,9 +4,10 @@
 //! The first lines and the name of the file appear in one move; each later line is on the disk when `add` returns. After a kill
 //! every terminated line is whole; an unterminated one is cut off before the log is used again.
 
-use super::disk::{self, Appended};
+use super::disk;
 use super::error::AtPath;
 use super::{OutputError, write_file, write_text};
+use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -17,7 +18,7 @@ pub(crate) struct LineLog {
     /// First lines of the file; none: the file must not exist.
     known: Option<String>,
     /// Open from the first line on.
-    file: Option<Appended>,
+    file: Option<File>,
 }
 
 impl LineLog {
@@ -37,13 +38,13 @@ impl LineLog {
     /// [`OutputError`] with the path.
     pub(crate) fn add(&mut self, lines: &str) -> Result<(), OutputError> {
         if let Some(file) = &mut self.file {
-            return file.add(lines.as_bytes()).at(&self.path);
+            return disk::append(file, lines.as_bytes()).at(&self.path);
         }
         if self.known.is_none() && disk::found(&self.path).at(&self.path)?.is_some() {
             return Err(OutputError::new(&self.path, ErrorKind::AlreadyExists.into()));
         }
         write_text(&self.path, &(self.known.take().unwrap_or_default() + lines))?;
-        self.file = Some(Appended::open(&self.path).at(&self.path)?);
+        self.file = Some(disk::open_to_append(&self.path).at(&self.path)?);
         self.path.parent().map_or(Ok(()), disk::sync_folder).at(&self.path)
     }
 }

@@ -49,11 +49,7 @@ mod folder_error;
 mod foreign;
 mod histograms;
 mod identification;
-#[cfg(test)]
-mod image;
 mod interrupted;
-#[cfg(test)]
-pub(crate) mod journal;
 mod json;
 mod kernel;
 mod layout;
@@ -66,8 +62,8 @@ mod npy;
 mod npz;
 mod number;
 mod plan;
-#[cfg(test)]
-mod power_cut;
+#[cfg(all(test, unix))]
+pub(crate) mod power_cut;
 mod publication;
 mod recording;
 mod release;
@@ -77,6 +73,8 @@ mod step_arrays;
 mod steps_log;
 mod stress;
 pub mod summary;
+#[cfg(not(all(test, unix)))]
+mod system;
 pub mod table;
 mod trailer;
 mod unpack;
@@ -118,6 +116,8 @@ pub use volume::write_volume;
 pub use writer::Writer;
 
 use error::AtPath;
+#[cfg(all(test, unix))]
+use power_cut::system;
 use std::path::Path;
 
 /// Makes `folder` and what leads to it.

@@ -109,8 +109,6 @@ fn sync_folders<'a>(folder: &Path, names: impl Iterator<Item = &'a str>) -> Resu
 
 #[cfg(test)]
 mod tests {
-    use super::super::image::{Image, lay};
-    use super::super::journal::Journal;
     use super::super::layout::names;
     use super::super::{RunFolder, Scope, write_text};
     use super::*;
@@ -152,62 +150,6 @@ mod tests {
         };
         let names = within("").into_iter().chain(within("study/"));
         names.filter_map(|name| Some((name.clone(), fs::read_to_string(folder.join(name)).ok()?))).collect()
-    }
-
-    /// States that a kill may leave of a publication that replaces files of the `old` names by those of the `new` ones.
-    fn killed(writer: Writer, old: &[&str], new: &[&str], has_links: bool) -> Vec<Image> {
-        let place = tempfile::tempdir().unwrap();
-        let journal = Journal::begin(place.path());
-        journal.lock().unwrap().has_links = has_links;
-        gathered_by(writer, place.path(), old, "old").publish().unwrap();
-        let run = gathered_by(writer, place.path(), new, "new");
-        journal.lock().unwrap().kills = Some(Vec::new());
-        run.publish().unwrap();
-        Journal::end(&journal);
-        journal.lock().unwrap().kills.take().unwrap()
-    }
-
-    #[test]
-    fn killed_after_any_change_the_old_or_the_new_result_is_whole_and_the_next_run_ends_it() {
-        let new = ["case.toml", "curve.csv", "summary.json"];
-        let result = |names: &[&str], content: &str| -> BTreeMap<String, String> {
-            names.iter().map(|&name| (name.to_owned(), format!("{name}: {content}"))).collect()
-        };
-        for (writer, has_links) in Writer::ALL.into_iter().flat_map(|writer| [(writer, true), (writer, false)]) {
-            // Studies alone have folders.
-            let gone = if writer == Writer::Validate { "study/figure.png" } else { "stress.npz" };
-            let old = ["case.toml", gone, "summary.json"];
-            let kills = killed(writer, &old, &new, has_links);
-            let (old, new) = (result(&old, "old"), result(&new, "new"));
-            assert!(kills.len() > 20, "{} changes", kills.len());
-            for (moment, image) in kills.iter().enumerate() {
-                let (place, what) = (tempfile::tempdir().unwrap(), format!("{writer:?} killed after change {moment}"));
-                let folder = place.path();
-                lay(image, folder);
-                let whole = [files(folder), files(&staging(folder, writer))];
-                let is_decided = disk::is_file(&staging(folder, writer).join(DECIDED));
-                if has_links {
-                    assert!(whole[0] == old || whole.contains(&new), "{what}: {whole:?}");
-                } else {
-                    // Each file that has left the staging folder has come to its place.
-                    let moved = new.iter().all(|file| whole.iter().any(|place| place.get(file.0) == Some(file.1)));
-                    assert!(whole[0] == old || moved, "{what}: {whole:?}");
-                }
-
-                // The next run completes it, with any command.
-                let other = Writer::ALL[moment % Writer::ALL.len()];
-                for next in [other, writer] {
-                    let next = claim_for(folder, next).unwrap();
-                    let found = files(folder);
-                    assert!(found == new || !is_decided && found == old, "{what}: {found:?}");
-                    let is_ended = is_decided || whole[0] == new;
-                    assert!(!is_ended || next.set_aside().is_none(), "{what}: {:?}", next.set_aside());
-                    assert_eq!(files(&next.staging()).len(), 0);
-                }
-                claim_for(folder, writer).unwrap().publish().unwrap();
-                assert!(files(folder).is_empty(), "a run without files removes those of the one before");
-            }
-        }
     }
 
     #[test]

@@ -89,7 +89,7 @@ pub(super) fn create(staging: &Path, planned: &[String]) -> Result<(), OutputErr
     disk::create_folder(staging).at(staging)?;
     let mark = staging.join(MARK);
     let mut file = disk::create(&mark).at(&mark)?;
-    file.write_all(marking(planned).as_bytes()).and_then(|()| disk::sync(&file, &mark)).at(&mark)?;
+    file.write_all(marking(planned).as_bytes()).and_then(|()| disk::sync(&file)).at(&mark)?;
     // The mark is on the disk before any other file.
     disk::sync_folder(staging).at(staging)?;
     staging.parent().map_or(Ok(()), disk::sync_folder).at(staging)

@@ -18,7 +18,7 @@ mod known;
 mod log;
 mod memory;
 mod parts;
-#[cfg(test)]
+#[cfg(all(test, unix))]
 mod power_cut;
 mod result;
 mod row;

@@ -6,7 +6,7 @@ use super::log::read;
 use super::row::Row;
 use super::study::{Study, folder_of};
 use super::task::Task;
-use crate::output::journal::Journal;
+use crate::output::power_cut::Journal;
 use crate::output::{OutputError, Plan, RunFolder, SWEEP_LOG, Writer};
 use percoat_case::case::embedded;
 use percoat_common::machine::Capacity;

@@ -6,22 +6,22 @@
 
 use super::image::{self, Image};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
+use std::fs::{self, File};
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 /// A change of the disk.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Change<'a> {
-    Created(&'a Path),
+pub(crate) enum Change<'a> {
+    Created(&'a Path, &'a File),
     CreatedFolder(&'a Path),
     /// Old path, new path.
     Moved(&'a Path, &'a Path),
     /// The file, and its second name.
     Linked(&'a Path, &'a Path),
     Removed(&'a Path),
-    Appended(&'a Path, &'a [u8]),
-    Synced(&'a Path),
+    Synced(&'a File),
     SyncedFolder(&'a Path),
 }
 
@@ -41,21 +41,22 @@ pub(crate) struct Journal {
     pending: Vec<Vec<(Name, Option<usize>)>>,
     pub(crate) images: Vec<Image>,
     known: BTreeSet<Image>,
-    /// The changes noted so far, in words.
-    pub(super) notes: Vec<String>,
+    /// Number of the changes noted so far.
+    noted: u64,
     /// Whether syncing does nothing.
-    pub(super) ignores_syncs: bool,
+    pub(crate) ignores_syncs: bool,
     /// The state that a kill would leave after each change; `None` where it is not recorded.
-    pub(super) kills: Option<Vec<Image>>,
+    pub(crate) kills: Option<Vec<Image>>,
     /// Whether files can have two names.
-    pub(super) has_links: bool,
+    pub(crate) has_links: bool,
 }
 
 #[derive(Debug, Clone)]
 enum Thing {
     Folder,
-    /// Synced content, if any, and content added since.
+    /// Number on the disk; synced content, if any, and content added since.
     File {
+        inode: u64,
         durable: Option<Vec<u8>>,
         added: Vec<u8>,
     },
@@ -73,19 +74,16 @@ static JOURNALS: Mutex<Vec<Arc<Mutex<Journal>>>> = Mutex::new(Vec::new());
 
 /// Adds a change to the journal of the folder in which it is, if there is one.
 pub(super) fn note(change: Change<'_>) {
-    use Change::{Appended, Created, CreatedFolder, Linked, Moved, Removed, Synced, SyncedFolder};
-    let (Created(path)
-    | CreatedFolder(path)
-    | Moved(path, _)
-    | Linked(path, _)
-    | Removed(path)
-    | Appended(path, _)
-    | Synced(path)
-    | SyncedFolder(path)) = change;
+    use Change::{Created, CreatedFolder, Linked, Moved, Removed, Synced, SyncedFolder};
     let journals = JOURNALS.lock().unwrap().clone();
     for journal in journals {
         let mut journal = journal.lock().unwrap();
-        if path.starts_with(&journal.root) {
+        let is_within = match change {
+            Created(path, _) | Moved(path, _) | Linked(path, _) => path.starts_with(&journal.root),
+            CreatedFolder(path) | Removed(path) | SyncedFolder(path) => path.starts_with(&journal.root),
+            Synced(file) => journal.file(file).is_some(),
+        };
+        if is_within {
             journal.note(change);
         }
     }
@@ -94,7 +92,10 @@ pub(super) fn note(change: Change<'_>) {
 /// Whether the journal of a path simulates a file system without hard links.
 pub(super) fn refuses_links(path: &Path) -> bool {
     let journals = JOURNALS.lock().unwrap().clone();
-    journals.iter().map(|journal| journal.lock().unwrap()).any(|own| path.starts_with(&own.root) && !own.has_links)
+    journals
+        .iter()
+        .map(|journal| journal.lock().unwrap())
+        .any(|journal| path.starts_with(&journal.root) && !journal.has_links)
 }
 
 impl Journal {
@@ -108,7 +109,7 @@ impl Journal {
             pending: Vec::new(),
             images: Vec::new(),
             known: BTreeSet::new(),
-            notes: Vec::new(),
+            noted: 0,
             ignores_syncs: false,
             kills: None,
             has_links: true,
@@ -119,11 +120,11 @@ impl Journal {
 
     /// Ends a journal: further changes are not noted.
     pub(crate) fn end(journal: &Arc<Mutex<Self>>) {
-        JOURNALS.lock().unwrap().retain(|own| !Arc::ptr_eq(own, journal));
+        JOURNALS.lock().unwrap().retain(|other| !Arc::ptr_eq(other, journal));
     }
 
     /// Makes the present state durable and drops the states before it.
-    pub(super) fn settle(&mut self) {
+    pub(crate) fn settle(&mut self) {
         self.durable = self.seen.clone();
         self.pending.clear();
         self.images.clear();
@@ -131,46 +132,33 @@ impl Journal {
     }
 
     fn note(&mut self, change: Change<'_>) {
-        let short = |path: &Path| path.strip_prefix(&self.root).unwrap_or(path).display().to_string();
-        self.notes.push(match change {
-            Change::Created(path) => format!("create {}", short(path)),
-            Change::CreatedFolder(path) => format!("folder {}", short(path)),
-            Change::Moved(from, to) => format!("move {} {}", short(from), short(to)),
-            Change::Linked(from, to) => format!("link {} {}", short(from), short(to)),
-            Change::Removed(path) => format!("remove {}", short(path)),
-            Change::Appended(path, _) => format!("append {}", short(path)),
-            Change::Synced(path) => format!("sync {}", short(path)),
-            Change::SyncedFolder(path) => format!("sync-folder {}", short(path)),
-        });
+        self.noted += 1;
         match change {
             Change::Synced(_) | Change::SyncedFolder(_) if self.ignores_syncs => {}
-            Change::Created(path) => self.create(path, Thing::File { durable: None, added: Vec::new() }),
+            Change::Created(path, file) => {
+                let inode = file.metadata().unwrap().ino();
+                self.create(path, Thing::File { inode, durable: None, added: Vec::new() });
+            }
             Change::CreatedFolder(path) => self.create(path, Thing::Folder),
             Change::Moved(from, to) => {
-                let own = self.seen[&self.name(from)];
-                self.change(vec![(self.name(from), None), (self.name(to), Some(own))]);
+                let thing = self.seen[&self.name(from)];
+                self.change(vec![(self.name(from), None), (self.name(to), Some(thing))]);
             }
             Change::Linked(from, to) => {
-                let own = self.seen[&self.name(from)];
-                self.change(vec![(self.name(to), Some(own))]);
+                let thing = self.seen[&self.name(from)];
+                self.change(vec![(self.name(to), Some(thing))]);
             }
             Change::Removed(path) => self.change(vec![(self.name(path), None)]),
-            Change::Appended(path, bytes) => {
-                let own = self.seen[&self.name(path)];
-                if let Thing::File { added, .. } = &mut self.things[own] {
-                    added.extend(bytes);
-                }
-            }
-            Change::Synced(path) => {
-                let own = self.seen[&self.name(path)];
-                self.things[own] = Thing::File { durable: Some(fs::read(path).unwrap()), added: Vec::new() };
-            }
+            Change::Synced(file) => self.sync(file),
             Change::SyncedFolder(path) => {
-                let own = self.folder(path);
-                self.sync_folder(own);
+                let folder = self.folder(path);
+                self.sync_folder(folder);
             }
         }
         self.remember();
+        if let Some(kills) = &mut self.kills {
+            kills.push(image::read(&self.root));
+        }
     }
 
     fn create(&mut self, path: &Path, thing: Thing) {
@@ -182,6 +170,30 @@ impl Journal {
     fn change(&mut self, names: Vec<(Name, Option<usize>)>) {
         apply(&mut self.seen, &names);
         self.pending.push(names);
+    }
+
+    /// Makes the content of a file durable; before that it may be lost.
+    fn sync(&mut self, file: &File) {
+        let thing = self.file(file).expect("it has a name");
+        let content = fs::read(self.path(thing)).unwrap();
+        let Thing::File { durable, added, .. } = &mut self.things[thing] else { unreachable!("it is a file") };
+        *added = content[durable.as_ref().map_or(0, Vec::len)..].to_vec();
+        self.remember();
+        let Thing::File { durable, added, .. } = &mut self.things[thing] else { unreachable!("it is a file") };
+        (*durable, *added) = (Some(content), Vec::new());
+    }
+
+    /// The number of an open file that has a name here.
+    fn file(&self, file: &File) -> Option<usize> {
+        let wanted = file.metadata().unwrap().ino();
+        let is_it = |thing: &usize| matches!(self.things[*thing], Thing::File { inode, .. } if inode == wanted);
+        self.seen.values().copied().find(is_it)
+    }
+
+    /// The path of a file or folder by its first name.
+    fn path(&self, thing: usize) -> PathBuf {
+        let name = self.seen.iter().find(|(_, named)| **named == thing);
+        name.map_or_else(|| self.root.clone(), |((folder, name), _)| self.path(*folder).join(name))
     }
 
     /// The number of a folder.
@@ -216,10 +228,7 @@ impl Journal {
     }
 
     fn remember(&mut self) {
-        if let Some(kills) = &mut self.kills {
-            kills.push(image::read(&self.root));
-        }
-        let mut seed = 2_463_534_242 + self.notes.len() as u64;
+        let mut seed = 2_463_534_242 + self.noted;
         let mut coin = || {
             seed ^= seed << 13;
             seed ^= seed >> 7;
@@ -253,14 +262,14 @@ impl Journal {
         let mut image = Image::new();
         let mut folders = vec![(0, PathBuf::new())];
         while let Some((folder, path)) = folders.pop() {
-            for ((_, name), &own) in names.range((folder, String::new())..(folder + 1, String::new())) {
+            for ((_, name), &thing) in names.range((folder, String::new())..(folder + 1, String::new())) {
                 let path = path.join(name);
-                match &self.things[own] {
+                match &self.things[thing] {
                     Thing::Folder => {
-                        folders.push((own, path.clone()));
+                        folders.push((thing, path.clone()));
                         image.insert(path, None);
                     }
-                    Thing::File { durable, added } => {
+                    Thing::File { durable, added, .. } => {
                         image.insert(path, Some(left(durable.as_deref(), added, lost)));
                     }
                 }
@@ -283,9 +292,9 @@ fn left(durable: Option<&[u8]>, added: &[u8], lost: Lost) -> Vec<u8> {
 }
 
 fn apply(names: &mut BTreeMap<Name, usize>, change: &[(Name, Option<usize>)]) {
-    for (name, own) in change {
-        match own {
-            Some(own) => names.insert(name.clone(), *own),
+    for (name, thing) in change {
+        match thing {
+            Some(thing) => names.insert(name.clone(), *thing),
             None => names.remove(name),
         };
     }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use tempfile::TempDir;
 
 /// Files with their content and folders without, by their paths.
 pub(crate) type Image = BTreeMap<PathBuf, Option<Vec<u8>>>;
@@ -25,12 +26,15 @@ pub(super) fn read(root: &Path) -> Image {
     image
 }
 
-/// Writes an image to the disk.
-pub(super) fn lay(image: &Image, root: &Path) {
+/// A new folder with the content of an image.
+pub(super) fn laid(image: &Image) -> TempDir {
+    let place = tempfile::tempdir().unwrap();
     for (path, content) in image {
+        let path = place.path().join(path);
         match content {
-            None => fs::create_dir_all(root.join(path)).unwrap(),
-            Some(content) => fs::write(root.join(path), content).unwrap(),
+            None => fs::create_dir_all(path).unwrap(),
+            Some(content) => fs::write(path, content).unwrap(),
         }
     }
+    place
 }
