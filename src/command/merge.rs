@@ -6,9 +6,9 @@ use super::pictures::PictureOptions;
 use super::results::Results;
 use super::sweep_files::{finish, may_write};
 use super::terminal::tell;
-use percoat_app::output::{SWEEP_LOG, damaged_results, disk};
-use percoat_app::sweep::{Description, Part, PartError, Row, UNFINISHED, join};
+use percoat_app::output::{SWEEP_LOG, Writer, damaged_results, disk};
 use percoat_common::plain;
+use percoat_app::sweep::{Description, Part, PartError, Row, UNFINISHED, join};
 use std::path::{Path, PathBuf};
 
 impl From<PartError> for Failure {
@@ -52,7 +52,7 @@ pub fn run(
         tell!("note: {twice} combinations stand in several parts, with the same results");
     }
     let folder = output.map_or_else(|| common_parent(folders), |folder| Ok(folder.to_owned()))?;
-    let results = Results::claim(folder, may_write(pictures), saying)?;
+    let results = Results::claim(folder, may_write(Writer::Merge, pictures), saying)?;
     let of = first.of;
     let ending = finish(results, &rows, &first.after(&rows, seconds), pictures)?;
     if rows.len() < of {

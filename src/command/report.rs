@@ -3,9 +3,9 @@
 pub use super::ending::{Ending, Failure};
 use super::interruption;
 use super::terminal;
-use percoat_app::output::{OutputError, Plan, RunFolder, Scope, Writer, disk, make_folder, write_text};
-use percoat_app::report::{self, Page, ReportError};
+use percoat_app::output::{OutputError, Plan, RunFolder, Scope, Writer, disk, make_folder, remove_drafts, write_text};
 use percoat_common::plain;
+use percoat_app::report::{self, Page, ReportError};
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -31,6 +31,7 @@ pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, 
         Some(name) => page = publish(folder, name, own)?,
         None => {
             file.parent().filter(|parent| !parent.as_os_str().is_empty()).map_or(Ok(()), make_folder)?;
+            remove_drafts(&file, report::is_begun);
             write_text(&file, &page.html)?;
             let parent = file.parent().unwrap_or(Path::new(""));
             disk::sync_folder(parent).map_err(|error| Failure::from(OutputError::new(&file, error)))?;

@@ -8,11 +8,11 @@ use super::progress::Progress;
 use super::results::Results;
 use super::sweep_files::{finish, may_write};
 use super::terminal::{self, tell};
-use clap::Args;
-use percoat_app::output::{Plan, SWEEP_LOG};
-use percoat_app::sweep::{self, Axis, Combinations, Description, Group, Log, Row, Study, Task};
 use percoat_common::machine::Capacity;
+use percoat_app::output::{Plan, SWEEP_LOG, Writer};
 use percoat_common::plain;
+use percoat_app::sweep::{self, Axis, Combinations, Description, Group, Log, Row, Study, Task};
+use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -70,7 +70,7 @@ pub fn run(case: &Path, set: &[String], options: &SweepOptions, common: &Common)
     };
     let study = Study::new(&source, &fixed, &combinations, task, Capacity::on_this_machine(&folder))?;
     let study = if options.keep_fields { study.keeping_fields() } else { study };
-    let mut plan = Plan { resumes: options.resume, ..may_write(&common.pictures) };
+    let mut plan = Plan { resumes: options.resume, ..may_write(Writer::Sweep, &common.pictures) };
     plan.names.extend(study.files());
     let mut results = Results::claim(folder, plan, common.saying())?;
     let count = combinations.all.len();

@@ -13,8 +13,8 @@ use std::collections::HashSet;
 use std::path::Path;
 
 /// Files of the result, without those of single combinations.
-pub fn may_write(pictures: &PictureOptions) -> Plan {
-    plan(Writer::Sweep, &sweep::FILES, pictures, &["sweep"])
+pub fn may_write(writer: Writer, pictures: &PictureOptions) -> Plan {
+    plan(writer, &sweep::FILES, pictures, &["sweep"])
 }
 
 /// Writes, publishes and prints the result with `rows` by ascending combination.

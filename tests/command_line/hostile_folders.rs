@@ -302,7 +302,7 @@ fn what_stands_where_results_are_made_and_go_is_kept() {
     ];
     let rows: Vec<_> = at.iter().map(|(places, commands)| (nothing, *places, *commands, &ATTACKS[..])).collect();
     try_all(&rows, 80);
-    let reading = [".percoat/retired", ".percoat/report", "unfinished-sweep"];
+    let reading = [".percoat/retired", ".percoat/report", ".percoat/merge", "unfinished-sweep"];
     try_all(&[(Before::Finished, &reading, &READING, &ATTACKS)], 25);
 }
 

@@ -364,6 +364,33 @@ fn a_file_of_somebody_else_is_not_replaced_and_an_earlier_report_is() {
     assert_eq!(report(&desk, "run"), first);
 }
 
+/// A page outside the folder of its result is written beside its place; a kill leaves it there, empty or as far as it was written.
+#[test]
+fn what_a_killed_report_has_left_goes_with_the_next_one_and_nothing_else_does() {
+    let desk = Desk::new();
+    assert_eq!(run(&desk, &[]).code, 0);
+    let page = report(&desk, "run").into_bytes();
+    std::fs::create_dir(desk.path("new")).unwrap();
+    for (name, content) in [
+        (".page.html.1.tmp", &page[..9000]),
+        (".page.html.1.2.tmp", b""),
+        (".page.html.2.tmp", &page),
+        (".page.html.3.tmp", b"mine"),
+        (".other.html.1.tmp", &page),
+        (".page.html.notes.tmp", &page),
+        (".page.html.4.tmp", &page),
+    ] {
+        desk.write(&format!("new/{name}"), content);
+    }
+    // Another process writes it just now.
+    let written = std::fs::File::open(desk.path("new/.page.html.4.tmp")).unwrap();
+    written.lock().unwrap();
+    assert_eq!(desk.percoat(&["report", "run", "-q", "-o", "new/page.html"]).code, 0);
+    let left: Vec<String> = Folder(desk.path("new")).all_names().into_iter().collect();
+    let kept = [".other.html.1.tmp", ".page.html.3.tmp", ".page.html.4.tmp", ".page.html.notes.tmp", "page.html"];
+    assert_eq!(left, kept);
+}
+
 #[test]
 fn a_report_goes_with_the_result_that_it_shows_and_stays_where_its_owner_has_changed_it() {
     let desk = Desk::new();

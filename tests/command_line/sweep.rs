@@ -284,6 +284,35 @@ fn parts_are_joined_to_the_table_of_the_whole() {
     merge(&["parts/shard-1", "."]).complains(2, &["holds no sweep"]);
 }
 
+/// The parts are there still, from which it is joined again.
+#[cfg(unix)]
+#[test]
+fn what_a_merge_that_ended_rudely_has_left_goes_with_the_next_one() {
+    let desk = desk();
+    for part in ["1/2", "2/2"] {
+        let arguments = ["--set", "layers.0.thickness=0.1,0.2,0.3,0.4", "--shard", part];
+        assert_eq!(sweep(&desk, &format!("parts/shard-{}", &part[..1]), &arguments).code, 0);
+    }
+    let merge = |blocks: &str| {
+        let output = Command::new("sh")
+            .args(["-c", &format!("ulimit -f {blocks}; exec \"$0\" \"$@\"")])
+            .arg(assert_cmd::cargo::cargo_bin!("percoat"))
+            .args(["merge", "parts/shard-1", "parts/shard-2", "--pictures", "png"])
+            .current_dir(desk.path("."))
+            .output()
+            .unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    // There is room for the log, and none for the picture: blocks are of 512 or 1024 bytes.
+    let (code, said) = merge("64");
+    assert!(code == Some(4) && said.contains("sweep.png: File too large"), "{code:?} {said}");
+    let (code, said) = merge("unlimited");
+    assert!(code == Some(0) && !said.contains("interrupted"), "{code:?} {said}");
+    let names = Folder(desk.path("parts")).names();
+    assert!(names.iter().all(|name| !name.starts_with("interrupted") && !name.starts_with("unfinished")), "{names:?}");
+    assert!(!desk.path("parts/.percoat/merge").exists());
+}
+
 #[test]
 fn fields_are_kept_where_they_are_asked_for() {
     let desk = desk();

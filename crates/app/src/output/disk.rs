@@ -211,6 +211,18 @@ pub(crate) fn make_folder(path: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(missing.iter().filter_map(|folder| folder.parent()).map(Path::to_path_buf).collect())
 }
 
+/// Whether a file has a second name (hard link).
+#[cfg(unix)]
+pub(crate) fn has_other_name(file: &File) -> bool {
+    file.metadata().is_ok_and(|found| std::os::unix::fs::MetadataExt::nlink(&found) > 1)
+}
+
+/// Whether a file has a second name, which is known on Unix alone.
+#[cfg(not(unix))]
+pub(crate) fn has_other_name(_: &File) -> bool {
+    false
+}
+
 fn open_as(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
     // Opening a device or a pipe can have side effects.
     if let Some(own) = found(path)?.filter(|own| !own.is_file()) {

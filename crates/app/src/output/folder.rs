@@ -53,16 +53,17 @@ impl RunFolder {
         }
         let mut claimed = Self { folder: folder.to_owned(), plan, set_aside: None, resumed: false, _lock: lock };
         let staging = claimed.staging();
-        let refusal = refuse_in_staging(&staging);
         claimed.resumed = claimed.plan.resumes && is_staging(&staging) && has_begun(&staging);
+        if claimed.resumed {
+            plan_more(&staging, &claimed.plan.names)?;
+        }
+        let refusal = refuse_in_staging(&staging);
         // A staging folder with foreign files under percoat's names is set aside as it is.
         if claimed.resumed || refusal.is_ok() {
             refusal?;
             settle(&staging)?;
         }
-        if claimed.resumed {
-            plan_more(&staging, &claimed.plan.names)?;
-        } else {
+        if !claimed.resumed {
             aside = claimed.begin_anew()?.or(aside);
         }
         claimed.set_aside = aside;
@@ -95,7 +96,7 @@ impl RunFolder {
         let staging = self.staging();
         let aside = if !disk::is_folder(&staging) {
             None
-        } else if has_finished(&staging) {
+        } else if self.plan.writer.is_resumable() && has_finished(&staging) {
             Some(set_aside(&staging, &self.folder)?)
         } else {
             discard(&staging, &self.folder)?
@@ -176,7 +177,7 @@ fn listed(folder: &Path, plan: &Plan) -> Result<Files, OutputError> {
     let mut files = published(folder);
     for name in plan.adopted.iter().filter(|name| disk::is_file(&folder.join(name))) {
         let path = folder.join(name);
-        files.insert(name, FileRecord::of(&path, plan.writer).at(&path)?);
+        files.insert(name, FileRecord::of(&path, plan.writer.listed()).at(&path)?);
     }
     Ok(files)
 }

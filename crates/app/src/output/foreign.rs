@@ -49,8 +49,8 @@ pub(super) fn refuse_in_staging(staging: &Path) -> Result<(), FolderError> {
 /// Refuses foreign files that the plan would replace, or the removal of the writer's earlier files would remove. `listed` are
 /// percoat's.
 pub(super) fn refuse_planned(folder: &Path, listed: &Files, plan: &Plan) -> Result<(), FolderError> {
-    let own = listed.clone().filtered(|name, by| by == plan.writer && plan.scope.contains(name));
-    let earlier = own.names().filter(|name| !plan.names.iter().any(|planned| planned == name));
+    let replaced = listed.clone().filtered(|name, by| plan.replaces(name, by));
+    let earlier = replaced.names().filter(|name| !plan.names.iter().any(|planned| planned == name));
     for name in plan.names.iter().map(String::as_str).chain(earlier) {
         let path = folder.join(name);
         let is_same_case = || name == "case.toml" && plan.case.is_some() && disk::read_text(&path).ok() == plan.case;

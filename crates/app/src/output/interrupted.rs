@@ -116,7 +116,8 @@ mod tests {
     use std::fs;
 
     fn plan() -> Plan {
-        Plan { names: vec!["summary.json".to_owned()], ..Plan::new(Writer::Solve) }
+        let names = ["case.toml", "stress.0001.vts", "summary.json"].map(str::to_owned).to_vec();
+        Plan { names, ..Plan::new(Writer::Solve) }
     }
 
     /// The grid before was finished, the finer one is not.

@@ -26,7 +26,7 @@ pub(super) const LIFE_STATE: &str = "life-state.json";
 /// The steps of the coarser grid while a finer one is solved.
 pub(super) const COARSER: &str = "coarser";
 
-/// The staging folder of a writer; visible for long runs, within `.percoat` for others.
+/// The staging folder of a writer; visible for long runs, which can be resumed, within `.percoat` for others.
 pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
     folder.join(match writer {
         Writer::Solve => "unfinished",
@@ -36,6 +36,7 @@ pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
         Writer::Limit => ".percoat/limit",
         Writer::Identify => ".percoat/identify",
         Writer::Life => "unfinished-life",
+        Writer::Merge => ".percoat/merge",
         Writer::Validate => ".percoat/validate",
         Writer::Report => ".percoat/report",
     })

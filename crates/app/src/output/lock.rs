@@ -52,7 +52,7 @@ pub(super) fn lock(folder: &Path) -> Result<File, FolderError> {
 /// Whether the lock file is a user's: by its content, or because it has a second name.
 pub(super) fn is_foreign(path: &Path) -> bool {
     let Ok(file) = disk::open(path) else { return false };
-    has_other_name(&file) || !content(&file).is_ok_and(|content| is_own(&content))
+    disk::has_other_name(&file) || !content(&file).is_ok_and(|content| is_own(&content))
 }
 
 /// The content of a lock; of another file its beginning.
@@ -70,16 +70,6 @@ fn is_own(content: &[u8]) -> bool {
     let text = text.trim_matches('\0').trim_end_matches('\n');
     let number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
     whole && (BEFORE.starts_with(text) || text.strip_prefix(BEFORE).is_some_and(number))
-}
-
-#[cfg(unix)]
-fn has_other_name(file: &File) -> bool {
-    file.metadata().is_ok_and(|own| std::os::unix::fs::MetadataExt::nlink(&own) > 1)
-}
-
-#[cfg(not(unix))]
-fn has_other_name(_: &File) -> bool {
-    false
 }
 
 #[cfg(test)]

@@ -86,7 +86,7 @@ pub use checkpoint::{read_checkpoint, write_checkpoint};
 pub use checksum::checksum;
 pub use clock::{Clock, Phase, Timing};
 pub use comparison::ComparisonFile;
-pub use draft::{write_file, write_text};
+pub use draft::{remove_drafts, write_file, write_text};
 pub use error::OutputError;
 pub use files::Files;
 pub use fingerprint::fingerprint;

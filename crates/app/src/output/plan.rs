@@ -24,6 +24,11 @@ impl Plan {
     pub fn new(writer: Writer) -> Self {
         Self { writer, names: Vec::new(), scope: Scope::default(), adopted: Vec::new(), resumes: false, case: None }
     }
+
+    /// Whether the result replaces an earlier file that is listed under the command `by`.
+    pub(super) fn replaces(&self, name: &str, by: Writer) -> bool {
+        by == self.writer.listed() && self.scope.contains(name)
+    }
 }
 
 /// Earlier files of a writer that its new result replaces, by the beginnings of their names.
@@ -36,7 +41,7 @@ pub struct Scope {
 }
 
 impl Scope {
-    pub(super) fn contains(&self, name: &str) -> bool {
+    fn contains(&self, name: &str) -> bool {
         name.starts_with(&self.within) && !self.except.iter().any(|kept| name.starts_with(kept))
     }
 }

@@ -28,8 +28,8 @@ use std::path::{Path, PathBuf};
 
 /// Writes the list of the new result, the staged files of the planned names. On failure nothing is decided.
 pub(super) fn decide(folder: &Path, plan: &Plan) -> Result<(), FolderError> {
-    let (staging, writer, old) = (staging(folder, plan.writer), plan.writer, published(folder));
-    let mut new = old.clone().filtered(|name, by| by == writer && !plan.scope.contains(name));
+    let (staging, writer, old) = (staging(folder, plan.writer), plan.writer.listed(), published(folder));
+    let mut new = old.clone().filtered(|name, by| by == writer && !plan.replaces(name, by));
     let staged = |name: &&String| disk::is_file(&staging.join(name));
     for name in plan.names.iter().filter(staged) {
         let [gathered, path] = [&staging, folder].map(|place| place.join(name));
@@ -52,8 +52,8 @@ pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>,
     let staging = staging(folder, writer);
     let decided = manifest::read(&staging.join(DECIDED)).filter(|_| disk::is_folder(&staging) && is_staging(&staging));
     let (old, Some(decided)) = (published(folder), decided) else { return Ok(None) };
-    let new = decided.filtered(|_, by| by == writer);
-    let goes = |by: Writer| by == writer || writer.outdates(by);
+    let new = decided.filtered(|_, by| by == writer.listed());
+    let goes = |by: Writer| by == writer.listed() || writer.outdates(by);
     let mut waiting = Vec::new();
     for name in new.names().filter(|name| disk::is_file(&staging.join(name))) {
         let path = folder.join(name);
@@ -115,7 +115,8 @@ mod tests {
     use std::collections::BTreeMap;
     use std::fs;
 
-    const PLAN: [&str; 5] = ["case.toml", "curve.csv", "stress.npz", "study/figure.png", "summary.json"];
+    const PLAN: [&str; 6] =
+        ["case.toml", "curve.csv", "stress.0001.vts", "stress.npz", "study/figure.png", "summary.json"];
 
     fn claim_for(folder: &Path, writer: Writer) -> Result<RunFolder, FolderError> {
         let names = PLAN.map(str::to_owned).to_vec();
@@ -255,6 +256,25 @@ mod tests {
             for name in ["mine/x.txt", "2024/case.toml", "contact.partial/notes.txt", "notes.txt"] {
                 assert_eq!(fs::read_to_string(folder.join(place).join(name)).unwrap(), "mine", "{place}/{name}");
             }
+        }
+    }
+
+    /// What such a command gathers can be had again by the same command; a run, a sweep and a life have solved something.
+    #[test]
+    fn a_killed_command_without_resume_leaves_nothing_once_the_same_command_is_run_again() {
+        for writer in Writer::ALL {
+            let place = tempfile::tempdir().unwrap();
+            let folder = place.path();
+            let names = ["study/figure.png", "summary.json"];
+            let killed = gathered_by(writer, folder, &names, "killed");
+            for name in ["study/.figure.png.17.tmp", "sweep.jsonl"] {
+                fs::write(killed.staging().join(name), "begun\n").unwrap();
+            }
+            drop(killed);
+            let next = claim_for(folder, writer).unwrap();
+            assert_eq!(next.set_aside().is_some(), writer.is_resumable(), "{writer:?}");
+            assert_eq!(next.abandon().unwrap(), None);
+            assert!(!staging(folder, writer).exists(), "{writer:?}");
         }
     }
 

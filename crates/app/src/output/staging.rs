@@ -6,9 +6,10 @@
 //! foreign files are kept in `interrupted-1/` or the next free number.
 
 use super::disk::{self, found};
+use super::draft::is_temporary;
 use super::error::AtPath;
 use super::files::is_inside;
-use super::layout::{COARSER, COMBINATIONS, DECIDED, LIFE_STATE, MARK, OWN, RETIRED, SWEEP_LOG, is_staging};
+use super::layout::{COARSER, DECIDED, LIFE_STATE, MARK, OWN, RETIRED, SWEEP_LOG, is_staging};
 use super::{OutputError, checkpoint, steps_log, write_text};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -23,42 +24,21 @@ pub(super) enum Item {
     Folder,
 }
 
-/// The item of percoat at a path relative to a staging folder, by the parts of the path; `None` where the path is foreign.
-fn item(parts: &[&str]) -> Option<Item> {
+/// The item of percoat at a path relative to a staging folder, by the parts of the path: a file of a `planned` name, one that a run
+/// keeps while it goes on, a folder on the way to them, or a temporary file; `None` where the path is foreign.
+fn item(parts: &[&str], planned: &BTreeSet<PathBuf>) -> Option<Item> {
     match *parts {
-        // A combination is solved in an output folder of its own.
-        [COMBINATIONS, _, MARK, ..] => None,
-        [COMBINATIONS, number, ref rest @ ..] if is_number(number) && !rest.is_empty() => item(rest),
-        [COARSER, ref rest @ ..] if !rest.is_empty() => item(rest),
-        [COMBINATIONS, name] => is_number(name).then_some(Item::Folder),
-        [COARSER | COMBINATIONS | "contact.partial" | "stress.partial"] => Some(Item::Folder),
-        [MARK | DECIDED | checkpoint::NAME | steps_log::NAME | SWEEP_LOG | LIFE_STATE | "sweep.csv" | "sweep.json"] => {
-            Some(Item::File)
+        [COARSER, ref rest @ ..] if !rest.is_empty() => item(rest, planned),
+        [COARSER | "contact.partial" | "stress.partial"] => Some(Item::Folder),
+        [MARK | DECIDED | checkpoint::NAME | steps_log::NAME | SWEEP_LOG | LIFE_STATE] => Some(Item::File),
+        ["contact.partial" | "stress.partial", name] if name.ends_with(".npy") => Some(Item::File),
+        [.., name] if is_temporary(name) => Some(Item::File),
+        _ => {
+            let path: PathBuf = parts.iter().collect();
+            let name = planned.range::<PathBuf, _>(&path..).next().filter(|name| name.starts_with(&path))?;
+            Some(if *name == path { Item::File } else { Item::Folder })
         }
-        ["case.toml" | "summary.json" | "curve.csv" | "histograms.csv" | "contact.npz" | "stress.npz"] => {
-            Some(Item::File)
-        }
-        [name] if name.starts_with("stress.") && name.ends_with(".vts") => Some(Item::File),
-        [name] => is_temporary(name).then_some(Item::File),
-        ["contact.partial" | "stress.partial", name] => {
-            (name.ends_with(".npy") || is_temporary(name)).then_some(Item::File)
-        }
-        _ => None,
     }
-}
-
-/// Whether a name is that of a combination.
-fn is_number(name: &str) -> bool {
-    name.len() >= 4 && name.bytes().all(|byte| byte.is_ascii_digit())
-}
-
-/// Whether a name is a temporary one: `.NAME.PROCESS.tmp`, or `.NAME.PROCESS.NUMBER.tmp`.
-fn is_temporary(name: &str) -> bool {
-    let middle =
-        name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp")).and_then(|name| name.rsplit_once('.'));
-    middle.is_some_and(|(name, number)| {
-        !name.is_empty() && !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())
-    })
 }
 
 /// A file or folder in a staging folder.
@@ -119,14 +99,11 @@ fn planned(staging: &Path) -> Vec<String> {
 /// The entries of a staging folder, the content of a folder before the folder; foreign folders are not entered. In a folder
 /// without a mark every entry is foreign.
 pub(super) fn entries(staging: &Path) -> Result<Vec<Entry>, OutputError> {
-    let (planned, is_marked) = (planned(staging), is_staging(staging));
-    let planned = |path: &Path| {
-        let name = planned.iter().map(Path::new).find(|name| name.starts_with(path))?;
-        Some(if name == path { Item::File } else { Item::Folder })
-    };
+    let planned: BTreeSet<PathBuf> = planned(staging).into_iter().map(PathBuf::from).collect();
+    let is_marked = is_staging(staging);
     let item = |path: &Path| {
         let parts: Option<Vec<&str>> = path.iter().map(OsStr::to_str).collect();
-        item(&parts.filter(|_| is_marked)?).or_else(|| planned(path))
+        item(&parts.filter(|_| is_marked)?, &planned)
     };
     let mut entries = Vec::new();
     if disk::is_folder(staging) {
@@ -202,24 +179,4 @@ pub(super) fn set_aside(folder: &Path, output: &Path) -> Result<PathBuf, OutputE
     let aside = paths.find(|path| fs::symlink_metadata(path).is_err()).expect("numbers are not used up");
     disk::move_to(folder, &aside).and_then(|()| disk::sync_folder(output)).at(&aside)?;
     Ok(aside)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_names_that_percoat_gives_to_what_it_is_writing_are_temporary() {
-        for (name, is) in [
-            (".curve.csv.17.tmp", true),
-            (".curve.csv.17.2.tmp", true),
-            (".notes.tmp", false),
-            (".17.tmp", false),
-            (".notes.draft.tmp", false),
-            ("curve.csv.17.tmp", false),
-            (".curve.csv..tmp", false),
-        ] {
-            assert_eq!(is_temporary(name), is, "{name}");
-        }
-    }
 }

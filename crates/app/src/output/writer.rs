@@ -20,15 +20,18 @@ pub enum Writer {
     Life,
     /// `percoat validate`.
     Validate,
-    /// `percoat sweep`, and `percoat merge`.
+    /// `percoat sweep`.
     Sweep,
+    /// `percoat merge`, whose files are listed as those of a sweep.
+    #[serde(skip)]
+    Merge,
     /// `percoat report`.
     Report,
 }
 
 impl Writer {
     /// All commands.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Solve,
         Self::Check,
         Self::Compare,
@@ -37,11 +40,22 @@ impl Writer {
         Self::Life,
         Self::Validate,
         Self::Sweep,
+        Self::Merge,
         Self::Report,
     ];
 
+    /// The command under which its files are listed: the joined parts of a sweep replace a sweep, and the reverse.
+    pub(super) fn listed(self) -> Self {
+        if self == Self::Merge { Self::Sweep } else { self }
+    }
+
+    /// Whether a later run goes on with what a killed one has finished, or keeps it; of the others nothing is worth keeping.
+    pub(super) fn is_resumable(self) -> bool {
+        [Self::Solve, Self::Sweep, Self::Life].contains(&self)
+    }
+
     /// Whether a new result outdates what a command has written: the report of an earlier result.
     pub(super) fn outdates(self, by: Self) -> bool {
-        by == Self::Report && [Self::Solve, Self::Limit, Self::Life, Self::Sweep].contains(&self)
+        by == Self::Report && [Self::Solve, Self::Limit, Self::Life, Self::Sweep].contains(&self.listed())
     }
 }
