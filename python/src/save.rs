@@ -141,7 +141,7 @@ pub fn save_sweep(
     let description: sweep::Description = from_python(description)?;
     let rows: Vec<sweep::Row> = rows.iter().map(|row| row.own().clone()).collect();
     let saved = work::run(py, None, None, move |_| -> Result<_, SaveError> {
-        let names = sweep::FILES.map(str::to_owned).to_vec();
+        let names = sweep::files().collect();
         let claim = RunFolder::claim(&folder, Plan { names, ..Plan::new(Writer::Sweep) })?;
         let aside = shown(claim.set_aside());
         sweep::write(&claim.staging(), &rows, &description.after(&rows, wall))?;

@@ -1,9 +1,10 @@
 //! `percoat compare`: spectral and localized solution of a case side by side.
 
+use super::declared::Declared::{self, Picture, Text};
+use super::declared::plan;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::options::Common;
-use super::plan::plan;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
@@ -33,14 +34,11 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
     let allowed = Allowed::new(&case, &folder, job).map_err(Failure::Refused)?;
     run.check()?;
     task.check().map_err(Failure::refused)?;
-    let plan = plan(Writer::Compare, &["compare.json"], pictures, &["comparison"]);
-    let results = Results::claim(folder, plan, common.saying())?;
+    let results = Results::claim(folder, plan(Writer::Compare, &files(), pictures), common.saying())?;
     let (points, end) = grid(&case, &run, allowed)?;
     let comparison = compare(&task, points, common)?;
     let json = ComparisonFile::new(&comparison, &case, steps).to_json();
-    results.write("compare.json", &json)?;
-    pictures
-        .write(&results.staging(), "comparison", || picture::comparison(&case.title, &case.units(), &comparison))?;
+    results.write_all(&files(), &Compared { case: &case, comparison: &comparison, json: &json }, pictures)?;
     let mut warnings = [comparison.warnings(), plausibility::of_case(&case)].concat();
     if end != RefinementEnd::Reached {
         warnings.push(format!("grid.accuracy is not reached: {end}"));
@@ -49,6 +47,24 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
     let line = || format!("{:.2} s", started.elapsed().as_secs_f64());
     results.finish(|| json, tables, line, &warnings)?;
     Ok(Ending::of(comparison.converged() && end == RefinementEnd::Reached))
+}
+
+/// Both solutions of a case.
+struct Compared<'a> {
+    case: &'a Case,
+    comparison: &'a Comparison,
+    /// Content of `compare.json`.
+    json: &'a str,
+}
+
+/// The files of a comparison.
+fn files<'a>() -> [Declared<Compared<'a>>; 2] {
+    [
+        Text("compare.json", |compared| Some(compared.json.to_owned())),
+        Picture("comparison", |compared| {
+            picture::comparison(&compared.case.title, &compared.case.units(), compared.comparison)
+        }),
+    ]
 }
 
 /// Points of the grid of the spectral solution, and whether the accuracy, if one is prescribed, is reached there.

@@ -1,9 +1,10 @@
 //! `percoat identify`: parameters of a stack from a measured indentation curve.
 
+use super::declared::Declared::{self, Picture, Text};
+use super::declared::plan;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_source, read_text};
 use super::options::Common;
-use super::plan::plan;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
@@ -36,18 +37,35 @@ pub fn run(
     let task = task.with_instrument(known);
     let folder = output_folder(common, &name)?;
     Allowed::new(&own, &folder, Job::Identify { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
-    let plan = plan(Writer::Identify, &["identification.json", "identification.csv"], pictures, &["identification"]);
-    let results = Results::claim(folder, plan, common.saying())?;
+    let results = Results::claim(folder, plan(Writer::Identify, &files(), pictures), common.saying())?;
     let (found, best) = find(&task, &own, &measured, common)?;
     let warnings = [output::doubts(&measured, &found, &best), plausibility::of_case(&best)].concat();
     let json = IdentificationFile::new(&found, &best, &warnings).to_json();
-    results.write("identification.json", &json)?;
-    results.write("identification.csv", &fitted(&measured, &found))?;
-    let drawn = || Some(picture::identification(&best.title, &best.units(), &measured, &found));
-    pictures.write(&results.staging(), "identification", drawn)?;
+    let result = Identified { measured: &measured, found: &found, best: &best, json: &json };
+    results.write_all(&files(), &result, pictures)?;
     let line = || format!("{} steps of the search; {:.2} s", found.steps, started.elapsed().as_secs_f64());
     results.finish(|| json, || identified(&found, &best, terminal::width()), line, &warnings)?;
     Ok(Ending::Done)
+}
+
+/// A case whose values are found.
+struct Identified<'a> {
+    measured: &'a Measurement,
+    found: &'a Identification,
+    best: &'a Case,
+    /// Content of `identification.json`.
+    json: &'a str,
+}
+
+/// The files of an identification.
+fn files<'a>() -> [Declared<Identified<'a>>; 3] {
+    [
+        Text("identification.json", |case| Some(case.json.to_owned())),
+        Text("identification.csv", |case| Some(fitted(case.measured, case.found))),
+        Picture("identification", |case| {
+            Some(picture::identification(&case.best.title, &case.best.units(), case.measured, case.found))
+        }),
+    ]
 }
 
 /// Searches for the values, and shows the progress.

@@ -1,10 +1,11 @@
 //! `percoat life`: passes until damage first reaches 1, and on demand what happens to the body after that.
 
+use super::declared::Declared::{self, File, Picture, Text};
+use super::declared::plan;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::interruption::{self, Saved};
 use super::options::Common;
-use super::plan::plan;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal::{self, tell};
@@ -37,8 +38,8 @@ pub fn run(case: Option<&Path>, set: &[String], options: &LifeOptions, common: &
     let task = case.life_task().map_err(Failure::refused)?;
     let allowed = Allowed::new(&case, &folder, Job::Life { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
     task.check().map_err(Failure::refused)?;
-    let plan = plan(Writer::Life, &["life.json", "life.csv", "damage.npz", "case.toml"], pictures, &["damage", "life"]);
-    let mut results = Results::claim(folder, Plan { resumes: options.resume, ..plan }, common.saying())?;
+    let plan = Plan { resumes: options.resume, ..plan(Writer::Life, &files(), pictures) };
+    let mut results = Results::claim(folder, plan, common.saying())?;
     let fingerprint = output::fingerprint(&case, "life");
     let saved = earlier(&mut results, &fingerprint)?;
     let progress = Progress::new("", 0, 0, common);
@@ -53,11 +54,8 @@ pub fn run(case: Option<&Path>, set: &[String], options: &LifeOptions, common: &
     progress.say("drawing pictures");
     let file = LifeFile::new(&case, &task, &begun, &state);
     let json = file.to_json();
-    results.write("life.json", &json)?;
-    results.write("life.csv", &file.course())?;
-    results.write("case.toml", &case.to_toml())?;
-    write_damage(&results.staging(), &task, &begun)?;
-    draw(&results, &case, &begun, &state, common)?;
+    let followed = Followed { case: &case, task: &task, begun: &begun, state: &state, file: &file, json: &json };
+    results.write_all(&files(), &followed, pictures)?;
     progress.finish();
     let line = || format!("{} loads solved; {:.2} s", state.solved.max(1), started.elapsed().as_secs_f64());
     results.finish(|| json, || table::life(&case, &file, terminal::width()), line, &file.warnings)?;
@@ -108,18 +106,33 @@ fn followed(
     Ok(state)
 }
 
-fn draw(results: &Results, case: &Case, begun: &Beginning, state: &LifeState, common: &Common) -> Result<(), Failure> {
-    let (pictures, staging) = (&common.pictures, results.staging());
-    if !pictures.wanted() {
-        return Ok(());
-    }
-    if let Some(fatigue) = &begun.record.fatigue {
-        let snapshot =
-            Snapshot::new(&case.title, begun.step.clone(), begun.record.reading.clone()).with_units(case.units());
-        pictures.write(&staging, "damage", || picture::damage(&snapshot, fatigue, &begun.planes))?;
-    }
-    pictures.write(&staging, "life", || {
-        let error = begun.record.fatigue.as_ref().and_then(|own| own.first.error);
-        picture::course(&case.title, case.problem(), &case.units(), (&state.course, &state.events), error)
-    })
+/// A life that was followed to its end.
+struct Followed<'a> {
+    case: &'a Case,
+    task: &'a LifeTask,
+    begun: &'a Beginning,
+    state: &'a LifeState,
+    file: &'a LifeFile,
+    /// Content of `life.json`.
+    json: &'a str,
+}
+
+/// The files of a life.
+fn files<'a>() -> [Declared<Followed<'a>>; 6] {
+    [
+        Text("life.json", |life| Some(life.json.to_owned())),
+        Text("life.csv", |life| Some(life.file.course())),
+        Text("case.toml", |life| Some(life.case.to_toml())),
+        File("damage.npz", |life, path| write_damage(path, life.task, life.begun)),
+        Picture("damage", |life| {
+            let (begun, fatigue) = (life.begun, life.begun.record.fatigue.as_ref()?);
+            let snapshot = Snapshot::new(&life.case.title, begun.step.clone(), begun.record.reading.clone());
+            picture::damage(&snapshot.with_units(life.case.units()), fatigue, &begun.planes)
+        }),
+        Picture("life", |life| {
+            let Followed { case, begun, state, .. } = life;
+            let error = begun.record.fatigue.as_ref().and_then(|fatigue| fatigue.first.error);
+            picture::course(&case.title, case.problem(), &case.units(), (&state.course, &state.events), error)
+        }),
+    ]
 }

@@ -1,15 +1,15 @@
 //! `percoat limit`: the mean pressures or forces at which materials and interfaces fail.
 
+use super::declared::Declared::{self, Picture, Text};
+use super::declared::plan;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::options::Common;
-use super::pictures::PictureOptions;
-use super::plan::plan;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
 use percoat_app::output::{LimitFile, Writer, number, summary, table, with_error};
-use percoat_app::picture::{self, Snapshot};
+use percoat_app::picture::{self, Canvas, Snapshot};
 use percoat_case::case::feasibility::Allowed;
 use percoat_case::case::resources::Job;
 use percoat_case::case::{Case, plausibility};
@@ -22,8 +22,6 @@ use std::time::Instant;
 
 /// Name of the embedded case that is solved without CASE: it has strengths.
 const DEFAULT: &str = "dlc-on-steel";
-/// Names of the pictures of the sections, in the order in which limits are reached.
-const SECTIONS: [&str; EVENTS] = ["limit-section", "limit-section-2", "limit-section-3", "limit-section-4"];
 
 /// Shows the progress of the search.
 struct Searching<'a> {
@@ -67,35 +65,52 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
     let run = case.run();
     let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
     run.check_limits()?;
-    let drawn = [&["limit"][..], &SECTIONS].concat();
-    let plan = plan(Writer::Limit, &["limit.json", "limit.csv"], pictures, &drawn);
-    let results = Results::claim(folder, plan, common.saying())?;
+    let results = Results::claim(folder, plan(Writer::Limit, &files(), pictures), common.saying())?;
     let quantity = case.units().quantity();
     let mut searching = Searching { allowed, quantity, progress: Progress::new("", 0, 0, common) };
     let limits = run.limits(&mut searching)?;
     searching.progress.finish();
     let warnings = [limits.warnings.clone(), plausibility::of_case(&case)].concat();
     let json = LimitFile::new(&limits, &case, &warnings).to_json();
-    results.write("limit.json", &json)?;
-    if !limits.steps.is_empty() {
-        results.write("limit.csv", &summary::curve(&limits.steps))?;
-    }
-    draw(&results, &case, &run, &limits, pictures)?;
+    results.write_all(&files(), &Found { case: &case, run: &run, limits: &limits, json: &json }, pictures)?;
     let line = || format!("{} loads solved; {:.2} s", limits.steps.len(), started.elapsed().as_secs_f64());
     results.finish(|| json, || table::limited(&case, &limits, terminal::width()), line, &warnings)?;
     Ok(Ending::of(limits.converged()))
 }
 
-/// Draws the utilisations over the load, and the stresses through each of the places that fail first.
-fn draw(results: &Results, case: &Case, run: &Run, limits: &Limits, pictures: &PictureOptions) -> Result<(), Failure> {
-    let staging = results.staging();
-    pictures.write(&staging, "limit", || picture::utilisations(&case.title, case.problem(), &case.units(), limits))?;
-    for (event, name) in limits.shown.iter().zip(&SECTIONS).filter(|_| pictures.wanted()) {
+/// The limits of a case.
+struct Found<'a> {
+    case: &'a Case,
+    run: &'a Run,
+    limits: &'a Limits,
+    /// Content of `limit.json`.
+    json: &'a str,
+}
+
+/// The files of the limits; the sections are in the order in which the limits are reached.
+fn files<'a>() -> [Declared<Found<'a>>; 3 + EVENTS] {
+    [
+        Text("limit.json", |found| Some(found.json.to_owned())),
+        Text("limit.csv", |found| (!found.limits.steps.is_empty()).then(|| summary::curve(&found.limits.steps))),
+        Picture("limit", |found| {
+            let Found { case, limits, .. } = found;
+            picture::utilisations(&case.title, case.problem(), &case.units(), limits)
+        }),
+        Picture("limit-section", |found| found.section(0)),
+        Picture("limit-section-2", |found| found.section(1)),
+        Picture("limit-section-3", |found| found.section(2)),
+        Picture("limit-section-4", |found| found.section(3)),
+    ]
+}
+
+impl Found<'_> {
+    /// The stresses through the place that fails as the `number`-th, from 0.
+    fn section(&self, number: usize) -> Option<Canvas> {
+        let event = self.limits.shown.get(number)?;
+        let sections = event.sections(self.run)?;
         let LimitStep { limit, record, step } = event.clone();
-        let Some(sections) = event.sections(run) else { continue };
-        let snapshot = Snapshot::new(&case.title, step, record.reading).with_strength(record.strength);
-        let snapshot = snapshot.at_limit_of(limit.criterion).with_units(case.units());
-        pictures.write(&staging, name, || Some(picture::section(&snapshot, &sections)))?;
+        let snapshot = Snapshot::new(&self.case.title, step, record.reading).with_strength(record.strength);
+        let snapshot = snapshot.at_limit_of(limit.criterion).with_units(self.case.units());
+        Some(picture::section(&snapshot, &sections))
     }
-    Ok(())
 }

@@ -7,8 +7,8 @@ use super::results::Results;
 use super::sweep_files::{finish, may_write};
 use super::terminal::tell;
 use percoat_app::output::{SWEEP_LOG, Writer, damaged_results, disk};
-use percoat_common::plain;
 use percoat_app::sweep::{Description, Part, PartError, Row, UNFINISHED, join};
+use percoat_common::plain;
 use std::path::{Path, PathBuf};
 
 impl From<PartError> for Failure {

@@ -1,11 +1,11 @@
 //! `percoat report`: a finished result as one HTML page.
 
-pub use super::ending::{Ending, Failure};
+use super::ending::{Ending, Failure};
 use super::interruption;
 use super::terminal;
-use percoat_app::output::{OutputError, Plan, RunFolder, Scope, Writer, disk, make_folder, remove_drafts, write_text};
-use percoat_common::plain;
+use percoat_app::output::{OutputError, Plan, RunFolder, Writer, disk, make_folder, remove_drafts, write_text};
 use percoat_app::report::{self, Page, ReportError};
+use percoat_common::plain;
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -49,8 +49,8 @@ fn publish(folder: &Path, name: &str, own: bool) -> Result<Page, Failure> {
     let names = vec![name.to_owned()];
     let adopted = if own { names.clone() } else { Vec::new() };
     // Pages with other names are kept.
-    let scope = Scope { within: name.to_owned(), except: Vec::new() };
-    let claim = RunFolder::claim(folder, Plan { names, adopted, scope, ..Plan::new(Writer::Report) })?;
+    let plan = Plan { names, adopted, within: name.to_owned(), ..Plan::new(Writer::Report) };
+    let claim = RunFolder::claim(folder, plan)?;
     // While the folder is claimed no other run writes there: the files that are read belong together.
     let page = report::page(folder)?;
     write_text(&claim.staging().join(name), &page.html)?;

@@ -1,8 +1,10 @@
 //! The frame of the commands that compute into a folder: claim the folder, gather files in it, publish them, print the result.
 
+use super::declared::Declared;
 use super::ending::Failure;
 use super::interruption;
 use super::options::Saying;
+use super::pictures::PictureOptions;
 use super::terminal::{self, tell};
 use percoat_app::output::{Plan, RunFolder, make_folder, write_text};
 use percoat_common::plain;
@@ -46,6 +48,11 @@ impl Results {
         let path = self.staging().join(name);
         path.parent().filter(|_| name.contains('/')).map_or(Ok(()), make_folder)?;
         Ok(write_text(&path, text)?)
+    }
+
+    /// Writes the declared files of a `result`.
+    pub fn write_all<R>(&self, files: &[Declared<R>], result: &R, pictures: &PictureOptions) -> Result<(), Failure> {
+        files.iter().try_for_each(|file| file.write(result, &self.staging(), pictures))
     }
 
     /// Puts all files in their place, instead of those of the results before.

@@ -1,10 +1,11 @@
 //! `percoat solve`: every load step of a case, the table and the output folder.
 
+use super::declared::{Declared, names};
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::interruption::{self, Saved};
 use super::options::Common;
-use super::plan::may_write;
+use super::pictures::{Solved, of_case};
 use super::progress::Progress;
 use super::progress_recorder::ProgressRecorder;
 use super::results::Results;
@@ -15,13 +16,10 @@ use percoat_app::output::{
     write_scalars,
 };
 use percoat_app::picture::Snapshot;
-use percoat_case::case::feasibility::Allowed;
-use percoat_case::case::resources::Job;
-use percoat_case::case::{Case, plausibility};
-use percoat_common::machine::Capacity;
 use percoat_common::plain;
 use percoat_core::run::{EarlierRun, Outcome, Run, Sampling, StepRecord};
 use percoat_core::stress::VerticalSection;
+use rayon::prelude::*;
 use std::io::Write;
 use std::path::Path;
 
@@ -48,7 +46,9 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
     let (room, job) = (room(&folder, resumes), Job::Solve { pictures: pictures.wanted(), fields });
     let allowed = Allowed::within(&case, room, job).map_err(Failure::Refused)?;
     run.check()?;
-    let plan = Plan { resumes, ..may_write(&case, steps, fields, pictures) };
+    let drawn = of_case(&case, steps);
+    let mut plan = Plan { resumes, ..solved_plan(&case, steps, fields) };
+    plan.names.extend(names(&drawn, pictures));
     let mut results = Results::claim(folder, plan, common.saying())?;
     let fingerprint = output::fingerprint(&case, if fields { "fields" } else { "scalars" });
     let was_begun = results.claim.resumes();
@@ -76,7 +76,7 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
     let outcome = run.solve(&mut recording)?;
     let (sections, mut clock) = recording.finish()?;
     let warnings = [outcome.warnings.clone(), plausibility::of_case(&case)].concat();
-    draw(&results, &case, &outcome, &sections, common)?;
+    draw(&results, &case, &outcome, sections, (&drawn, common))?;
     let timing = clock.timing();
     write_scalars(&results.staging(), &case, &outcome, &warnings, timing)?;
     let json = || Summary::new(&case, &warnings, outcome.change, &outcome.steps, timing).to_json();
@@ -104,15 +104,17 @@ fn draw(
     results: &Results,
     case: &Case,
     outcome: &Outcome,
-    sections: &[VerticalSection],
-    common: &Common,
+    sections: Vec<VerticalSection>,
+    (pictures, common): (&[Declared<Solved>], &Common),
 ) -> Result<(), Failure> {
     if let (Some(last), Some(record), true) = (&outcome.last, outcome.steps.last(), common.pictures.wanted()) {
         let snapshot = Snapshot::new(&case.title, last.clone(), record.reading.clone());
         let snapshot = snapshot.with_strength(record.strength.clone()).with_units(case.units());
         let progress = Progress::new("", 0, 0, common);
         progress.say("drawing pictures");
-        common.pictures.draw(&results.staging(), &snapshot, sections, &outcome.steps)?;
+        let solved = Solved { last: snapshot, sections, steps: outcome.steps.clone() };
+        let write = |picture: &Declared<_>| picture.write(&solved, &results.staging(), &common.pictures);
+        pictures.par_iter().try_for_each(write)?;
         progress.finish();
     }
     Ok(())

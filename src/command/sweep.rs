@@ -8,11 +8,11 @@ use super::progress::Progress;
 use super::results::Results;
 use super::sweep_files::{finish, may_write};
 use super::terminal::{self, tell};
-use percoat_common::machine::Capacity;
-use percoat_app::output::{Plan, SWEEP_LOG, Writer};
-use percoat_common::plain;
-use percoat_app::sweep::{self, Axis, Combinations, Description, Group, Log, Row, Study, Task};
 use clap::Args;
+use percoat_app::output::{Plan, SWEEP_LOG, Writer};
+use percoat_app::sweep::{self, Axis, Combinations, Description, Group, Log, Row, Study, Task};
+use percoat_common::machine::Capacity;
+use percoat_common::plain;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 

@@ -2,7 +2,6 @@
 
 use super::ending::{Ending, Failure};
 use super::pictures::PictureOptions;
-use super::plan::plan;
 use super::results::Results;
 use super::terminal;
 use percoat_app::output::{Plan, Writer};
@@ -12,9 +11,12 @@ use percoat_case::units::Units;
 use std::collections::HashSet;
 use std::path::Path;
 
+/// Name of the picture.
+const PICTURE: &str = "sweep";
+
 /// Files of the result, without those of single combinations.
 pub fn may_write(writer: Writer, pictures: &PictureOptions) -> Plan {
-    plan(writer, &sweep::FILES, pictures, &["sweep"])
+    Plan { names: sweep::files().chain(pictures.files(PICTURE)).collect(), ..Plan::new(writer) }
 }
 
 /// Writes, publishes and prints the result with `rows` by ascending combination.
@@ -30,7 +32,7 @@ pub fn finish(
     let quantity = rows.iter().flat_map(|row| &row.results).find_map(SweepResult::quantity);
     let loads = units.clone().with_loads_in(quantity.unwrap_or(units.quantity()));
     let keys = description.named_keys(rows, Path::new(""));
-    pictures.write(&staging, "sweep", || picture::sweep(&description.title, &units, &keys, rows))?;
+    pictures.write(&staging, PICTURE, || picture::sweep(&description.title, &units, &keys, rows))?;
     let warnings = if saying.json { Vec::new() } else { [warnings(rows), failures(rows)].concat() };
     let best = || {
         let table = sweep::best_and_worst(rows, &loads);

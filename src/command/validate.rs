@@ -5,7 +5,7 @@ use super::input::read_text;
 use super::options::{Saying, Studies};
 use super::results::Results;
 use super::terminal::{self, tell};
-use percoat_app::output::{Plan, RunFolder, Scope, Writer, disk, make_folder};
+use percoat_app::output::{Plan, RunFolder, Writer, disk, make_folder};
 use percoat_app::picture::{self, Format};
 use percoat_common::plain;
 use percoat_validation::paper::table;
@@ -119,7 +119,7 @@ fn may_write(folder: &Path, report: &str, within: String, studies: &[&Study]) ->
         let page = disk::read_text(&folder.join(PAGE)).unwrap_or_default();
         adopted.extend(table::is_around(&page).then(|| PAGE.to_owned()));
     }
-    Plan { names, adopted, scope: Scope { within, except: Vec::new() }, ..Plan::new(Writer::Validate) }
+    Plan { names, adopted, within, ..Plan::new(Writer::Validate) }
 }
 
 /// Writes the figures and data of a study.

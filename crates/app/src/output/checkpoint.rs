@@ -6,7 +6,7 @@
 use super::npy::vector;
 use super::npz::Archive;
 use super::{OutputError, disk, write_file};
-use percoat_core::run::LastLoad;
+use percoat_core::run::{EarlierRun, LastLoad};
 use percoat_core::spectral::{Certificate, Checkpoint, Report, Route, Stop, Unknowns};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -60,6 +60,10 @@ pub(super) struct Checkpoints {
     pub(super) fingerprint: String,
     /// Number of all loads.
     loads: usize,
+    /// The present grid; `None` before the first.
+    points: Option<[usize; 2]>,
+    /// Whether all steps are solved on a coarser one.
+    refined: bool,
     /// Changes of the readings from each grid to the next one.
     pub(super) changes: Vec<f64>,
     /// When the run began.
@@ -69,59 +73,55 @@ pub(super) struct Checkpoints {
 }
 
 impl Checkpoints {
-    /// Checkpoints of a run with `loads` loads.
-    pub(super) fn new(fingerprint: String, loads: usize) -> Self {
-        Self { fingerprint, loads, changes: Vec::new(), began: Instant::now(), written: None }
+    /// Checkpoints of a run with `loads` loads, which resumes an `earlier` one.
+    pub(super) fn new(fingerprint: String, loads: usize, earlier: Option<&EarlierRun>) -> Self {
+        Self {
+            fingerprint,
+            loads,
+            points: earlier.map(|earlier| earlier.points),
+            refined: earlier.is_some_and(|earlier| earlier.coarser.is_some()),
+            changes: earlier.map_or(Vec::new(), |earlier| earlier.changes.clone()),
+            began: Instant::now(),
+            written: None,
+        }
     }
 
-    /// Saves the position at the beginning of a finer grid.
-    pub(super) fn begin_finer(&mut self, folder: &Path, points: [usize; 2]) -> Result<(), OutputError> {
-        self.write(folder, RunPosition { points, refined: true, steps: 0, ..self.place() }, None)?;
-        // A log without a checkpoint of its grid is that of the grid before: the first step is saved before it is logged.
-        self.written = None;
+    /// Begins a grid. The position at the beginning of a finer one is saved.
+    pub(super) fn begin(&mut self, folder: &Path, points: [usize; 2]) -> Result<(), OutputError> {
+        if self.points.replace(points).is_some_and(|before| before != points) {
+            self.refined = true;
+            self.write(folder, 0, None)?;
+            // A log without a checkpoint of its grid is that of the grid before: the first step is saved before it is logged.
+            self.written = None;
+        }
         Ok(())
     }
 
-    /// Saves the state of the solver after a step (number from 1), unless the last checkpoint is recent; `refined`: whether there
-    /// is a coarser grid. The first and the last step on a grid are always saved, except in a short run of one load on one grid.
-    pub(super) fn save(
-        &mut self,
-        folder: &Path,
-        points: [usize; 2],
-        refined: bool,
-        steps: usize,
-        (last, seconds): (&Checkpoint, f64),
-    ) -> Result<(), OutputError> {
+    /// Saves the state of the solver after a step (number from 1) and the wall time of its load, unless the last checkpoint is
+    /// recent. The first and the last step on a grid are always saved, except in a short run of one load on one grid.
+    pub(super) fn save(&mut self, folder: &Path, steps: usize, last: (&Checkpoint, f64)) -> Result<(), OutputError> {
         let soon = |(when, took): (Instant, Duration)| when.elapsed() < SHARE * took;
         // A run killed while its archives are gathered is resumed from the last of several steps.
         let skipped = match self.written {
             Some(written) => steps < self.loads && soon(written),
-            None => self.loads == 1 && !refined && soon((self.began, foreseen(last))),
+            None => self.loads == 1 && !self.refined && soon((self.began, foreseen(last.0))),
         };
-        if skipped {
-            return Ok(());
-        }
-        let place = RunPosition { points, refined, steps, solved: Some(SolvedLoad::of(last)), ..self.place() };
-        self.write(folder, place, Some((last, seconds)))
+        if skipped { Ok(()) } else { self.write(folder, steps, Some(last)) }
     }
 
-    /// The position before the first load.
-    fn place(&self) -> RunPosition {
-        let fingerprint = self.fingerprint.clone();
-        RunPosition { fingerprint, points: [0; 2], refined: false, steps: 0, solved: None }
-    }
-
-    fn write(
-        &mut self,
-        folder: &Path,
-        place: RunPosition,
-        last: Option<(&Checkpoint, f64)>,
-    ) -> Result<(), OutputError> {
+    fn write(&mut self, folder: &Path, steps: usize, last: Option<(&Checkpoint, f64)>) -> Result<(), OutputError> {
         let began = Instant::now();
-        let place = serde_json::to_string(&place).expect("a place is numbers and texts under names");
+        let position = RunPosition {
+            fingerprint: self.fingerprint.clone(),
+            points: self.points.expect("a grid is begun before its loads"),
+            refined: self.refined,
+            steps,
+            solved: last.map(|(checkpoint, _)| SolvedLoad::of(checkpoint)),
+        };
+        let position = serde_json::to_string(&position).expect("a position is numbers and texts under names");
         write_file(&folder.join(NAME), |writer| {
             let mut archive = Archive::new(writer);
-            archive.text(POSITION, &place)?;
+            archive.text(POSITION, &position)?;
             archive.array("changes", &[self.changes.len()], self.changes.iter().copied())?;
             last.map_or(Ok(()), |(checkpoint, seconds)| add(&mut archive, checkpoint, seconds))?;
             archive.finish()

@@ -10,10 +10,11 @@
 //! name by [`sync_folder`]. A file system that does not support the latter is not an error.
 
 use super::system;
+pub(crate) use super::system::{create_dir as create_folder, create_new as create, hard_link as link, remove_dir as remove_folder};
 use percoat_common::plain;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Metadata of a path, links not followed; `None` where nothing exists.
 pub fn found(path: &Path) -> io::Result<Option<Metadata>> {
@@ -70,14 +71,6 @@ pub fn read_text(path: &Path) -> io::Result<String> {
     let mut text = String::new();
     open(path)?.read_to_string(&mut text)?;
     Ok(text)
-}
-
-/// Creates a file that must not exist, to write and read it.
-///
-/// # Errors
-/// Those of the system; [`io::ErrorKind::AlreadyExists`] where anything has the name, even a link without a target.
-pub(crate) fn create(path: &Path) -> io::Result<File> {
-    system::create_new(path)
 }
 
 /// Opens an existing file for writing; its content stays.
@@ -156,14 +149,6 @@ pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
     system::rename(from, to)
 }
 
-/// Gives a file a second name (hard link).
-///
-/// # Errors
-/// Those of the system, also without support of hard links; [`io::ErrorKind::AlreadyExists`] where anything has that name.
-pub(crate) fn link(file: &Path, second: &Path) -> io::Result<()> {
-    system::hard_link(file, second)
-}
-
 /// Removes the name of a file.
 ///
 /// # Errors
@@ -175,29 +160,14 @@ pub(crate) fn remove(path: &Path) -> io::Result<()> {
     system::remove_file(path)
 }
 
-/// Removes an empty folder.
+/// Creates a folder and its parents; their names are on the disk then.
 ///
 /// # Errors
-/// Those of the system; [`io::ErrorKind::DirectoryNotEmpty`] for a folder that is not empty.
-pub(crate) fn remove_folder(path: &Path) -> io::Result<()> {
-    system::remove_dir(path)
-}
-
-/// Creates a folder that must not exist.
-///
-/// # Errors
-/// Those of the system; [`io::ErrorKind::AlreadyExists`] where anything has the name.
-pub(crate) fn create_folder(path: &Path) -> io::Result<()> {
-    system::create_dir(path)
-}
-
-/// Creates a folder and its parents. Returns the folders in which one was created, innermost first.
-///
-/// # Errors
-/// Those of the system.
-pub(crate) fn make_folder(path: &Path) -> io::Result<Vec<PathBuf>> {
-    let missing: Vec<&Path> = path.ancestors().take_while(|own| !own.as_os_str().is_empty() && !own.is_dir()).collect();
-    for folder in missing.iter().rev() {
+/// Those of the system, and anything but a folder in the way.
+pub(crate) fn make_folder(path: &Path) -> io::Result<()> {
+    let missing: Vec<&Path> =
+        path.ancestors().take_while(|part| !part.as_os_str().is_empty() && !part.is_dir()).collect();
+    for folder in missing.into_iter().rev() {
         match create_folder(folder) {
             // Another thread or process has made it.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists && folder.is_dir() => {}
@@ -207,8 +177,9 @@ pub(crate) fn make_folder(path: &Path) -> io::Result<Vec<PathBuf>> {
             }
             made => made?,
         }
+        folder.parent().map_or(Ok(()), sync_folder)?;
     }
-    Ok(missing.iter().filter_map(|folder| folder.parent()).map(Path::to_path_buf).collect())
+    Ok(())
 }
 
 /// Whether a file has a second name (hard link).
@@ -244,7 +215,10 @@ fn not_a_file(own: &Metadata) -> io::Error {
 mod tests {
     use super::*;
     #[cfg(unix)]
-    use std::os::unix::{fs::symlink, net::UnixListener};
+    use std::{
+        os::unix::{fs::symlink, net::UnixListener},
+        path::PathBuf,
+    };
 
     /// A link to a file, one to nothing, a folder, a socket, and a device behind a link.
     #[cfg(unix)]
@@ -291,8 +265,8 @@ mod tests {
     fn a_folder_is_removed_only_when_it_is_empty_and_made_once() {
         let folder = tempfile::tempdir().unwrap();
         let deep = folder.path().join("a/b");
-        assert_eq!(make_folder(&deep).unwrap(), [folder.path().join("a"), folder.path().to_owned()]);
-        assert!(make_folder(&deep).unwrap().is_empty() && create_folder(&deep).is_err());
+        make_folder(&deep).unwrap();
+        assert!(deep.is_dir() && make_folder(&deep).is_ok() && create_folder(&deep).is_err());
         assert_eq!(remove_folder(&folder.path().join("a")).unwrap_err().kind(), io::ErrorKind::DirectoryNotEmpty);
         remove_folder(&deep).unwrap();
         fs::write(folder.path().join("mine"), "mine").unwrap();

@@ -1,5 +1,6 @@
 //! `contact.npz`: the fields of every load step.
 
+use super::layout::CONTACT;
 use super::step_arrays::StepArrays;
 use super::{Files, OutputError};
 use ndarray::Array2;
@@ -18,14 +19,9 @@ pub(super) struct ContactArchive {
 }
 
 impl ContactArchive {
-    /// An archive without steps on the grid of `surface` in the staging folder `folder`; an error where it already has fields.
-    pub(super) fn new(folder: &Path, surface: Arc<Surface>) -> Result<Self, OutputError> {
-        Ok(Self { arrays: StepArrays::new(folder, "contact")?, surface })
-    }
-
-    /// The archive of an interrupted run with its first `steps` steps, see [`StepArrays::go_on`].
-    pub(super) fn go_on(folder: &Path, surface: Arc<Surface>, steps: usize) -> Result<Self, OutputError> {
-        Ok(Self { arrays: StepArrays::go_on(folder, "contact", steps)?, surface })
+    /// The archive on the grid of `surface` after the first `steps` steps, see [`StepArrays::new`].
+    pub(super) fn new(folder: &Path, surface: Arc<Surface>, steps: usize) -> Result<Self, OutputError> {
+        Ok(Self { arrays: StepArrays::new(folder, CONTACT, steps)?, surface })
     }
 
     /// Writes the fields of the next step with its load: force, and mean pressure unless contact is isolated. Returns its files.

@@ -3,8 +3,10 @@
 //! A file is percoat's while its length and checksum are those listed. Any other is a user's: a file that is not listed, one
 //! that was changed since, and a folder or a link in its place.
 
+use super::OutputError;
 use super::checksum::{Checksum, checksum};
 use super::disk::{self, found};
+use super::error::AtPath;
 use super::writer::Writer;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -113,6 +115,17 @@ impl Files {
                 if is_same { Ownership::AsWritten } else { Ownership::Changed }
             }
         })
+    }
+
+    /// Names of the files that are in `folder` as they were written.
+    pub(super) fn as_written(&self, folder: &Path) -> Result<Vec<&str>, OutputError> {
+        let mut names = Vec::new();
+        for name in self.names() {
+            if self.ownership(folder, name).at(&folder.join(name))? == Ownership::AsWritten {
+                names.push(name);
+            }
+        }
+        Ok(names)
     }
 
     /// What is wrong with a file that was changed since it was written, is missing or cannot be read; `None` for one as written.

@@ -6,7 +6,7 @@
 
 use super::checkpoint::{self, RunPosition};
 use super::disk;
-use super::layout::COARSER;
+use super::layout::{self, ARCHIVES, COARSER};
 use super::log::whole_lines;
 use super::steps_log::{self, LoggedStep, logged};
 use super::unpack::unpack;
@@ -153,8 +153,8 @@ impl GridLog<'_> {
 
 /// Refuses steps whose files were changed since they were written. Entries already gathered in an archive are unpacked again.
 fn whole(folder: &Path, steps: &[LoggedStep]) -> Result<(), CannotGoOn> {
-    for archive in ["contact", "stress"] {
-        let path = folder.join(format!("{archive}.npz"));
+    for archive in ARCHIVES {
+        let path = folder.join(layout::archive(archive));
         let is_whole = || steps.iter().all(|step| step.files.damaged(folder).is_none());
         if steps.is_empty() || !disk::is_file(&path) || is_whole() {
             continue;

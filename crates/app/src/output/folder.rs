@@ -1,11 +1,11 @@
 //! An output folder locked for one run; its life is described in the [module's head](super).
 
 use super::error::AtPath;
-use super::files::{FileRecord, Files, Ownership};
+use super::files::{FileRecord, Files};
 use super::folder_error::FolderError;
 use super::foreign::{refuse_in_own_places, refuse_in_staging, refuse_planned};
 use super::interrupted::{has_begun, has_finished, has_steps, move_to_coarser, remove_fields, settle};
-use super::layout::{LIST, OWN, is_staging, staging};
+use super::layout::{LIST, OWN, is_staging};
 use super::lock::lock;
 use super::manifest::{self, published};
 use super::plan::Plan;
@@ -38,12 +38,10 @@ impl RunFolder {
         if !disk::is_folder(&own) {
             refuse_planned(folder, &listed(folder, &plan)?, &plan)?;
         }
-        disk::make_folder(&own)
-            .and_then(|made| made.iter().try_for_each(|folder| disk::sync_folder(folder)))
-            .at(&own)?;
+        disk::make_folder(&own).at(&own)?;
         let lock = lock(folder)?;
         let mut aside = remove_retired(folder)?;
-        for writer in Writer::ALL {
+        for writer in Writer::all() {
             aside = publication::complete(folder, writer)?.or(aside);
         }
         let listed = listed(folder, &plan)?;
@@ -72,7 +70,7 @@ impl RunFolder {
 
     /// The staging folder, into which every file of the result is written.
     pub fn staging(&self) -> PathBuf {
-        staging(&self.folder, self.plan.writer)
+        self.plan.writer.staging(&self.folder)
     }
 
     /// Whether this run resumes the interrupted run in the staging folder.
@@ -117,7 +115,7 @@ impl RunFolder {
 
     /// Keeps the writer's earlier files whose names have this beginning.
     pub fn keep(&mut self, beginning: String) {
-        self.plan.scope.except.push(beginning);
+        self.plan.kept.push(beginning);
     }
 
     /// The folder to which finished steps of an interrupted run were moved, or foreign files beside them; `None` where none were.
@@ -146,14 +144,7 @@ impl RunFolder {
     /// [`OutputError`] with the report that cannot be read.
     pub fn outdated_reports(&self) -> Result<Vec<String>, OutputError> {
         let reports = published(&self.folder).filtered(|_, by| self.plan.writer.outdates(by));
-        let mut names = Vec::new();
-        for name in reports.names() {
-            let path = self.folder.join(name);
-            if reports.ownership(&self.folder, name).at(&path)? == Ownership::AsWritten {
-                names.push(name.to_owned());
-            }
-        }
-        Ok(names)
+        Ok(reports.as_written(&self.folder)?.into_iter().map(str::to_owned).collect())
     }
 
     /// Replaces the earlier result by the new one, and unlocks the folder. Returns the folder to which foreign files of the staging

@@ -5,9 +5,9 @@ use super::disk::{self, found, kind};
 use super::error::AtPath;
 use super::files::Files;
 use super::folder_error::FolderError;
-use super::layout::{LIST, OWN, RETIRED, is_staging, names, staging};
+use super::layout::{LIST, OWN, RETIRED, is_staging, names};
 use super::plan::Plan;
-use super::staging::{Entry, Item, entries};
+use super::staging::{Item, entries};
 use super::writer::Writer;
 use super::{lock, manifest};
 use std::fs::Metadata;
@@ -19,31 +19,25 @@ const NOT_OWN: &str = "is not of percoat";
 /// Refuses foreign files at the paths that percoat keeps for itself, for any plan.
 pub(super) fn refuse_in_own_places(folder: &Path, writer: Writer) -> Result<(), FolderError> {
     let [list, lock] = [LIST, lock::NAME].map(|name| folder.join(name));
-    let folders = [folder.join(OWN), folder.join(RETIRED), staging(folder, writer)];
-    let places = folders.iter().map(|path| (path, true)).chain([&list, &lock].map(|path| (path, false)));
-    for (path, is_folder) in places {
-        if let Some(there) = found(path).at(path)? {
-            expect(path, &there, is_folder)?;
-        }
+    let folders = [folder.join(OWN), folder.join(RETIRED), writer.staging(folder)];
+    let places = folders.iter().map(|path| (path, Item::Folder)).chain([&list, &lock].map(|path| (path, Item::File)));
+    for (path, item) in places {
+        found(path).at(path)?.map_or(Ok(()), |there| expect(path, &there, item))?;
     }
     let is_no_list = disk::is_file(&list) && manifest::read(&list).is_none();
-    for (path, is_foreign) in [(&list, is_no_list), (&lock, lock::is_foreign(&lock))] {
-        if is_foreign {
-            return Err(FolderError::Foreign { path: path.clone(), reason: NOT_OWN });
-        }
+    match (is_no_list, lock::is_foreign(&lock)) {
+        (true, _) => Err(FolderError::Foreign { path: list, reason: NOT_OWN }),
+        (_, true) => Err(FolderError::Foreign { path: lock, reason: NOT_OWN }),
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 /// Refuses paths in a staging folder that have the name of an item of percoat and are of another kind, before a run is resumed
 /// there. Files of other names stay.
 pub(super) fn refuse_in_staging(staging: &Path) -> Result<(), FolderError> {
-    for Entry { path, there, item } in entries(staging)? {
-        if let Some(item) = item {
-            expect(&staging.join(path), &there, item == Item::Folder)?;
-        }
-    }
-    Ok(())
+    let entries = entries(staging)?;
+    let owned = entries.iter().filter_map(|entry| Some((entry, entry.item?)));
+    owned.into_iter().try_for_each(|(entry, item)| expect(&staging.join(&entry.path), &entry.there, item))
 }
 
 /// Refuses foreign files that the plan would replace, or the removal of the writer's earlier files would remove. `listed` are
@@ -59,18 +53,18 @@ pub(super) fn refuse_planned(folder: &Path, listed: &Files, plan: &Plan) -> Resu
             return Err(FolderError::Foreign { path, reason });
         }
     }
-    let staging = staging(folder, plan.writer);
+    let staging = plan.writer.staging(folder);
     if disk::is_folder(&staging) && !is_staging(&staging) && !names(&staging)?.is_empty() {
         return Err(FolderError::Foreign { path: staging, reason: NOT_OWN });
     }
     Ok(())
 }
 
-/// Refuses anything but a folder (`is_folder`) or a regular file.
-fn expect(path: &Path, there: &Metadata, is_folder: bool) -> Result<(), FolderError> {
-    if if is_folder { there.is_dir() } else { there.is_file() } {
+/// Refuses anything but an item of percoat.
+fn expect(path: &Path, there: &Metadata, item: Item) -> Result<(), FolderError> {
+    if item.is(there) {
         return Ok(());
     }
-    let expected = if is_folder { "a folder" } else { "a file" };
+    let expected = if item == Item::Folder { "a folder" } else { "a file" };
     Err(FolderError::WrongKind { path: path.to_owned(), found: kind(there), expected })
 }

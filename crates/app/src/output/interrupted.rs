@@ -1,7 +1,7 @@
 //! The staging folder of an interrupted run, and the steps on a coarser grid.
 
 use super::error::AtPath;
-use super::layout::{COARSER, LIFE_STATE, MARK, SWEEP_LOG, is_staging, staging};
+use super::layout::{ARCHIVES, COARSER, LIFE_STATE, MARK, SWEEP_LOG, is_staging, partial};
 use super::log::{cut, has_whole_line};
 use super::staging::{Entry, entries, remove_or_set_aside, remove_own};
 use super::writer::Writer;
@@ -16,13 +16,13 @@ pub fn has_begun(staging: &Path) -> bool {
 /// Whether an interrupted `solve` into a folder has a checkpoint and no finished step: nothing to set aside, but a run of this
 /// case can be resumed.
 pub fn has_solved_alone(folder: &Path) -> bool {
-    let staging = staging(folder, Writer::Solve);
+    let staging = Writer::Solve.staging(folder);
     disk::is_folder(&staging) && is_staging(&staging) && has_begun(&staging) && !has_finished(&staging)
 }
 
 /// Size of the staging folder of an interrupted `solve`, bytes.
 pub fn staged_bytes(folder: &Path) -> u64 {
-    let entries = entries(&staging(folder, Writer::Solve)).unwrap_or_default();
+    let entries = entries(&Writer::Solve.staging(folder)).unwrap_or_default();
     entries.iter().filter(|entry| entry.there.is_file()).map(|entry| entry.there.len()).sum()
 }
 
@@ -60,8 +60,8 @@ pub(super) fn settle(staging: &Path) -> Result<(), OutputError> {
 /// Removes the fields of a grid without a finished step. Returns the folder to which foreign files there were moved.
 pub(super) fn remove_fields(staging: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
     let mut aside = None;
-    for name in ["contact.partial", "stress.partial"] {
-        aside = remove_or_set_aside(staging, name, output)?.or(aside);
+    for name in ARCHIVES {
+        aside = remove_or_set_aside(staging, &partial(name), output)?.or(aside);
     }
     Ok(aside)
 }

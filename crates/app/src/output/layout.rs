@@ -1,11 +1,10 @@
 //! Names of files and folders in an output folder.
 
 use super::error::AtPath;
-use super::writer::Writer;
 use super::{OutputError, disk};
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The folder of percoat's own files in an output folder.
 pub(super) const OWN: &str = ".percoat";
@@ -21,25 +20,28 @@ pub(super) const DECIDED: &str = ".publish.json";
 pub const SWEEP_LOG: &str = "sweep.jsonl";
 /// The folder in which the combinations of a sweep keep their fields.
 pub const COMBINATIONS: &str = "combinations";
+/// Names of the archives of fields, without their ending.
+pub(super) const CONTACT: &str = "contact";
+pub(super) const STRESS: &str = "stress";
+pub(super) const ARCHIVES: [&str; 2] = [CONTACT, STRESS];
 /// The state of a life that is not finished.
 pub(super) const LIFE_STATE: &str = "life-state.json";
 /// The steps of the coarser grid while a finer one is solved.
 pub(super) const COARSER: &str = "coarser";
 
-/// The staging folder of a writer; visible for long runs, which can be resumed, within `.percoat` for others.
-pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
-    folder.join(match writer {
-        Writer::Solve => "unfinished",
-        Writer::Sweep => "unfinished-sweep",
-        Writer::Check => ".percoat/check",
-        Writer::Compare => ".percoat/compare",
-        Writer::Limit => ".percoat/limit",
-        Writer::Identify => ".percoat/identify",
-        Writer::Life => "unfinished-life",
-        Writer::Merge => ".percoat/merge",
-        Writer::Validate => ".percoat/validate",
-        Writer::Report => ".percoat/report",
-    })
+/// Name of an archive.
+pub(super) fn archive(name: &str) -> String {
+    format!("{name}.npz")
+}
+
+/// Name of the folder in which the entries of an archive are until it is made of them.
+pub(super) fn partial(archive: &str) -> String {
+    format!("{archive}.partial")
+}
+
+/// Whether a name is that of the entries of an archive.
+pub(super) fn is_partial(folder: &str) -> bool {
+    ARCHIVES.iter().any(|archive| folder == partial(archive))
 }
 
 /// Whether a folder is a staging folder, also one that was moved after its run was killed.

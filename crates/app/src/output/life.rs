@@ -114,10 +114,10 @@ impl LifeFile {
 ///
 /// # Errors
 /// [`OutputError`] with the path that cannot be written.
-pub fn write_damage(folder: &Path, task: &LifeTask, begun: &Beginning) -> Result<(), OutputError> {
+pub fn write_damage(path: &Path, task: &LifeTask, begun: &Beginning) -> Result<(), OutputError> {
     let Some(map) = DamageMap::new(task.problem.half_space(), &begun.planes) else { return Ok(()) };
     let shape = [map.z.len(), map.y.len()];
-    write_file(&folder.join("damage.npz"), |writer| {
+    write_file(path, |writer| {
         let mut archive = Archive::new(writer);
         archive.array("y", &shape[1..], map.y.iter().copied())?;
         archive.array("z", &shape[..1], map.z.iter().map(|depth| depth.z))?;

@@ -8,28 +8,23 @@ use super::disk;
 use super::error::AtPath;
 use super::{OutputError, write_file, write_text};
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, ErrorKind, Write};
+use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 /// A log to which lines are added.
 #[derive(Debug)]
 pub(crate) struct LineLog {
     path: PathBuf,
-    /// First lines of the file; none: the file must not exist.
-    known: Option<String>,
+    /// The lines before the first one that is added; with it they replace the file.
+    known: String,
     /// Open from the first line on.
     file: Option<File>,
 }
 
 impl LineLog {
-    /// A new log; adding its first line is an error where the file exists.
-    pub(crate) fn new(path: PathBuf) -> Self {
-        Self { path, known: None, file: None }
-    }
-
-    /// A log that continues after the `known` lines; they and the next one replace the file.
-    pub(crate) fn after(path: PathBuf, known: String) -> Self {
-        Self { path, known: Some(known), file: None }
+    /// A log that continues after the `known` lines.
+    pub(crate) fn new(path: PathBuf, known: String) -> Self {
+        Self { path, known, file: None }
     }
 
     /// Adds whole lines.
@@ -40,10 +35,7 @@ impl LineLog {
         if let Some(file) = &mut self.file {
             return disk::append(file, lines.as_bytes()).at(&self.path);
         }
-        if self.known.is_none() && disk::found(&self.path).at(&self.path)?.is_some() {
-            return Err(OutputError::new(&self.path, ErrorKind::AlreadyExists.into()));
-        }
-        write_text(&self.path, &(self.known.take().unwrap_or_default() + lines))?;
+        write_text(&self.path, &(std::mem::take(&mut self.known) + lines))?;
         self.file = Some(disk::open_to_append(&self.path).at(&self.path)?);
         self.path.parent().map_or(Ok(()), disk::sync_folder).at(&self.path)
     }

@@ -28,7 +28,7 @@
 //! content is on the disk before its name, and both before a log line, the list or `written.json` lists them as finished.
 //!
 //! `compare` gathers in `.percoat/compare/` and `validate` in `.percoat/validate/`; each command replaces its own files alone,
-//! and a single study those of its own folder ([`Scope`]).
+//! and a single study those of its own folder ([`Plan::within`]).
 
 mod check;
 mod checkpoint;
@@ -105,7 +105,7 @@ pub(crate) use log::LineLog;
 pub use log::whole_lines;
 pub use manifest::{damaged_results, is_beside};
 pub use number::{number, with_error};
-pub use plan::{Plan, Scope};
+pub use plan::Plan;
 pub use recording::Recording;
 pub use release::{is_released, release};
 pub use solved::{solved_plan, write_scalars};
@@ -125,5 +125,5 @@ use std::path::Path;
 /// # Errors
 /// [`OutputError`] with the path that cannot be made.
 pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
-    disk::make_folder(folder).map(|_| ()).at(folder)
+    disk::make_folder(folder).at(folder)
 }

@@ -9,8 +9,10 @@ pub struct Plan {
     pub writer: Writer,
     /// Names of all files that it may write, relative to the folder.
     pub names: Vec<String>,
-    /// The writer's earlier files that the result replaces.
-    pub scope: Scope,
+    /// Beginning of the names of the earlier files that the result replaces; empty: all of the command.
+    pub within: String,
+    /// Beginnings of the names of those that stay as they are.
+    pub kept: Vec<String>,
     /// Names of files whose content shows that they are percoat's, even where they are not listed.
     pub adopted: Vec<String>,
     /// Whether the run resumes an interrupted one with finished steps or combinations.
@@ -20,28 +22,15 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// A plan without files that replaces all earlier files of the writer.
+    /// A plan without files that replaces all earlier files of the command.
     pub fn new(writer: Writer) -> Self {
-        Self { writer, names: Vec::new(), scope: Scope::default(), adopted: Vec::new(), resumes: false, case: None }
+        let (names, kept, adopted) = (Vec::new(), Vec::new(), Vec::new());
+        Self { writer, names, within: String::new(), kept, adopted, resumes: false, case: None }
     }
 
     /// Whether the result replaces an earlier file that is listed under the command `by`.
     pub(super) fn replaces(&self, name: &str, by: Writer) -> bool {
-        by == self.writer.listed() && self.scope.contains(name)
-    }
-}
-
-/// Earlier files of a writer that its new result replaces, by the beginnings of their names.
-#[derive(Debug, Clone, Default)]
-pub struct Scope {
-    /// Beginning of the names of all of them; empty: every name.
-    pub within: String,
-    /// Beginnings of the names of those that stay as they are.
-    pub except: Vec<String>,
-}
-
-impl Scope {
-    fn contains(&self, name: &str) -> bool {
-        name.starts_with(&self.within) && !self.except.iter().any(|kept| name.starts_with(kept))
+        let is_kept = || self.kept.iter().any(|beginning| name.starts_with(beginning));
+        by == self.writer.listed() && name.starts_with(&self.within) && !is_kept()
     }
 }

@@ -16,7 +16,7 @@
 use super::error::AtPath;
 use super::files::{FileRecord, Ownership, parents};
 use super::folder_error::FolderError;
-use super::layout::{DECIDED, LIST, OWN, is_staging, staging};
+use super::layout::{DECIDED, LIST, OWN, is_staging};
 use super::manifest::{self, published};
 use super::plan::Plan;
 use super::staging::discard;
@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 
 /// Writes the list of the new result, the staged files of the planned names. On failure nothing is decided.
 pub(super) fn decide(folder: &Path, plan: &Plan) -> Result<(), FolderError> {
-    let (staging, writer, old) = (staging(folder, plan.writer), plan.writer.listed(), published(folder));
+    let (staging, writer, old) = (plan.writer.staging(folder), plan.writer.listed(), published(folder));
     let mut new = old.clone().filtered(|name, by| by == writer && !plan.replaces(name, by));
     let staged = |name: &&String| disk::is_file(&staging.join(name));
     for name in plan.names.iter().filter(staged) {
@@ -49,7 +49,7 @@ pub(super) fn decide(folder: &Path, plan: &Plan) -> Result<(), FolderError> {
 /// Completes a publication that was decided; after a failure the next call continues. Returns the folder to which the staging
 /// folder was moved if it has foreign files.
 pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>, FolderError> {
-    let staging = staging(folder, writer);
+    let staging = writer.staging(folder);
     let decided = manifest::read(&staging.join(DECIDED)).filter(|_| disk::is_folder(&staging) && is_staging(&staging));
     let (old, Some(decided)) = (published(folder), decided) else { return Ok(None) };
     let new = decided.filtered(|_, by| by == writer.listed());
@@ -71,12 +71,9 @@ pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>,
         path.parent().map_or(Ok(()), make_folder)?;
         place(&staging.join(name), &path, before).at(&path)?;
     }
-    for name in old.clone().filtered(|name, by| goes(by) && !new.has(name)).names() {
-        let path = folder.join(name);
-        // A file changed in the meantime stays.
-        if old.ownership(folder, name).at(&path)? == Ownership::AsWritten {
-            disk::remove(&path).at(&path)?;
-        }
+    // A file changed in the meantime stays.
+    for name in old.clone().filtered(|name, by| goes(by) && !new.has(name)).as_written(folder)? {
+        disk::remove(&folder.join(name)).at(&folder.join(name))?;
     }
     // New names and removals are on the disk before the list.
     sync_folders(folder, old.names().chain(new.names()))?;
@@ -110,7 +107,7 @@ fn sync_folders<'a>(folder: &Path, names: impl Iterator<Item = &'a str>) -> Resu
 #[cfg(test)]
 mod tests {
     use super::super::layout::names;
-    use super::super::{RunFolder, Scope, write_text};
+    use super::super::{RunFolder, write_text};
     use super::*;
     use std::collections::BTreeMap;
     use std::fs;
@@ -158,8 +155,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
         gathered(folder, &["case.toml", "study/figure.png", "summary.json"], "old").publish().unwrap();
-        let scope = Scope { within: "study/".to_owned(), except: Vec::new() };
-        let plan = Plan { scope, ..Plan::new(Writer::Solve) };
+        let plan = Plan { within: "study/".to_owned(), ..Plan::new(Writer::Solve) };
         let mut failed = RunFolder::claim(folder, plan.clone()).unwrap();
         failed.keep("study/fig".to_owned());
         failed.publish().unwrap();
@@ -262,7 +258,7 @@ mod tests {
     /// What such a command gathers can be had again by the same command; a run, a sweep and a life have solved something.
     #[test]
     fn a_killed_command_without_resume_leaves_nothing_once_the_same_command_is_run_again() {
-        for writer in Writer::ALL {
+        for writer in Writer::all() {
             let place = tempfile::tempdir().unwrap();
             let folder = place.path();
             let names = ["study/figure.png", "summary.json"];
@@ -274,7 +270,7 @@ mod tests {
             let next = claim_for(folder, writer).unwrap();
             assert_eq!(next.set_aside().is_some(), writer.is_resumable(), "{writer:?}");
             assert_eq!(next.abandon().unwrap(), None);
-            assert!(!staging(folder, writer).exists(), "{writer:?}");
+            assert!(!writer.staging(folder).exists(), "{writer:?}");
         }
     }
 

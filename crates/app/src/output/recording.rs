@@ -3,9 +3,11 @@
 use super::checkpoint::Checkpoints;
 use super::clock::{Clock, Phase};
 use super::fields::ContactArchive;
+use super::layout::{CONTACT, archive};
 use super::steps_log::StepsLog;
 use super::stress::StressArchive;
 use super::{Files, OutputError, RunFolder, disk, write_text};
+use percoat_case::case::Case;
 use percoat_case::case::feasibility::Allowed;
 use percoat_core::load::Load;
 use percoat_core::run::{EarlierRun, Recorder, Run, StepRecord, StressRequest};
@@ -13,6 +15,21 @@ use percoat_core::spectral::{Checkpoint, Solver, Step};
 use percoat_core::stress::{StressField, StressFields, VerticalSection};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// Name of the case as it is run.
+const CASE: &str = "case.toml";
+
+/// Names of the files that a recording of a case with so many load steps leaves, with its fields or without.
+pub(super) fn files(case: &Case, steps: usize, fields: bool) -> Vec<String> {
+    let mut names = vec![CASE.to_owned()];
+    if fields {
+        names.push(archive(CONTACT));
+        if let Some(stress) = &case.stress {
+            names.extend(StressArchive::files(stress.volume.is_some(), case.problem().bodies(), steps));
+        }
+    }
+    names
+}
 
 /// Recorder of a run into its staging folder.
 #[derive(Debug)]
@@ -36,8 +53,6 @@ pub struct Recording<'a> {
     earlier: Option<EarlierRun>,
     /// Number of steps on disk when the first grid begins; `None` for a run that is not resumed.
     standing: Option<usize>,
-    /// Whether all steps are done on a coarser grid.
-    refined: bool,
     /// None before the first grid.
     files: Option<OnGrid>,
     set_aside: Option<PathBuf>,
@@ -53,8 +68,6 @@ struct OnGrid {
     /// The sections of the last step, where stresses are not kept.
     sections: Vec<VerticalSection>,
     log: StepsLog,
-    /// The grid.
-    points: [usize; 2],
     /// Number of finished steps.
     steps: usize,
 }
@@ -73,7 +86,6 @@ impl<'a> Recording<'a> {
             checkpoints: None,
             earlier: None,
             standing: None,
-            refined: false,
             files: None,
             load_began: 0.0,
             set_aside: None,
@@ -83,13 +95,9 @@ impl<'a> Recording<'a> {
     /// With checkpoints, from which a run of this [fingerprint](super::fingerprint) can be resumed; this run itself resumes the
     /// `earlier` one.
     pub fn resumable(self, fingerprint: String, earlier: Option<EarlierRun>) -> Self {
-        let mut checkpoints = Checkpoints::new(fingerprint, self.loads);
-        if let Some(earlier) = &earlier {
-            checkpoints.changes.clone_from(&earlier.changes);
-        }
+        let checkpoints = Checkpoints::new(fingerprint, self.loads, earlier.as_ref());
         let standing = earlier.as_ref().and_then(|earlier| earlier.last.as_ref().map(|_| earlier.steps.len()));
-        let refined = earlier.as_ref().is_some_and(|earlier| earlier.coarser.is_some());
-        Self { checkpoints: Some(checkpoints), earlier, standing, refined, ..self }
+        Self { checkpoints: Some(checkpoints), earlier, standing, ..self }
     }
 
     /// Without `contact.npz`, `stress.npz` and volumes: scalars, and the section of the last step for its picture.
@@ -102,32 +110,19 @@ impl<'a> Recording<'a> {
         Self { allowed: Some(allowed), ..self }
     }
 
-    /// The files of the steps on the grid of a solver, of which an interrupted run has finished `standing`.
-    fn open(&self, solver: &Solver, standing: Option<usize>) -> Result<OnGrid, OutputError> {
+    /// The files of the steps on the grid of a solver, after those that an interrupted run has finished.
+    fn open(&self, solver: &Solver, steps: usize) -> Result<OnGrid, OutputError> {
         let folder = self.claim.staging();
         let bodies = solver.problem().bodies().clone();
         let request = self.stress.clone().filter(|_| self.fields);
         let surface = self.fields.then(|| Arc::clone(solver.surface()));
         let run = self.checkpoints.as_ref().map(|checkpoints| checkpoints.fingerprint.clone());
-        let (fields, stresses, log) = match standing {
-            None => (
-                surface.map(|surface| ContactArchive::new(&folder, surface)).transpose()?,
-                request.map(|request| StressArchive::new(&folder, request, bodies)).transpose()?,
-                StepsLog::new(&folder, run),
-            ),
-            Some(steps) => (
-                surface.map(|surface| ContactArchive::go_on(&folder, surface, steps)).transpose()?,
-                request.map(|request| StressArchive::go_on(&folder, request, bodies, steps)).transpose()?,
-                StepsLog::go_on(&folder, run, steps)?,
-            ),
-        };
         Ok(OnGrid {
-            fields,
-            stresses,
+            fields: surface.map(|surface| ContactArchive::new(&folder, surface, steps)).transpose()?,
+            stresses: request.map(|request| StressArchive::new(&folder, request, bodies, steps)).transpose()?,
             sections: Vec::new(),
-            log,
-            points: solver.grid().points(),
-            steps: standing.unwrap_or(0),
+            log: StepsLog::new(&folder, run, steps)?,
+            steps,
         })
     }
 
@@ -170,18 +165,16 @@ impl Recorder for Recording<'_> {
     fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
         self.clock.turn(Phase::Output);
         let folder = self.claim.staging();
-        if self.files.take().is_some() {
-            self.refined = true;
-            self.checkpoints
-                .as_mut()
-                .map_or(Ok(()), |checkpoints| checkpoints.begin_finer(&folder, solver.grid().points()))?;
+        self.files = None;
+        if let Some(checkpoints) = &mut self.checkpoints {
+            checkpoints.begin(&folder, solver.grid().points())?;
         }
         let standing = self.standing.take();
         if standing.is_none() {
             self.set_aside = self.claim.begin_finer()?;
         }
-        write_text(&folder.join("case.toml"), &self.case)?;
-        self.files = Some(self.open(solver, standing)?);
+        write_text(&folder.join(CASE), &self.case)?;
+        self.files = Some(self.open(solver, standing.unwrap_or(0))?);
         self.clock.turn(Phase::Setup);
         Ok(())
     }
@@ -194,7 +187,7 @@ impl Recorder for Recording<'_> {
         let (Some(checkpoints), Some(files)) = (&mut self.checkpoints, &self.files) else { return Ok(()) };
         let seconds = self.clock.seconds() - self.load_began;
         self.clock.turn(Phase::Output);
-        checkpoints.save(&self.claim.staging(), files.points, self.refined, files.steps + 1, (checkpoint, seconds))?;
+        checkpoints.save(&self.claim.staging(), files.steps + 1, (checkpoint, seconds))?;
         self.clock.turn(Phase::Solve);
         Ok(())
     }

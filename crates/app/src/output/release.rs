@@ -3,7 +3,7 @@
 
 use super::error::AtPath;
 use super::files::Files;
-use super::layout::{LIST, OWN, names, staging};
+use super::layout::{LIST, OWN, names};
 use super::manifest::published;
 use super::writer::Writer;
 use super::{OutputError, disk, lock};
@@ -28,6 +28,6 @@ pub fn release(folder: &Path) -> Result<Files, OutputError> {
 
 /// Whether a folder was [released](release), also by a run killed halfway: it has a result and no list.
 pub fn is_released(folder: &Path) -> bool {
-    let is_result = |name: &String| *name != OWN && folder.join(name) != staging(folder, Writer::Solve);
+    let is_result = |name: &String| *name != OWN && folder.join(name) != Writer::Solve.staging(folder);
     !disk::is_file(&folder.join(LIST)) && names(folder).is_ok_and(|names| names.iter().any(is_result))
 }

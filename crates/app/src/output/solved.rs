@@ -2,32 +2,32 @@
 
 use super::histograms::histograms;
 use super::plan::Plan;
-use super::stress::volume_name;
+use super::recording::files;
 use super::summary::{Summary, curve};
 use super::writer::Writer;
 use super::{OutputError, Timing, write_text};
 use percoat_case::case::Case;
-use percoat_core::body::HalfSpace;
 use percoat_core::run::Outcome;
 use std::path::Path;
 
+/// A file of the scalars of a solved case.
+struct Scalars {
+    name: &'static str,
+    /// Whether a case has it.
+    of: fn(&Case) -> bool,
+    content: fn(&Summary) -> Option<String>,
+}
+
+const SCALARS: [Scalars; 3] = [
+    Scalars { name: "histograms.csv", of: |case| case.surface.is_some(), content: |run| histograms(&run.steps) },
+    Scalars { name: "curve.csv", of: |_| true, content: |run| Some(curve(&run.steps)) },
+    Scalars { name: "summary.json", of: |_| true, content: |run| Some(run.to_json()) },
+];
+
 /// The plan of a solved case with `steps` load steps; `fields`: whether fields are kept. Pictures are not included.
 pub fn solved_plan(case: &Case, steps: usize, fields: bool) -> Plan {
-    let mut names = vec!["case.toml".to_owned()];
-    if case.surface.is_some() {
-        names.push("histograms.csv".to_owned());
-    }
-    if fields {
-        names.push("contact.npz".to_owned());
-        if let Some(stress) = &case.stress {
-            names.push("stress.npz".to_owned());
-            if stress.volume.is_some() {
-                let sides = case.problem().bodies().each().map(HalfSpace::side);
-                names.extend(sides.flat_map(|side| (1..=steps).map(move |step| volume_name(side, step))));
-            }
-        }
-    }
-    names.extend(["curve.csv", "summary.json"].map(str::to_owned));
+    let scalars = SCALARS.iter().filter(|scalars| (scalars.of)(case)).map(|scalars| scalars.name.to_owned());
+    let names = files(case, steps, fields).into_iter().chain(scalars).collect();
     Plan { names, case: Some(case.to_toml()), ..Plan::new(Writer::Solve) }
 }
 
@@ -43,10 +43,6 @@ pub fn write_scalars(
     timing: Timing,
 ) -> Result<(), OutputError> {
     let summary = Summary::new(case, warnings, outcome.change, &outcome.steps, timing);
-    write_text(&folder.join("summary.json"), &summary.to_json())?;
-    write_text(&folder.join("curve.csv"), &curve(&outcome.steps))?;
-    match histograms(&outcome.steps) {
-        Some(histograms) => write_text(&folder.join("histograms.csv"), &histograms),
-        None => Ok(()),
-    }
+    let written = SCALARS.iter().filter_map(|scalars| Some((scalars.name, (scalars.content)(&summary)?)));
+    written.into_iter().try_for_each(|(name, text)| write_text(&folder.join(name), &text))
 }

@@ -9,7 +9,7 @@ use super::disk::{self, found};
 use super::draft::is_temporary;
 use super::error::AtPath;
 use super::files::is_inside;
-use super::layout::{COARSER, DECIDED, LIFE_STATE, MARK, OWN, RETIRED, SWEEP_LOG, is_staging};
+use super::layout::{COARSER, DECIDED, LIFE_STATE, MARK, OWN, RETIRED, SWEEP_LOG, is_partial, is_staging};
 use super::{OutputError, checkpoint, steps_log, write_text};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -29,15 +29,23 @@ pub(super) enum Item {
 fn item(parts: &[&str], planned: &BTreeSet<PathBuf>) -> Option<Item> {
     match *parts {
         [COARSER, ref rest @ ..] if !rest.is_empty() => item(rest, planned),
-        [COARSER | "contact.partial" | "stress.partial"] => Some(Item::Folder),
+        [COARSER] => Some(Item::Folder),
+        [name] if is_partial(name) => Some(Item::Folder),
         [MARK | DECIDED | checkpoint::NAME | steps_log::NAME | SWEEP_LOG | LIFE_STATE] => Some(Item::File),
-        ["contact.partial" | "stress.partial", name] if name.ends_with(".npy") => Some(Item::File),
+        [folder, name] if is_partial(folder) && name.ends_with(".npy") => Some(Item::File),
         [.., name] if is_temporary(name) => Some(Item::File),
         _ => {
             let path: PathBuf = parts.iter().collect();
             let name = planned.range::<PathBuf, _>(&path..).next().filter(|name| name.starts_with(&path))?;
             Some(if *name == path { Item::File } else { Item::Folder })
         }
+    }
+}
+
+impl Item {
+    /// Whether metadata are those of a regular file, or of a folder.
+    pub(super) fn is(self, there: &Metadata) -> bool {
+        if self == Self::Folder { there.is_dir() } else { there.is_file() }
     }
 }
 
@@ -60,7 +68,7 @@ impl Entry {
 
     /// Whether it is percoat's: a regular file or folder where percoat keeps one.
     pub(super) fn is_own(&self) -> bool {
-        self.item.is_some_and(|item| if item == Item::Folder { self.there.is_dir() } else { self.there.is_file() })
+        self.item.is_some_and(|item| item.is(&self.there))
     }
 }
 

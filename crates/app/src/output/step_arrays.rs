@@ -5,6 +5,7 @@
 use super::checksum::Checksum;
 use super::draft::Draft;
 use super::error::AtPath;
+use super::layout::{archive, partial};
 use super::npy::{complete, header, npy, values};
 use super::npz::Archive;
 use super::staging::remove_own;
@@ -46,32 +47,20 @@ pub(super) struct GrowingEntry {
 }
 
 impl StepArrays {
-    /// The archive `<name>.npz` without steps in the staging folder `folder`; an error where `<name>.partial/` exists.
-    pub(super) fn new(folder: &Path, name: &'static str) -> Result<Self, OutputError> {
-        let arrays = Self::after(folder, name, 0);
-        let partial = arrays.partial();
-        make_folder(folder)?;
-        disk::create_folder(&partial).at(&partial)?;
-        Ok(arrays)
-    }
-
-    /// The arrays of the first `steps` load steps of an interrupted run, [checked](super::finished::finished) before.
-    pub(super) fn go_on(folder: &Path, name: &'static str, steps: usize) -> Result<Self, OutputError> {
-        let arrays = Self::after(folder, name, steps);
+    /// The archive `<name>.npz` in a staging folder after the first `steps` load steps of an interrupted run, which are
+    /// [checked](super::finished::finished) before; none in a new run.
+    pub(super) fn new(folder: &Path, name: &'static str, steps: usize) -> Result<Self, OutputError> {
+        let arrays = Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps, left: Files::default() };
         make_folder(&arrays.partial())?;
         Ok(arrays)
     }
 
-    fn after(folder: &Path, name: &'static str, steps: usize) -> Self {
-        Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps, left: Files::default() }
-    }
-
     fn archive(&self) -> PathBuf {
-        self.folder.join(format!("{}.npz", self.name))
+        self.folder.join(archive(self.name))
     }
 
     fn partial(&self) -> PathBuf {
-        partial(&self.folder, self.name)
+        self.folder.join(partial(self.name))
     }
 
     /// The file of the entry of `step` (from 1) of an array, or of a part (from 1) of it.
@@ -169,7 +158,7 @@ impl StepArrays {
         })?;
         // The archive is on the disk before its entries are removed.
         disk::sync_folder(&self.folder).at(&self.folder)?;
-        remove_own(&self.folder, &format!("{}.partial", self.name)).map(|_| ())
+        remove_own(&self.folder, &partial(self.name)).map(|_| ())
     }
 }
 
@@ -180,11 +169,6 @@ impl GrowingEntry {
         let Self { file, sum, .. } = self;
         file.write(|writer| sum.through(writer).write_all(bytemuck::cast_slice(values)))
     }
-}
-
-/// The folder of the entries of the archive `name`.
-pub(super) fn partial(folder: &Path, name: &str) -> PathBuf {
-    folder.join(format!("{name}.partial"))
 }
 
 /// Reads the values of an entry of this shape; an error names its file.
@@ -200,7 +184,7 @@ mod tests {
     #[test]
     fn an_entry_that_is_given_up_or_not_whole_leaves_nothing_behind() {
         let folder = tempfile::tempdir().unwrap();
-        let mut arrays = StepArrays::new(folder.path(), "some").unwrap();
+        let mut arrays = StepArrays::new(folder.path(), "some", 0).unwrap();
         arrays.next_step();
         let partial = folder.path().join("some.partial");
         let files = || fs::read_dir(&partial).unwrap().count();

@@ -71,20 +71,15 @@ impl From<Load> for Prescribed {
 }
 
 impl StepsLog {
-    /// A log without steps in the staging folder `folder`.
-    pub(super) fn new(folder: &Path, run: Option<String>) -> Self {
-        Self { log: LineLog::new(folder.join(NAME)), run, steps: 0 }
-    }
-
-    /// The log of an interrupted run with its first `steps` steps, after which the next is added.
-    pub(super) fn go_on(folder: &Path, run: Option<String>, steps: usize) -> Result<Self, OutputError> {
+    /// The log in a staging folder after the first `steps` steps of an interrupted run, none in a new one.
+    pub(super) fn new(folder: &Path, run: Option<String>, steps: usize) -> Result<Self, OutputError> {
         let path = folder.join(NAME);
         let lines = if steps > 0 { whole_lines(&path).at(&path)? } else { Vec::new() };
         let known = lines.into_iter().take(steps).map(|line| line + "\n").collect();
-        Ok(Self { log: LineLog::after(path, known), run, steps })
+        Ok(Self { log: LineLog::new(path, known), run, steps })
     }
 
-    /// Appends a step with its files; an error for the first step of a new log where the file exists.
+    /// Appends a step with its files.
     pub(super) fn add(&mut self, load: Load, record: &StepRecord, files: Files) -> Result<(), OutputError> {
         let histograms = record.rough.as_ref().map_or(Vec::new(), |rough| rough.histograms.clone());
         self.steps += 1;

@@ -2,6 +2,7 @@
 //! VTK file of the volume for each.
 
 use super::clock::{Clock, Phase};
+use super::layout::{STRESS, archive};
 use super::npz::Archive;
 use super::step_arrays::{GrowingEntry, StepArrays};
 use super::volume::added_volume;
@@ -28,20 +29,23 @@ pub(super) struct StressArchive {
 }
 
 impl StressArchive {
-    /// An archive without steps in the staging folder `folder`; an error where it already has stresses.
-    pub(super) fn new(folder: &Path, request: StressRequest, bodies: Bodies) -> Result<Self, OutputError> {
-        let arrays = StepArrays::new(folder, "stress")?;
-        Ok(Self { folder: folder.to_owned(), arrays, request, bodies, sections: Vec::new() })
+    /// Names of the files that it and its volumes leave after so many steps.
+    pub(super) fn files(with_volumes: bool, bodies: &Bodies, steps: usize) -> Vec<String> {
+        let volumes = |half_space: &HalfSpace| {
+            let side = half_space.side();
+            (1..=steps).map(move |step| volume_name(side, step))
+        };
+        [archive(STRESS)].into_iter().chain(bodies.each().filter(|_| with_volumes).flat_map(volumes)).collect()
     }
 
-    /// The archive of an interrupted run with its first `steps` steps, see [`StepArrays::go_on`].
-    pub(super) fn go_on(
+    /// The archive after the first `steps` steps, see [`StepArrays::new`].
+    pub(super) fn new(
         folder: &Path,
         request: StressRequest,
         bodies: Bodies,
         steps: usize,
     ) -> Result<Self, OutputError> {
-        let arrays = StepArrays::go_on(folder, "stress", steps)?;
+        let arrays = StepArrays::new(folder, STRESS, steps)?;
         Ok(Self { folder: folder.to_owned(), arrays, request, bodies, sections: Vec::new() })
     }
 
@@ -117,7 +121,7 @@ fn prefix(half_space: &HalfSpace) -> &'static str {
 }
 
 /// Name of the file of the volume of a body in a step.
-pub(super) fn volume_name(side: Option<Side>, step: usize) -> String {
+fn volume_name(side: Option<Side>, step: usize) -> String {
     let of = if side == Some(Side::Counterbody) { "counterbody." } else { "" };
     format!("stress.{of}{step:04}.vts")
 }

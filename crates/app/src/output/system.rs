@@ -5,20 +5,20 @@ use std::fs::File;
 use std::io;
 use std::path::Path;
 
-pub(super) use std::fs::{create_dir, hard_link, remove_dir, remove_file, rename};
+pub(crate) use std::fs::{create_dir, hard_link, remove_dir, remove_file, rename};
 
 /// Creates a file that must not exist, to write and read it.
-pub(super) fn create_new(path: &Path) -> io::Result<File> {
+pub(crate) fn create_new(path: &Path) -> io::Result<File> {
     File::create_new(path)
 }
 
 /// Brings the content of a file to the disk.
-pub(super) fn sync(file: &File) -> io::Result<()> {
+pub(crate) fn sync(file: &File) -> io::Result<()> {
     file.sync_data()
 }
 
 /// Brings the names in a folder to the disk.
-pub(super) fn sync_folder(folder: &Path) -> io::Result<()> {
+pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
     // Elsewhere a folder cannot be opened.
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }

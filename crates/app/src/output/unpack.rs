@@ -3,8 +3,8 @@
 //! A run that is killed between gathering and publishing leaves only the archive. A run that resumes it needs the entries of the
 //! steps before the last, whose checksums are in the log.
 
+use super::layout::{self, partial};
 use super::npy::{header, shape};
-use super::step_arrays::partial;
 use super::{disk, make_folder, write_file};
 use std::collections::BTreeMap;
 use std::io::{self, BufReader, Read};
@@ -27,8 +27,8 @@ pub(super) fn unpack<'a>(folder: &Path, archive: &str, names: impl Iterator<Item
             arrays.entry(array).or_default().insert(index, name);
         }
     }
-    let mut zip = ZipArchive::new(BufReader::new(disk::open(&folder.join(format!("{archive}.npz")))?))?;
-    make_folder(&partial(folder, archive)).map_err(io::Error::other)?;
+    let mut zip = ZipArchive::new(BufReader::new(disk::open(&folder.join(layout::archive(archive)))?))?;
+    make_folder(&folder.join(partial(archive))).map_err(io::Error::other)?;
     for (array, entries) in arrays {
         let mut values = zip.by_name(&format!("{array}.npy"))?;
         let whole = shape(&mut values)?;
@@ -73,7 +73,7 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let folder = place.path().join("unfinished");
         create(&folder, &[]).unwrap();
-        let mut arrays = StepArrays::new(&folder, "contact").unwrap();
+        let mut arrays = StepArrays::new(&folder, "contact", 0).unwrap();
         let mut files = Files::default();
         for step in 0..3 {
             arrays.next_step();

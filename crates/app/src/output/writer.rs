@@ -1,6 +1,8 @@
 //! The commands that leave a result in an output folder.
 
+use super::layout::OWN;
 use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
 
 /// A command that writes a result into an output folder. Each replaces only its own files, and the report that shows them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -29,20 +31,34 @@ pub enum Writer {
     Report,
 }
 
+/// All commands, each with its staging folder: visible for long runs, which can be resumed, within `.percoat` for others.
+const STAGING: [(Writer, &str); 10] = [
+    (Writer::Solve, "unfinished"),
+    (Writer::Check, ".percoat/check"),
+    (Writer::Compare, ".percoat/compare"),
+    (Writer::Limit, ".percoat/limit"),
+    (Writer::Identify, ".percoat/identify"),
+    (Writer::Life, "unfinished-life"),
+    (Writer::Validate, ".percoat/validate"),
+    (Writer::Sweep, "unfinished-sweep"),
+    (Writer::Merge, ".percoat/merge"),
+    (Writer::Report, ".percoat/report"),
+];
+
 impl Writer {
     /// All commands.
-    pub const ALL: [Self; 10] = [
-        Self::Solve,
-        Self::Check,
-        Self::Compare,
-        Self::Limit,
-        Self::Identify,
-        Self::Life,
-        Self::Validate,
-        Self::Sweep,
-        Self::Merge,
-        Self::Report,
-    ];
+    pub(super) fn all() -> [Self; STAGING.len()] {
+        STAGING.map(|(writer, _)| writer)
+    }
+
+    /// The staging folder in an output folder.
+    pub(super) fn staging(self, folder: &Path) -> PathBuf {
+        folder.join(self.place())
+    }
+
+    fn place(self) -> &'static str {
+        STAGING.iter().find(|(writer, _)| *writer == self).expect("every command has one").1
+    }
 
     /// The command under which its files are listed: the joined parts of a sweep replace a sweep, and the reverse.
     pub(super) fn listed(self) -> Self {
@@ -51,7 +67,7 @@ impl Writer {
 
     /// Whether a later run goes on with what a killed one has finished, or keeps it; of the others nothing is worth keeping.
     pub(super) fn is_resumable(self) -> bool {
-        [Self::Solve, Self::Sweep, Self::Life].contains(&self)
+        !self.place().starts_with(OWN)
     }
 
     /// Whether a new result outdates what a command has written: the report of an earlier result.

@@ -61,8 +61,7 @@ impl Log {
     /// # Errors
     /// [`OutputError`] with the path.
     pub fn begin(folder: &Path, sweep: &str, known: &[Row]) -> Result<Self, OutputError> {
-        let lines = known.iter().map(|row| line(sweep, row)).collect();
-        let mut log = Self { lines: LineLog::after(folder.join(LOG), lines), sweep: sweep.to_owned() };
+        let mut log = Self { lines: LineLog::new(folder.join(LOG), lines(sweep, known)), sweep: sweep.to_owned() };
         if !known.is_empty() {
             log.lines.add("")?;
         }
@@ -76,6 +75,11 @@ impl Log {
     pub fn add(&mut self, row: &Row) -> Result<(), OutputError> {
         self.lines.add(&line(&self.sweep, row))
     }
+}
+
+/// The lines of rows of a sweep.
+pub(super) fn lines(sweep: &str, rows: &[Row]) -> String {
+    rows.iter().map(|row| line(sweep, row)).collect()
 }
 
 /// The line of a row, with its checksum.

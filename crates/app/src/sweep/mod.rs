@@ -36,5 +36,5 @@ pub use parts::{Part, PartError, UNFINISHED, join};
 pub use result::{Foremost, Kind, LimitValue, Measured, SCALARS, Scalar, SweepResult, scalars_with};
 pub use row::{Row, Status};
 pub use study::{Study, StudyError};
-pub use table::{Description, FILES, SweptKey, columns, table, write};
+pub use table::{Description, SweptKey, columns, files, table, write};
 pub use task::Task;

@@ -1,7 +1,7 @@
 //! `sweep.csv` and `sweep.json`: the table of a sweep and its description.
 
 use super::combinations::Combinations;
-use super::log::Log;
+use super::log::lines;
 use super::row::{Row, Status};
 use super::task::Task;
 use crate::output::columns::{csv, names};
@@ -169,19 +169,29 @@ impl Description {
     }
 }
 
+/// Content of a file of a sweep, by the rows and their description; `None` where there is no such file.
+type Content = fn(&[Row], &Description) -> Option<String>;
+
+/// The files of a sweep, by their names. The log of a sweep that was solved here had the order in which combinations ended.
+const FILES: [(&str, Content); 3] = [
+    (SWEEP_LOG, |rows, description| (!rows.is_empty()).then(|| lines(&description.identity(), rows))),
+    ("sweep.csv", |rows, _| Some(table(rows))),
+    ("sweep.json", |_, description| Some(description.to_json())),
+];
+
+/// Names of the files that [`write()`] writes.
+pub fn files() -> impl Iterator<Item = String> {
+    FILES.iter().map(|(name, _)| (*name).to_owned())
+}
+
 /// Writes the rows, by ascending combination, with their description into a folder: `sweep.jsonl`, `sweep.csv` and `sweep.json`.
 ///
 /// # Errors
 /// [`OutputError`] with the path.
 pub fn write(folder: &Path, rows: &[Row], description: &Description) -> Result<(), OutputError> {
-    // The log of a sweep that was solved here has the order in which combinations ended.
-    drop(Log::begin(folder, &description.identity(), rows)?);
-    write_text(&folder.join("sweep.csv"), &table(rows))?;
-    write_text(&folder.join("sweep.json"), &description.to_json())
+    let texts = FILES.iter().filter_map(|(name, content)| Some((name, content(rows, description)?)));
+    texts.into_iter().try_for_each(|(name, text)| write_text(&folder.join(name), &text))
 }
-
-/// Names of the files that [`write()`] writes.
-pub const FILES: [&str; 3] = ["sweep.csv", "sweep.json", SWEEP_LOG];
 
 /// Each text once, in the order of first occurrence.
 fn distinct<'a>(texts: impl Iterator<Item = &'a String>) -> Vec<String> {

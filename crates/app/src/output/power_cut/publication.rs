@@ -2,7 +2,7 @@
 
 use super::image::{self, Image, laid};
 use super::journal::Journal;
-use crate::output::layout::{DECIDED, staging};
+use crate::output::layout::DECIDED;
 use crate::output::{Plan, RunFolder, Writer, disk, make_folder, publication, write_text};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -71,7 +71,8 @@ fn cut(writer: Writer, old: &[&str], new: &[&str], ignores_syncs: bool) -> Vec<I
 #[test]
 fn killed_after_any_change_the_old_or_the_new_result_is_whole_and_the_next_run_ends_it() {
     let new = ["case.toml", "curve.csv", "summary.json"];
-    for (writer, has_links) in Writer::ALL.into_iter().flat_map(|writer| [(writer, true), (writer, false)]) {
+    let commands = Writer::all();
+    for (writer, has_links) in commands.into_iter().flat_map(|writer| [(writer, true), (writer, false)]) {
         // Studies alone have folders.
         let gone = if writer == Writer::Validate { "study/figure.png" } else { "stress.npz" };
         let old = ["case.toml", gone, "summary.json"];
@@ -81,8 +82,8 @@ fn killed_after_any_change_the_old_or_the_new_result_is_whole_and_the_next_run_e
         for (moment, image) in kills.iter().enumerate() {
             let (place, what) = (laid(image), format!("{writer:?} killed after change {moment}"));
             let folder = place.path();
-            let whole = [files(folder), files(&staging(folder, writer))];
-            let is_decided = disk::is_file(&staging(folder, writer).join(DECIDED));
+            let whole = [files(folder), files(&writer.staging(folder))];
+            let is_decided = disk::is_file(&writer.staging(folder).join(DECIDED));
             if has_links {
                 assert!(whole[0] == old || whole.contains(&new), "{what}: {whole:?}");
             } else {
@@ -92,7 +93,7 @@ fn killed_after_any_change_the_old_or_the_new_result_is_whole_and_the_next_run_e
             }
 
             // The next run completes it, with any command.
-            let other = Writer::ALL[moment % Writer::ALL.len()];
+            let other = commands[moment % commands.len()];
             for next in [other, writer] {
                 let next = claim(folder, next);
                 let found = files(folder);
@@ -112,7 +113,7 @@ fn a_power_cut_while_a_result_is_published_leaves_the_old_one_or_the_new_one_who
     let old = ["case.toml", "study/figure.png", "summary.json"];
     let new = ["case.toml", "curve.csv", "summary.json"];
     let wanted = [expected(&old, "old"), expected(&new, "new")];
-    for writer in Writer::ALL {
+    for writer in Writer::all() {
         let images = cut(writer, &old, &new, false);
         assert!(images.len() > 50, "{} images", images.len());
         let mut ends = [0; 2];
