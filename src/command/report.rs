@@ -31,7 +31,7 @@ pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, 
         Some(name) => page = publish(folder, name, own)?,
         None => {
             file.parent().filter(|parent| !parent.as_os_str().is_empty()).map_or(Ok(()), make_folder)?;
-            remove_drafts(&file, report::is_begun);
+            remove_drafts(&file, report::BEGINNING);
             write_text(&file, &page.html)?;
             let parent = file.parent().unwrap_or(Path::new(""));
             disk::sync_folder(parent).map_err(|error| Failure::from(OutputError::new(&file, error)))?;

@@ -10,7 +10,9 @@
 //! name by [`sync_folder`]. A file system that does not support the latter is not an error.
 
 use super::system;
-pub(crate) use super::system::{create_dir as create_folder, create_new as create, hard_link as link, remove_dir as remove_folder};
+pub(crate) use super::system::{
+    create_dir as create_folder, create_new as create, hard_link as link, remove_dir as remove_folder,
+};
 use percoat_common::plain;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read, Write};

@@ -5,7 +5,7 @@
 use super::error::AtPath;
 use super::{OutputError, disk};
 use std::fs::{self, File, TryLockError};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes a file under a temporary name in its folder, then renames it: it is complete or absent, also after a power cut. Its
@@ -101,20 +101,29 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
     write_file(path, |writer| writer.write_all(text.as_bytes()))
 }
 
-/// Removes the drafts of a file that killed processes have left: those whose beginning `is_ours`, and that no process writes.
-pub fn remove_drafts(path: &Path, is_ours: impl Fn(&mut File) -> io::Result<bool>) {
+/// Removes the drafts of a file that killed processes have left: those that begin as the file does, or end within this
+/// `beginning`, and that no process writes.
+pub fn remove_drafts(path: &Path, beginning: &str) {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let draft = folder.join(entry.file_name());
-        if !entry.file_name().to_str().is_some_and(|temporary| is_draft_of(&name, temporary)) {
-            continue;
-        }
-        let Ok(mut file) = disk::open_to_change(&draft) else { continue };
-        if file.try_lock().is_ok() && !disk::has_other_name(&file) && is_ours(&mut file).unwrap_or(false) {
+        let is_named_so = entry.file_name().to_str().is_some_and(|temporary| is_draft_of(&name, temporary));
+        // Locked until it is removed.
+        if let Some(file) = is_named_so.then(|| disk::open_to_change(&draft).ok()).flatten()
+            && is_left(&file, beginning).unwrap_or(false)
+        {
             remove(&draft);
         }
     }
+}
+
+/// Whether no process writes a draft, which is locked here, and it has one name and this beginning, or a part of that.
+fn is_left(file: &File, beginning: &str) -> io::Result<bool> {
+    let mut bytes = Vec::new();
+    let is_alone = file.try_lock().is_ok() && !disk::has_other_name(file);
+    file.take(beginning.len() as u64).read_to_end(&mut bytes)?;
+    Ok(is_alone && beginning.as_bytes().starts_with(&bytes))
 }
 
 /// Whether a name is a temporary one of the file `name`: `.NAME.PROCESS.tmp`, or `.NAME.PROCESS.NUMBER.tmp`.
@@ -140,7 +149,6 @@ fn is_number(text: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::Read;
 
     #[test]
     fn only_names_that_percoat_gives_to_what_it_is_writing_are_temporary() {
@@ -176,10 +184,7 @@ mod tests {
             fs::write(path(name), content).unwrap();
         }
         fs::hard_link(path(".curve.csv.19.tmp"), path("mine")).unwrap();
-        remove_drafts(&path("curve.csv"), |file| {
-            let mut beginning = [0; 9];
-            Ok(file.read_exact(&mut beginning).is_ok_and(|()| beginning == *b"percoat's"))
-        });
+        remove_drafts(&path("curve.csv"), "percoat's");
         let mut left = super::super::layout::names(folder.path()).unwrap();
         left.retain(|name| !name.contains(&std::process::id().to_string()));
         assert_eq!(left, [".curve.csv.18.tmp", ".curve.csv.19.tmp", ".other.csv.17.tmp", "mine"]);

@@ -40,6 +40,7 @@ impl RunFolder {
         }
         disk::make_folder(&own).at(&own)?;
         let lock = lock(folder)?;
+        manifest::remove_drafts(folder);
         let mut aside = remove_retired(folder)?;
         for writer in Writer::all() {
             aside = publication::complete(folder, writer)?.or(aside);
@@ -54,14 +55,13 @@ impl RunFolder {
         claimed.resumed = claimed.plan.resumes && is_staging(&staging) && has_begun(&staging);
         if claimed.resumed {
             plan_more(&staging, &claimed.plan.names)?;
-        }
-        let refusal = refuse_in_staging(&staging);
-        // A staging folder with foreign files under percoat's names is set aside as it is.
-        if claimed.resumed || refusal.is_ok() {
-            refusal?;
+            refuse_in_staging(&staging)?;
             settle(&staging)?;
-        }
-        if !claimed.resumed {
+        } else {
+            // A staging folder with foreign files under percoat's names is set aside as it is.
+            if refuse_in_staging(&staging).is_ok() {
+                settle(&staging)?;
+            }
             aside = claimed.begin_anew()?.or(aside);
         }
         claimed.set_aside = aside;

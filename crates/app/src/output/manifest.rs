@@ -3,7 +3,7 @@
 use super::files::{Files, Ownership, is_inside};
 use super::layout::LIST;
 use super::writer::Writer;
-use super::{OutputError, disk, write_text};
+use super::{OutputError, disk, draft, write_text};
 use serde::{Deserialize, Serialize};
 use std::io;
 use std::path::Path;
@@ -27,6 +27,11 @@ pub(super) fn write(path: &Path, files: Files) -> Result<(), OutputError> {
     let list = Manifest { percoat: env!("CARGO_PKG_VERSION").to_owned(), files };
     let text = serde_json::to_string_pretty(&list).expect("names, checksums and writers are texts");
     write_text(path, &(text + "\n"))
+}
+
+/// Removes what killed runs have left of a list that they were writing.
+pub(super) fn remove_drafts(folder: &Path) {
+    draft::remove_drafts(&folder.join(LIST), "{\n  \"percoat\": \"");
 }
 
 /// The published files of an output folder; none where its list cannot be read, so that in doubt no file is percoat's.

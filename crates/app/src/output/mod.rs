@@ -27,8 +27,9 @@
 //! link or a pipe under one of percoat's names there is refused by a run that resumes. A power cut leaves what a kill leaves:
 //! content is on the disk before its name, and both before a log line, the list or `written.json` lists them as finished.
 //!
-//! `compare` gathers in `.percoat/compare/` and `validate` in `.percoat/validate/`; each command replaces its own files alone,
-//! and a single study those of its own folder ([`Plan::within`]).
+//! Commands that cannot be resumed gather in `.percoat/`, as `compare` in `.percoat/compare/` and `merge` in `.percoat/merge/`; what
+//! they leave when they are killed is removed by the next run of the same command. Each command replaces its own files alone, and a
+//! single study those of its own folder ([`Plan::within`]).
 
 mod check;
 mod checkpoint;

@@ -11,6 +11,7 @@ use super::error::AtPath;
 use super::files::is_inside;
 use super::layout::{COARSER, DECIDED, LIFE_STATE, MARK, OWN, RETIRED, SWEEP_LOG, is_partial, is_staging};
 use super::{OutputError, checkpoint, steps_log, write_text};
+use serde::Serialize;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs::{self, Metadata};
@@ -26,7 +27,7 @@ pub(super) enum Item {
 
 /// The item of percoat at a path relative to a staging folder, by the parts of the path: a file of a `planned` name, one that a run
 /// keeps while it goes on, a folder on the way to them, or a temporary file; `None` where the path is foreign.
-fn item(parts: &[&str], planned: &BTreeSet<PathBuf>) -> Option<Item> {
+fn item(parts: &[&str], planned: &BTreeSet<String>) -> Option<Item> {
     match *parts {
         [COARSER, ref rest @ ..] if !rest.is_empty() => item(rest, planned),
         [COARSER] => Some(Item::Folder),
@@ -35,9 +36,13 @@ fn item(parts: &[&str], planned: &BTreeSet<PathBuf>) -> Option<Item> {
         [folder, name] if is_partial(folder) && name.ends_with(".npy") => Some(Item::File),
         [.., name] if is_temporary(name) => Some(Item::File),
         _ => {
-            let path: PathBuf = parts.iter().collect();
-            let name = planned.range::<PathBuf, _>(&path..).next().filter(|name| name.starts_with(&path))?;
-            Some(if *name == path { Item::File } else { Item::Folder })
+            let name = parts.join("/");
+            if planned.contains(&name) {
+                return Some(Item::File);
+            }
+            let folder = name + "/";
+            let first = planned.range(folder.clone()..).next();
+            first.is_some_and(|name| name.starts_with(&folder)).then_some(Item::Folder)
         }
     }
 }
@@ -77,7 +82,7 @@ pub(super) fn create(staging: &Path, planned: &[String]) -> Result<(), OutputErr
     disk::create_folder(staging).at(staging)?;
     let mark = staging.join(MARK);
     let mut file = disk::create(&mark).at(&mark)?;
-    file.write_all(marking(planned).as_bytes()).and_then(|()| disk::sync(&file)).at(&mark)?;
+    file.write_all(marking(&planned).as_bytes()).and_then(|()| disk::sync(&file)).at(&mark)?;
     // The mark is on the disk before any other file.
     disk::sync_folder(staging).at(staging)?;
     staging.parent().map_or(Ok(()), disk::sync_folder).at(staging)
@@ -85,20 +90,20 @@ pub(super) fn create(staging: &Path, planned: &[String]) -> Result<(), OutputErr
 
 /// Adds names to those that are planned in a staging folder.
 pub(super) fn plan_more(staging: &Path, names: &[String]) -> Result<(), OutputError> {
-    let planned = planned(staging);
-    let known: BTreeSet<&String> = planned.iter().collect();
-    let more: Vec<String> = names.iter().filter(|name| !known.contains(name)).cloned().collect();
-    if more.is_empty() { Ok(()) } else { write_text(&staging.join(MARK), &marking(&[planned, more].concat())) }
+    let mut planned = planned(staging);
+    let before = planned.len();
+    planned.extend(names.iter().cloned());
+    if planned.len() == before { Ok(()) } else { write_text(&staging.join(MARK), &marking(&planned)) }
 }
 
 /// The content of a mark.
-fn marking(planned: &[String]) -> String {
+fn marking(planned: &impl Serialize) -> String {
     let names = serde_json::to_string(planned).expect("names are texts");
     format!("A run of percoat {} that is not finished.\n{names}\n", env!("CARGO_PKG_VERSION"))
 }
 
 /// The names in the mark of a staging folder.
-fn planned(staging: &Path) -> Vec<String> {
+fn planned(staging: &Path) -> BTreeSet<String> {
     let text = disk::read_text(&staging.join(MARK)).unwrap_or_default();
     let names = text.split_once('\n').and_then(|(_, names)| serde_json::from_str::<Vec<String>>(names).ok());
     names.unwrap_or_default().into_iter().filter(|name| is_inside(name)).collect()
@@ -107,8 +112,7 @@ fn planned(staging: &Path) -> Vec<String> {
 /// The entries of a staging folder, the content of a folder before the folder; foreign folders are not entered. In a folder
 /// without a mark every entry is foreign.
 pub(super) fn entries(staging: &Path) -> Result<Vec<Entry>, OutputError> {
-    let planned: BTreeSet<PathBuf> = planned(staging).into_iter().map(PathBuf::from).collect();
-    let is_marked = is_staging(staging);
+    let (planned, is_marked) = (planned(staging), is_staging(staging));
     let item = |path: &Path| {
         let parts: Option<Vec<&str>> = path.iter().map(OsStr::to_str).collect();
         item(&parts.filter(|_| is_marked)?, &planned)

@@ -37,4 +37,4 @@ mod units;
 
 pub use error::ReportError;
 pub use page::{Page, page};
-pub use trailer::{is_begun, is_own};
+pub use trailer::{BEGINNING, is_own};

@@ -1,13 +1,12 @@
-//! The last line of a report, a checksum by which percoat recognises its own unchanged reports; and the first lines, by which it
+//! The last line of a report, a checksum by which percoat recognises its own unchanged reports; and the beginning, by which it
 //! recognises one that was being written.
 
 use crate::output::{Trailer, disk};
-use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 /// The beginning of every page, up to the version that wrote it.
-const BEGINNING: &str = concat!(
+pub const BEGINNING: &str = concat!(
     "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">",
     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><meta name=\"generator\" content=\"percoat ",
 );
@@ -29,16 +28,6 @@ pub fn is_own(path: &Path) -> io::Result<bool> {
     }
     let bytes = disk::read(path)?;
     Ok(str::from_utf8(&bytes).is_ok_and(|text| TRAILER.removed(text).is_ok()))
-}
-
-/// Whether a file begins as a report of percoat does, or ends within that beginning.
-///
-/// # Errors
-/// When it cannot be read.
-pub fn is_begun(file: &mut File) -> io::Result<bool> {
-    let mut bytes = Vec::new();
-    file.take(BEGINNING.len() as u64).read_to_end(&mut bytes)?;
-    Ok(BEGINNING.as_bytes().starts_with(&bytes))
 }
 
 #[cfg(test)]

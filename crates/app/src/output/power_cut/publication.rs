@@ -104,6 +104,9 @@ fn killed_after_any_change_the_old_or_the_new_result_is_whole_and_the_next_run_e
             }
             claim(folder, writer).publish().unwrap();
             assert!(files(folder).is_empty(), "a run without files removes those of the one before");
+            let left =
+                image::read(folder).into_keys().filter(|path| path.extension().is_some_and(|ending| ending == "tmp"));
+            assert_eq!(left.collect::<Vec<_>>(), Vec::<PathBuf>::new(), "{what}");
         }
     }
 }

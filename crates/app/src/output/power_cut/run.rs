@@ -2,24 +2,15 @@
 
 use super::image::{Image, laid};
 use super::journal::Journal;
-<<<<<<<< HEAD:crates/app/src/output/power_cut.rs
-use super::layout::names;
-use super::*;
-use percoat_case::case::{Case, Source};
-use percoat_core::run::{EarlierRun, Recorder, StepRecord};
-use percoat_core::spectral::{Checkpoint, Solver, Step};
-use percoat_core::stress::StressFields;
-========
-use percoat_case::case::{Case, Source};
 use crate::output::layout::names;
 use crate::output::{
     Clock, OutputError, Plan, Recording, RunFolder, disk, fingerprint, finished, solved_plan, whole_lines,
     write_scalars,
 };
+use percoat_case::case::{Case, Source};
 use percoat_core::run::{EarlierRun, Recorder, StepRecord};
 use percoat_core::spectral::{Checkpoint, Solver, Step};
 use percoat_core::stress::StressFields;
->>>>>>>> 5f5e8e1 (The simulator of power cuts stands in a folder of its own, and what writes to the disk knows nothing of it):crates/app/src/output/power_cut/run.rs
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
