@@ -73,7 +73,7 @@ fn problem(case: &str, n: usize) -> Outcome<(Problem, Load)> {
 
 fn heights(case: &str, n: usize, file: &str) -> Outcome<()> {
     let (problem, load) = problem(case, n)?;
-    let surface = Surface::new(problem.counterbody(), [n, n])?;
+    let surface = problem.loaded_by().surface([n, n])?;
     write(file, n, &surface.initial_gap().iter().map(|gap| -gap).collect::<Vec<_>>())?;
     println!("{:e}", load.value());
     Ok(())

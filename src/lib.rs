@@ -21,18 +21,18 @@
 //! stands to its left:
 //!
 //! ```text
-//! numeric → notation → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → identification
-//! → localized → run → life → comparison → plain → units → measurements → machine → heights → case → output → sweep → picture → report → validation → command
+//! numeric → notation → lattice → load → kind → body → counterbody → friction → problem → spectral → stress → reading → identification
+//! → localized → run → life → comparison → plain → units → words → measurements → machine → heights → case → output → sweep → picture → report → validation → command
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
-//! - [`friction`], [`problem`], [`load`]: what is solved;
+//! - [`load`], [`kind`], [`friction`], [`problem`]: what is solved;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
 //! - [`identification`]: parameters of a stack from a measured indentation curve;
 //! - [`run`]: load paths, refinement, warnings; [`life`]: damage and wear pass after pass; [`comparison`]: both methods side by side.
 //!
-//! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `measurements` from tables, `machine` (memory, disk, threads), file formats
+//! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `words` for kinds of contact, `measurements` from tables, `machine` (memory, disk, threads), file formats
 //! of `heights`, `case`, `output`, `sweep`, `picture`, `report` and the `command` line; behind `validate`: `validation`, the studies and the closed forms they compare with.
 //!
 //! [`theory`] leads from each equation of the book, `docs/src/theory.md`, to its code and to the test that guards it.
@@ -61,7 +61,7 @@ pub use percoat_core::*;
 #[cfg(feature = "cli")]
 pub use percoat_app::{output, picture, report, sweep};
 #[cfg(feature = "cli")]
-pub use percoat_case::{case, measurements, units};
+pub use percoat_case::{case, measurements, units, words};
 #[cfg(feature = "cli")]
 pub use percoat_common::{machine, plain};
 #[cfg(feature = "cli")]

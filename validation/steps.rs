@@ -4,7 +4,8 @@ use super::StudyError;
 use ndarray::Array2;
 use percoat_case::case::{Case, Source};
 use percoat_core::body::Bodies;
-use percoat_core::counterbody::{Counterbody, Topography};
+use percoat_core::counterbody::Counterbody;
+use percoat_core::counterbody::{LoadedBy, Topography};
 use percoat_core::lattice::Cell;
 use percoat_core::load::Load;
 use percoat_core::problem::Problem;
@@ -19,7 +20,7 @@ pub struct Steps {
 
 impl Steps {
     pub fn new(
-        counterbody: impl Into<Counterbody>,
+        counterbody: impl Into<LoadedBy>,
         bodies: impl Into<Bodies>,
         points: [usize; 2],
     ) -> Result<Self, StudyError> {
@@ -57,6 +58,11 @@ impl Steps {
     pub fn loaded(&mut self, mean_pressure: f64) -> Result<Reading, StudyError> {
         Ok(self.solve(Load::MeanPressure(mean_pressure))?.1)
     }
+}
+
+/// Fraction of the cell in contact; an error of an isolated contact.
+pub fn fraction_in_contact(reading: &Reading) -> Result<f64, StudyError> {
+    reading.contact_fraction.ok_or_else(|| "an isolated contact has no cell".into())
 }
 
 /// A case file of `validation/`, with overrides `KEY=VALUE`.

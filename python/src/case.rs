@@ -62,7 +62,7 @@ impl Case {
     /// Vectors a₁ and a₂ of the cell, lengths.
     #[getter]
     fn cell(&self) -> [[f64; 2]; 2] {
-        self.own.counterbody().cell().vectors()
+        self.own.problem().cell().vectors()
     }
 
     /// The values of `percoat check` and its text, as a dict.

@@ -21,7 +21,7 @@ use std::time::Instant;
 
 pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Ending, Failure> {
     let (case, name) = read_case(case, set)?;
-    if case.counterbody().indenters().is_none() {
+    if case.problem().indenters().is_none() {
         return Err(Failure::refused(
             "compare needs [[levels]]: the localized method knows indenters, not a [surface] or a given pressure; use percoat solve",
         ));

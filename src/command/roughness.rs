@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// Writes the spectrum of the surface of a case as `spectrum.png` and `spectrum.csv` into a folder.
 pub fn write(case: &Case, folder: &Path) -> Result<(), Failure> {
-    let Some(topography) = case.counterbody().topography() else {
+    let Some(topography) = case.problem().topography() else {
         return Err(Failure::Refused("-o is for the power spectrum of a [surface], and this case has none".into()));
     };
     let spectrum = Spectrum::of(topography.cell(), topography.own_heights().view()).map_err(Failure::refused)?;

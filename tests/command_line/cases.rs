@@ -64,7 +64,7 @@ fn every_case_runs() {
         let ends: Vec<f64> = [&values[..1], &values[values.len() - 1..]].concat();
         let loads = format!("load.{}={ends:?}", case.load.quantity());
         // A given pressure is one load.
-        let is_given = case.problem().counterbody().pressure().is_some();
+        let is_given = case.problem().kind().is_given;
         let set = if is_given { vec![] } else { vec!["--set", &loads] };
         let folder = desk.solve(&name, &[&[path.to_str().unwrap(), "--set", "grid.points=48"], &set[..]].concat());
         let steps = folder.steps();

@@ -34,7 +34,7 @@ fn read(name: &str, content: Vec<u8>, surface: &str) -> Result<Case, String> {
 
 /// Largest difference of the heights of a case from the formula times `factor`, nm, but at the holes; both from the first sample on.
 fn error(case: &Case, factor: f64) -> f64 {
-    let heights = case.counterbody().topography().unwrap().heights();
+    let heights = case.problem().topography().unwrap().heights();
     assert_eq!(heights.dim(), (POINTS[0], POINTS[1]));
     let expected = |i: usize, j: usize| factor * (height(i, j) - height(0, 0));
     let differences = heights.indexed_iter().filter(|((i, j), _)| !HOLES.contains(&[*i, *j]));
@@ -74,7 +74,7 @@ fn the_files_of_other_libraries_are_the_surface_that_they_were_made_of() {
     for (name, surface, tolerance, holes) in FILES {
         let case = read(name, stored(name), surface).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(error(&case, 1.0) < tolerance, "{name}: {:e}", error(&case, 1.0));
-        let [[x, _], [_, y]] = case.counterbody().cell().vectors();
+        let [[x, _], [_, y]] = case.problem().cell().vectors();
         // A spacing of single precision in .sur.
         assert!((x / 12e3 - 1.0).abs() < 1e-7 && (y / 12e3 - 1.0).abs() < 1e-7, "{name}: {x} × {y}");
         let told = format!("{holes} of 360 places (1.1111 %) have no measurement");
@@ -82,7 +82,7 @@ fn the_files_of_other_libraries_are_the_surface_that_they_were_made_of() {
         let section = case.surface.as_ref().unwrap();
         assert_eq!(section.stages.iter().any(|stage| matches!(stage.treated, Treated::Filled { .. })), holes > 0);
         // What is filled lies between the heights of its surroundings.
-        let heights = case.counterbody().topography().unwrap().heights();
+        let heights = case.problem().topography().unwrap().heights();
         let level =
             |[i, j]: [usize; 2]| heights[[i, j]] - heights[[0, 0]] + height(0, 0) - 20.0 * i as f64 + 35.0 * j as f64;
         assert!(HOLES.iter().all(|at| (-1.0..=97.0).contains(&level(*at))), "{name}");
@@ -137,7 +137,7 @@ fn truncated_files_are_refused_wherever_they_end() {
                 name.ends_with("text.sdf") && end > whole.len() - 60 || name == "grid.asc" && end > whole.len() - 30,
                 "{name} to {end}"
             );
-            assert_eq!(case.counterbody().topography().unwrap().points(), POINTS);
+            assert_eq!(case.problem().topography().unwrap().points(), POINTS);
         }
     }
 }
@@ -380,7 +380,7 @@ fn a_file_without_units_is_read_in_the_unit_that_the_case_says() {
         (of(&[2], "unit = \"m\"\nperiod = 12e3"), 1.0),
     ] {
         let case = told.unwrap_or_else(|error| panic!("{error}"));
-        let [[x, _], [_, y]] = case.counterbody().cell().vectors();
+        let [[x, _], [_, y]] = case.problem().cell().vectors();
         assert!(error(&case, factor) < 1e-4 && (x / 12e3 - 1.0).abs() < 1e-7 && (y / 12e3 - 1.0).abs() < 1e-7);
     }
     // Neither the unit of the heights nor that of the case is that of the sides. Which of two is blank the file decides.
@@ -513,14 +513,14 @@ fn heights_in_main_xml_are_read_or_refused() {
     let list = |datums: &str| format!("<DataList>{datums}</DataList>");
     let plain = of(&list(&datums(12))).unwrap();
     // In micrometres: the increment along z is one, too.
-    let heights = plain.counterbody().topography().unwrap().heights().to_owned();
+    let heights = plain.problem().topography().unwrap().heights().to_owned();
     assert_eq!(heights.dim(), (4, 3));
     assert!(heights.indexed_iter().all(|((i, j), own)| { (own - heights[[0, 0]] - (i + 4 * j) as f64).abs() < 1e-12 }));
     let prefixed =
         list(&datums(12)).replace("<D", "<p:D").replace("</D", "</p:D").replacen("<p:Datum", "<!-- < --> <p:Datum", 1);
     let spaced = list(&datums(12)).replace("Datum>", "Datum >").replace("DataList>", "DataList\n >");
     for other in [prefixed, spaced] {
-        assert_eq!(of(&other).unwrap().counterbody(), plain.counterbody());
+        assert_eq!(of(&other).unwrap().problem().loaded_by(), plain.problem().loaded_by());
     }
     for empty in ["<Datum/>", "<Datum />", "<Datum></Datum>", "<Datum> </Datum>", "<Datum>nan</Datum>"] {
         let case = of(&list(&datums(12).replace("<Datum>7.5e-3</Datum>", empty))).unwrap();
@@ -552,7 +552,7 @@ fn heights_in_main_xml_are_read_or_refused() {
         .replace("<SizeX>4<", "<SizeX>300<")
         .replace("<SizeY>3<", "<SizeY>200<");
     let case = read("a.x3p", zip(&[("main.xml", many.as_bytes(), None)]), "").unwrap();
-    assert_eq!(case.counterbody().topography().unwrap().points(), [300, 200]);
+    assert_eq!(case.problem().topography().unwrap().points(), [300, 200]);
 }
 
 #[test]
@@ -691,7 +691,7 @@ fn form_holes_and_short_waves_are_treated_in_their_order() {
     let (_, stages) = of("form = \"plane\"\ncutoff = 2000");
     assert!(matches!(stages[3].treated, Treated::Smoothed { is_periodic: true, .. }));
     // Two names of one form.
-    let heights = |surface: &str| of(surface).0.counterbody().topography().unwrap().heights().to_owned();
+    let heights = |surface: &str| of(surface).0.problem().topography().unwrap().heights().to_owned();
     assert_eq!(heights("level = true"), heights("form = \"plane\""));
     let refused = |surface: &str| read("doubles.x3p", stored("doubles.x3p"), surface).unwrap_err();
     for (surface, words) in [

@@ -132,7 +132,7 @@ fn the_cases_of_the_tests_are_the_embedded_ones() {
     for paper in PAPER {
         let name = paper.name;
         let case = Case::read(&embedded::source(name).unwrap(), &[]).unwrap();
-        let (own, embedded) = (paper.indenters(), case.counterbody().indenters().unwrap());
+        let (own, embedded) = (paper.indenters(), case.problem().indenters().unwrap());
         assert_eq!(own.lattice(), embedded.lattice(), "{name}");
         assert!(own.levels().iter().zip(embedded.levels()).all(|(a, b)| a.shape() == b.shape()), "{name}");
         assert_eq!(own.levels().len(), embedded.levels().len(), "{name}");

@@ -153,7 +153,7 @@ fn worst(seed: u64, count: usize, points: usize) -> [f64; 3] {
     while judged < count {
         let (problem, load, words) = random_case(&mut random);
         let step = Solver::new(problem.clone(), [points; 2], Settings::default()).unwrap().solve(load);
-        if !step.report.stop.solved() || step.reading().contact_fraction > 0.8 {
+        if !step.report.stop.solved() || step.reading().contact_fraction.unwrap() > 0.8 {
             println!("left out: {words}");
             continue;
         }

@@ -140,14 +140,15 @@ fn faults_of(problem: &Problem, points: usize, mut random: Random) -> (Vec<Fault
         let other = limits(problem, Load::MeanPressure(part * found.complete), points);
         assert_eq!(other.limits, found.limits, "from {part} of complete contact");
     }
-    let [least, most] = [0, found.steps.len() - 1].map(|index| found.steps[index].reading.mean_pressure);
+    let [least, most] = [0, found.steps.len() - 1].map(|index| found.steps[index].reading.mean_pressure.unwrap());
     let first = least.max(LEAST * found.complete) * (1.0 + (RATIO - 1.0) * random.unit());
     let loads = std::iter::successors(Some(first), |load| Some(load * RATIO)).take_while(|load| *load < most);
     let loads: Vec<Load> = loads.map(Load::MeanPressure).collect();
     let steps = Run::new(problem.clone(), loads, Sampling::Points([points; 2])).solve(&mut ()).unwrap().steps;
     let (mut faults, mut kinds) = (Vec::new(), [0; 5]);
     for limit in &found.limits {
-        let taken = |step: &'_ StepRecord| Some((step.reading.mean_pressure, *step.utilisation(limit.criterion)?));
+        let taken =
+            |step: &'_ StepRecord| Some((step.reading.mean_pressure.unwrap(), *step.utilisation(limit.criterion)?));
         let path = Path { taken: steps.iter().filter_map(taken).collect() };
         if let Some(fault) = path.contradicts(limit, least) {
             let (friction, half_space) = (problem.friction(), problem.half_space());

@@ -87,9 +87,9 @@ fn stated(reading: &Reading) -> Vec<Stated> {
     let errors = reading.errors;
     let mut all = Vec::new();
     let mut note = |name, value: Option<f64>, error| all.push(Stated { name, value, error, size: value });
-    note("mean pressure", Some(reading.mean_pressure), errors.mean_pressure);
+    note("mean pressure", reading.mean_pressure, errors.mean_pressure);
     note("penetration", Some(reading.penetration), errors.penetration);
-    note("contact fraction", Some(reading.contact_fraction), errors.contact_fraction);
+    note("contact fraction", reading.contact_fraction, errors.contact_fraction);
     note("elastic energy", Some(reading.elastic_energy), errors.elastic_energy);
     note("largest pressure", reading.finite_peak(), errors.max_pressure);
     for level in &reading.levels {
@@ -165,7 +165,7 @@ fn errors(
             continue;
         }
         if by_load {
-            load = Load::MeanPressure(found.0.mean_pressure);
+            load = Load::MeanPressure(found.0.mean_pressure.unwrap());
             let (_, Some(again)) = solve(points, Some(load), tolerance) else { continue };
             found = again;
         }

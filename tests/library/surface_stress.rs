@@ -274,7 +274,7 @@ impl Contact {
         let points = [factor * self.points; 2];
         let (step, reading) = solve(&self.problem, points, Load::MeanPressure(self.pressure));
         assert!(step.report.stop.solved(), "{}: {}", self.words, step.report);
-        let radius = (reading.contact_fraction * step.grid().cell().area() / PI).sqrt();
+        let radius = (reading.contact_fraction.unwrap() * step.grid().cell().area() / PI).sqrt();
         let radii = [radius.max(4.0 / self.points as f64); 2];
         let under = |contact| StressField::new(contact, MeanStress::HalfSpace).maxima(radii);
         let maxima = under(step.finest());

@@ -36,7 +36,7 @@ fn a_hertz_contact_has_its_stiffness_and_sensitivities() {
     let alike = |radius: f64, young: f64| {
         let material = Material::from_young(young, 0.3).unwrap();
         let layer = Layer::new(material, 0.3, Interface::Bonded).unwrap();
-        Problem::new(of(radius, young).counterbody().clone(), HalfSpace::new(vec![layer], material))
+        Problem::new(of(radius, young).loaded_by().clone(), HalfSpace::new(vec![layer], material))
     };
     let mut solver = solver(alike(1.0, 1.0), 96);
     for load in [0.01, 0.03, 0.05] {

@@ -88,7 +88,7 @@ fn errors(points: usize, shift: [f64; 2]) -> Result<[f64; 5], StudyError> {
     let system = System::single(modulus, TRIANGULAR, vec![paraboloid(1.0)]);
     let exact = system.contacts(&[RADIUS])[0];
     let mut steps = Steps::of(&case, points)?;
-    let cell = case.counterbody().cell();
+    let cell = case.problem().cell();
     let (step, found) = steps.solve(Load::MeanPressure(exact.load / cell.area()))?;
     let field = StressField::new(step.finest(), MeanStress::HalfSpace);
     let state = field.points(Depth { z: DEPTH * RADIUS, material: 1 }, &[cell.point([s, t])])[0];

@@ -92,7 +92,8 @@ fn compared(random: &mut Random) -> Result<Option<Vec<[f64; 4]>>, StudyError> {
     };
     let Some((mut load, mut found)) = solve(points, None)? else { return Ok(None) };
     if by_load {
-        let Some(by_load) = solve(points, Some(Load::MeanPressure(found.mean_pressure)))? else { return Ok(None) };
+        let mean = found.mean_pressure.ok_or("an isolated contact has no mean pressure")?;
+        let Some(by_load) = solve(points, Some(Load::MeanPressure(mean)))? else { return Ok(None) };
         (load, found) = by_load;
     }
     let Some((_, exact)) = solve(FINER * points, Some(load))? else { return Ok(None) };
@@ -111,7 +112,7 @@ fn compared(random: &mut Random) -> Result<Option<Vec<[f64; 4]>>, StudyError> {
 }
 
 fn quantities(step: &Reading) -> Vec<Option<f64>> {
-    let whole = [step.mean_pressure, step.penetration, step.contact_fraction, step.max_pressure].map(Some);
+    let whole = [step.mean_pressure, Some(step.penetration), step.contact_fraction, Some(step.max_pressure)];
     let levels = step.levels.iter().flat_map(|level| {
         let loads = [level.load, level.load_share, level.max_pressure].map(Some);
         loads.into_iter().chain([level.contact_radius, level.radius_min, level.radius_max, level.asymmetry])

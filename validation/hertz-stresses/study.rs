@@ -57,7 +57,7 @@ fn run(ratios: &[f64]) -> Result<Outcome, StudyError> {
         let case = case("hertz-stresses", CASE, &[format!("substrate.poisson={nu}")])?;
         let modulus = case.half_space().surface_material().contact_modulus();
         let contact = System::single(modulus, TRIANGULAR, vec![paraboloid(1.0)]).contacts(&[RADIUS])[0];
-        let load = Load::MeanPressure(contact.load / case.counterbody().cell().area());
+        let load = Load::MeanPressure(contact.load / case.problem().cell().area());
         let mut steps = Steps::of(&case, POINTS)?;
         let (step, _) = steps.solve(load)?;
         let field = StressField::new(step.finest(), MeanStress::HalfSpace);

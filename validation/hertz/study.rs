@@ -50,7 +50,7 @@ fn lattice(outcome: &mut Outcome) -> Result<Data, StudyError> {
         let mut steps = Steps::of(&case, (SAMPLES / radius) as usize)?;
         let modulus = case.half_space().surface_material().contact_modulus();
         let load = load(radius, modulus);
-        let found = steps.loaded(load / case.counterbody().cell().area())?;
+        let found = steps.loaded(load / case.problem().cell().area())?;
         let hertz = Hertz::loaded(RADIUS, load, modulus);
         let lift = load * TRIANGULAR.0[0] / (std::f64::consts::PI * modulus);
         let contact_radius = found.levels[0].contact_radius.unwrap_or(f64::NAN);
@@ -93,7 +93,7 @@ fn coating(outcome: &mut Outcome) -> Result<Data, StudyError> {
         let mut steps = Steps::of(&case, (SAMPLES / radius) as usize)?;
         let substrate = case.half_space().material(2).contact_modulus();
         let load = load(radius, coating.modulus());
-        let found = steps.loaded(load / case.counterbody().cell().area())?;
+        let found = steps.loaded(load / case.problem().cell().area())?;
         let [hard, soft] = [coating.modulus(), substrate].map(|modulus| Hertz::loaded(RADIUS, load, modulus).peak);
         data.rows.push(vec![ratio, found.max_pressure, hard, soft]);
     }

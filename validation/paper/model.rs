@@ -62,7 +62,7 @@ impl Model {
 
     /// Load steps on a grid as dense along both cell vectors as `points` are along the side of a rhombus of that area.
     pub fn steps_as_dense(&self, points: usize) -> Result<Steps, StudyError> {
-        let cell = self.case.counterbody().cell();
+        let cell = self.case.problem().cell();
         let side = (cell.area() / 0.75f64.sqrt()).sqrt();
         let shorter = cell.vectors().map(|a| a[0].hypot(a[1])).into_iter().fold(f64::INFINITY, f64::min);
         let along = balanced_points(&cell, (points as f64 * shorter / side).round() as usize);
@@ -71,7 +71,7 @@ impl Model {
 
     /// Area of the cell.
     pub fn area(&self) -> f64 {
-        self.case.counterbody().cell().area()
+        self.case.problem().cell().area()
     }
 
     /// Side of the cell, the length that contacts are small against.
@@ -113,7 +113,7 @@ impl Model {
 
     /// The indenters, one a level.
     pub fn indenters(&self) -> Result<Vec<Indenter>, StudyError> {
-        let indenters = self.case.counterbody().indenters().ok_or("no indenters")?;
+        let indenters = self.case.problem().indenters().ok_or("no indenters")?;
         let indenter = |(level, drop): (&Level, f64)| match level.shape() {
             Shape::Paraboloid { radius } => Ok(Indenter { curvature: radius, drop }),
             other => Err(format!("{other} is no paraboloid").into()),

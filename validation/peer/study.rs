@@ -5,7 +5,7 @@
 //! cell 1 × √3 with two indenters, here a rhombus with one.
 
 use super::draw::{self, curve};
-use super::steps::{Steps, topography};
+use super::steps::{Steps, fraction_in_contact, topography};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
 use percoat_app::picture::{Axis, Chart, Figure, Style};
 use percoat_core::body::{HalfSpace, Material};
@@ -55,8 +55,9 @@ fn run() -> Result<Outcome, StudyError> {
         let mut found = Vec::new();
         for row in &rows {
             let step = steps.loaded(row[1])?;
-            found.push([step.penetration, step.max_pressure, step.contact_fraction]);
-            data.rows.push(vec![number as f64, row[1], step.penetration, step.max_pressure, step.contact_fraction]);
+            let numbers = [step.penetration, step.max_pressure, fraction_in_contact(&step)?];
+            found.push(numbers);
+            data.rows.push([[number as f64, row[1]].as_slice(), &numbers].concat());
         }
         for (index, quantity, tolerance) in [
             (0, "penetration", Tolerance::Relative(1e-4)),

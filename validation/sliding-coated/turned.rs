@@ -1,5 +1,6 @@
 //! A sliding that is turned with the lattice turns everything.
 
+use super::super::steps::fraction_in_contact;
 use super::super::{Data, StudyError};
 use ndarray::Array2;
 use percoat_core::body::{HalfSpace, Interface, Layer, Material, MeanStress};
@@ -43,7 +44,7 @@ fn solve(lattice: Lattice, degrees: f64) -> Result<Found, StudyError> {
     stresses.extend(stress.interfaces.iter().flat_map(|face| [face.normal.value, face.shear.value]));
     Ok(Found {
         pressure: step.pressure().to_owned(),
-        scalars: [reading.penetration, reading.contact_fraction, reading.max_pressure],
+        scalars: [reading.penetration, fraction_in_contact(&reading)?, reading.max_pressure],
         stresses,
     })
 }

@@ -62,7 +62,7 @@ impl Solved {
         let modulus = case.half_space().surface_material().contact_modulus();
         let contact = System::single(modulus, TRIANGULAR, vec![paraboloid(1.0)]).contacts(&[radius])[0];
         let mut steps = Steps::of(&case, (samples as f64 / radius).round() as usize)?;
-        let step = steps.step(Load::MeanPressure(contact.load / case.counterbody().cell().area()))?;
+        let step = steps.step(Load::MeanPressure(contact.load / case.problem().cell().area()))?;
         Ok(Self { step, axis: contact.axis, radius })
     }
 

@@ -5,7 +5,7 @@
 //! the indenter as in the study `isolated`.
 
 use super::draw::{self, curve};
-use super::steps::{Steps, topography};
+use super::steps::{Steps, fraction_in_contact, topography};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
 use crate::exact::{CoatedContact, Coating};
 use percoat_app::picture::{Axis, Chart, Figure, Style};
@@ -106,9 +106,10 @@ impl Contact {
         let grid = Grid::new(cell, [points; 2])?;
         let count = step.pressure().iter().filter(|p| **p > 0.0).count() as f64;
         let radius = |area: f64| (area / PI).sqrt();
+        let fraction = fraction_in_contact(&found)?;
         Ok(Found {
-            error: radius(found.contact_fraction * cell.area()) - 1.0,
-            stated: 0.5 * stated / found.contact_fraction,
+            error: radius(fraction * cell.area()) - 1.0,
+            stated: 0.5 * stated / fraction,
             counted: radius(count * grid.sample_area()) - 1.0,
         })
     }

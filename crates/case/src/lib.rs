@@ -4,3 +4,4 @@
 pub mod case;
 pub mod measurements;
 pub mod units;
+pub mod words;

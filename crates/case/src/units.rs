@@ -27,15 +27,10 @@ pub struct Units {
 impl Units {
     /// Units of a problem, whose numbers alone are known.
     pub fn of(problem: &Problem) -> Self {
-        let (counterbody, half_space) = (problem.counterbody(), problem.half_space());
+        let half_space = problem.half_space();
         let is_one = |x: f64| (x - 1.0).abs() < 1e-9;
-        let length = match counterbody.levels().first().map(Level::shape) {
-            Some(_)
-                if !problem.cell().is_isolated()
-                    && counterbody.indenters().is_some_and(|own| is_one(own.lattice().period())) =>
-            {
-                Some("l")
-            }
+        let length = match problem.levels().first().map(Level::shape) {
+            Some(_) if problem.period().is_some_and(is_one) => Some("l"),
             Some(Shape::Paraboloid { radius } | Shape::Sphere { radius }) if is_one(radius) => Some("r₁"),
             _ => None,
         };
@@ -43,7 +38,7 @@ impl Units {
         let reference = half_space.substrate().material().unwrap_or(half_space.surface_material());
         let pressure = is_one(reference.young()).then(|| format!("E{}", reference_index(half_space)));
         let relative = |symbol: Option<String>| symbol.map_or(Unit::None, Unit::Relative);
-        let quantity = if problem.cell().is_isolated() { LoadQuantity::Force } else { LoadQuantity::MeanPressure };
+        let quantity = problem.kind().load_quantity();
         Self { length: relative(length.map(str::to_owned)), pressure: relative(pressure), quantity }
     }
 

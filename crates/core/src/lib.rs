@@ -61,6 +61,7 @@ pub mod comparison;
 pub mod counterbody;
 pub mod friction;
 pub mod identification;
+pub mod kind;
 pub mod lattice;
 pub mod life;
 pub mod load;
@@ -78,11 +79,12 @@ pub use body::{
     MaterialError, MeanStress, Strength, Substrate,
 };
 pub use counterbody::{
-    Counterbody, CounterbodyError, GivenPressure, IndenterError, Indenters, Level, LoadedDisc, Shape, Surface,
-    Topography,
+    Counterbody, CounterbodyError, GivenPressure, IndenterError, Indenters, Level, LoadedBy, LoadedDisc, Shape,
+    Surface, Topography,
 };
 pub use friction::{Friction, FrictionError};
-pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid};
+pub use kind::{ContactKind, Datum};
+pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid, Surroundings};
 pub use load::{Load, LoadQuantity};
 pub use problem::Problem;
 pub use reading::{DamageMap, FatigueReading, LevelReading, Life, Reading, StressReading};

@@ -53,6 +53,14 @@ impl LoadQuantity {
         }
     }
 
+    /// The load of a force on a cell, stated in this quantity.
+    pub fn of_force(self, force: f64, cell: Cell) -> Load {
+        match self {
+            Self::MeanPressure => Load::MeanPressure(force / cell.area()),
+            Self::Force => Load::Force(force),
+        }
+    }
+
     /// A load of this quantity.
     pub fn load(self, value: f64) -> Load {
         match self {

@@ -1,15 +1,16 @@
-//! The contact problem: a counterbody, rigid or elastic, above a layered elastic half-space, at rest or sliding.
+//! The problem: a layered elastic half-space, loaded by a counterbody, rigid or elastic, at rest or sliding, or by a given pressure.
 
 use crate::body::{Bodies, CompositeError, CompositeHardness, HalfSpace, Interface, Side};
-use crate::counterbody::Counterbody;
+use crate::counterbody::{Counterbody, GivenPressure, Indenters, Level, LoadedBy, Topography};
 use crate::friction::{Friction, FrictionError};
-use crate::lattice::Cell;
+use crate::kind::{ContactKind, Datum};
+use crate::lattice::{Cell, Surroundings};
 use std::fmt;
 
-/// A counterbody above a half-space, with or without friction. Both parts are checked at construction: every problem is valid.
+/// A half-space and what loads it, with or without friction. Both parts are checked at construction: every problem is valid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
-    counterbody: Counterbody,
+    loaded_by: LoadedBy,
     bodies: Bodies,
     friction: Option<Friction>,
     composite: Option<CompositeHardness>,
@@ -19,8 +20,8 @@ impl Problem {
     /// Frictionless contact of a counterbody of this shape ([`Indenters`](crate::counterbody::Indenters) or a
     /// [`Topography`](crate::counterbody::Topography)), or the load of a [`GivenPressure`](crate::counterbody::GivenPressure), on a [`HalfSpace`], rigid, or of [`Bodies`] of which both are elastic; in
     /// one unit of length.
-    pub fn new(counterbody: impl Into<Counterbody>, bodies: impl Into<Bodies>) -> Self {
-        Self { counterbody: counterbody.into(), bodies: bodies.into(), friction: None, composite: None }
+    pub fn new(loaded_by: impl Into<LoadedBy>, bodies: impl Into<Bodies>) -> Self {
+        Self { loaded_by: loaded_by.into(), bodies: bodies.into(), friction: None, composite: None }
     }
 
     /// The problem with friction.
@@ -42,7 +43,7 @@ impl Problem {
     /// Hardness that the pressure of contact does not exceed, in its unit, with the side of the softer surface. `None` without one, and
     /// under a given pressure, which is prescribed, displaces elastically and presses nothing in.
     pub fn hardness(&self) -> Option<(f64, Side)> {
-        self.bodies.hardness().filter(|_| self.counterbody.pressure().is_none())
+        self.bodies.hardness().filter(|_| !self.kind().is_given)
     }
 
     /// The problem with a hardness of the coating and its substrate together: each load meets that of its own penetration.
@@ -97,13 +98,63 @@ impl Problem {
 
     /// The same indenters in a window `factor` times as wide and as high; `None` unless they are an isolated contact.
     pub(crate) fn widened(&self, factor: f64) -> Option<Self> {
-        let counterbody = self.counterbody.indenters()?.widened(factor)?.into();
-        Some(Self { counterbody, ..self.clone() })
+        let loaded_by = self.indenters()?.widened(factor)?.into();
+        Some(Self { loaded_by, ..self.clone() })
     }
 
-    /// The shape of the counterbody.
-    pub fn counterbody(&self) -> &Counterbody {
-        &self.counterbody
+    /// The counterbody, or the given pressure.
+    pub fn loaded_by(&self) -> &LoadedBy {
+        &self.loaded_by
+    }
+
+    /// The shape of the counterbody; `None` under a given pressure.
+    pub fn counterbody(&self) -> Option<&Counterbody> {
+        self.loaded_by.counterbody()
+    }
+
+    /// The indenters; `None` under a topography and a given pressure.
+    pub fn indenters(&self) -> Option<&Indenters> {
+        self.counterbody()?.indenters()
+    }
+
+    /// The period of the lattice of indenters, a length; `None` around an isolated contact, and without indenters.
+    pub fn period(&self) -> Option<f64> {
+        let period = self.indenters()?.lattice().period();
+        self.cell().surroundings().per_cell(period)
+    }
+
+    /// The only indenter of an isolated contact; `None` in a periodic system, and without indenters.
+    pub fn lone_indenter(&self) -> Option<&Level> {
+        let indenters = self.indenters()?;
+        match (self.cell().surroundings(), indenters.sites().len(), indenters.levels()) {
+            (Surroundings::FreeSpace, 1, [level, ..]) => Some(level),
+            _ => None,
+        }
+    }
+
+    /// The levels of the indenters; none under a topography and a given pressure.
+    pub fn levels(&self) -> &[Level] {
+        self.indenters().map_or(&[], Indenters::levels)
+    }
+
+    /// The topography; `None` under indenters and a given pressure.
+    pub fn topography(&self) -> Option<&Topography> {
+        self.counterbody()?.topography()
+    }
+
+    /// The given pressure; `None` under a counterbody.
+    pub fn given_pressure(&self) -> Option<&GivenPressure> {
+        self.loaded_by.pressure()
+    }
+
+    /// Kind of the contact.
+    pub fn kind(&self) -> ContactKind {
+        self.loaded_by.kind()
+    }
+
+    /// What penetration and displacements count from.
+    pub fn datum(&self) -> Datum {
+        Datum::of(self.cell().surroundings(), self.bodies.mean_compliance())
     }
 
     /// The elastic bodies.
@@ -128,13 +179,13 @@ impl Problem {
 
     /// The unit cell.
     pub fn cell(&self) -> Cell {
-        self.counterbody.cell()
+        self.loaded_by.cell()
     }
 }
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}\n{}", self.counterbody, self.bodies)?;
+        write!(f, "{}\n{}", self.loaded_by, self.bodies)?;
         self.friction.iter().try_for_each(|friction| write!(f, "\n{friction}"))
     }
 }

@@ -21,8 +21,8 @@ pub fn of(step: &StepRecord, units: &Units) -> Vec<CaseNumber> {
         && let Some(radius) = level.contact_radius
     {
         all.push(shown("contact radius", length, radius, level.errors.contact_radius));
-    } else if reading.contact_fraction.is_finite() {
-        all.push(shown("fraction in contact", &Unit::None, reading.contact_fraction, reading.errors.contact_fraction));
+    } else if let Some(part) = reading.contact_fraction {
+        all.push(shown("fraction in contact", &Unit::None, part, reading.errors.contact_fraction));
     }
     all.push(shown("largest pressure", pressure, reading.max_pressure, reading.errors.max_pressure));
     if let Some(stress) = &step.stress {

@@ -115,7 +115,7 @@ impl Check {
     /// [`CheckError`].
     pub fn of(case: &Case, name: &str, room: Capacity) -> Result<Self, CheckError> {
         case.run().check()?;
-        let cell = case.counterbody().cell();
+        let cell = case.problem().cell();
         let grids = case.grid.grids(&cell).map_err(RunError::<Infallible>::from)?;
         let points = grids[grids.len() - 1];
         let units = case.units();
@@ -134,7 +134,10 @@ impl Check {
         let counts = || case.layers.iter().map(percoat_case::case::LayerSection::sublayers).collect();
         Ok(Self {
             title: if case.title.is_empty() { name.to_owned() } else { case.title.clone() },
-            problem: [described::counterbody(&units, case.counterbody()), described::bodies(&units, case.problem())],
+            problem: [
+                described::loaded_by(&units, case.problem().loaded_by()),
+                described::bodies(&units, case.problem()),
+            ],
             units,
             sublayers: sublayer_error(case).map(|error| (counts(), error)),
             points,
@@ -202,7 +205,7 @@ impl Touches {
 
 impl Roughness {
     fn of(case: &Case) -> Result<Option<Self>, LatticeError> {
-        let Some(topography) = case.counterbody().topography() else { return Ok(None) };
+        let Some(topography) = case.problem().topography() else { return Ok(None) };
         let heights = topography.own_heights();
         let spectrum = Spectrum::of(topography.cell(), heights.view())?;
         let (sides, points) = (topography.cell().vectors().map(|[x, y]| x.hypot(y)), topography.points());
@@ -232,11 +235,11 @@ type FoundTouches = ([usize; 2], Vec<Option<FirstTouch>>);
 /// First touches of the levels; `first` is the coarsest grid of the case, for which there is memory.
 fn touches(case: &Case, first: [usize; 2]) -> Result<Option<FoundTouches>, LatticeError> {
     // A single isolated contact touches under any load.
-    let is_single = case.problem().cell().is_isolated() && case.counterbody().levels().len() == 1;
-    if case.counterbody().indenters().is_none() || is_single {
+    let is_single = case.problem().kind().is_indentation() && case.problem().levels().len() == 1;
+    if case.problem().indenters().is_none() || is_single {
         return Ok(None);
     }
-    let [n1, n2] = balanced_points(&case.counterbody().cell(), POINTS);
+    let [n1, n2] = balanced_points(&case.problem().cell(), POINTS);
     // A long cell would have many points.
     let points = if n1 * n2 <= 4 * POINTS * POINTS { [n1, n2] } else { first };
     let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver)?;

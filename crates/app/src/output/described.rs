@@ -3,8 +3,8 @@
 use super::number::{number, with_error};
 use percoat_case::units::{Unit, Units};
 use percoat_core::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Side};
-use percoat_core::counterbody::{Counterbody, GivenPressure, LoadedDisc, Shape};
-use percoat_core::lattice::{Cell, Grid};
+use percoat_core::counterbody::{Counterbody, GivenPressure, Indenters, LoadedBy, LoadedDisc, Shape, Topography};
+use percoat_core::lattice::{Cell, Grid, Surroundings};
 use percoat_core::problem::Problem;
 
 /// A length with its unit, five digits.
@@ -36,7 +36,7 @@ fn area(units: &Units, x: f64) -> String {
 }
 
 fn cell(units: &Units, cell: Cell) -> String {
-    if cell.is_isolated() {
+    if cell.surroundings() == Surroundings::FreeSpace {
         let [width, height] = [cell.vectors()[0][0], cell.vectors()[1][1]].map(|side| length(units, side));
         return format!("isolated contact in a window of {width} × {height}");
     }
@@ -73,25 +73,32 @@ fn given_pressure(units: &Units, given: &GivenPressure) -> String {
     format!("pressure given on discs{}", discs.collect::<String>())
 }
 
-/// The counterbody in words, one line a level.
-pub(super) fn counterbody(units: &Units, counterbody: &Counterbody) -> String {
-    let own = cell(units, counterbody.cell());
-    if let Some(given) = counterbody.pressure() {
-        return format!("{own}, {}", given_pressure(units, given));
-    }
-    let Some(indenters) = counterbody.indenters() else {
-        let topography = counterbody.topography();
-        let [n1, n2] = topography.map_or([0, 0], |topography| topography.points());
-        let ball = topography.and_then(|topography| topography.ball());
-        let ball = ball.map_or(String::new(), |radius| format!(" on a ball of radius {}", length(units, radius)));
-        return format!("{own}, topography of {n1} × {n2} samples{ball}");
+/// The cell and what loads the body in it in words, one line a level.
+pub(super) fn loaded_by(units: &Units, loaded_by: &LoadedBy) -> String {
+    let what = match loaded_by {
+        LoadedBy::Pressure(given) => given_pressure(units, given),
+        LoadedBy::Counterbody(Counterbody::Topography(own)) => topography(units, own),
+        LoadedBy::Counterbody(Counterbody::Indenters(own)) => indenters(units, own),
     };
+    format!("{}, {what}", cell(units, loaded_by.cell()))
+}
+
+/// A topography in words.
+fn topography(units: &Units, topography: &Topography) -> String {
+    let [n1, n2] = topography.points();
+    let ball = topography.ball();
+    let ball = ball.map_or(String::new(), |radius| format!(" on a ball of radius {}", length(units, radius)));
+    format!("topography of {n1} × {n2} samples{ball}")
+}
+
+/// Indenters in words, one line a level.
+fn indenters(units: &Units, indenters: &Indenters) -> String {
     let counts: Vec<String> = indenters.lattice().sites().iter().map(|sites| sites.len().to_string()).collect();
     let levels = (1..).zip(indenters.levels().iter().zip(indenters.drops()));
     let levels = levels.map(|(index, (level, drop)): (usize, _)| {
         format!("\nlevel {index}: {}, drop {}", shape(units, level.shape()), length(units, drop))
     });
-    format!("{own}, indenters per level: {}{}", counts.join(", "), levels.collect::<String>())
+    format!("indenters per level: {}{}", counts.join(", "), levels.collect::<String>())
 }
 
 fn material(units: &Units, material: Material) -> String {
@@ -116,7 +123,7 @@ pub(super) fn bodies(units: &Units, problem: &Problem) -> String {
     let own = half_space(units, bodies.body());
     let above = match bodies.counterbody() {
         Some(above) => format!("\ncounterbody, from its surface inward:\n{}", half_space(units, above)),
-        None if problem.counterbody().pressure().is_some() => String::new(),
+        None if problem.kind().is_given => String::new(),
         None => {
             let borne = durability(units, bodies.surface_durability(Side::Counterbody), None);
             format!("\ncounterbody: rigid{borne}")

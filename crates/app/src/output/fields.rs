@@ -27,8 +27,8 @@ impl ContactArchive {
     /// Writes the fields of the next step with its load: force, and mean pressure unless contact is isolated. Returns its files.
     pub(super) fn add(&mut self, step: &Step, reading: &Reading) -> Result<Files, OutputError> {
         self.arrays.next_step();
-        if !reading.is_isolated() {
-            self.arrays.add("mean_pressure", &[], [reading.mean_pressure])?;
+        if let Some(mean) = reading.mean_pressure {
+            self.arrays.add("mean_pressure", &[], [mean])?;
         }
         self.arrays.add("force", &[], [reading.force])?;
         self.arrays.add("penetration", &[], [step.penetration()])?;

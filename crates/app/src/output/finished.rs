@@ -101,7 +101,7 @@ fn plausible(
         return Err(other());
     }
     match last {
-        Some(last) if !last.checkpoint.fits(position.points, run.settings.method, run.problem.counterbody().line()) => {
+        Some(last) if !last.checkpoint.fits(position.points, run.settings.method, run.problem.loaded_by().line()) => {
             Err(format!("its fields are not those of {n1} × {n2} samples and their coarser grids"))
         }
         _ => Ok(before),

@@ -9,6 +9,7 @@
 use super::checksum::Checksum;
 use super::{OutputError, write_file};
 use percoat_core::body::Depth;
+use percoat_core::lattice::Surroundings;
 use percoat_core::stress::{StressField, StressState};
 use std::io::{self, Write};
 use std::path::Path;
@@ -80,7 +81,10 @@ pub(super) fn added_volume(
 
 /// Indices of the last points along a₁ and a₂: the first ones again, unless contact is isolated.
 fn last(field: &StressField, points: [usize; 2]) -> [usize; 2] {
-    points.map(|n| if field.grid().cell().is_isolated() { n - 1 } else { n })
+    match field.grid().cell().surroundings() {
+        Surroundings::Periodic => points,
+        Surroundings::FreeSpace => points.map(|n| n - 1),
+    }
 }
 
 /// States of a plane, a₁ fastest, its border repeated in a periodic system.

@@ -2,7 +2,6 @@
 
 use super::pressure::{axes, numbers, sliding_arrow, sliding_words, unit_cell};
 use super::snapshot::Snapshot;
-use super::tiling::images;
 use super::window::{View, Window};
 use super::zoom;
 use percoat_core::reading::LevelReading;
@@ -70,7 +69,7 @@ fn boundaries(snapshot: &Snapshot, window: Window, without_mutual_effect: Option
     let cell = snapshot.step.grid().cell();
     let mut over = Vec::new();
     for (site, boundary) in snapshot.step.surface().sites().iter().zip(&snapshot.reading.boundaries) {
-        for centre in images(cell, site.place, widened(window)) {
+        for centre in cell.images_in(site.place, widened(window)) {
             let closed = |radius: &dyn Fn(f64) -> f64, dash: Dash, width: f64, colour: Colour| {
                 let point = |k: u32| {
                     let theta = TAU * f64::from(k) / 180.0;

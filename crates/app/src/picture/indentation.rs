@@ -3,15 +3,8 @@
 use super::pressure::{axes, unit_cell};
 use super::snapshot::Snapshot;
 use super::zoom;
-use crate::picture::labels::Labels;
+use percoat_core::lattice::Surroundings;
 use percoat_core::numeric::array::samples;
-use percoat_draw::axis::Axis;
-use percoat_draw::bar::Bar;
-use percoat_draw::canvas::Canvas;
-use percoat_draw::chart::{Chart, Plot};
-use percoat_draw::curve::{Curve, Style};
-use percoat_draw::map::{Fill, Map};
-use percoat_draw::sheet::sheet;
 
 /// Points of the profile.
 const POINTS: u32 = 480;
@@ -24,12 +17,12 @@ pub fn indentation(snapshot: &Snapshot) -> Option<Canvas> {
     if deepest.1 <= 0.0 {
         return None;
     }
-    let is_isolated = cell.is_isolated();
+    let is_window = cell.surroundings() == Surroundings::FreeSpace;
     let is_seen = |index: usize| samples(&depths)[index] > 0.0 || snapshot.pressures()[index] > 0.0;
     let view = zoom::view(grid, snapshot.levels() > 0, is_seen);
     let at = |place: [f64; 2]| {
         let fractions = cell.fractions(place);
-        let outside = is_isolated && fractions.iter().any(|part| !(0.0..=1.0).contains(part));
+        let outside = is_window && fractions.iter().any(|part| !(0.0..=1.0).contains(part));
         if outside { 0.0 } else { snapshot.between_samples(samples(&depths), place) }
     };
     let value = |place: [f64; 2]| Some(at(place)).filter(|depth| *depth > 0.0);
@@ -48,7 +41,7 @@ pub fn indentation(snapshot: &Snapshot) -> Option<Canvas> {
     let [[first, last], _] = view.window;
     let half = 0.5 * (last - first);
     let line = |k: u32| {
-        let x = if is_isolated { first } else { x0 - half } + 2.0 * half * f64::from(k) / f64::from(POINTS);
+        let x = if is_window { first } else { x0 - half } + 2.0 * half * f64::from(k) / f64::from(POINTS);
         [x, -at([x, y0])]
     };
     let curve = Curve {

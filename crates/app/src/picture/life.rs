@@ -1,22 +1,13 @@
 //! The damage that a pass does below the surface, with the interfaces; and the course of a life over the passes.
 
 use super::snapshot::{Snapshot, caption};
-use crate::picture::labels::Labels;
 use percoat_case::units::Units;
+use percoat_case::words::AroundWords;
 use percoat_core::body::Fatigue;
 use percoat_core::life::{Course, Event, EventKind};
 use percoat_core::problem::Problem;
 use percoat_core::reading::FatigueReading;
 use percoat_core::stress::RangePlane;
-use percoat_draw::axis::Axis;
-use percoat_draw::bar::Bar;
-use percoat_draw::canvas::{Canvas, Dash, Stroke};
-use percoat_draw::chart::{Chart, plots};
-use percoat_draw::colour::{Colour, ColourMap};
-use percoat_draw::curve::{Curve, Style};
-use percoat_draw::map::{Fill, Map, Over};
-use percoat_draw::scale::Scale;
-use percoat_draw::sheet::sheet;
 
 /// Height over width of the map, least and largest.
 const ASPECT: [f64; 2] = [0.4, 1.1];
@@ -169,12 +160,9 @@ pub fn course(
     let mut curves = vec![curve("removed from the body", 1, removed, Style::Line)];
     curves.extend(first.as_ref().map(|first| curve("", 1, first.bar(first.removed), Style::Line)));
     // An isolated contact has no mean.
-    let is_isolated = problem.cell().is_isolated();
-    let [body, counterbody]: [fn(&Course) -> f64; 2] = match is_isolated {
-        true => [|own| own.body_depth, |own| own.counterbody_depth],
-        false => [|own| own.body.unwrap_or(0.0), |own| own.counterbody.unwrap_or(0.0)],
-    };
-    let what = if is_isolated { "depth" } else { "mean" };
+    let [body, counterbody]: [fn(&Course) -> f64; 2] =
+        [|own| own.body.unwrap_or(own.body_depth), |own| own.counterbody.unwrap_or(own.counterbody_depth)];
+    let what = AroundWords::of(problem.cell().surroundings()).worn;
     if course.iter().any(|own| body(own) > 0.0) {
         curves.push(curve(&format!("worn off the body by sliding, {what}"), 2, points(body), Style::Line));
     }

@@ -2,34 +2,29 @@
 
 use super::snapshot::caption;
 use super::utilisations::{BARS, utilisation_axis, utilisation_curves};
-use crate::picture::labels::Labels;
 use crate::sweep::Measured;
 use percoat_case::units::Units;
+use percoat_case::words::AroundWords;
 use percoat_core::body::MaterialId;
+use percoat_core::lattice::Surroundings;
 use percoat_core::problem::Problem;
 use percoat_core::reading::{Criterion, LevelReading, PlasticReading, Reading};
 use percoat_core::run::StepRecord;
 use percoat_core::run::touches::touches;
 use percoat_core::stress::Peak;
 use percoat_core::stress::maxima::{Carried, Extremes};
-use percoat_draw::axis::{Axis, log_spaced};
-use percoat_draw::canvas::Canvas;
-use percoat_draw::chart::{Chart, plots};
-use percoat_draw::curve::{Curve, Ink, NUMBERED_COLOURS, Style};
-use percoat_draw::error_bars::MOST_MARKERS;
-use percoat_draw::label::Label;
 
 /// The picture; `None` for less than two steps, or where none of them carries load.
 pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepRecord]) -> Option<Canvas> {
     if steps.len() < 2 || !steps.iter().any(|step| step.reading.touches()) {
         return None;
     }
-    let levels = problem.counterbody().levels().len();
+    let levels = problem.levels().len();
     let touches = touches(problem, steps, units.quantity());
     let loads: Vec<f64> = steps.iter().map(|step| step.reading.load(units.quantity())).collect();
-    let isolated = problem.cell().is_isolated();
+    let surroundings = problem.cell().surroundings();
     // Loads that are spread evenly on a logarithmic axis rather than on a linear one have one.
-    let path = LoadPath { steps, levels, units, isolated, logarithmic: log_spaced(&loads), touches: &touches };
+    let path = LoadPath { steps, levels, units, surroundings, logarithmic: log_spaced(&loads), touches: &touches };
     let mut charts = vec![path.peak_pressure(), path.extent(), path.penetration()];
     charts.extend(path.indentation());
     if path.levels > 1 {
@@ -58,8 +53,7 @@ struct LoadPath<'a> {
     /// Number of levels; 0 for a topography.
     levels: usize,
     units: &'a Units,
-    /// Whether contact is isolated.
-    isolated: bool,
+    surroundings: Surroundings,
     /// Whether the load and the quantities that grow with it have logarithmic axes.
     logarithmic: bool,
     /// Levels and the loads at which they touch first.
@@ -122,22 +116,21 @@ impl LoadPath<'_> {
     }
 
     fn extent(&self) -> Chart {
-        let (title, label) = match self.levels {
-            0 if self.isolated => ("contact area", self.units.area_of("contact area", "A")),
-            0 => ("contact area", "fraction of the cell in contact".into()),
+        let (title, label) = match (self.levels, self.surroundings) {
+            (0, Surroundings::FreeSpace) => ("contact area", self.units.area_of("contact area", "A")),
+            (0, Surroundings::Periodic) => ("contact area", "fraction of the cell in contact".into()),
             _ => ("contact radius", self.units.length_of("contact radius", "a")),
         };
-        let area = |own: &Reading| match self.isolated {
-            true => Some((own.contact_area, own.errors.contact_area)),
-            false => Some((own.contact_fraction, own.errors.contact_fraction)),
+        let area = |own: &Reading| match own.contact_fraction {
+            Some(part) => Some((part, own.errors.contact_fraction)),
+            None => Some((own.contact_area, own.errors.contact_area)),
         };
         let curves = self.by_level(area, |level| Some((level.contact_radius?, level.errors.contact_radius)));
         self.chart(title, self.axis(label), curves)
     }
 
     fn penetration(&self) -> Chart {
-        // Far from an isolated contact there is nothing to which displacement could be additional.
-        let title = if self.isolated { "penetration" } else { "additional displacement" };
+        let title = AroundWords::of(self.surroundings).penetration;
         let curve = self.curve("", 0.into(), |step| Some((step.reading.penetration, step.reading.errors.penetration)));
         self.chart(title, self.axis(self.units.length_of(title, "δ")), vec![curve])
     }

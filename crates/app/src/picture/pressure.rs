@@ -1,16 +1,10 @@
 //! The contact pressure over the surface, true to scale: several cells side by side (Fig. 2a), one cell of a topography.
 
 use super::snapshot::{Snapshot, is_oblique};
-use super::tiling::images;
 use super::window::{View, Window};
 use super::zoom;
-use crate::picture::labels::Labels;
-use percoat_draw::axis::Axis;
-use percoat_draw::bar::Bar;
-use percoat_draw::canvas::{Canvas, Dash, Stroke};
-use percoat_draw::colour::Colour;
-use percoat_draw::map::{Fill, Map, Over};
-use percoat_draw::sheet::{Panel, sheet};
+use percoat_case::words::Words;
+use percoat_core::lattice::Surroundings;
 
 /// Least distance of numbers beside and above each other, in widths of a plot.
 const NUMBERS_APART: [f64; 2] = [0.035, 0.055];
@@ -23,8 +17,8 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     let value = |place: [f64; 2]| snapshot.pressure_at(place);
     let most = snapshot.pressures().iter().copied().fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
-    let is_given = snapshot.step.problem().counterbody().pressure().is_some();
-    let name = if is_given { "pressure" } else { "contact pressure" };
+    let kind = snapshot.step.problem().kind();
+    let name = Words::of(kind).load.pressure;
     let map = |title: &str, view: View, outline: Option<Over>| {
         let [x, y] = axes(snapshot, view.window);
         let mut over: Vec<Over> = sliding_arrow(snapshot, view).into_iter().collect();
@@ -43,14 +37,15 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
             vec![map("(a) all contacts", view, Some(zoom::outline(&part))), map("(b) one contact", part, None)]
         }
     };
-    let what = match snapshot.levels() {
-        0 if is_given && cell.is_rectangular() && !view.is_part => "White: no pressure.",
-        0 if is_given => "White: no pressure; thin line: the unit cell.",
-        0 if cell.is_isolated() => "White: no contact.",
-        _ if cell.is_isolated() => "Numbers are levels; white: no contact.",
-        0 if cell.is_rectangular() && !view.is_part => "White: no contact; one unit cell.",
-        0 => "White: no contact; thin line: the unit cell.",
-        _ => "Numbers are levels; white: no contact; thin line: the unit cell.",
+    let is_one = cell.is_rectangular() && !view.is_part;
+    let what = match (snapshot.levels(), kind.surroundings) {
+        (0, _) if kind.is_given && is_one => "White: no pressure.",
+        (0, _) if kind.is_given => "White: no pressure; thin line: the unit cell.",
+        (0, Surroundings::FreeSpace) => "White: no contact.",
+        (_, Surroundings::FreeSpace) => "Numbers are levels; white: no contact.",
+        (0, Surroundings::Periodic) if is_one => "White: no contact; one unit cell.",
+        (0, Surroundings::Periodic) => "White: no contact; thin line: the unit cell.",
+        (_, Surroundings::Periodic) => "Numbers are levels; white: no contact; thin line: the unit cell.",
     };
     let words = [what, sliding_words(snapshot), zoom::words(grid, &view, close.as_ref()), &view.words()].concat();
     let panels: Vec<&dyn Panel> = maps.iter().map(|map| map as &dyn Panel).collect();
@@ -80,7 +75,7 @@ pub fn axes(snapshot: &Snapshot, [[x0, x1], [y0, y1]]: Window) -> [Axis; 2] {
 /// The unit cell's outline between the contacts; none around an isolated contact.
 pub fn unit_cell(snapshot: &Snapshot, view: View) -> Vec<Over> {
     let cell = snapshot.step.grid().cell();
-    if cell.is_isolated() {
+    if cell.surroundings() == Surroundings::FreeSpace {
         return Vec::new();
     }
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|s| cell.point(s));
@@ -132,7 +127,7 @@ pub fn numbers(snapshot: &Snapshot, view: View, colour: impl Fn([f64; 2]) -> Col
     let cell = snapshot.step.grid().cell();
     let sites = snapshot.step.surface().sites().iter();
     let mut places: Vec<(usize, [f64; 2])> =
-        sites.flat_map(|site| images(cell, site.place, inner).into_iter().map(|at| (site.level, at))).collect();
+        sites.flat_map(|site| cell.images_in(site.place, inner).into_iter().map(|at| (site.level, at))).collect();
     // In widths of the plot.
     let apart =
         |[a, b]: [f64; 2], [c, d]: [f64; 2]| [(a - c) / (x1 - x0), (b - d) / (x1 - x0) * view.stretch()].map(f64::abs);

@@ -256,7 +256,7 @@ mod tests {
         assert!(reading.levels.iter().all(|level| level.merged));
         let snapshot = Snapshot::new("", step, reading);
         // With r²/2 + d equal on both sides the seam lies at ½l + d/l from the higher axis.
-        let (apart, drop) = (snapshot.step.problem().counterbody().indenters().unwrap().lattice().period(), 0.01);
+        let (apart, drop) = (snapshot.step.problem().indenters().unwrap().lattice().period(), 0.01);
         for (level, farthest) in [(1, 0.5 * apart + drop / apart), (2, 0.5 * apart - drop / apart)] {
             let (direction, points) = snapshot.profile(level).unwrap();
             let reach = points.iter().map(|[s, _]| s.abs()).fold(0.0, f64::max);

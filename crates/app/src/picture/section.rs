@@ -3,7 +3,6 @@
 use super::shown_depths::{ShownDepths, deepest};
 use super::signed_values::{SIGNS, SignedValues};
 use super::snapshot::Snapshot;
-use super::tiling::images;
 use super::window::Window;
 use crate::picture::labels::Labels;
 use percoat_core::body::{HalfSpace, Side};
@@ -150,7 +149,7 @@ impl<'a> SectionPicture<'a> {
         let to_scale = self.whole.words(" Depth") + &coating;
         let residual = problem.bodies().each().flat_map(HalfSpace::residual_stresses).any(|stress| stress != 0.0);
         let residual = if residual { " Residual stress is in it." } else { "" };
-        let bodies = if problem.counterbody().pressure().is_some() {
+        let bodies = if problem.kind().is_given {
             "; bars on top: where the pressure acts"
         } else if self.sections.len() > 1 {
             "; above z = 0 the counterbody, below it the body; bars between them: contacts"
@@ -257,7 +256,7 @@ fn failures(snapshot: &Snapshot, sections: &[VerticalSection]) -> Vec<(Criterion
         let [x, y, z] = utilisation.position;
         let part = usize::from(utilisation.criterion.side() == Some(Side::Counterbody));
         let deepest = deepest(sections.get(part)?);
-        let images = images(cell, cell.fractions([x, y]), window).into_iter();
+        let images = cell.images_in(cell.fractions([x, y]), window).into_iter();
         let away = images.map(|[x, y]| [x - origin[0], y - origin[1]]);
         let mut places = away.filter(|[x, y]| (x * dy - y * dx).abs() <= near).map(|[x, y]| x * dx + y * dy);
         let s = places.find(|s| (first..=last).contains(s)).filter(|_| z <= deepest)?;
@@ -285,7 +284,7 @@ fn passes_tip(snapshot: &Snapshot, section: &VerticalSection) -> bool {
     let aside = |[x, y]: [f64; 2]| ((x - ends[0][0]) * along[1] - (y - ends[0][1]) * along[0]).abs() / length;
     let bodies = snapshot.step.problem().bodies().each();
     let tips = bodies.flat_map(|half_space| tips(&snapshot.step, &snapshot.reading, half_space));
-    tips.flat_map(|site| images(cell, site.place, window)).any(|place| aside(place) < near)
+    tips.flat_map(|site| cell.images_in(site.place, window)).any(|place| aside(place) < near)
 }
 
 /// A number rounded to three digits, as a picture can show.

@@ -1,11 +1,10 @@
 //! A solved load step with its readings, from which the pictures of fields are drawn.
 
-use crate::picture::labels::Labels;
 use percoat_case::units::{Unit, Units, lowered, reference_index};
 use percoat_core::body::{HalfSpace, Interface, Layer, Material};
-use percoat_core::counterbody::{Counterbody, Level, Shape};
+use percoat_core::counterbody::{Level, Shape};
 use percoat_core::friction::Friction;
-use percoat_core::lattice::{Cell, LatticeError};
+use percoat_core::lattice::{Cell, LatticeError, Surroundings};
 use percoat_core::problem::Problem;
 use percoat_core::reading::{Criterion, Governing, Reading, Utilisation};
 use percoat_core::spectral::Step;
@@ -66,7 +65,7 @@ impl Snapshot {
 
     /// Number of levels; 0 for a topography.
     pub fn levels(&self) -> usize {
-        self.step.problem().counterbody().levels().len()
+        self.step.problem().levels().len()
     }
 
     /// Caption: the title, the parameters of the case and the load, then more text.
@@ -89,7 +88,7 @@ pub fn caption(title: &str, problem: &Problem, units: &Units, more: &[String]) -
     let parts = [materials(problem.half_space(), units)]
         .into_iter()
         .chain(above)
-        .chain(geometry(problem.counterbody(), units))
+        .chain(geometry(problem, units))
         .chain(problem.bodies().hardness().map(|(hardness, _)| units.pressure_equals("H", &[hardness])))
         .chain(problem.friction().map(sliding))
         .chain(more.iter().cloned());
@@ -212,21 +211,20 @@ fn cell_vectors(cell: &Cell, units: &Units) -> String {
     format!("cell {}, {}", vector("a₁", &a1), vector("a₂", &a2))
 }
 
-fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
-    let cell = counterbody.cell();
+fn geometry(problem: &Problem, units: &Units) -> Option<String> {
+    let cell = problem.cell();
     let mut parts = Vec::new();
-    if cell.is_isolated() {
+    if cell.surroundings() == Surroundings::FreeSpace {
         let sides = [cell.vectors()[0][0], cell.vectors()[1][1]];
         let own = if sides[0] == sides[1] { &sides[..1] } else { &sides };
         parts.push(format!("isolated, window {}", units.length_equals("w", own)));
     } else if is_oblique(&cell) {
         parts.push(cell_vectors(&cell, units));
     }
-    let Some(indenters) = counterbody.indenters() else { return (!parts.is_empty()).then(|| parts.join(", ")) };
+    let Some(indenters) = problem.indenters() else { return (!parts.is_empty()).then(|| parts.join(", ")) };
     let levels = indenters.levels();
-    if !cell.is_isolated() && *units.length() != Unit::Relative("l".to_owned()) {
-        parts.push(units.length_equals("l", &[indenters.lattice().period()]));
-    }
+    let period = problem.period().filter(|_| *units.length() != Unit::Relative("l".to_owned()));
+    parts.extend(period.map(|period| units.length_equals("l", &[period])));
     let radius = |level: &Level| match level.shape() {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some(radius),
         _ => None,

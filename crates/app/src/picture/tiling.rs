@@ -1,30 +1,7 @@
 //! The cell repeated over a window of the surface.
 
 use super::snapshot::Snapshot;
-use super::window::Window;
-use percoat_core::lattice::{Cell, Grid};
-
-/// All places in a window that are periodic images of a place in fractions of a₁, a₂, or the place itself where contact is
-/// isolated; lengths.
-pub fn images(cell: Cell, place: [f64; 2], window: Window) -> Vec<[f64; 2]> {
-    let [[x0, x1], [y0, y1]] = window;
-    let is_inside = |[x, y]: &[f64; 2]| (x0..=x1).contains(x) && (y0..=y1).contains(y);
-    if cell.is_isolated() {
-        return [cell.point(place)].into_iter().filter(is_inside).collect();
-    }
-    let reduced = cell.reduced().cell();
-    let own = reduced.fractions(cell.point(place));
-    let corners = [[x0, y0], [x0, y1], [x1, y0], [x1, y1]].map(|corner| reduced.fractions(corner));
-    // Multiples of the reduced vectors that may move the place into the window.
-    let range = |k: usize| {
-        let parts = corners.iter().map(|corner| corner[k] - own[k]);
-        let [low, high] = parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
-        (low - 1e-9).ceil() as i64..=(high + 1e-9).floor() as i64
-    };
-    let multiples = range(0).flat_map(|i| range(1).map(move |j| [i as f64, j as f64]));
-    let images = multiples.map(|[i, j]| reduced.point([own[0] + i, own[1] + j]));
-    images.filter(is_inside).collect()
-}
+use percoat_core::lattice::Grid;
 
 /// The four samples around a place and their bilinear weights.
 pub fn around(grid: &Grid, place: [f64; 2]) -> [(usize, f64); 4] {
@@ -103,7 +80,7 @@ mod tests {
             let area: f64 = window.iter().map(|[first, last]| last - first).product();
             assert!((area / cell.area() - 4.0).abs() < 1e-12);
             for place in [[0.31, 0.17], [0.6, 0.77], [0.99, 0.52]] {
-                let images = images(cell, place, window);
+                let images = cell.images_in(place, window);
                 assert_eq!(images.len(), 4);
                 for image in images {
                     let s = cell.fractions(image);

@@ -1,6 +1,6 @@
 //! The part of the surface that a plot shows, and its distortion.
 
-use percoat_core::lattice::Cell;
+use percoat_core::lattice::{Cell, Surroundings};
 use percoat_draw::number::short;
 
 /// A rectangle of the surface, [first, last] along x and along y; lengths.
@@ -25,7 +25,7 @@ impl View {
     /// A window of at least two by two cells around the middle of the unit cell, less for slender cells; the window of an isolated
     /// contact.
     pub fn cells(cell: Cell) -> Self {
-        if cell.is_isolated() {
+        if cell.surroundings() == Surroundings::FreeSpace {
             return Self::one(cell);
         }
         let long = cell.reduced().longer_side();

@@ -6,10 +6,7 @@
 
 use super::snapshot::Snapshot;
 use super::window::{View, Window};
-use percoat_core::lattice::Grid;
-use percoat_draw::canvas::{Dash, Stroke};
-use percoat_draw::colour::Colour;
-use percoat_draw::map::Over;
+use percoat_core::lattice::{Grid, Surroundings};
 
 /// Width of a spot over that of the view below which it is shown once more.
 const SMALL: f64 = 1.0 / 12.0;
@@ -25,7 +22,7 @@ const WHOLE: f64 = 0.8;
 pub fn view(grid: &Grid, has_levels: bool, is_seen: impl Fn(usize) -> bool) -> View {
     let cell = grid.cell();
     let whole = if has_levels { View::cells(cell) } else { View::one(cell) };
-    if !cell.is_isolated() {
+    if cell.surroundings() == Surroundings::Periodic {
         return whole;
     }
     let places = (0..grid.len()).filter(|&index| is_seen(index)).map(|index| cell.point(grid.fractions(index)));
@@ -35,7 +32,7 @@ pub fn view(grid: &Grid, has_levels: bool, is_seen: impl Fn(usize) -> bool) -> V
 /// The part around the spot of the largest pressure, where it is small in a view of a periodic surface.
 pub fn close(snapshot: &Snapshot, view: &View) -> Option<View> {
     let grid = snapshot.step.grid();
-    if grid.cell().is_isolated() {
+    if grid.cell().surroundings() == Surroundings::FreeSpace {
         return None;
     }
     let spot = bounds(spot(snapshot).into_iter())?;
@@ -56,7 +53,9 @@ pub fn outline(close: &View) -> Over {
 pub fn words(grid: &Grid, view: &View, close: Option<&View>) -> &'static str {
     match close {
         Some(_) => " Thin rectangle: what (b) shows, around the largest pressure.",
-        None if grid.cell().is_isolated() && view.part_of(&View::cells(grid.cell())) < 1.0 => {
+        None if grid.cell().surroundings() == Surroundings::FreeSpace
+            && view.part_of(&View::cells(grid.cell())) < 1.0 =>
+        {
             " Shown: the contact with a margin, a part of the window."
         }
         None => "",

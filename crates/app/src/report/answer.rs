@@ -6,11 +6,9 @@ use super::units::with_unit;
 use crate::output::table::percent_with_error;
 use crate::output::with_error;
 use percoat_case::units::Units;
+use percoat_case::words::Words;
 use percoat_core::reading::LevelReading;
 use percoat_core::run::StepRecord;
-
-/// Label of the stiffness of an isolated contact.
-const STIFFNESS: &str = "stiffness dP/dδ, a force per length";
 
 /// The first section of a run: a sentence on the last load step with contact, and a table of its numbers.
 pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
@@ -23,17 +21,10 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     let quantity = units.quantity();
     let load = with_unit(&units.load(), reading.load(quantity), reading.load_error(quantity));
     let penetration = with_unit(units.length(), reading.penetration, errors.penetration);
-    let is_isolated = reading.is_isolated();
-    let contact = if is_isolated {
-        with_unit(&units.area(), reading.contact_area, errors.contact_area)
-    } else {
-        percent_with_error(reading.contact_fraction, errors.contact_fraction)
-    };
-    let of_what = match (is_isolated, step.is_given()) {
-        (true, true) => "is the area under pressure",
-        (true, false) => "is the area of contact",
-        (false, true) => "of the surface is under pressure",
-        (false, false) => "of the surface is in contact",
+    let words = Words::of(step.kind());
+    let contact = match reading.contact_fraction {
+        Some(part) => percent_with_error(part, errors.contact_fraction),
+        None => with_unit(&units.area(), reading.contact_area, errors.contact_area),
     };
     let peak = reading
         .finite_peak()
@@ -42,30 +33,23 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
         let highest = highest(&reading.levels);
         let under = highest.map_or(String::new(), |level| format!(" under level {}", level.level));
         let peak = if reading.singular() { "is infinite".to_owned() } else { format!("is {peak}") };
-        let depth = if step.is_given() { "largest deflection" } else { "penetration" };
         format!(
-            "Under the {} {load} the {depth} is {penetration}; {contact} {of_what}, and \
+            "Under the {} {load} the {} is {penetration}; {contact} {}, and \
              the largest pressure {peak}{under}.",
-            quantity.name()
+            quantity.name(),
+            words.load.depth,
+            words.extent_of
         )
     } else {
         "Nothing touches: there is no load.".to_owned()
     };
     let mut rows: Vec<(&str, Markup)> = vec![
         (quantity.name(), numbers(&load)),
-        (if step.is_given() { "largest deflection" } else { "penetration" }, numbers(&penetration)),
-        (
-            match (is_isolated, step.is_given()) {
-                (true, true) => "area under pressure",
-                (true, false) => "area of contact",
-                (false, true) => "part of the surface under pressure",
-                (false, false) => "part of the surface in contact",
-            },
-            numbers(&contact),
-        ),
+        (words.load.depth, numbers(&penetration)),
+        (words.extent, numbers(&contact)),
         ("peak pressure", numbers(&peak)),
     ];
-    rows.extend(reading.mean_contact_pressure().filter(|_| !step.is_given()).map(|(mean, error)| {
+    rows.extend(reading.mean_contact_pressure().filter(|_| !step.kind().is_given).map(|(mean, error)| {
         let mean = with_unit(units.pressure(), mean, error);
         ("mean pressure where there is contact", numbers(&mean))
     }));
@@ -76,7 +60,7 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
         rows.push(("contact radius", numbers(&radius)));
     }
     rows.push((
-        if is_isolated { "elastic energy" } else { "elastic energy of a cell" },
+        words.around.energy,
         numbers(&with_unit(&units.energy(), reading.elastic_energy, errors.elastic_energy)),
     ));
     let shares = reading.levels.iter().map(|level| {
@@ -88,28 +72,17 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     }
     if let Some(rough) = &step.rough {
         let stiffness = rough.stiffness.map(|stiffness| with_error(stiffness, rough.stiffness_error));
-        if !is_isolated {
-            rows.push((
-                "counted, corrected by the perimeter",
-                numbers(&percent_with_error(rough.corrected_fraction, rough.corrected_fraction_error)),
-            ));
-        }
-        rows.push((
-            if is_isolated {
-                "contact spots, joined at edges and corners of samples"
-            } else {
-                "contact spots in the cell, joined at edges and corners of samples"
-            },
-            rough.spots.count.to_string().into(),
-        ));
-        if !is_isolated {
-            rows.push(("mean gap", numbers(&with_unit(units.length(), rough.mean_gap, rough.mean_gap_error))));
-        }
-        let of = if is_isolated { STIFFNESS } else { "stiffness dp̄/dδ, a pressure per length" };
-        rows.extend(stiffness.map(|text| (of, numbers(&text))));
+        rows.extend(rough.corrected_fraction.map(|part| {
+            let part = percent_with_error(part, rough.corrected_fraction_error);
+            ("counted, corrected by the perimeter", numbers(&part))
+        }));
+        rows.push((words.around.spots, rough.spots.count.to_string().into()));
+        let gap = rough.mean_gap.map(|gap| with_unit(units.length(), gap, rough.mean_gap_error));
+        rows.extend(gap.map(|gap| ("mean gap", numbers(&gap))));
+        rows.extend(stiffness.map(|text| (words.around.stiffness, numbers(&text))));
     }
     let stiffness = step.contact_stiffness.map(|stiffness| with_error(stiffness, step.contact_stiffness_error));
-    rows.extend(stiffness.map(|text| (STIFFNESS, numbers(&text))));
+    rows.extend(stiffness.map(|text| (words.around.stiffness, numbers(&text))));
     let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());
     vec![with("p", &[("class", "answer")], numbers(&sentence)), pairs(&step_of, &rows)].into()
 }

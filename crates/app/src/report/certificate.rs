@@ -17,7 +17,8 @@ struct Condition {
 
 /// The certificate of all steps under load; `tolerance` is `solver.tolerance`, where the case has it.
 pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Markup {
-    let solved: Vec<&StepRecord> = steps.iter().filter(|step| step.reading.touches() && !step.is_given()).collect();
+    let solved: Vec<&StepRecord> =
+        steps.iter().filter(|step| step.reading.touches() && !step.kind().is_given).collect();
     if solved.is_empty() {
         return Markup::default();
     }

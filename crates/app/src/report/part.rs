@@ -4,6 +4,7 @@ use super::markup::{Markup, tag, with};
 use super::problem::is_elastic;
 use super::resolution::upper;
 use crate::output::table::{Assumptions, library_strengths};
+use percoat_case::case::kind_of;
 use percoat_core::body::MeanStress;
 use serde_json::Value;
 
@@ -76,9 +77,10 @@ fn assumptions(case: &Value) -> Assumptions {
         Some("line") => MeanStress::Line,
         _ => MeanStress::default(),
     };
-    let isolated = case["lattice"]["kind"] == "isolated";
-    let rigid = !is_elastic(case) && case["load"]["pressure"].is_null();
-    Assumptions { mean, line: None, isolated, rigid, untested: untested(case), library: library_strengths(case) }
+    let kind = kind_of(case);
+    let mean = kind.surroundings.per_cell(mean);
+    let rigid = !is_elastic(case) && !kind.is_given;
+    Assumptions { mean, line: None, rigid, untested: untested(case), library: library_strengths(case) }
 }
 
 /// Names of the materials without a strength, as the case names them.

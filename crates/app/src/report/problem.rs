@@ -4,6 +4,9 @@ use super::markup::{Markup, tag};
 use super::table::{pairs, table};
 use crate::output::number;
 use crate::output::table::Table;
+use percoat_case::case::kind_of;
+use percoat_case::words::AroundWords;
+use percoat_core::lattice::Surroundings;
 use serde_json::{Map, Value};
 
 /// Names of keys in the tables; a key that is not listed is shown as in the case, underscores as blanks.
@@ -52,7 +55,7 @@ pub(super) fn problem(case: &Value) -> Markup {
             keys.iter().filter(|(key, _)| *key != "rigid").map(|(key, value)| (key.clone(), value.clone())).collect();
         parts.push(of_keys(
             "The surface of the rigid counterbody",
-            &entries("counterbody", &Value::Object(surface), false),
+            &entries("counterbody", &Value::Object(surface), Surroundings::Periodic),
         ));
     } else if let Some(keys) = case["counterbody"].as_object() {
         let substrate: Map<String, Value> =
@@ -62,8 +65,8 @@ pub(super) fn problem(case: &Value) -> Markup {
     }
     let sections = case.as_object().into_iter().flatten().filter(|(key, _)| !APART.contains(&key.as_str()));
     let rows: Vec<(String, String)> =
-        sections.flat_map(|(section, value)| entries(section, value, is_isolated(case))).collect();
-    let cell = if is_isolated(case) { "Window" } else { "Cell" };
+        sections.flat_map(|(section, value)| entries(section, value, kind_of(case).surroundings)).collect();
+    let cell = AroundWords::of(kind_of(case).surroundings).heading;
     parts.push(of_keys(&format!("{cell}, load, grid and all other keys"), &rows));
     parts.into()
 }
@@ -77,10 +80,6 @@ fn of_keys(caption: &str, rows: &[(String, String)]) -> Markup {
 /// The items of a list of a section; empty without it.
 fn list<'a>(section: &'a Value, key: &str) -> &'a [Value] {
     section[key].as_array().map(Vec::as_slice).unwrap_or_default()
-}
-
-fn is_isolated(case: &Value) -> bool {
-    case["lattice"]["kind"] == "isolated"
 }
 
 /// Whether the counterbody is elastic, or its coating.
@@ -129,7 +128,7 @@ fn sentence(case: &Value) -> String {
         own if own.is_empty() => "an uncoated elastic half-space".to_owned(),
         own => format!("an elastic half-space{own}"),
     };
-    if !case["load"]["pressure"].is_null() {
+    if kind_of(case).is_given {
         return format!("A given pressure acts on {body}.");
     }
     let [pressed, slide] = if is_one { ["is pressed", "slides"] } else { ["are pressed", "slide"] };
@@ -149,17 +148,17 @@ fn coating(layers: usize) -> String {
 
 /// The indenters or the topography as the subject of the sentence, and whether it is singular.
 fn counterbody(case: &Value) -> (String, bool) {
-    let (levels, is_isolated) = (list(case, "levels"), is_isolated(case));
+    let (levels, surroundings) = (list(case, "levels"), kind_of(case).surroundings);
     let [of, one, several] =
         if is_elastic(case) { ["elastic", "An elastic", "Elastic"] } else { ["rigid", "A rigid", "Rigid"] };
     let heights = if levels.len() == 1 { "one height".to_owned() } else { format!("{} levels", levels.len()) };
     let indenters: usize = levels.iter().map(|level| level["sites"].as_array().map_or(1, Vec::len)).sum();
-    match (indenters, is_isolated) {
-        (0, false) => (format!("{one} topography, repeated without end,"), true),
-        (0, true) => (format!("{one} topography in a window"), true),
-        (1, true) => (format!("One {of} indenter"), true),
-        (count, true) => (format!("{count} {of} indenters of {heights} in a window"), false),
-        (_, false) => {
+    match (indenters, surroundings) {
+        (0, Surroundings::Periodic) => (format!("{one} topography, repeated without end,"), true),
+        (0, Surroundings::FreeSpace) => (format!("{one} topography in a window"), true),
+        (1, Surroundings::FreeSpace) => (format!("One {of} indenter"), true),
+        (count, Surroundings::FreeSpace) => (format!("{count} {of} indenters of {heights} in a window"), false),
+        (_, Surroundings::Periodic) => {
             let lattice = match case["lattice"]["kind"].as_str().unwrap_or("periodic") {
                 "oblique" => "an oblique".to_owned(),
                 kind => format!("a {kind}"),
@@ -188,12 +187,12 @@ fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> Str
 }
 
 /// The keys of a section with their values, without those of no effect on an isolated contact.
-fn entries(section: &str, value: &Value, is_isolated: bool) -> Vec<(String, String)> {
+fn entries(section: &str, value: &Value, surroundings: Surroundings) -> Vec<(String, String)> {
     let prefix = |key: &str| {
         if matches!(section, "stress" | "friction" | "life") { format!("{section}: {key}") } else { key.to_owned() }
     };
-    let has_effect = |key: &str| !(is_isolated && section == "stress" && key == "mean");
-    let samples = if is_isolated { "samples of the window" } else { "samples of the cell" };
+    let has_effect = |key: &str| surroundings == Surroundings::Periodic || section != "stress" || key != "mean";
+    let samples = AroundWords::of(surroundings).samples;
     match value {
         Value::Object(keys) => {
             let entry = |(key, value): (&String, &Value)| match key.as_str() {

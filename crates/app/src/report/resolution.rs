@@ -3,7 +3,7 @@
 use super::markup::{Markup, tag, with};
 use super::table::pairs;
 use crate::output::table::{largest_errors, solved};
-use percoat_core::numeric::search::largest;
+use percoat_case::words::Words;
 use percoat_core::reading::FEW_SAMPLES;
 use percoat_core::run::StepRecord;
 
@@ -12,7 +12,7 @@ pub(super) fn resolution(steps: &[StepRecord], change: Option<f64>) -> Markup {
     let mut rows: Vec<(&str, Markup)> = Vec::new();
     if let Some(step) = steps.last() {
         let [n1, n2] = step.points;
-        let of = if step.reading.is_isolated() { "samples of the window" } else { "samples of the cell" };
+        let of = Words::of(step.kind()).around.samples;
         rows.push((of, format!("{n1} × {n2}").into()));
     }
     let touching = |index: usize| {

@@ -12,11 +12,13 @@ use super::results::Results;
 use super::table::table;
 use super::units::{case_of, measured_in, units_of};
 use crate::output::{Summary, table as tables};
+use percoat_case::case::kind_of;
+use percoat_core::lattice::Surroundings;
 
 /// The pictures of a run; those of an isolated contact have no neighbours.
-fn pictures(is_isolated: bool) -> [PictureText; 7] {
-    let [pressure, contact, profiles] = if is_isolated {
-        [
+fn pictures(surroundings: Surroundings) -> [PictureText; 7] {
+    let [pressure, contact, profiles] = match surroundings {
+        Surroundings::FreeSpace => [
             (
                 "pressure",
                 "Map of the contact pressure in the window",
@@ -32,9 +34,8 @@ fn pictures(is_isolated: bool) -> [PictureText; 7] {
                 "Curves of the pressure through an indenter of each level",
                 "Pressure through each level along the line of its largest extent.",
             ),
-        ]
-    } else {
-        [
+        ],
+        Surroundings::Periodic => [
             (
                 "pressure",
                 "Map of the contact pressure over several cells",
@@ -52,7 +53,7 @@ fn pictures(is_isolated: bool) -> [PictureText; 7] {
                 "Pressure through each level along the line of its largest extent; dashed: the same indenter alone under the \
                  same load.",
             ),
-        ]
+        ],
     };
     [
         pressure,
@@ -93,7 +94,6 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
     let fails = taken.as_ref().map(|taken| with("p", &[("class", "answer")], upper(&taken.words)));
     let hertz = read.as_ref().and_then(|case| tables::hertz(case, steps, &units));
     let hertz = hertz.map(|lines| tag("p", upper(&lines.join("; "))));
-    let is_isolated = steps.iter().any(|step| step.reading.is_isolated());
     let mut sections = vec![
         section(
             "answer",
@@ -101,7 +101,7 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
             vec![doubts(steps), fails.unwrap_or_default(), answer(steps, &units), hertz.unwrap_or_default()],
         ),
         section("problem", "Problem", vec![problem(case), tag("p", measured_in(&units))]),
-        section("pictures", "Pictures", vec![figures(results, "summary.json", &pictures(is_isolated))?]),
+        section("pictures", "Pictures", vec![figures(results, "summary.json", &pictures(kind_of(case).surroundings))?]),
         section(
             "steps",
             "Load steps",

@@ -1,7 +1,7 @@
 //! Units of the numbers of a result.
 
 use crate::output::{UnitNames, with_error};
-use percoat_case::case::{Case, Source};
+use percoat_case::case::{Case, Source, kind_of};
 use percoat_case::units::{Unit, Units};
 use percoat_core::load::LoadQuantity;
 use serde_json::Value;
@@ -10,8 +10,8 @@ use std::path::Path;
 /// The units of a case, or of `names` where the case cannot be read: `keys` still say whether its loads are forces.
 pub(super) fn units_of(names: &UnitNames, case: Option<&Case>, keys: &Value) -> Units {
     let UnitNames { length, pressure } = names;
-    let is_force = keys["lattice"]["kind"] == "isolated" || !keys["load"]["force"].is_null();
-    let quantity = if is_force { LoadQuantity::Force } else { LoadQuantity::MeanPressure };
+    let by_force = !keys["load"]["force"].is_null();
+    let quantity = if by_force { LoadQuantity::Force } else { kind_of(keys).load_quantity() };
     let named = || Units::unknown().named(length.as_deref(), pressure.as_deref()).with_loads_in(quantity);
     case.map_or_else(named, Case::units)
 }

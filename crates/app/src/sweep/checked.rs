@@ -125,7 +125,7 @@ impl<'a> Study<'a> {
             memory: points.map_or(self.room.memory, |points| needs(&case, points, self.job()).memory),
             is_small: points.is_some_and(|[n1, n2]| n1 * n2 <= SMALL),
             files: solved_plan(&case, case.load.values().len(), true).names,
-            case: case.counterbody().topography().is_none().then(|| Box::new(case)),
+            case: case.problem().topography().is_none().then(|| Box::new(case)),
         }
     }
 

@@ -28,14 +28,14 @@ pub fn row(combination: usize, settings: &[(&str, String)], results: Vec<SweepRe
 }
 
 /// A load step under the mean pressure 0.1 with a peak pressure and its error; the penetration is as large as the peak.
-pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: f64) -> StepRecord {
+pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: impl Into<Option<f64>>) -> StepRecord {
     StepRecord {
         reading: Reading {
-            mean_pressure: 0.1,
+            mean_pressure: Some(0.1),
             force: 0.1,
             contact_area: 0.1,
             penetration: max_pressure,
-            contact_fraction,
+            contact_fraction: contact_fraction.into(),
             contact_fraction_uncertainty: 0.0,
             elastic_energy: 0.0,
             max_pressure,
@@ -72,8 +72,8 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: f64) -> Ste
 
 /// A load step of an isolated contact under a force.
 pub fn isolated(force: f64, max_pressure: f64) -> StepRecord {
-    let mut step = step(max_pressure, None, f64::NAN);
-    (step.reading.mean_pressure, step.reading.force, step.reading.contact_area) = (f64::NAN, force, 0.5 * force);
+    let mut step = step(max_pressure, None, None);
+    (step.reading.mean_pressure, step.reading.force, step.reading.contact_area) = (None, force, 0.5 * force);
     step
 }
 

@@ -36,7 +36,7 @@ pub(super) fn of_results(case: &Case, task: Task) -> u64 {
             } else {
                 0
             };
-            case.load.values().len() * (STEP + LEVEL * case.counterbody().levels().len() + stress)
+            case.load.values().len() * (STEP + LEVEL * case.problem().levels().len() + stress)
         }
     };
     let sites: usize = case.levels.iter().flat_map(|level| &level.sites).map(Vec::len).sum();

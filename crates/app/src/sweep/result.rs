@@ -87,11 +87,11 @@ pub static SCALARS: [Scalar; 10] = {
         scalar("penetration", Length, |step| Some((step.reading.penetration, step.reading.errors.penetration))),
         scalar("contact", Fraction, |step| {
             let Reading { contact_fraction, errors, .. } = &step.reading;
-            (!step.reading.is_isolated()).then_some((*contact_fraction, errors.contact_fraction))
+            Some(((*contact_fraction)?, errors.contact_fraction))
         }),
         scalar("contact area", Area, |step| {
-            let Reading { contact_area, errors, .. } = &step.reading;
-            step.reading.is_isolated().then_some((*contact_area, errors.contact_area))
+            let Reading { contact_area, contact_fraction, errors, .. } = &step.reading;
+            contact_fraction.is_none().then_some((*contact_area, errors.contact_area))
         }),
         scalar("peak pressure", Pressure, |step| Some((step.reading.finite_peak()?, step.reading.errors.max_pressure))),
         scalar("largest τ₁", Pressure, |step| finite(&step.stress.as_ref()?.overall.tau1)),
@@ -115,8 +115,7 @@ pub fn scalars_with(quantity: LoadQuantity) -> impl Iterator<Item = &'static Sca
 
 /// The load of a step; `None` for the mean pressure of an isolated contact.
 fn load(step: &StepRecord, quantity: LoadQuantity) -> Option<Measured> {
-    let load = step.reading.load(quantity);
-    (!load.is_nan()).then_some((load, step.reading.load_error(quantity)))
+    Some((step.reading.load_in(quantity)?, step.reading.load_error(quantity)))
 }
 
 fn finite(peak: &percoat_core::stress::Peak) -> Option<Measured> {
@@ -137,7 +136,7 @@ impl SweepResult {
     /// The quantity of its loads; `None` for a load step that has both.
     pub fn quantity(&self) -> Option<LoadQuantity> {
         match self {
-            Self::Step(step) => step.reading.is_isolated().then_some(LoadQuantity::Force),
+            Self::Step(step) => Some(step.kind().load_quantity()).filter(|own| *own == LoadQuantity::Force),
             Self::Limits(limits) => limits.first().map(|limit| limit.quantity),
         }
     }

@@ -35,8 +35,7 @@ impl CompositeHardnessSection {
             let message = format!("`composite_hardness`: {message}");
             Err(Refusal::new(section.span, message, "not for this case").help(help))
         };
-        let is_pressed = problem.cell().is_isolated() && problem.counterbody().pressure().is_none();
-        if !is_pressed {
+        if !problem.kind().is_indentation() {
             let message = "its laws are those of one indentation, and this is no isolated contact";
             return refuse(message.to_owned(), "leave the section out, or set lattice.kind = \"isolated\"");
         }

@@ -8,8 +8,7 @@ use super::levels::LevelSection;
 use super::reader::TableAt;
 use super::source::Source;
 use super::surface::{self, Around, SurfaceSection};
-use crate::case::section::ReadTable;
-use percoat_core::counterbody::{Counterbody, Indenters, Level};
+use percoat_core::counterbody::{Indenters, Level, LoadedBy};
 use percoat_core::run::Sampling;
 
 /// The counterbody of a case, with the sections from which it is read: levels on a lattice, or a surface.
@@ -23,7 +22,7 @@ pub(super) struct CounterbodySections<'a> {
     pub(super) surface: Option<(SurfaceSection, Sampling)>,
     /// Warnings about the file of a surface or of a given pressure.
     pub(super) doubts: Vec<String>,
-    pub(super) counterbody: Counterbody,
+    pub(super) loaded_by: LoadedBy,
 }
 
 /// The levels of indenters, the surface, or the given pressure.
@@ -37,7 +36,7 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
             grid_section: root.section_or_empty("grid")?,
             surface: None,
             doubts,
-            counterbody: Counterbody::from(pressure),
+            loaded_by: pressure.into(),
         });
     }
     let level_sections = root.sections("levels")?;
@@ -65,7 +64,7 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
             grid_section,
             surface: Some((read.section, read.sampling)),
             doubts: read.doubts,
-            counterbody: Counterbody::from(read.topography),
+            loaded_by: read.topography.into(),
         });
     }
     let cell_section = root.required_section("lattice")?;
@@ -75,8 +74,8 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
     let built: Vec<Level> = built.collect::<Result<_, _>>()?;
     magnitude::profiles(&built, &level_sections, lattice.cell())?;
     // Both were checked key by key.
-    let counterbody = Indenters::new(lattice, built)
-        .map(Counterbody::from)
+    let loaded_by = Indenters::new(lattice, built)
+        .map(LoadedBy::from)
         .map_err(|error| Refusal::new(cell_section.span, format!("`lattice`: {error}"), "no counterbody"))?;
     Ok(CounterbodySections {
         levels,
@@ -85,7 +84,7 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
         grid_section,
         surface: None,
         doubts: Vec::new(),
-        counterbody,
+        loaded_by,
     })
 }
 

@@ -34,7 +34,8 @@ use percoat_core::body::{Bodies, HalfSpace, MeanStress};
 use percoat_core::comparison::ComparisonTask;
 use percoat_core::counterbody::{Counterbody, Topography};
 use percoat_core::life::LifeTask;
-use percoat_core::load::{Load, LoadQuantity};
+use percoat_core::load::Load;
+use percoat_core::load::LoadQuantity;
 use percoat_core::problem::Problem;
 use percoat_core::run::{Run, Sampling, StressRequest};
 use percoat_core::spectral::Settings;
@@ -129,11 +130,6 @@ impl Case {
         &self.problem
     }
 
-    /// The shape of the counterbody: indenters on their lattice, or a topography.
-    pub fn counterbody(&self) -> &Counterbody {
-        self.problem.counterbody()
-    }
-
     /// The layers on the substrate of the body.
     pub fn half_space(&self) -> &HalfSpace {
         self.problem.half_space()
@@ -189,7 +185,7 @@ impl Case {
                 self.load.quantity()
             ));
         };
-        if self.problem.counterbody().pressure().is_some() {
+        if self.problem.kind().is_given {
             return Err(
                 "a given pressure has no surfaces that wear: percoat solve states the passes to the first damage"
                     .to_owned(),
@@ -224,8 +220,8 @@ impl Case {
             let root = TableAt::root(&root, &CASE, Span::NOWHERE);
             let sliding = self.friction.map(|own| own.direction);
             let base = base_depth(self.problem.bodies());
-            let section = StressSection::read_in(&root.required_section("stress")?, self.counterbody(), sliding, base)?;
-            Ok(section.request(self.counterbody()))
+            let section = StressSection::read_in(&root.required_section("stress")?, &self.problem, sliding, base)?;
+            Ok(section.request(&self.problem))
         })
     }
 
@@ -236,7 +232,7 @@ impl Case {
             loads: self.load.loads(),
             sampling: self.grid,
             settings: self.solver,
-            stress: self.stress.as_ref().map(|stress| stress.request(self.counterbody())),
+            stress: self.stress.as_ref().map(|stress| stress.request(&self.problem)),
         }
     }
 }
@@ -251,14 +247,14 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let root = TableAt::root(&root, &CASE, Span::new(0, end..end));
     root.only()?;
     let title = title(&root)?;
-    let CounterbodySections { levels, lattice, cell_section, grid_section, surface, doubts: file_doubts, counterbody } =
+    let CounterbodySections { levels, lattice, cell_section, grid_section, surface, doubts: file_doubts, loaded_by } =
         counterbody::read(&root, source)?;
     let body = layers::read(&root)?;
     let elastic_section = root.section("counterbody")?;
     let elastic = elastic_section.as_ref().map(elastic_counterbody::read).transpose()?;
     let above = elastic.as_ref().and_then(|(_, above)| above.body());
     for own in [&body].into_iter().chain(above) {
-        magnitude::layers(&own.half_space, &own.places(), counterbody.cell())?;
+        magnitude::layers(&own.half_space, &own.places(), loaded_by.cell())?;
     }
     let bodies = match (&elastic, &elastic_section) {
         (Some((_, above)), Some(section)) => above
@@ -268,25 +264,22 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     };
 
     let load_section = root.required_section("load")?;
-    if counterbody.cell().is_isolated() {
+    let quantity = loaded_by.kind().load_quantity();
+    if quantity == LoadQuantity::Force {
         load::of_isolated(&load_section)?;
     }
     let mut load = LoadSection::read_table(&load_section)?;
     load.pressure = load.pressure.map(|given| given.located(source));
-    load.given = counterbody.pressure().map(|given| match given.cell().is_isolated() {
-        true => Load::Force(given.force()),
-        false => Load::MeanPressure(given.force() / given.cell().area()),
-    });
-    let of_field = || Some(counterbody.pressure()?.values()?.dim().into());
-    let file_points = counterbody.topography().map(Topography::points).or_else(of_field);
+    load.given = loaded_by.pressure().map(|given| quantity.of_force(given.force(), given.cell()));
+    let file_points = loaded_by.samples().map(|samples| samples.dim().into());
     let (surface, sampling) = match surface {
         Some((section, sampling)) => (Some(section), sampling),
         None => (None, grid::read(&grid_section, file_points)?),
     };
-    magnitude::grid(sampling, file_points, &grid_section, &cell_section, counterbody.cell())?;
+    magnitude::grid(sampling, file_points, &grid_section, &cell_section, loaded_by.cell())?;
     let solver_section = root.section_or_empty("solver")?;
     let settings = Settings::read_table(&solver_section)?;
-    let mut problem = Problem::new(counterbody, bodies);
+    let mut problem = Problem::new(loaded_by, bodies);
     let mut friction = None;
     if let Some(section) = root.section("friction")? {
         let own = FrictionSection::read_table(&section)?;
@@ -317,7 +310,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
             .section("stress")?
             .map(|section| {
                 let (sliding, base) = (friction.map(|own| own.direction), base_depth(problem.bodies()));
-                StressSection::read_in(&section, problem.counterbody(), sliding, base)
+                StressSection::read_in(&section, &problem, sliding, base)
             })
             .transpose()?,
         localized: LocalizedSection::read_table(&root.section_or_empty("localized")?)?,

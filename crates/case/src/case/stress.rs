@@ -11,9 +11,10 @@ use super::section::{KeyValue, ReadTable, Words, demanded, section, words};
 use super::value::ValueAt;
 use percoat_common::plain::float;
 use percoat_core::body::MeanStress;
-use percoat_core::counterbody::{Counterbody, Indenters};
+use percoat_core::counterbody::Indenters;
 use percoat_core::lattice::Lattice;
 use percoat_core::notation::number;
+use percoat_core::problem::Problem;
 use percoat_core::run::places::SECTION;
 use percoat_core::run::{self, StressRequest, Volume};
 use percoat_core::stress::SurfaceLine;
@@ -123,16 +124,16 @@ fn no_line(section: &TableAt<'_>) -> Result<Refusal, Refusal> {
 }
 
 impl StressSection {
-    /// Reads the section of a case with this `counterbody`, which slides along a direction; `base`: depth of the rigid base, infinite
+    /// Reads the section of a case with this `problem`, which slides along a direction; `base`: depth of the rigid base, infinite
     /// without one.
     pub(super) fn read_in(
         section: &TableAt<'_>,
-        counterbody: &Counterbody,
+        problem: &Problem,
         sliding: Option<[f64; 2]>,
         base: f64,
     ) -> Result<Self, Refusal> {
         if let Some(cut) = section.optional("section") {
-            check_levels(&cut, counterbody.levels().len())?;
+            check_levels(&cut, problem.levels().len())?;
         }
         let own = Self::read_table(section)?;
         for key in ["planes", "points"] {
@@ -142,19 +143,16 @@ impl StressSection {
             return Err(section.value("section")?.table()?.missing("toward"));
         }
         let own = Self { section: own.section.map(|cut| cut.completed(sliding)), ..own };
-        own.within(counterbody, section)?;
-        if own.mean == MeanStress::Line && counterbody.line().is_none() {
+        own.within(problem, section)?;
+        if own.mean == MeanStress::Line && problem.loaded_by().line().is_none() {
             return Err(no_line(section)?);
         }
         Ok(own)
     }
 
     /// Refuses points and cuts beyond the window of an isolated contact, where no stresses are computed.
-    fn within(&self, counterbody: &Counterbody, section: &TableAt<'_>) -> Result<(), Refusal> {
-        let cell = counterbody.cell();
-        if !cell.is_isolated() {
-            return Ok(());
-        }
+    fn within(&self, problem: &Problem, section: &TableAt<'_>) -> Result<(), Refusal> {
+        let cell = problem.cell();
         let refuse = |key: &str, item: String, verb: &str, place: [f64; 2]| {
             let value = section.value(key)?;
             let [width, height] = [0, 1].map(|axis| number((2.0 * place[axis].abs()).max(cell.vectors()[axis][axis])));
@@ -168,14 +166,14 @@ impl StressSection {
             let [x, y, _] = self.points[index];
             return refuse("points", format!("[{index}]"), "is", [x, y]);
         }
-        let line = self.section.and_then(|cut| cut.line(counterbody.indenters().map(Indenters::lattice)));
+        let line = self.section.and_then(|cut| cut.line(problem.indenters().map(Indenters::lattice)));
         let end = line.and_then(|line| line.ends().into_iter().find(|&end| !cell.contains(end)));
         end.map_or(Ok(()), |end| refuse("section", String::new(), "ends", end))
     }
 
-    /// The request for a run on `counterbody`.
-    pub(super) fn request(&self, counterbody: &Counterbody) -> StressRequest {
-        let lattice = counterbody.indenters().map(Indenters::lattice);
+    /// The request for a run of `problem`.
+    pub(super) fn request(&self, problem: &Problem) -> StressRequest {
+        let lattice = problem.indenters().map(Indenters::lattice);
         let cut = |cut: CutSection| Some(run::Cut { line: cut.line(lattice)?, depth: cut.depth });
         StressRequest {
             mean: self.mean,

@@ -171,7 +171,7 @@ fn the_shear_ratio_is_that_to_the_substrate() {
 #[test]
 fn explicit_sites_stand_in_the_cell_whose_side_is_the_period() {
     let side = |overrides: &[&str]| {
-        let [x, y] = read(&fig2(), overrides).unwrap().counterbody().cell().vectors()[0];
+        let [x, y] = read(&fig2(), overrides).unwrap().problem().cell().vectors()[0];
         x.hypot(y)
     };
     assert!((side(&[]) - 3f64.sqrt()).abs() < 1e-15);

@@ -4,7 +4,7 @@ use super::{Answer, CircleComparison, Comparison, StressPair};
 use crate::body::MeanStress;
 use crate::counterbody::Indenters;
 use crate::friction::Friction;
-use crate::lattice::LatticeError;
+use crate::lattice::{LatticeError, Surroundings};
 use crate::load::Load;
 use crate::localized::mesh::Mesh;
 use crate::localized::stress::LocalizedField;
@@ -146,10 +146,10 @@ impl ComparisonTask {
     fn indenters(&self) -> Result<&Indenters, ComparisonError> {
         let couples = self.problem.friction().is_some_and(Friction::couples);
         let indenters = Localized::solvable(&self.problem)?;
-        match (self.problem.cell().is_isolated(), couples) {
-            (true, _) => Err(ComparisonError::Isolated),
-            (false, true) => Err(ComparisonError::CoupledFriction),
-            (false, false) => Ok(indenters),
+        match (self.problem.cell().surroundings(), couples) {
+            (Surroundings::FreeSpace, _) => Err(ComparisonError::Isolated),
+            (Surroundings::Periodic, true) => Err(ComparisonError::CoupledFriction),
+            (Surroundings::Periodic, false) => Ok(indenters),
         }
     }
 

@@ -1,7 +1,7 @@
 //! A multi-level system of indenters on a lattice.
 
 use super::{CounterbodyError, Level, Shape};
-use crate::lattice::{Cell, Lattice};
+use crate::lattice::Lattice;
 use crate::notation::number;
 use std::fmt;
 
@@ -53,12 +53,7 @@ impl Indenters {
 
     /// The same indenters around the middle of a window `factor` times as wide and as high; `None` in a periodic system.
     pub(crate) fn widened(&self, factor: f64) -> Option<Self> {
-        let cell = self.lattice.cell();
-        if !cell.is_isolated() {
-            return None;
-        }
-        let [[width, _], [_, height]] = cell.vectors();
-        let window = Cell::window([width, height].map(|side| factor * side)).ok()?;
+        let window = self.lattice.cell().widened(factor)?;
         let place = |s: &[f64; 2]| s.map(|s| 0.5 + (s - 0.5) / factor);
         let sites = self.lattice.sites().iter().map(|level| level.iter().map(place).collect()).collect();
         Some(Self { lattice: Lattice::new(window, sites).ok()?, ..self.clone() })

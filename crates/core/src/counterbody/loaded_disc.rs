@@ -98,22 +98,7 @@ impl Placed {
 /// Centres, seen from that of one disc, of the images of another one that overlap it; of its own image where it is the other one.
 fn images(cell: Cell, one: &LoadedDisc, other: &LoadedDisc) -> Vec<[f64; 2]> {
     let away = [0, 1].map(|k| other.centre[k] - one.centre[k]);
-    let reach = one.radius + other.radius;
-    let overlaps = |[x, y]: &[f64; 2]| x.hypot(*y) < reach;
-    if cell.is_isolated() {
-        return Some(away).filter(overlaps).into_iter().collect();
-    }
-    let parts = cell.parts(away);
-    // In periods along both vectors: the disc of the reach lies between two parallels.
-    let vectors = cell.vectors();
-    let span = |axis: usize| {
-        let [x, y] = vectors[1 - axis];
-        let most = reach * x.hypot(y) / cell.area();
-        (-parts[axis] - most).ceil() as i64..=(-parts[axis] + most).floor() as i64
-    };
-    let all = span(0).flat_map(|m| span(1).map(move |n| [m, n]));
-    let centre = |[m, n]: [i64; 2]| cell.vector([parts[0] + m as f64, parts[1] + n as f64]);
-    all.map(centre).filter(overlaps).collect()
+    cell.equivalents_within(away, one.radius + other.radius)
 }
 
 impl LoadedDisc {

@@ -1,8 +1,9 @@
-//! What loads the body: indenters at several levels, a topography, or a given pressure; and its surface on a grid.
+//! What loads the body: a counterbody of indenters at several levels or of a topography, or a given pressure; and its surface on a grid.
 
 mod error;
 mod indenter;
 mod indenters;
+mod loaded_by;
 mod loaded_disc;
 mod pressure;
 pub mod roughness;
@@ -12,6 +13,7 @@ mod topography;
 pub use error::CounterbodyError;
 pub use indenter::{IndenterError, Level, Shape};
 pub use indenters::{Indenters, Site};
+pub use loaded_by::LoadedBy;
 pub use loaded_disc::LoadedDisc;
 pub use pressure::GivenPressure;
 pub use surface::Surface;
@@ -21,15 +23,13 @@ use crate::lattice::Cell;
 use ndarray::{ArrayView1, ArrayView2, Axis};
 use std::fmt;
 
-/// The counterbody, independent of any grid, or a pressure in its place.
+/// The counterbody, independent of any grid.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Counterbody {
     /// Indenters at several levels on the sites of a lattice.
     Indenters(Indenters),
     /// One period of a measured or generated topography.
     Topography(Topography),
-    /// No counterbody, but a pressure that is given.
-    Pressure(GivenPressure),
 }
 
 impl Counterbody {
@@ -38,46 +38,26 @@ impl Counterbody {
         match self {
             Self::Indenters(indenters) => indenters.lattice().cell(),
             Self::Topography(topography) => topography.cell(),
-            Self::Pressure(pressure) => pressure.cell(),
         }
     }
 
-    /// The indenters; `None` for a topography and a given pressure.
+    /// The indenters; `None` for a topography.
     pub fn indenters(&self) -> Option<&Indenters> {
         match self {
             Self::Indenters(indenters) => Some(indenters),
-            Self::Topography(_) | Self::Pressure(_) => None,
+            Self::Topography(_) => None,
         }
     }
 
-    /// The topography; `None` for indenters and a given pressure.
+    /// The topography; `None` for indenters.
     pub fn topography(&self) -> Option<&Topography> {
         match self {
             Self::Topography(topography) => Some(topography),
-            Self::Indenters(_) | Self::Pressure(_) => None,
-        }
-    }
-
-    /// The given pressure; `None` for indenters and a topography.
-    pub fn pressure(&self) -> Option<&GivenPressure> {
-        match self {
-            Self::Pressure(pressure) => Some(pressure),
-            Self::Indenters(_) | Self::Topography(_) => None,
-        }
-    }
-
-    /// The axis, 0 along a₁ or 1 along a₂, along which a topography or a given field of pressures is constant, but for rounding, while it
-    /// changes along the other: contact is that of lines along it. `None` for any other counterbody, and in a window, where lines end.
-    pub fn line(&self) -> Option<usize> {
-        match self {
-            _ if self.cell().is_isolated() => None,
-            Self::Topography(topography) => constant_axis(topography.heights()),
-            Self::Pressure(pressure) => constant_axis(pressure.values()?),
             Self::Indenters(_) => None,
         }
     }
 
-    /// The levels of the indenters; none for a topography and a given pressure.
+    /// The levels of the indenters; none for a topography.
     pub fn levels(&self) -> &[Level] {
         self.indenters().map_or(&[], Indenters::levels)
     }
@@ -110,18 +90,11 @@ impl From<Topography> for Counterbody {
     }
 }
 
-impl From<GivenPressure> for Counterbody {
-    fn from(pressure: GivenPressure) -> Self {
-        Self::Pressure(pressure)
-    }
-}
-
 impl fmt::Display for Counterbody {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Indenters(indenters) => indenters.fmt(f),
             Self::Topography(topography) => topography.fmt(f),
-            Self::Pressure(pressure) => pressure.fmt(f),
         }
     }
 }

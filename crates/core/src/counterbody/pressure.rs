@@ -7,7 +7,7 @@
 
 use super::loaded_disc::Arrangement;
 use super::{CounterbodyError, LoadedDisc};
-use crate::lattice::{Cell, Grid};
+use crate::lattice::{Cell, Grid, Surroundings};
 use ndarray::{Array2, ArrayView2};
 use std::f64::consts::PI;
 use std::fmt;
@@ -47,7 +47,8 @@ impl GivenPressure {
             }
             let [[width, _], [_, height]] = cell.vectors();
             let room = [width, height].map(|side| 0.5 * ROOM * side);
-            if cell.is_isolated() && (x.abs() + radius > room[0] || y.abs() + radius > room[1]) {
+            let is_alone = cell.surroundings() == Surroundings::FreeSpace;
+            if is_alone && (x.abs() + radius > room[0] || y.abs() + radius > room[1]) {
                 return Err(CounterbodyError::OutsideWindow { disc: number, room });
             }
         }

@@ -5,7 +5,7 @@
 //! radius, so that only the nearest periodic image of an indenter contributes.
 
 use super::roughness::Spectrum;
-use super::{Counterbody, Indenters, Site};
+use super::{Counterbody, Indenters, LoadedBy, Site};
 use crate::lattice::{Cell, Grid, LatticeError, ReducedBasis};
 use crate::numeric::array::{field, samples};
 use crate::numeric::sums;
@@ -27,38 +27,42 @@ pub struct Surface {
 
 impl Surface {
     /// Surface of the counterbody on a grid of its cell with `points` = [N₁, N₂]: exact for indenters, [resampled](super::Topography::depths)
-    /// for a topography, flat under a given pressure.
+    /// for a topography.
     ///
     /// # Errors
     /// [`LatticeError`] when a number of points is zero.
     pub fn new(counterbody: &Counterbody, points: [usize; 2]) -> Result<Self, LatticeError> {
         let grid = Arc::new(Grid::new(counterbody.cell(), points)?);
-        Ok(match counterbody {
-            Counterbody::Indenters(indenters) => of_indenters(indenters, grid),
-            Counterbody::Topography(topography) => {
-                let initial_gap = topography.depths(points)?;
-                Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() }
-            }
-            // Nothing stands above the body.
-            Counterbody::Pressure(_) => {
-                let initial_gap = Array2::zeros(points);
-                Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() }
-            }
-        })
+        match counterbody {
+            Counterbody::Indenters(indenters) => Ok(of_indenters(indenters, grid)),
+            Counterbody::Topography(topography) => Ok(Self::without_owners(grid, topography.depths(points)?)),
+        }
     }
 
-    /// Surface on a coarser grid, for the start of a solution: every k-th sample where the numbers of samples are multiples along both
-    /// directions, so that heights are unchanged; otherwise the waves that the coarser grid holds.
+    /// Surface without any height on a grid of a cell.
     ///
     /// # Errors
     /// [`LatticeError`] when a number of points is zero.
-    pub(crate) fn coarser(&self, counterbody: &Counterbody, points: [usize; 2]) -> Result<Self, LatticeError> {
+    pub(crate) fn flat(cell: Cell, points: [usize; 2]) -> Result<Self, LatticeError> {
+        Ok(Self::without_owners(Arc::new(Grid::new(cell, points)?), Array2::zeros(points)))
+    }
+
+    fn without_owners(grid: Arc<Grid>, initial_gap: Array2<f64>) -> Self {
+        Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() }
+    }
+
+    /// Surface on a coarser grid of what loads the body, for the start of a solution: every k-th sample where the numbers of samples are
+    /// multiples along both directions, so that heights are unchanged; otherwise the waves that the coarser grid holds.
+    ///
+    /// # Errors
+    /// [`LatticeError`] when a number of points is zero.
+    pub(crate) fn coarser(&self, loaded_by: &LoadedBy, points: [usize; 2]) -> Result<Self, LatticeError> {
         if self.owner.is_some() {
-            return Self::new(counterbody, points);
+            return loaded_by.surface(points);
         }
-        let grid = Arc::new(Grid::new(counterbody.cell(), points)?);
-        let initial_gap = restricted(counterbody.cell(), self.initial_gap(), points)?;
-        Ok(Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() })
+        let grid = Arc::new(Grid::new(loaded_by.cell(), points)?);
+        let initial_gap = restricted(loaded_by.cell(), self.initial_gap(), points)?;
+        Ok(Self::without_owners(grid, initial_gap))
     }
 
     /// The surface with another initial gap, f ≥ 0, lengths measured from first touch, axes along a₁ and a₂; the indenter of

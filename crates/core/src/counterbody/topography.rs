@@ -2,7 +2,7 @@
 
 use super::roughness::{RunOut, Spectrum, above_waves, apex};
 use super::{CounterbodyError, Shape};
-use crate::lattice::{Cell, LatticeError};
+use crate::lattice::{Cell, LatticeError, Surroundings};
 use crate::notation::number;
 use ndarray::{Array2, ArrayView2};
 use std::borrow::Cow;
@@ -54,7 +54,8 @@ impl Topography {
     /// # Errors
     /// [`CounterbodyError::Ball`] for another radius, and in a periodic cell.
     pub fn on_ball(self, radius: f64) -> Result<Self, CounterbodyError> {
-        if self.cell.is_isolated() && radius > 0.0 && radius.is_finite() {
+        let is_alone = self.cell.surroundings() == Surroundings::FreeSpace;
+        if is_alone && radius > 0.0 && radius.is_finite() {
             Ok(Self { ball: Some(radius), ..self })
         } else {
             Err(CounterbodyError::Ball(radius))

@@ -144,10 +144,7 @@ impl IndentationCurve {
 
 /// Refuses problems of other contacts than that of one indenter alone without coupled friction.
 pub fn check(problem: &Problem) -> Result<(), CurveError> {
-    let sites = problem.counterbody().indenters().map_or(0, |own| own.sites().len());
-    if !(problem.cell().is_isolated() && sites == 1) {
-        return Err(CurveError::NotAlone);
-    }
+    problem.lone_indenter().ok_or(CurveError::NotAlone)?;
     if problem.friction().is_some_and(crate::friction::Friction::couples) {
         return Err(CurveError::Coupled);
     }
@@ -165,7 +162,7 @@ fn places([least, most]: [f64; 2]) -> Vec<f64> {
 
 /// The problem with its indenter in the middle of a square window of another side.
 fn in_window(problem: &Problem, side: f64) -> Problem {
-    let levels = problem.counterbody().levels().to_vec();
+    let levels = problem.levels().to_vec();
     let lattice = Cell::window([side; 2]).and_then(|cell| Lattice::new(cell, vec![vec![[0.5; 2]]]));
     let indenters = Indenters::new(lattice.expect("a window of a positive side"), levels);
     Problem::new(indenters.expect("the level of a valid problem"), problem.bodies().clone())

@@ -1,6 +1,6 @@
 //! The unit cell, and the reduced basis of its lattice; or a window around an isolated contact.
 
-use super::LatticeError;
+use super::{LatticeError, Surroundings};
 use crate::notation::number;
 use crate::numeric::lanes::vectorised;
 use fearless_simd::Simd;
@@ -51,9 +51,17 @@ impl Cell {
         Ok(Self { corner: Some(corner), ..Self::new([width, 0.0], [0.0, height])? })
     }
 
-    /// Whether it is a window around an isolated contact, and nothing is periodic.
-    pub fn is_isolated(&self) -> bool {
-        self.corner.is_some()
+    /// What lies around the cell: nothing around a window.
+    pub fn surroundings(&self) -> Surroundings {
+        match self.corner {
+            Some(_) => Surroundings::FreeSpace,
+            None => Surroundings::Periodic,
+        }
+    }
+
+    /// Whether the cell is a window.
+    fn is_isolated(&self) -> bool {
+        self.surroundings() == Surroundings::FreeSpace
     }
 
     /// The 60° rhombus of the side `side`, a length.

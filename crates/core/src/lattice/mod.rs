@@ -5,10 +5,12 @@ mod closed_path;
 pub(crate) mod components;
 mod error;
 mod grid;
+mod images;
 mod interpolation;
 mod nearest;
 pub(crate) mod runs;
 mod sites;
+mod surroundings;
 pub(crate) mod waves;
 mod zone;
 
@@ -18,3 +20,4 @@ pub use grid::{Grid, NotOnGrid};
 pub(crate) use interpolation::{Interpolation, resampled};
 pub(crate) use nearest::Connectivity;
 pub use sites::Lattice;
+pub use surroundings::Surroundings;

@@ -305,8 +305,7 @@ impl LifeTask {
         if let Some(depths) = solver.indented() {
             add(&mut state.indented, depths.iter());
         }
-        let is_isolated = self.problem.cell().is_isolated();
-        state.lowered = if is_isolated { state.largest_worn(Side::Body) } else { state.mean_worn(Side::Body) };
+        state.lowered = self.mean_worn(state, Side::Body).unwrap_or_else(|| state.largest_worn(Side::Body));
         self.worn_through(state, removed);
     }
 }
@@ -324,7 +323,7 @@ impl LifeState {
 /// that of the deepest line of its track, k ∫p ds over the stroke.
 pub(super) fn lowering(step: &Step, wear: &Wear) -> f64 {
     let (k, grid, pressure) = (wear.coefficient(Side::Body), step.grid(), step.pressure());
-    let Some(stroke) = wear.stroke().filter(|_| grid.cell().is_isolated()) else {
+    let Some(stroke) = wear.stroke_on(grid.cell()) else {
         return k * pressure.mean().unwrap_or(0.0);
     };
     let along = usize::from(wear.direction()[0].abs() <= wear.direction()[1].abs());

@@ -44,7 +44,6 @@ impl LifeTask {
     /// Thickness left and depths worn in a state, with the last contact that is known.
     fn row(&self, state: &LifeState) -> Course {
         let last = state.course.last();
-        let mean = |side: Side| (!self.problem.cell().is_isolated()).then(|| state.mean_worn(side));
         let distance = self.slid_after(state.passes);
         let scar = self.scar(state);
         let work = match self.load {
@@ -56,8 +55,8 @@ impl LifeTask {
             distance,
             thickness: self.thickness(state.removed()),
             removed: state.removed(),
-            body: mean(Side::Body),
-            counterbody: mean(Side::Counterbody),
+            body: self.mean_worn(state, Side::Body),
+            counterbody: self.mean_worn(state, Side::Counterbody),
             body_depth: state.largest_worn(Side::Body),
             counterbody_depth: state.largest_worn(Side::Counterbody),
             groove: self.groove(state),
@@ -70,10 +69,15 @@ impl LifeTask {
         }
     }
 
+    /// Mean depth that is worn off a surface, a length; `None` of an isolated contact.
+    pub(super) fn mean_worn(&self, state: &LifeState, side: Side) -> Option<f64> {
+        self.problem.cell().surroundings().per_cell(side).map(|side| state.mean_worn(side))
+    }
+
     /// The scar of the counterbody of an isolated contact that wears.
     fn scar(&self, state: &LifeState) -> Option<Scar> {
         let wears = self.problem.bodies().wear(Side::Counterbody) > 0.0;
-        if !(wears && self.passes.is_some() && self.problem.cell().is_isolated()) {
+        if !(wears && self.passes.is_some() && self.problem.kind().is_indentation()) {
             return None;
         }
         let (depths, window) = (state.of(Side::Counterbody), self.window(state).area());
@@ -88,7 +92,7 @@ impl LifeTask {
 
     /// Cross-section of the groove in the body under an isolated contact, a length squared; `None` where none is worn.
     fn groove(&self, state: &LifeState) -> Option<f64> {
-        let is_worn = self.problem.cell().is_isolated() && state.largest_worn(Side::Body) > 0.0;
+        let is_worn = self.problem.kind().is_indentation() && state.largest_worn(Side::Body) > 0.0;
         is_worn.then(|| {
             let (window, direction) = (self.window(state), self.problem.direction());
             let along = usize::from(direction[0].abs() <= direction[1].abs());

@@ -1,7 +1,7 @@
 //! What a life is followed from: bodies, load, grid, and how far.
 
 use crate::body::{Durability, MeanStress, Side};
-use crate::lattice::LatticeError;
+use crate::lattice::{LatticeError, Surroundings};
 use crate::load::Load;
 use crate::problem::Problem;
 use crate::run::{Sampling, TooOblong};
@@ -132,7 +132,10 @@ impl LifeTask {
     pub(super) fn wear(&self, problem: &Problem) -> Result<Wear, WearError> {
         let wear = Wear::of(problem);
         // A point of the track is passed once in each way.
-        if self.problem.cell().is_isolated() { wear.with_stroke(self.way().unwrap_or(self.slid())) } else { Ok(wear) }
+        match self.problem.cell().surroundings() {
+            Surroundings::Periodic => Ok(wear),
+            Surroundings::FreeSpace => wear.with_stroke(self.way().unwrap_or(self.slid())),
+        }
     }
 
     /// Distance that the counterbody slides in one pass, a length: there and back where it goes to and fro. `None` of an isolated contact

@@ -61,7 +61,7 @@ impl LifeTask {
 
     /// A way of an isolated contact that is shorter than the contact is wide.
     fn short_way(&self, begun: &Beginning) -> Option<String> {
-        let way = self.way().filter(|_| self.problem.cell().is_isolated() && begun.record.reading.touches())?;
+        let way = self.way().filter(|_| self.problem.kind().is_indentation() && begun.record.reading.touches())?;
         let [_, radius] = contact_radii(&begun.step, &begun.record.reading);
         (way < 2.0 * radius).then(|| {
             format!(

@@ -24,9 +24,7 @@ impl LifeTask {
 
     /// The state in a window twice as large on as many samples; `None` in a periodic cell, and where it has been doubled often.
     pub(super) fn in_wider_window(&self, state: LifeState) -> Option<LifeState> {
-        if !self.problem.cell().is_isolated() || state.doubled >= DOUBLED {
-            return None;
-        }
+        self.problem.cell().widened(2.0).filter(|_| state.doubled < DOUBLED)?;
         let direction = self.problem.direction();
         let along = usize::from(direction[0].abs() <= direction[1].abs());
         let wider = |depths: &[f64], goes_on: Option<usize>| spread(depths, state.points, goes_on);

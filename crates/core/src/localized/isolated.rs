@@ -26,7 +26,8 @@ const MAX_CONTACT_FRACTION: f64 = 0.5;
 
 /// Whether the contacts of a step are separate, so that each can be compared with an isolated one.
 fn stand_apart(reading: &Reading) -> bool {
-    reading.contact_fraction < MAX_CONTACT_FRACTION && !reading.levels.iter().any(|level| level.merged)
+    let is_small = reading.contact_fraction.is_some_and(|part| part < MAX_CONTACT_FRACTION);
+    is_small && !reading.levels.iter().any(|level| level.merged)
 }
 
 /// Outer contact radius of each level without mutual effect (0 without contact), a length, when all have one penetration and carry
@@ -34,7 +35,7 @@ fn stand_apart(reading: &Reading) -> bool {
 /// topography.
 pub fn radii(problem: &Problem, reading: &Reading) -> Option<Vec<f64>> {
     let localized = Localized::new(problem, 1).ok().filter(|_| stand_apart(reading))?;
-    let solution = localized.solve(Load::MeanPressure(reading.mean_pressure), &ISOLATED);
+    let solution = localized.solve(Load::MeanPressure(reading.mean_pressure?), &ISOLATED);
     // All indenters of a level have the same contact.
     let own = |level: usize| solution.spots.iter().find(|spot| spot.level == level && spot.touches());
     let radii = (1..=reading.levels.len()).map(|level| own(level).map_or(0.0, Spot::outer_radius)).collect();
@@ -45,7 +46,7 @@ pub fn radii(problem: &Problem, reading: &Reading) -> Option<Vec<f64>> {
 /// pressure) from the axis to the edge (Fig. 3), empty without load; `None` where contacts are not separate.
 pub fn profiles(problem: &Problem, reading: &Reading) -> Option<Vec<Vec<[f64; 2]>>> {
     let size = problem.cell().reduced().longer_side();
-    let levels = problem.counterbody().levels().iter().zip(&reading.levels);
+    let levels = problem.levels().iter().zip(&reading.levels);
     let own = |(level, own): (&Level, &LevelReading)| profile(*level, problem.bodies(), own.load, size);
     stand_apart(reading).then(|| levels.map(|level| own(level).unwrap_or_default()).collect())
 }

@@ -69,7 +69,7 @@ impl Localized {
 
     /// The indenters of a problem that the method can solve.
     pub(crate) fn solvable(problem: &Problem) -> Result<&Indenters, LocalizedError> {
-        match problem.counterbody().indenters() {
+        match problem.indenters() {
             None => Err(LocalizedError::NoIndenters),
             Some(_) if problem.bodies().has_rigid_base() => Err(LocalizedError::RigidBase),
             Some(indenters) => Ok(indenters),

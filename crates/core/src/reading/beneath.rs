@@ -72,7 +72,7 @@ fn spots(problem: &Problem, reading: &Reading, [n1, n2]: [usize; 2]) -> Vec<[f64
 
 /// Largest pressure that reaches a depth, and the radius of the contact that it comes from.
 fn reaching(reading: &Reading, spots: &[[f64; 2]], depth: f64) -> [f64; 2] {
-    let mean = if reading.is_isolated() { 0.0 } else { reading.mean_pressure };
+    let mean = reading.mean_pressure.unwrap_or(0.0);
     let passed = |&[pressure, radius]: &[f64; 2]| [pressure / (1.0 + (depth / radius).powi(2)), radius];
     let most = spots.iter().map(passed).max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0, 0.0]);
     [most[0].max(mean), most[1]]

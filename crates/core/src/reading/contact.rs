@@ -7,8 +7,8 @@ use super::edge::ContactEdge;
 use super::fractions::Fractions;
 use super::level_spots::LevelSpots;
 use super::{Errors, LevelReading, peak, spots, topography};
-use crate::lattice::Grid;
 use crate::lattice::components::Component;
+use crate::lattice::{Grid, Surroundings};
 use crate::load::LoadQuantity;
 use crate::notation::number;
 use crate::numeric::serialised;
@@ -21,9 +21,9 @@ use std::fmt;
 /// Scalars of the contact of one load step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
-    /// Mean pressure p̄ over the cell, in the unit of Young's modulus; not a number for an isolated contact.
-    #[serde(deserialize_with = "serialised::number")]
-    pub mean_pressure: f64,
+    /// Mean pressure p̄ over the cell, in the unit of Young's modulus; `None` for an isolated contact.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub mean_pressure: Option<f64>,
     /// Force P on the cell, or on the isolated contact, a pressure times an area.
     #[serde(default = "unknown", deserialize_with = "serialised::number")]
     pub force: f64,
@@ -35,9 +35,9 @@ pub struct Reading {
     #[serde(default = "unknown", deserialize_with = "serialised::number")]
     pub contact_area: f64,
     /// Fraction of the cell in contact: read between the samples, or counted and corrected by the perimeter where that errs
-    /// less, as on rough surfaces whose spots have few samples. Not a number for an isolated contact.
-    #[serde(deserialize_with = "serialised::number")]
-    pub contact_fraction: f64,
+    /// less, as on rough surfaces whose spots have few samples. `None` for an isolated contact.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub contact_fraction: Option<f64>,
     /// Uncertainty of the fraction in contact, from the samples of this grid alone; not kept in files.
     #[serde(skip)]
     pub contact_fraction_uncertainty: f64,
@@ -88,17 +88,25 @@ impl Reading {
         Some((mean, error))
     }
 
-    /// Whether it is one of an isolated contact, which has no mean pressure and no fraction in contact.
-    pub fn is_isolated(&self) -> bool {
-        self.contact_fraction.is_nan()
+    /// What lies around the cell.
+    pub fn surroundings(&self) -> Surroundings {
+        match self.contact_fraction {
+            Some(_) => Surroundings::Periodic,
+            None => Surroundings::FreeSpace,
+        }
     }
 
-    /// The load in one of its quantities.
-    pub fn load(&self, quantity: LoadQuantity) -> f64 {
+    /// The load in one of its quantities; `None` for the mean pressure of an isolated contact.
+    pub fn load_in(&self, quantity: LoadQuantity) -> Option<f64> {
         match quantity {
             LoadQuantity::MeanPressure => self.mean_pressure,
-            LoadQuantity::Force => self.force,
+            LoadQuantity::Force => Some(self.force),
         }
+    }
+
+    /// The load in one of its quantities; not a number for the mean pressure of an isolated contact.
+    pub fn load(&self, quantity: LoadQuantity) -> f64 {
+        self.load_in(quantity).unwrap_or(f64::NAN)
     }
 
     /// Estimated error of the [load](Self::load).
@@ -137,7 +145,7 @@ impl Reading {
         let highest = highest(grid, pressure, &components);
         let mut spots = spots::spots(contact, &components);
         let samples = samples(contact, edge, errors);
-        let given = contact.problem().counterbody().pressure();
+        let given = contact.problem().given_pressure();
         let topography = if given.is_some() {
             // A pressure that is given may end with a jump.
             Vec::new()
@@ -149,8 +157,8 @@ impl Reading {
         };
         let area = ContactArea::of(contact, &components, &spots, &topography);
         let mean_pressure = sums::mean(pressure);
-        let (cell, isolated) = (grid.cell(), grid.cell().is_isolated());
-        let levels: Vec<LevelReading> = (1..=contact.problem().counterbody().levels().len())
+        let (cell, surroundings) = (grid.cell(), grid.cell().surroundings());
+        let levels: Vec<LevelReading> = (1..=contact.problem().levels().len())
             .map(|level| LevelSpots::new(contact, level, &spots).reading(&area, mean_pressure))
             .collect();
         let fractions = || Fractions {
@@ -173,11 +181,11 @@ impl Reading {
         let resolved = levels.iter().map(LevelReading::grid_peak).fold(highest_peak, f64::max);
         let (max_pressure, resolved_peak) = LevelReading::peak_of(resolved, levels.iter().any(LevelReading::singular));
         Self {
-            mean_pressure: if isolated { f64::NAN } else { mean_pressure },
+            mean_pressure: surroundings.per_cell(mean_pressure),
             force: mean_pressure * cell.area(),
             penetration: contact.penetration(),
             contact_area: fraction.value * cell.area(),
-            contact_fraction: if isolated { f64::NAN } else { fraction.value },
+            contact_fraction: surroundings.per_cell(fraction.value),
             contact_fraction_uncertainty: fraction.uncertainty,
             elastic_energy: contact.elastic_energy(),
             max_pressure,
@@ -244,21 +252,12 @@ fn highest(grid: &Grid, pressure: &[f64], components: &[Component]) -> Option<us
 
 impl fmt::Display for Reading {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{}, penetration {}, contact area {}",
-            if self.is_isolated() {
-                format!("force {}", number(self.force))
-            } else {
-                format!(
-                    "mean pressure {}, contact fraction {}",
-                    number(self.mean_pressure),
-                    number(self.contact_fraction)
-                )
-            },
-            number(self.penetration),
-            number(self.contact_area)
-        )?;
+        match self.mean_pressure {
+            Some(mean) => write!(f, "mean pressure {}", number(mean))?,
+            None => write!(f, "force {}", number(self.force))?,
+        }
+        self.contact_fraction.iter().try_for_each(|part| write!(f, ", contact fraction {}", number(*part)))?;
+        write!(f, ", penetration {}, contact area {}", number(self.penetration), number(self.contact_area))?;
         for level in &self.levels {
             write!(
                 f,

@@ -94,9 +94,9 @@ impl Step {
             counted.error = Some(estimate(safety::AREA, corrected.uncertainty, corrected.value, coarser));
         }
         if reading.touches() {
-            let levels = self.problem().counterbody().levels();
+            let levels = self.problem().levels();
             let exponents: Vec<f64> = levels.iter().map(|level| level.shape().exponent()).collect();
-            let is_given = self.problem().counterbody().pressure().is_some();
+            let is_given = self.problem().kind().is_given;
             let hardness = self.finest().hardness();
             let apex = self.apex_error();
             let grids = Grids { fine: &reading, coarser: &coarser, load: self.load, is_given, hardness, apex };
@@ -117,12 +117,8 @@ impl Step {
             reading.contact_fraction_uncertainty = fraction.uncertainty;
             reading.contact_area = fraction.value * cell.area();
             reading.errors.contact_area = Some(error * cell.area());
-            if cell.is_isolated() {
-                reading.errors.mean_pressure = None;
-            } else {
-                reading.contact_fraction = fraction.value;
-                reading.errors.contact_fraction = Some(error);
-            }
+            reading.contact_fraction = cell.surroundings().per_cell(fraction.value);
+            reading.errors.contact_fraction = cell.surroundings().per_cell(error);
         } else if self.load.is_load_control() && reading.penetration > 0.0 {
             // What earlier loads have left.
             let left = coarser.iter().map(|coarse| Some(coarse.penetration));
@@ -139,23 +135,23 @@ impl Step {
 
     fn rough_reading_here(&self, reading: &Reading) -> Option<RoughReading> {
         let finest = self.finest();
-        finest.problem().counterbody().topography()?;
+        finest.problem().topography()?;
         let counted = reading.fractions.counted.unwrap_or_else(|| CountedArea::of(finest.grid(), finest.pressures()));
         let mut rough = RoughReading::with_counted(finest, &counted);
         let coarser = self.compared();
-        if !coarser.is_empty() && !finest.grid().cell().is_isolated() {
+        if let Some(mean) = rough.mean_gap.filter(|_| !coarser.is_empty()) {
             // The mean gap is that to complete contact, less the penetration.
             let law = reading.penetration.abs() * topography_law(reading.spot_resolution.max(1.0));
             let coarser = coarser.iter().map(|coarse| Some(mean_gap(coarse)));
             let apex = if self.load.is_load_control() { 0.0 } else { self.apex_error() };
-            rough.mean_gap_error = Some(estimate(safety::TOPOGRAPHY, law, rough.mean_gap, coarser) + apex);
+            rough.mean_gap_error = Some(estimate(safety::TOPOGRAPHY, law, mean, coarser) + apex);
         }
         Some(rough)
     }
 
     /// Height by which a kinked topography may exceed the apex from which the penetration counts, a length; 0 under indenters.
     pub(super) fn apex_error(&self) -> f64 {
-        self.problem().counterbody().topography().map_or(0.0, Topography::apex_error)
+        self.problem().topography().map_or(0.0, Topography::apex_error)
     }
 
     /// The contacts on the coarser grids that estimates compare with, the next coarser first.
@@ -214,7 +210,7 @@ impl Grids<'_> {
         let prescribed = |free: Option<f64>, prescribed: bool| if prescribed { Some(0.0) } else { free };
         let load = fine.force * load_law(largest);
         let force = prescribed(self.error(safety::MEAN_PRESSURE, load, &|reading| Some(reading.force)), by_load);
-        let area = fine.force / fine.mean_pressure;
+        let area = fine.mean_pressure.map(|mean| fine.force / mean);
         let [depth, safety] = match fine.levels.is_empty() {
             true => [topography_law(largest), safety::TOPOGRAPHY],
             false => [penetration_law(largest), safety::PENETRATION],
@@ -233,7 +229,7 @@ impl Grids<'_> {
         let peaks = peaks.filter_map(|(own, errors)| Some(own.finite_peak()? + errors.max_pressure?));
         let beyond = peaks.fold(0.0, f64::max) - fine.grid_peak();
         Errors {
-            mean_pressure: force.map(|force| force / area),
+            mean_pressure: force.zip(area).map(|(force, area)| force / area),
             force,
             penetration: prescribed(penetration, !by_load),
             contact_area: None,

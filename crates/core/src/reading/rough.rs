@@ -21,31 +21,31 @@ use super::counted::CountedArea;
 use super::histogram::Histogram;
 use crate::lattice::Grid;
 use crate::lattice::components::SpotCounts;
-use crate::numeric::{serialised, sums};
+use crate::numeric::sums;
 use crate::spectral::Contact;
 use serde::{Deserialize, Serialize};
 
 /// Scalars and distributions of the contact of a topography.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RoughReading {
-    /// Samples in contact over all samples; not a number for an isolated contact.
-    #[serde(deserialize_with = "serialised::number")]
-    pub counted_fraction: f64,
-    /// Fraction of the cell in contact, counted and corrected by the perimeter; not a number for an isolated contact.
-    #[serde(deserialize_with = "serialised::number")]
-    pub corrected_fraction: f64,
+    /// Samples in contact over all samples; `None` for an isolated contact.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub counted_fraction: Option<f64>,
+    /// Fraction of the cell in contact, counted and corrected by the perimeter; `None` for an isolated contact.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub corrected_fraction: Option<f64>,
     /// Estimated discretisation error of the corrected fraction; `None` without a coarser grid.
     #[serde(default)]
     pub corrected_fraction_error: Option<f64>,
     /// Length of the contacts' borders along the samples' edges, over the cell's area: 1/length. A border without preferred
-    /// direction is 4/π times as long along the edges of rectangular samples as it is. Not a number for an isolated contact.
-    #[serde(deserialize_with = "serialised::number")]
-    pub perimeter_density: f64,
+    /// direction is 4/π times as long along the edges of rectangular samples as it is. `None` for an isolated contact.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub perimeter_density: Option<f64>,
     /// Contact spots, by their counted areas.
     pub spots: SpotSizes,
-    /// Mean gap over the cell, zero in contact; a length. Not a number for an isolated contact.
-    #[serde(deserialize_with = "serialised::number")]
-    pub mean_gap: f64,
+    /// Mean gap over the cell, zero in contact; a length. `None` for an isolated contact.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub mean_gap: Option<f64>,
     /// Estimated discretisation error of the mean gap, a length; `None` without a coarser grid, and for an isolated contact.
     #[serde(default)]
     pub mean_gap_error: Option<f64>,
@@ -65,9 +65,9 @@ pub struct RoughReading {
 pub struct SpotSizes {
     /// Number of spots in the cell.
     pub count: usize,
-    /// Spots per area of the surface, 1/length²; not a number for an isolated contact.
-    #[serde(deserialize_with = "serialised::number")]
-    pub density: f64,
+    /// Spots per area of the surface, 1/length²; `None` for an isolated contact.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub density: Option<f64>,
     /// Mean area of a spot.
     pub mean_area: f64,
     /// Median of the areas.
@@ -84,47 +84,36 @@ impl RoughReading {
     /// Reading of a contact without estimated errors; `None` for indenters. [`Step::rough_reading`](crate::Step::rough_reading)
     /// has them.
     pub fn of(contact: &Contact) -> Option<Self> {
-        contact.problem().counterbody().topography()?;
+        contact.problem().topography()?;
         Some(Self::with_counted(contact, &CountedArea::of(contact.grid(), contact.pressures())))
     }
 
     /// Reading of the contact of a topography whose samples in contact are counted already.
     pub(super) fn with_counted(contact: &Contact, counted: &CountedArea) -> Self {
         let (grid, pressure, gap) = (contact.grid(), contact.pressures(), contact.gaps());
+        let surroundings = grid.cell().surroundings();
         let (spots, areas) = spots(grid, contact.spots(None));
         let touching = pressure.iter().copied().filter(|p| *p > 0.0);
-        let by_area = Histogram::by_decades("spot_area", areas.iter().copied());
-        if grid.cell().is_isolated() {
-            let by_pressure = Histogram::even("pressure", touching.clone(), touching.count());
-            return Self {
-                counted_fraction: f64::NAN,
-                corrected_fraction: f64::NAN,
-                corrected_fraction_error: None,
-                perimeter_density: f64::NAN,
-                spots: SpotSizes { density: f64::NAN, ..spots },
-                mean_gap: f64::NAN,
-                mean_gap_error: None,
-                stiffness: None,
-                stiffness_error: None,
-                histograms: vec![by_pressure, by_area],
-            };
-        }
         let open = pressure.iter().zip(gap).filter(|(p, _)| **p <= 0.0).map(|(_, gap)| gap.max(0.0));
+        let by_pressure = |samples: usize| Histogram::even("pressure", touching.clone(), samples);
+        let by_gap = |samples: usize| Histogram::even("gap", open, samples);
+        let samples = surroundings.per_cell(grid.len());
+        let histograms = [
+            Some(by_pressure(samples.unwrap_or_else(|| touching.clone().count()))),
+            samples.map(by_gap),
+            Some(Histogram::by_decades("spot_area", areas.iter().copied())),
+        ];
         Self {
-            counted_fraction: counted.fraction,
-            corrected_fraction: counted.corrected.value,
-            corrected_fraction_error: counted.error,
-            perimeter_density: counted.perimeter_density,
+            counted_fraction: surroundings.per_cell(counted.fraction),
+            corrected_fraction: surroundings.per_cell(counted.corrected.value),
+            corrected_fraction_error: counted.error.and_then(|error| surroundings.per_cell(error)),
+            perimeter_density: surroundings.per_cell(counted.perimeter_density),
             spots,
-            mean_gap: mean_gap(contact),
+            mean_gap: surroundings.per_cell(contact).map(mean_gap),
             mean_gap_error: None,
             stiffness: None,
             stiffness_error: None,
-            histograms: vec![
-                Histogram::even("pressure", touching, grid.len()),
-                Histogram::even("gap", open, grid.len()),
-                by_area,
-            ],
+            histograms: histograms.into_iter().flatten().collect(),
         }
     }
 }
@@ -138,12 +127,13 @@ pub(super) fn mean_gap(contact: &Contact) -> f64 {
 /// Sizes of the spots, and the areas of all spots, ascending.
 fn spots(grid: &Grid, counts: &SpotCounts) -> (SpotSizes, Vec<f64>) {
     let areas: Vec<f64> = counts.sizes.iter().map(|(size, _)| *size as f64 * grid.sample_area()).collect();
+    let density = grid.cell().surroundings().per_cell(areas.len() as f64 / grid.cell().area());
     let [Some(&largest_area), Some(&median_area)] = [areas.last(), areas.get(areas.len() / 2)] else {
-        return (SpotSizes::default(), areas);
+        return (SpotSizes { density, ..SpotSizes::default() }, areas);
     };
     let sizes = SpotSizes {
         count: areas.len(),
-        density: areas.len() as f64 / grid.cell().area(),
+        density,
         mean_area: areas.iter().sum::<f64>() / areas.len() as f64,
         median_area,
         half_load_area: counts.half_load().map_or(largest_area, |middle| areas[middle]),
@@ -212,14 +202,14 @@ mod tests {
             let found = contact_spots(&grid, pressure);
             spots(&grid, &SpotCounts::of(&found, &grid, pressure))
         };
-        assert_eq!(spots(&pressure).0, SpotSizes::default());
+        assert_eq!(spots(&pressure).0, SpotSizes { density: Some(0.0), ..SpotSizes::default() });
         pressure[0] = 9.0;
         pressure[16..18].fill(1.0);
         pressure[36..40].fill(0.5);
         let (sizes, areas) = spots(&pressure);
         let sample = 4.0 / 64.0;
         assert_eq!(areas, [sample, 2.0 * sample, 4.0 * sample]);
-        assert_eq!((sizes.count, sizes.density, sizes.percolates), (3, 0.75, false));
+        assert_eq!((sizes.count, sizes.density, sizes.percolates), (3, Some(0.75), false));
         assert_eq!((sizes.median_area, sizes.largest_area, sizes.half_load_area), (areas[1], areas[2], areas[0]));
         pressure[24..32].fill(1.0);
         assert!(spots(&pressure).0.percolates);

@@ -189,7 +189,7 @@ pub(super) fn beside_site(step: &Step, [x, y, z]: [f64; 3]) -> [f64; 3] {
 /// Under a given pressure the radii are those of its discs and of its spots, discs of their area.
 pub fn contact_radii(step: &Step, reading: &Reading) -> [f64; 2] {
     let grid = step.grid();
-    if let Some(given) = step.problem().counterbody().pressure() {
+    if let Some(given) = step.problem().given_pressure() {
         let radii = given.loaded_discs().iter().filter(|disc| disc.pressure > 0.0).map(|disc| disc.radius);
         let of_spot = |&(samples, _): &(usize, f64)| (samples as f64 * grid.sample_area() / PI).sqrt();
         let counts = step.finest().spots(None);

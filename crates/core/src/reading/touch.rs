@@ -35,7 +35,7 @@ pub struct FirstTouch {
 /// Loads of first touch of all levels; `None` for a level hidden behind others.
 pub fn first_touches(solver: &mut Solver) -> Vec<Option<FirstTouch>> {
     let beside: Vec<Option<f64>> =
-        (1..=solver.problem().counterbody().levels().len()).map(|level| beside_apex(solver, level)).collect();
+        (1..=solver.problem().levels().len()).map(|level| beside_apex(solver, level)).collect();
     let mut search = TouchSearch::new(solver, beside.len());
     search.attempt(NEGLIGIBLE * search.complete);
     for (level, _) in beside.iter().enumerate().filter(|(_, beside)| beside.is_some()) {

@@ -17,12 +17,12 @@ const POINTS: usize = 96;
 /// The reading of one indenter alone under the force that it bears in a step of a periodic system with this `reading`; `None` unless
 /// the system has one indenter a cell, which covers little of it.
 pub fn alone(problem: &Problem, reading: &Reading) -> Option<Reading> {
-    let indenters = problem.counterbody().indenters()?;
+    let indenters = problem.indenters()?;
     let [level] = indenters.levels() else { return None };
     let own = reading.levels.first()?;
     let sites: usize = indenters.lattice().sites().iter().map(Vec::len).sum();
-    let is_sparse = sites == 1 && reading.touches() && reading.contact_fraction < SPARSE;
-    let radius = own.contact_radius.filter(|_| is_sparse && !problem.cell().is_isolated())?;
+    let is_sparse = sites == 1 && reading.touches() && reading.contact_fraction.is_some_and(|part| part < SPARSE);
+    let radius = own.contact_radius.filter(|_| is_sparse)?;
     let window = Cell::window([2.0 * ROOM * radius; 2]).ok()?;
     let lattice = Lattice::new(window, vec![vec![[0.5; 2]]]).ok()?;
     let mut single = Problem::new(Indenters::new(lattice, vec![*level]).ok()?, problem.bodies());

@@ -19,12 +19,13 @@ impl StepRecord {
         let Certificate { energy_gap, penetration, load } = self.certificate;
         at_least_zero("force", reading.force)?;
         // An isolated contact has no cell, and neither of the two.
-        if !(reading.mean_pressure.is_nan() && reading.contact_fraction.is_nan()) {
-            at_least_zero("mean_pressure", reading.mean_pressure)?;
-            at_least_zero("contact_fraction", reading.contact_fraction)?;
+        if reading.mean_pressure.or(reading.contact_fraction).is_some() {
+            at_least_zero("mean_pressure", due(reading.mean_pressure))?;
+            at_least_zero("contact_fraction", due(reading.contact_fraction))?;
         }
         // Nor has its topography parts of one.
-        if let Some(rough) = self.rough.as_ref().filter(|_| !reading.is_isolated()) {
+        let parts = self.rough.as_ref().and_then(|rough| reading.surroundings().per_cell(rough));
+        if let Some(rough) = parts {
             for (name, value) in [
                 ("rough.counted_fraction", rough.counted_fraction),
                 ("rough.corrected_fraction", rough.corrected_fraction),
@@ -32,7 +33,7 @@ impl StepRecord {
                 ("rough.spots.density", rough.spots.density),
                 ("rough.mean_gap", rough.mean_gap),
             ] {
-                finite(name, value)?;
+                finite(name, due(value))?;
             }
         }
         if let Some(own) = &self.plastic {
@@ -106,6 +107,11 @@ impl StepRecord {
         let [is, due] = [self.governing.as_ref(), Governing::of(&self.strength).as_ref()].map(governing);
         if is == due { Ok(()) } else { Err(format!("`governing` is {is}, and the largest utilisation is of {due}")) }
     }
+}
+
+/// A number that is due, not a number where it is null.
+fn due(value: Option<f64>) -> f64 {
+    value.unwrap_or(f64::NAN)
 }
 
 fn refused(name: &str, value: f64) -> String {

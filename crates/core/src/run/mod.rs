@@ -47,7 +47,6 @@ pub use tapered::Tapered;
 pub use wear::{PathEnd, WearPath, WornPath, WornStep, WornSurface};
 
 use crate::body::MeanStress;
-use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::load::{Control, Load, LoadQuantity};
 use crate::problem::Problem;
@@ -102,7 +101,7 @@ impl Run {
     /// The quantity in which its loads are stated: forces where one is prescribed, and for an isolated contact.
     pub fn quantity(&self) -> LoadQuantity {
         let by_force = self.loads.iter().any(|load| matches!(load, Load::Force(_)));
-        if by_force || self.problem.cell().is_isolated() { LoadQuantity::Force } else { LoadQuantity::MeanPressure }
+        if by_force { LoadQuantity::Force } else { self.problem.kind().load_quantity() }
     }
 
     /// Checks that there are loads and a grid, and that every prescribed penetration can be reached: on the grid, or on a fine one of
@@ -124,8 +123,8 @@ impl Run {
             return Err(RunError::NoLoads);
         }
         let points = self.checked_sampling()?;
-        let is_given = self.problem.counterbody().pressure().is_some();
-        let hardness = self.problem.largest_hardness().filter(|_| !is_given).map(|(hardness, _)| hardness);
+        let kind = self.problem.kind();
+        let hardness = self.problem.largest_hardness().filter(|_| !kind.is_given).map(|(hardness, _)| hardness);
         for load in &self.loads {
             if let (Control::MeanPressure(mean), Some(hardness)) = (load.on(self.problem.cell()), hardness)
                 && mean >= hardness
@@ -133,12 +132,11 @@ impl Run {
                 return Err(BeyondHardness { load: *load, hardness, area: self.problem.cell().area() }.into());
             }
         }
-        // An isolated contact is never complete.
         let by_load = self.loads.iter().all(|load| load.is_load_control());
-        if by_load || is_given || self.problem.cell().is_isolated() {
+        if by_load || !kind.may_be_complete() {
             return Ok(());
         }
-        let surface = Surface::new(self.problem.counterbody(), points)?;
+        let surface = self.problem.loaded_by().surface(points)?;
         let deepest = self.loads.iter().filter_map(|load| match *load {
             Load::Penetration(penetration) => Some(penetration),
             _ => None,
@@ -273,7 +271,7 @@ impl Run {
             }
         };
         let mut record = StepRecord::new(&step, step.reading());
-        let is_indented = self.problem.cell().is_isolated() && !record.is_given();
+        let is_indented = record.kind().is_indentation();
         if loading == Loading::Path && is_indented && step.report.stop.solved() {
             record = record.with_stiffness(solver.stiffness(&step));
         }

@@ -2,6 +2,7 @@
 
 use super::Tapered;
 use crate::body::Bodies;
+use crate::kind::ContactKind;
 use crate::numeric::serialised;
 use crate::reading::{
     Beneath, Criterion, FatigueReading, Governing, PathReading, PlasticReading, Reading, RoughReading, StressReading,
@@ -151,7 +152,7 @@ impl StepRecord {
         // Steps that have not converged are left out.
         let place = |step: &Self| {
             let Reading { mean_pressure, force, penetration, .. } = step.reading;
-            let load = if step.reading.is_isolated() { force } else { mean_pressure };
+            let load = mean_pressure.unwrap_or(force);
             if step.converged() { [load, penetration] } else { [f64::NAN; 2] }
         };
         let path: Vec<[f64; 2]> = steps.iter().map(place).collect();
@@ -203,9 +204,9 @@ impl StepRecord {
         self.stop.solved()
     }
 
-    /// Whether its pressure was given, and nothing solved for.
-    pub fn is_given(&self) -> bool {
-        self.route == Route::Given
+    /// Kind of the contact.
+    pub fn kind(&self) -> ContactKind {
+        ContactKind { surroundings: self.reading.surroundings(), is_given: self.route == Route::Given }
     }
 
     /// How the solution was reached.

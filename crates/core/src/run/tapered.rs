@@ -15,7 +15,7 @@ pub struct Tapered {
 impl Tapered {
     /// Parts of a contact; `None` without a window or without contact.
     pub fn of(contact: &Contact) -> Option<Self> {
-        let run_out = contact.problem().counterbody().topography()?.run_out()?;
+        let run_out = contact.problem().topography()?.run_out()?;
         let (grid, pressure) = (contact.grid(), contact.pressure());
         let (mut load, mut area, mut all) = (0.0, 0.0, [0.0; 2]);
         for (index, pressure) in pressure.iter().enumerate().filter(|(_, pressure)| **pressure > 0.0) {

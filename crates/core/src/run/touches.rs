@@ -13,7 +13,7 @@ pub fn touches(problem: &Problem, steps: &[StepRecord], quantity: LoadQuantity) 
     let whole = |step: &StepRecord| step.reading.load(quantity);
     let mut steps: Vec<&StepRecord> = steps.iter().filter(|step| whole(step).is_finite()).collect();
     steps.sort_by(|a, b| whole(a).total_cmp(&whole(b)));
-    let levels = problem.counterbody().levels();
+    let levels = problem.levels();
     let highest = levels.iter().map(|level| level.height()).fold(f64::NEG_INFINITY, f64::max);
     let touch = |exponent: f64, is_highest: bool, level: usize| {
         let load = |step: &StepRecord| step.reading.levels.get(level - 1).map_or(0.0, |own| own.load);

@@ -115,7 +115,7 @@ fn at_window(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 /// Steps that no coarser grid has solved too.
 fn without_errors(steps: &[Numbered]) -> Option<String> {
     let is_alone = |step: &StepRecord| {
-        let is_pressed = step.converged() && !step.is_given() && step.reading.max_pressure > 0.0;
+        let is_pressed = step.converged() && !step.kind().is_given && step.reading.max_pressure > 0.0;
         is_pressed && step.reading.errors == Errors::default()
     };
     let list = list(steps, is_alone)?;
@@ -147,7 +147,7 @@ fn small_spots(steps: &[Numbered]) -> Option<String> {
             && !is_complete(reading)
     };
     let list = list(steps, rough)?;
-    if steps.iter().any(|(_, step)| step.is_given()) {
+    if steps.iter().any(|(_, step)| step.kind().is_given) {
         return Some(format!(
             "half of the load lies on spots of less than {FEW_SAMPLES} samples to the radius: stresses near the surface are rough; raise \
              grid.points"
@@ -161,7 +161,7 @@ fn small_spots(steps: &[Numbered]) -> Option<String> {
 
 /// Whether contact is complete; that of an isolated contact never is.
 fn is_complete(reading: &Reading) -> bool {
-    reading.contact_fraction >= 1.0
+    reading.contact_fraction.is_some_and(|part| part >= 1.0)
 }
 
 fn not_accurate(end: RefinementEnd, change: Option<f64>) -> Option<String> {
@@ -187,7 +187,7 @@ fn rough_surface(steps: &[Numbered]) -> Option<String> {
 
 /// Stresses on the surface at the edges of discs under a uniform traction, which no grid resolves.
 fn edges_of_discs(problem: &Problem, steps: &[Numbered]) -> Option<String> {
-    let given = problem.counterbody().pressure()?;
+    let given = problem.given_pressure()?;
     let slides = problem.friction().is_some_and(|friction| friction.coefficient() > 0.0);
     let is_read = slides && steps.iter().any(|(_, step)| has_stresses(step));
     (is_read && !given.loaded_discs().is_empty()).then(|| {
@@ -205,8 +205,9 @@ fn has_stresses(step: &StepRecord) -> bool {
 
 /// Stresses of contacts that fill much of their cell, in which the mean lateral stress has a large part.
 fn mean_matters(problem: &Problem, steps: &[Numbered]) -> Option<String> {
-    let fills = |step: &StepRecord| has_stresses(step) && step.reading.contact_fraction > FILLED;
-    problem.counterbody().indenters()?;
+    let fills =
+        |step: &StepRecord| has_stresses(step) && step.reading.contact_fraction.is_some_and(|part| part > FILLED);
+    problem.indenters()?;
     let list = list(steps, fills)?;
     Some(format!(
         "contact fills more than {:.0} % of the cell in step {list}: lateral stresses depend on stress.mean, which a periodic system \
@@ -217,7 +218,7 @@ fn mean_matters(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 
 /// Contact where the window of a topography tapers its heights.
 fn at_border(problem: &Problem, steps: &[Numbered]) -> Option<String> {
-    let window = problem.counterbody().topography()?.run_out()?.window;
+    let window = problem.topography()?.run_out()?.window;
     let part = |step: &StepRecord| step.tapered.map_or(0.0, |own| own.load.max(own.area));
     let list = list(steps, |step| part(step) > TAPERED_PART)?;
     let worst = steps.iter().filter_map(|(_, step)| step.tapered).max_by(|a, b| a.load.total_cmp(&b.load))?;
@@ -237,7 +238,7 @@ fn at_border(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 
 /// The steepest flank at an edge of contact; the slope of cones is given in the case.
 fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
-    let levels = problem.counterbody().levels();
+    let levels = problem.levels();
     let flanks = steps.iter().flat_map(|&(number, step)| {
         let touching = step.reading.levels.iter().filter(|level| level.load > 0.0);
         // Merged contacts have no radius, but an area.

@@ -29,7 +29,7 @@ pub struct OtherGrids;
 
 impl Checkpoint {
     /// Whether the checkpoint is that of a solver by `method` whose finest grid has `points`, of a counterbody that is constant along the
-    /// axis `line`, see [`Counterbody::line`](crate::Counterbody::line).
+    /// axis `line`, see [`LoadedBy::line`](crate::LoadedBy::line).
     pub fn fits(&self, points: [usize; 2], method: Method, line: Option<usize>) -> bool {
         self.is_of(nested_points(points, method, line).into_iter().map(|[n1, n2]| n1 * n2))
     }

@@ -2,6 +2,7 @@
 
 use super::iteration::{Bounds, Certificate, Unknowns};
 use crate::counterbody::Surface;
+use crate::kind::Datum;
 use crate::lattice::Grid;
 use crate::lattice::components::{Component, SpotCounts, contact_spots};
 use crate::numeric::array::view;
@@ -109,9 +110,11 @@ impl Contact {
     /// plane, or both from a rigid base, and of E(p) = ½⟨p, Cp⟩ + ⟨p, f − δ⟩ the minimum over p ≥ 0 is −½⟨p, Cp⟩, whose derivative by δ is −P. Under
     /// coupled friction it is the energy stored by the pressure, without the work of the traction.
     pub fn elastic_energy(&self) -> f64 {
-        // Where a uniform pressure displaces, it does work: around an isolated contact, and on a rigid base.
-        let displaces = self.grid().cell().is_isolated() || self.problem.bodies().mean_compliance() > 0.0;
-        let (mean, shift) = if displaces { (0.0, self.penetration) } else { (sums::mean(&self.pressure), 0.0) };
+        // A uniform pressure does work where it displaces.
+        let (mean, shift) = match self.problem.datum() {
+            Datum::MeanPlane => (sums::mean(&self.pressure), 0.0),
+            Datum::FarAway | Datum::Base => (0.0, self.penetration),
+        };
         // w = g − f + δ; a uniform part of the pressure does no work with a displacement without mean, and would add rounding alone.
         let f = self.surface.gaps();
         let [sum] = sums::of(f.len(), |i| [(self.pressure[i] - mean) * (self.gap[i] - f[i] + shift)]);

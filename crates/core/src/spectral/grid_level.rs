@@ -9,6 +9,7 @@ use super::prolongation::prolonged;
 use super::{Contact, LayeredOperator, Tangent};
 use crate::body::CompositeHardness;
 use crate::counterbody::Surface;
+use crate::kind::ContactKind;
 use crate::lattice::Grid;
 use crate::load::{Control, Load};
 use crate::numeric::array::samples;
@@ -41,6 +42,7 @@ pub(super) struct GridLevel {
     /// Law by which the hardness follows from the penetration; `None` where one holds at any.
     composite: Option<CompositeHardness>,
     operator: LayeredOperator,
+    kind: ContactKind,
     /// A given pressure with the mean 1, one value per sample; `None` where contact is solved.
     given: Option<Vec<f64>>,
     unknowns: Unknowns,
@@ -60,7 +62,7 @@ impl GridLevel {
     pub fn new(problem: &Problem, surface: Surface) -> Self {
         let (grid, bodies) = (surface.grid(), problem.bodies());
         let operator = LayeredOperator::of_problem(problem, grid);
-        let given = problem.counterbody().pressure().map(|given| {
+        let given = problem.given_pressure().map(|given| {
             let (pressure, mean) = (given.on(grid), given.force() / grid.cell().area());
             pressure.into_iter().map(|p| p / mean).collect()
         });
@@ -72,6 +74,7 @@ impl GridLevel {
             bounds: Bounds::up_to(problem.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness)),
             composite: problem.composite_hardness().copied(),
             operator,
+            kind: problem.kind(),
             given,
             modulus: bodies.contact_modulus(),
             surface: Arc::new(surface),
@@ -226,12 +229,12 @@ impl GridLevel {
         let ([n1, n2], pressure) = (grid.points(), &self.unknowns.pressure);
         let rows = || (0..n2).flat_map(|j| [j, (n1 - 1) * n2 + j]);
         let columns = || (0..n1).flat_map(|i| [i * n2, i * n2 + n2 - 1]);
-        grid.cell().is_isolated() && self.given.is_none() && rows().chain(columns()).any(|index| pressure[index] > 0.0)
+        self.kind.is_indentation() && rows().chain(columns()).any(|index| pressure[index] > 0.0)
     }
 
     /// Whether contact is wider than the grid's spacing, on the average of the indenters that touch; a given pressure always is.
     pub fn is_resolved(&self) -> bool {
-        if self.given.is_some() {
+        if self.kind.is_given {
             return true;
         }
         let (owners, pressure) = (self.surface.owners(), &self.unknowns.pressure);

@@ -10,7 +10,8 @@ use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
 use super::convolution::{Convolution, Convolved};
 use super::local_compliance::LocalCompliance;
 use super::multiplier::{Action, Multiplier, SkewPart, SkewRatio};
-use super::operator::{ElasticOperator, Surroundings, TractionUpdate, Workspace};
+use super::operator::{ElasticOperator, TractionUpdate, Workspace};
+use crate::lattice::Surroundings;
 use crate::numeric::lanes::Real;
 use crate::numeric::rows::RowBlocks;
 

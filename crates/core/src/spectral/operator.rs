@@ -4,6 +4,7 @@
 //! through `ByRows`.
 
 use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
+use crate::lattice::Surroundings;
 use crate::numeric::aligned::Aligned;
 use crate::numeric::lanes::Real;
 use crate::numeric::rows::RowBlocks;
@@ -33,22 +34,12 @@ pub enum TractionUpdate {
     Lagged,
 }
 
-/// What lies around the samples of a grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Surroundings {
-    /// Their periodic images. The mean displacement of a loaded half-space is infinite: w has zero mean, a uniform pressure
-    /// displaces nothing, C is positive on pressures without mean. Contact may be complete, for which no penetration beyond the
-    /// mean of the initial gap is needed, and C⁻¹ is exact. On a rigid base a uniform pressure displaces by the
-    /// [mean compliance](ElasticOperator::mean_compliance): where that is positive, C is positive on all pressures, and contact
-    /// bears any penetration.
-    Periodic,
-    /// Nothing. w → 0 far away, a uniform pressure displaces too, C is positive on all pressures. Contact lies within the samples,
-    /// and what stands for C⁻¹ is only near to it: good for a preconditioner, not for a bound.
-    FreeSpace,
-}
-
-/// Linear elastic operator A of a body on a grid: w = A p, in [periodic](Surroundings) surroundings with zero mean unless it has a
-/// mean compliance. C is its symmetric part, positive on pressures without mean; without coupled friction A = C.
+/// Linear elastic operator A of a body on a grid: w = A p. C is its symmetric part; without coupled friction A = C.
+///
+/// In periodic [surroundings](Surroundings) w has zero mean and C is positive on pressures without mean, unless a uniform pressure
+/// displaces by a [mean compliance](Self::mean_compliance): where that is positive, C is positive on all pressures, and contact bears any
+/// penetration. Otherwise contact is complete from the mean of the initial gap on. C⁻¹ is exact. In free space C is positive on all
+/// pressures, and what stands for C⁻¹ is only near to it: good for a preconditioner, not for a bound.
 ///
 /// Pressures and displacements that count are in double precision; what only leads to them is in single precision, in units
 /// in which C at the least wavenumber is one.

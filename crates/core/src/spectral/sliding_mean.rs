@@ -14,7 +14,7 @@
 //! The mean is symmetric, its eigenvalues lie in [0, 1], and it keeps Σp.
 
 use super::wear_error::WearError;
-use crate::lattice::{Cell, Grid};
+use crate::lattice::{Cell, Grid, Surroundings};
 use crate::numeric::sums;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
@@ -25,7 +25,8 @@ use rustfft::num_complex::Complex64;
 /// [`WearError::Oblique`] in a window unless the direction is along a side.
 pub(super) fn vector_along(cell: Cell, direction: [f64; 2]) -> Result<Option<[i32; 2]>, WearError> {
     let vector = cell.closing_vector(direction);
-    if cell.is_isolated() && !vector.is_some_and(|vector| vector.contains(&0)) {
+    let is_alone = cell.surroundings() == Surroundings::FreeSpace;
+    if is_alone && !vector.is_some_and(|vector| vector.contains(&0)) {
         return Err(WearError::Oblique(direction));
     }
     Ok(vector)

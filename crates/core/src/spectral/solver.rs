@@ -12,7 +12,7 @@ use super::worn::Worn;
 use super::{Contact, FieldError, Step, Tangent};
 use crate::counterbody::Surface;
 use crate::friction::Friction;
-use crate::lattice::{Cell, Grid, LatticeError};
+use crate::lattice::{Cell, Grid, LatticeError, Surroundings};
 use crate::load::Load;
 use crate::numeric::fourier::fast_points;
 use crate::problem::Problem;
@@ -51,11 +51,11 @@ impl Solver {
     pub fn new(problem: impl Into<Arc<Problem>>, points: [usize; 2], settings: Settings) -> Result<Self, LatticeError> {
         let problem = problem.into();
         let mut levels: Vec<GridLevel> = Vec::new();
-        let counterbody = problem.counterbody();
-        for points in nested_points(points, settings.method, counterbody.line()) {
+        let loaded_by = problem.loaded_by();
+        for points in nested_points(points, settings.method, loaded_by.line()) {
             let surface = match levels.last() {
-                None => Surface::new(counterbody, points)?,
-                Some(finer) => finer.surface().coarser(counterbody, points)?,
+                None => loaded_by.surface(points)?,
+                Some(finer) => finer.surface().coarser(loaded_by, points)?,
             };
             levels.push(GridLevel::new(&problem, surface));
         }
@@ -301,11 +301,13 @@ impl Memory {
     /// Coupled friction adds a second multiplier. An isolated contact has the transforms of its kernel, a spectrum twice as wide,
     /// and three tables while the kernel is made.
     pub fn of(cell: Cell, points: [usize; 2], method: Method, coupled: bool) -> Self {
-        let isolated = cell.is_isolated();
-        let multipliers =
-            if isolated { bytes_per_sample(points, coupled).ceil() as usize } else { 4 + 4 * usize::from(coupled) };
+        let (multipliers, spectrum, setup) = match cell.surroundings() {
+            Surroundings::Periodic => (4 + 4 * usize::from(coupled), 8, 0),
+            Surroundings::FreeSpace => {
+                (bytes_per_sample(points, coupled).ceil() as usize, 3 * 8, bytes_while_made(cell, points))
+            }
+        };
         let (grid, rows) = (3 * 8 + 4 + multipliers, 512);
-        let spectrum = if isolated { 3 * 8 } else { 8 };
         let working = match method {
             Method::Preconditioned => 3 * 4 + spectrum,
             Method::PolonskyKeer => 2 * 8 + spectrum,
@@ -314,7 +316,6 @@ impl Memory {
         // A surface may be constant along either axis.
         let grids = [None, Some(0), Some(1)].map(|line| nested_points(points, method, line));
         let kept = grids.map(|grids| grids.into_iter().map(of_grid).sum()).into_iter().max().unwrap_or(0);
-        let setup = if isolated { bytes_while_made(cell, points) } else { 0 };
         Self { kept, working: setup.max(points[0] * points[1] * working) }
     }
 }

@@ -71,7 +71,7 @@ impl Tangent {
         let mut displaced = p.to_vec();
         LayeredOperator::of_bodies(grid, &bodies).displace(&mut displaced, &mut Workspace::default());
         let gaps = |&(weight, own): &(f64, &Problem)| {
-            let surface = Surface::new(own.counterbody(), grid.points()).expect("the grid of a contact has samples");
+            let surface = own.loaded_by().surface(grid.points()).expect("the grid of a contact has samples");
             (weight, surface)
         };
         let gaps: Vec<(f64, Surface)> = problems.iter().map(gaps).collect();

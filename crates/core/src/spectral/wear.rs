@@ -23,7 +23,7 @@ use super::wear_error::WearError;
 use super::worn::Worn;
 use super::{Progress, Solver, Step};
 use crate::body::Side;
-use crate::lattice::{Cell, Grid};
+use crate::lattice::{Cell, Grid, Surroundings};
 use crate::load::Load;
 use crate::problem::Problem;
 use std::ops::ControlFlow;
@@ -86,6 +86,14 @@ impl Wear {
         self.stroke
     }
 
+    /// Stroke by which points of a track are passed, a length; `None` on a periodic cell, which is passed once in each period.
+    pub(crate) fn stroke_on(&self, cell: Cell) -> Option<f64> {
+        match cell.surroundings() {
+            Surroundings::Periodic => None,
+            Surroundings::FreeSpace => self.stroke,
+        }
+    }
+
     /// Refuses a direction along which a body cannot wear.
     ///
     /// # Errors
@@ -133,12 +141,12 @@ impl Drop for Wearing<'_> {
 /// Width of the window along the path over the stroke of an isolated contact; 1 on a periodic cell.
 fn passes(wear: &Wear, grid: &Grid) -> f64 {
     let [a1, a2] = grid.cell().vectors();
-    match wear.stroke {
-        Some(stroke) if grid.cell().is_isolated() => {
+    match wear.stroke_on(grid.cell()) {
+        Some(stroke) => {
             let along = if wear.direction[0].abs() > wear.direction[1].abs() { a1 } else { a2 };
             along[0].hypot(along[1]) / stroke
         }
-        _ => 1.0,
+        None => 1.0,
     }
 }
 
@@ -173,7 +181,7 @@ impl Solver {
         if !(distance.is_finite() && distance >= 0.0) {
             return Err(WearError::Distance(distance));
         }
-        if self.problem().counterbody().pressure().is_some() {
+        if self.problem().kind().is_given {
             return Err(WearError::Given);
         }
         let on_grids = on_grids(self, wear, distance)?;

@@ -15,7 +15,7 @@ use super::field::StressField;
 use super::measure::StressMeasure;
 use super::peak::{Peak, Rival};
 use super::tensor::StressState;
-use crate::lattice::Cell;
+use crate::lattice::{Cell, Surroundings};
 use std::f64::consts::PI;
 
 /// Contenders for the maxima of several measures, each with its measure.
@@ -87,7 +87,8 @@ impl Contender {
     pub fn in_window(self, window: Cell, border: f64) -> Self {
         let [x, y, _] = self.peak.position;
         let is_on_border = || window.fractions([x, y]).iter().any(|s| !(BORDER..=1.0 - BORDER).contains(s));
-        Self { border, is_on_border: window.is_isolated() && is_on_border(), ..self }
+        let is_alone = window.surroundings() == Surroundings::FreeSpace;
+        Self { border, is_on_border: is_alone && is_on_border(), ..self }
     }
 
     /// Whether the value lies on the border of the last window, where the largest size of stresses is `border`, a pressure.

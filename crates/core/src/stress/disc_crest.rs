@@ -58,10 +58,8 @@ impl StressField {
     /// infinite at the edges, and where a disc is as wide as its cell.
     pub(super) fn crests_of_discs(&self, measures: &[StressMeasure]) -> Vec<(StressMeasure, Crest)> {
         let width = EDGE_WIDTH / self.least_aliased();
-        let cell = self.series_grid().cell();
-        let [x, y] = cell.reduced().short();
-        let fits =
-            |disc: &LoadedDisc| self.grid().cell().is_isolated() || disc.radius + BAND * width < 0.499 * x.hypot(y);
+        let room = self.grid().cell().clear_radius();
+        let fits = |disc: &LoadedDisc| disc.radius + BAND * width < room;
         if self.discs().is_empty() || self.slides() || !self.discs().iter().all(fits) {
             return Vec::new();
         }
@@ -178,10 +176,7 @@ impl<'a> SmoothedDiscs<'a> {
         let (cell, nu) = (self.field.series_grid().cell(), self.field.surface_poisson());
         for (number, disc) in self.field.discs().iter().enumerate() {
             let away = [0, 1].map(|k| point.place[k] - disc.centre[k]);
-            let [x, y] = match self.field.grid().cell().is_isolated() {
-                true => away,
-                false => cell.reduced().nearest(cell.parts(away)),
-            };
+            let [x, y] = cell.shortest_equivalent(away);
             let r = x.hypot(y);
             let side = point.side.filter(|side| side.disc == number);
             let u = if side.is_some() { 0.0 } else { (r - disc.radius) / self.width };

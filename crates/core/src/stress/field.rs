@@ -14,7 +14,7 @@ use super::tensor::StressState;
 use crate::body::{Bodies, Depth, HalfSpace, InteriorTable, MeanStress, Side};
 use crate::counterbody::{LoadedDisc, constant_axis};
 use crate::friction::Friction;
-use crate::lattice::{Cell, Grid, NotOnGrid};
+use crate::lattice::{Cell, Grid, NotOnGrid, Surroundings};
 use crate::load::Load;
 use crate::numeric::sums;
 use crate::spectral::Contact;
@@ -33,7 +33,7 @@ struct SurfaceTraction<'a> {
     friction: Option<&'a Friction>,
     beta: f64,
     is_contact: bool,
-    /// The axis along which nothing changes, see [`Counterbody::line`](crate::Counterbody::line).
+    /// The axis along which nothing changes, see [`LoadedBy::line`](crate::LoadedBy::line).
     line: Option<usize>,
 }
 
@@ -90,7 +90,7 @@ impl StressField {
             Side::Body => bodies.dundurs_beta(),
             Side::Counterbody => -bodies.dundurs_beta(),
         };
-        let (is_contact, line) = (problem.counterbody().pressure().is_none(), problem.counterbody().line());
+        let (is_contact, line) = (!problem.kind().is_given, problem.loaded_by().line());
         let discs = discs_under(contact);
         let surface = SurfaceTraction { discs: &discs, friction: friction.as_ref(), beta, is_contact, line };
         Self::of_samples(contact.grid(), contact.pressures(), bodies.on(Some(side)), &surface, mean, tables)
@@ -129,19 +129,21 @@ impl StressField {
         if !discs.is_empty() {
             series = series.of_discs(&series_grid, discs);
         }
-        let load = match grid.cell().is_isolated() {
-            true => Load::Force(series.mean * series_grid.cell().area()),
-            false => Load::MeanPressure(series.mean),
-        };
         let traction = friction.map(Friction::traction).filter(|traction| *traction != [0.0; 2]);
-        let far = grid.cell().is_isolated().then(|| {
-            // The free field has no mean.
-            series.mean = 0.0;
-            FarField::new(tables.far(grid.cell(), half_space, traction), grid, pressure, discs, series_grid.cell())
-        });
+        let (load, far, loaded) = match grid.cell().surroundings() {
+            Surroundings::Periodic => (Load::MeanPressure(series.mean), None, None),
+            Surroundings::FreeSpace => {
+                let load = Load::Force(series.mean * series_grid.cell().area());
+                // The free field has no mean.
+                series.mean = 0.0;
+                let far = tables.far(grid.cell(), half_space, traction);
+                let far = FarField::new(far, grid, pressure, discs, series_grid.cell());
+                (load, Some(far), Some(Arc::new(LoadedWindow::new(grid, pressure, half_space))))
+            }
+        };
         let regions = Regions::new(&series_grid, &spread, line);
         Self {
-            loaded: grid.cell().is_isolated().then(|| Arc::new(LoadedWindow::new(grid, pressure, half_space))),
+            loaded,
             around: Default::default(),
             hole: None,
             grid: Arc::clone(grid),
@@ -372,7 +374,7 @@ impl fmt::Display for StressField {
 
 /// The discs of a given pressure under the load of a contact; none of any other pressure.
 fn discs_under(contact: &Contact) -> Vec<LoadedDisc> {
-    let Some(given) = contact.problem().counterbody().pressure() else { return Vec::new() };
+    let Some(given) = contact.problem().given_pressure() else { return Vec::new() };
     let factor = sums::mean(contact.pressures()) * contact.grid().cell().area() / given.force();
     given.loaded_discs().iter().map(|disc| LoadedDisc { pressure: factor * disc.pressure, ..*disc }).collect()
 }

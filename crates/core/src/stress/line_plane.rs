@@ -9,6 +9,7 @@ use super::depth_response::StressComponents;
 use super::far_plane::FarPlane;
 use super::field::{REACH, StressField};
 use super::series::Response;
+use super::series_grid::times;
 use super::sliding_path::{LinePoints, SlidingLines};
 use super::smoothed_surface::SmoothedSurface;
 use super::tensor::StressState;
@@ -55,8 +56,8 @@ pub(super) struct LinePlane {
     /// Whether stresses vary slowly from sample to sample.
     pub is_smooth: bool,
     rows: Vec<KeptRow>,
-    /// Window of the samples, rows and columns: those of an isolated contact, all of a cell.
-    is_isolated: bool,
+    /// Sides of the cell of the series over those of the contact's own cell.
+    times: usize,
     lines: SlidingLines,
 }
 
@@ -108,8 +109,8 @@ impl StressField {
     /// Stresses on the lines of a plane under contacts of a `radius`, a length.
     pub(super) fn line_plane(&self, lines: &SlidingLines, depth: Depth, radius: f64, kept: Kept) -> LinePlane {
         let points = self.line_points(lines, depth, radius, if kept.finely { FINER } else { 1 });
-        let is_isolated = self.grid().cell().is_isolated();
-        let used = used_columns(lines, points, is_isolated);
+        let times = times(self.grid().cell());
+        let used = used_columns(lines, points, times);
         let rows = if depth == Depth::SURFACE && self.regions().have_edges() {
             self.surface_rows(lines, points, kept)
         } else {
@@ -120,14 +121,14 @@ impl StressField {
             });
             row
         };
-        LinePlane { points, is_smooth: depth.z >= self.shallow_depth(), rows, is_isolated, lines: *lines }
+        LinePlane { points, is_smooth: depth.z >= self.shallow_depth(), rows, times, lines: *lines }
     }
 
     /// Numbers of rows and columns of a plane: as many as its waves and contacts of a `radius` need, `finer` times as many below the
     /// surface.
     fn line_points(&self, lines: &SlidingLines, depth: Depth, radius: f64, finer: usize) -> LinePoints {
         let [own_rows, own_columns] = [lines.advance, 1 - lines.advance].map(|axis| self.series_grid().points()[axis]);
-        let part = if self.grid().cell().is_isolated() { 2 } else { 1 };
+        let part = times(self.grid().cell());
         let fast = |least: usize| part * fast_points(least.div_ceil(part));
         let [a, b, way] = lines.lengths().map(|length| part as f64 * length);
         let shallow = depth.z < self.shallow_depth();
@@ -172,7 +173,8 @@ impl StressField {
             _ => self.series.of_waves_exchanged(start, &transform, buffer, response),
         };
         // The cell of the series is twice the window of an isolated contact along each side.
-        let part = if self.grid().cell().is_isolated() { 2.0 } else { 1.0 };
+        let times = times(self.grid().cell());
+        let part = times as f64;
         let shift = |row: usize| lines.shift(part * row as f64 / rows as f64) / part;
         let fields = if lines.is_sheared() { fields.sheared(shift) } else { fields };
         let far = response.far().map(|far| if lines.advance == 0 { far } else { far.exchanged() });
@@ -183,7 +185,7 @@ impl StressField {
             let far = far.as_ref().map(|far| (far, along(far), places));
             read(row, &Row { waves, far })
         };
-        let count = if self.grid().cell().is_isolated() { rows.div_ceil(2) } else { rows };
+        let count = rows.div_ceil(times);
         (fields.map_first(count, read_row), fields.into_buffer())
     }
 
@@ -191,7 +193,7 @@ impl StressField {
     fn surface_rows(&self, lines: &SlidingLines, points: LinePoints, kept: Kept) -> Vec<KeptRow> {
         let response = Arc::new(self.depth_response(Depth::SURFACE, REACH));
         let smoothed = SmoothedSurface::new(self, &response, 1.0);
-        let columns = used_columns(lines, points, self.grid().cell().is_isolated());
+        let columns = used_columns(lines, points, times(self.grid().cell()));
         let (near, buffer) = self.line_rows(lines, points, &smoothed.near, Vec::new(), |_, row| {
             let samples = (0..columns).map(|j| (j, row.at(j)));
             samples.filter(|(_, near)| smoothed.sees_edge(*near)).collect::<Vec<(usize, [f64; 3])>>()
@@ -219,8 +221,8 @@ fn sum<const K: usize>(weights: &[(f64, usize)], value: impl Fn(usize) -> Option
 }
 
 /// Columns, from the first on, that reach into the window of an isolated contact: half of them where they are not shifted.
-fn used_columns(lines: &SlidingLines, LinePoints { columns, .. }: LinePoints, is_isolated: bool) -> usize {
-    if is_isolated && !lines.is_sheared() { columns.div_ceil(2) } else { columns }
+fn used_columns(lines: &SlidingLines, LinePoints { columns, .. }: LinePoints, times: usize) -> usize {
+    if lines.is_sheared() { columns } else { columns.div_ceil(times) }
 }
 
 impl KeptRow {
@@ -318,11 +320,11 @@ impl LinePlane {
     /// Place x, y of a sample, lengths; `None` beyond the window of an isolated contact.
     fn place(&self, cell: Cell, [row, column]: [usize; 2]) -> Option<[f64; 2]> {
         let LinePoints { rows, columns } = self.points;
-        let part = if self.is_isolated { 2.0 } else { 1.0 };
+        let part = self.times as f64;
         let [u, v] = [part * row as f64 / rows as f64, part * column as f64 / columns as f64];
         let fractions = self.lines.fractions(u, v);
         let is_within = |s: f64| (-1e-9..1.0).contains(&s);
-        (!self.is_isolated || fractions.into_iter().all(is_within)).then(|| cell.point(fractions))
+        (self.times == 1 || fractions.into_iter().all(is_within)).then(|| cell.point(fractions))
     }
 
     /// Place x, y of the first sample of a line, lengths; `None` where none of it lies in the window of an isolated contact.

@@ -80,6 +80,7 @@ pub use peak::{Peak, Rival};
 pub use plane::DepthPlane;
 pub use range_plane::RangePlane;
 pub use section::{SurfaceLine, VerticalSection};
+pub use series_grid::times as series_times;
 pub use sliding_path::SlidingPath;
 pub(crate) use sliding_path::period_along;
 pub(crate) use strength_peaks::StrengthPeaks;

@@ -2,6 +2,7 @@
 
 use super::depth_response::{DisplacementComponents, StressComponents};
 use super::field::{REACH, StressField};
+use super::series_grid::times;
 use super::tensor::StressState;
 use super::transform::Transform;
 use crate::body::Depth;
@@ -64,12 +65,8 @@ impl StressField {
 
     /// The points of the cell of the series with which a plane of these `points` of the contact's cell is computed.
     fn plane_around(&self, points: [usize; 2]) -> PlaneAround {
-        let cell = self.grid().cell();
-        if cell.is_isolated() {
-            PlaneAround { points: points.map(|n| 2 * n), start: self.first_fractions() }
-        } else {
-            PlaneAround { points, start: [0.0; 2] }
-        }
+        let times = times(self.grid().cell());
+        PlaneAround { points: points.map(|n| times * n), start: self.first_fractions() }
     }
 
     /// Calls `sink` with the stresses of [`Self::plane`], some rows at a time, from the first to the last; memory holds six

@@ -6,7 +6,7 @@
 use super::depth_response::StressComponents;
 use super::field::StressField;
 use super::measure::{RunningMaxima, StressMeasure};
-use super::series_grid::samples_before;
+use super::series_grid::{samples_before, times};
 use super::smoothed_surface::SurfaceStresses;
 use super::tensor::StressState;
 use super::transform::Transform;
@@ -130,17 +130,16 @@ impl StressField {
         measures: &[StressMeasure],
     ) -> Vec<RowSamples> {
         // Around an isolated contact only its window is searched, the first half of the rows and columns.
-        let is_isolated = self.grid().cell().is_isolated();
-        let part = if is_isolated { 2 } else { 1 };
+        let part = times(self.grid().cell());
         let (rows, columns) = (transform.points()[0].div_ceil(part), transform.points()[1].div_ceil(part));
         let border = |i: usize, state: &dyn Fn(usize) -> StressState| -> f64 {
             let of = |columns: &mut dyn Iterator<Item = usize>| {
                 columns.map(|j| self.size_of_waves(depth, &state(j))).fold(0.0, f64::max)
             };
-            match (is_isolated, i == 0 || i + 1 == rows) {
-                (false, _) => 0.0,
-                (true, true) => of(&mut (0..columns)),
-                (true, false) => of(&mut [0, columns - 1].into_iter()),
+            match (part, i == 0 || i + 1 == rows) {
+                (1, _) => 0.0,
+                (_, true) => of(&mut (0..columns)),
+                (_, false) => of(&mut [0, columns - 1].into_iter()),
             }
         };
         let (response, found) = (self.depth_response(depth, PLANE_REACH), RunningMaxima::new(measures));
@@ -185,6 +184,6 @@ impl StressField {
     /// Fractions, of the cell of the series, of the first point of the contact's cell.
     pub(super) fn first_fractions(&self) -> [f64; 2] {
         let cell = self.grid().cell();
-        if cell.is_isolated() { self.series_grid().cell().fractions(cell.corner()) } else { [0.0; 2] }
+        if times(cell) == 1 { [0.0; 2] } else { self.series_grid().cell().fractions(cell.corner()) }
     }
 }

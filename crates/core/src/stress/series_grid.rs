@@ -1,19 +1,27 @@
 //! The grid of the series of a pressure, wider than that of the pressure around an isolated contact.
 
-use crate::lattice::{Cell, Grid};
+use crate::lattice::{Cell, Grid, Surroundings};
 use std::borrow::Cow;
 use std::sync::Arc;
+
+/// Sides of the cell of the series over those of the contact's own cell: twice a window, and a periodic cell itself.
+pub fn times(cell: Cell) -> usize {
+    match cell.surroundings() {
+        Surroundings::Periodic => 1,
+        Surroundings::FreeSpace => 2,
+    }
+}
 
 /// Rows and columns of the grid of the series before those of the contact's own grid: half a window of them around an isolated
 /// contact, none in a periodic cell.
 pub fn samples_before(grid: &Grid) -> [usize; 2] {
-    if grid.cell().is_isolated() { grid.points().map(|n| n / 2) } else { [0; 2] }
+    grid.points().map(|n| (times(grid.cell()) - 1) * (n / 2))
 }
 
 /// The grid of the series of a pressure on `grid`: that grid in a periodic cell; one of twice the window around an isolated contact.
 pub fn series_grid(grid: &Arc<Grid>) -> Arc<Grid> {
     let cell = grid.cell();
-    if !cell.is_isolated() {
+    if times(cell) == 1 {
         return Arc::clone(grid);
     }
     let (before, steps) = (samples_before(grid), grid.steps());
@@ -25,7 +33,7 @@ pub fn series_grid(grid: &Arc<Grid>) -> Arc<Grid> {
 
 /// A pressure on the grid of its series, zero around the samples of its own grid.
 pub fn spread<'a>(grid: &Grid, pressure: &'a [f64]) -> Cow<'a, [f64]> {
-    if !grid.cell().is_isolated() {
+    if times(grid.cell()) == 1 {
         return pressure.into();
     }
     let ([n1, n2], before) = (grid.points(), samples_before(grid));

@@ -11,7 +11,7 @@
 //! before it closes, m the multiple of **a**, each time in another column.
 
 use super::trace::lattice_direction;
-use crate::lattice::Cell;
+use crate::lattice::{Cell, Surroundings};
 use serde::{Deserialize, Serialize};
 
 /// Tolerance of the whole multiples of a direction.
@@ -72,7 +72,7 @@ impl SlidingLines {
             across: turns.signum() * across,
             cell,
         };
-        if cell.is_isolated() {
+        if cell.surroundings() == Surroundings::FreeSpace {
             return of(SlidingPath::FromFarAway, slope, 1, 0);
         }
         match lattice_direction(parts, WHOLE_TOLERANCE) {
@@ -191,13 +191,13 @@ impl SlidingLines {
     /// Fraction of **b** by which the columns of a row are shifted, at the fraction u of **a** of the row: nothing in the middle of a
     /// window, and at the first row of a cell.
     pub fn shift(&self, u: f64) -> f64 {
-        self.slope * (u - if self.cell.is_isolated() { 0.5 } else { 0.0 })
+        self.slope * (u - if self.path == SlidingPath::FromFarAway { 0.5 } else { 0.0 })
     }
 
     /// Fractions of the cell vectors a₁, a₂ of a row's fraction u of **a** and a column's v of **b**; columns of a window run over two of
     /// it.
     pub fn fractions(&self, u: f64, v: f64) -> [f64; 2] {
-        let v = if self.cell.is_isolated() && v >= 2.0 * BEHIND { v - 2.0 } else { v };
+        let v = if self.path == SlidingPath::FromFarAway && v >= 2.0 * BEHIND { v - 2.0 } else { v };
         let own = [u, v + self.shift(u)];
         [own[self.advance], own[1 - self.advance]]
     }

@@ -30,12 +30,10 @@ const RIGID: &str = "the indenters are rigid: elastic ones press less sharply, f
 /// What largest stresses and limit loads of a case assume.
 #[derive(Debug, Clone)]
 pub struct Assumptions {
-    /// The mean lateral stress; of no effect on an isolated contact.
-    pub mean: MeanStress,
+    /// The mean lateral stress; `None` of an isolated contact, which has none.
+    pub mean: Option<MeanStress>,
     /// The axis of the cell along which the surface is constant, where it is known to be.
     pub line: Option<usize>,
-    /// Whether contact is isolated.
-    pub isolated: bool,
     /// Whether indenters or a topography are rigid; a given pressure has none.
     pub rigid: bool,
     /// Names of the materials without a strength.
@@ -49,10 +47,9 @@ impl Assumptions {
     pub fn of(case: &Case) -> Self {
         let problem = case.problem();
         Self {
-            mean: case.mean_stress(),
-            line: problem.counterbody().line(),
-            isolated: problem.cell().is_isolated(),
-            rigid: problem.bodies().counterbody().is_none() && problem.counterbody().pressure().is_none(),
+            mean: problem.cell().surroundings().per_cell(case.mean_stress()),
+            line: problem.loaded_by().line(),
+            rigid: problem.bodies().counterbody().is_none() && !problem.kind().is_given,
             untested: untested(problem.bodies()),
             library: library_strengths(&json!(case)),
         }
@@ -60,7 +57,7 @@ impl Assumptions {
 
     /// A sentence for each that matters; `with_strength`: beside strengths.
     pub fn sentences(&self, with_strength: bool) -> Vec<String> {
-        let mean = (!self.isolated).then(|| mean_stress(self.mean, self.line));
+        let mean = self.mean.map(|mean| mean_stress(mean, self.line));
         let rigid = (with_strength && self.rigid).then(|| RIGID.to_owned());
         let without_strength = self.without_strength().filter(|_| with_strength);
         let library = self.library.iter().filter(|_| with_strength).cloned();

@@ -29,12 +29,8 @@ impl Hertz {
 /// of one ball, where no substrate is elastic, and where a surface is pressed in.
 pub fn hertz(case: &Case, steps: &[StepRecord], units: &Units) -> Option<[String; 2]> {
     let problem = case.problem();
-    let [level] = problem.counterbody().levels() else { return None };
+    let level = problem.lone_indenter()?;
     let (Shape::Paraboloid { radius: ball } | Shape::Sphere { radius: ball }) = level.shape() else { return None };
-    let sites: usize = problem.counterbody().indenters()?.lattice().sites().iter().map(Vec::len).sum();
-    if !problem.cell().is_isolated() || sites != 1 {
-        return None;
-    }
     let step = steps.iter().rev().find(|step| step.reading.touches() && step.converged())?;
     if step.plastic.as_ref().is_some_and(PlasticReading::is_pressed_in) {
         return None;

@@ -28,8 +28,10 @@ use super::number::{ROUNDING, number, with_error};
 use super::{LifeFile, Timing};
 use percoat_case::case::{Case, SurfaceSection};
 use percoat_case::units::{Prefixed, Units};
+use percoat_case::words::LoadWords;
 use percoat_common::plain;
 use percoat_core::comparison::Comparison;
+use percoat_core::lattice::Surroundings;
 use percoat_core::numeric::search::largest;
 use percoat_core::reading::{LevelReading, Reading};
 use percoat_core::run::{Limits, StepRecord};
@@ -231,8 +233,8 @@ fn detailed(steps: &[StepRecord], units: &Units) -> Table {
     }
     // A single level has the whole load, and a single isolated indenter the force: no columns of level, load on one and share.
     let has_force = |reading: &Reading| (reading.levels[0].load - reading.force).abs() <= NOTHING * reading.force;
-    let isolated = steps.iter().all(|step| step.reading.is_isolated() && has_force(&step.reading));
-    table.without(if isolated { &[3, 4, 5] } else { &[3, 5] })
+    let is_alone = |reading: &Reading| reading.surroundings() == Surroundings::FreeSpace && has_force(reading);
+    table.without(if steps.iter().all(|step| is_alone(&step.reading)) { &[3, 4, 5] } else { &[3, 5] })
 }
 
 fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
@@ -240,10 +242,7 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
     let [load_unit, penetration] = units_of_loads(steps, units);
     let quantity = units.quantity();
     let pressure = units.pressure().suited(readings().filter_map(Reading::finite_peak));
-    let [depth, area] = match steps.first().is_some_and(StepRecord::is_given) {
-        true => ["largest deflection", "under pressure"],
-        false => ["penetration", "contact"],
-    };
+    let LoadWords { depth, area, .. } = *LoadWords::of(steps);
     let mut header = vec![load_unit.headed(units.quantity().name()), penetration.headed(depth), area.to_owned()];
     header.extend((1..=levels).map(|level| pressure.headed(&format!("peak {level}"))));
     // A single level has the whole load.
@@ -274,11 +273,11 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
 
 /// The fraction in contact, or the area of an isolated one.
 fn contact(reading: &Reading, units: &Units) -> String {
-    if reading.is_isolated() {
+    let Some(part) = reading.contact_fraction else {
         let area = units.area().suited([reading.contact_area]);
         return area.behind(&in_unit(&area, reading.contact_area, reading.errors.contact_area));
-    }
-    percent_with_error(reading.contact_fraction, reading.errors.contact_fraction)
+    };
+    percent_with_error(part, reading.errors.contact_fraction)
 }
 
 /// Two decimals; no sign for zero.
@@ -318,7 +317,7 @@ pub(crate) fn percent_with_error(x: f64, error: Option<f64>) -> String {
 /// Convergence of the load steps, in a line.
 pub fn solved(steps: &[StepRecord]) -> String {
     let [n1, n2] = steps.last().map_or([0, 0], |step| step.points);
-    if steps.iter().any(StepRecord::is_given) {
+    if steps.iter().any(|step| step.kind().is_given) {
         return format!("displacements by the given pressure on {n1} × {n2} samples");
     }
     let most = steps.iter().map(|step| step.iterations).max().unwrap_or(0);
@@ -350,7 +349,7 @@ pub fn largest_errors(steps: &[StepRecord]) -> Option<String> {
     };
     let readings = || steps.iter().map(|step| &step.reading);
     let levels = || readings().flat_map(|reading| &reading.levels);
-    let depth = if steps.iter().any(StepRecord::is_given) { "largest deflection" } else { "penetration" };
+    let depth = LoadWords::of(steps).depth;
     let named = [
         (depth, readings().filter_map(|s| relative(s.penetration, s.errors.penetration)).reduce(f64::max)),
         (

@@ -24,7 +24,7 @@ const BELOW_COATING: f64 = 2e-3;
 
 /// Warnings, a sentence each, about each kind of fault the first level that has it.
 pub(super) fn doubts(case: &Case) -> Vec<String> {
-    let balls = case.counterbody().levels().iter().enumerate().filter_map(|(index, level)| match level.shape() {
+    let balls = case.problem().levels().iter().enumerate().filter_map(|(index, level)| match level.shape() {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some((index, radius)),
         Shape::Cone { .. } | Shape::Power { .. } => None,
     });
@@ -36,7 +36,7 @@ pub(super) fn doubts(case: &Case) -> Vec<String> {
 
 /// A largest pressure that no crystal bears. The softer body gives its least value.
 fn high_pressure(case: &Case, index: usize, radius: f64) -> Option<String> {
-    let (bodies, shape) = (case.problem().bodies(), case.counterbody().levels()[index].shape());
+    let (bodies, shape) = (case.problem().bodies(), case.problem().levels()[index].shape());
     let (softer, stiffer) = (softer_modulus(bodies), stiffer_modulus(bodies));
     if highest_radius(case, shape, stiffer)? > STEEP * radius {
         return None;
@@ -61,7 +61,7 @@ fn high_pressure(case: &Case, index: usize, radius: f64) -> Option<String> {
 
 /// A contact of single atoms.
 fn few_atoms(case: &Case, index: usize, _: f64) -> Option<String> {
-    let shape = case.counterbody().levels()[index].shape();
+    let shape = case.problem().levels()[index].shape();
     let width = 2.0 * highest_radius(case, shape, softer_modulus(case.problem().bodies()))?;
     let units = case.units();
     let metres = width * 10f64.powi(exponent(units.length())?);

@@ -4,6 +4,7 @@ use super::super::error::Refusal;
 use super::super::load::LoadSection;
 use super::super::node::Value;
 use super::super::reader::TableAt;
+use crate::words::AroundWords;
 use percoat_common::plain::float;
 use percoat_core::notation::number;
 use percoat_core::problem::Problem;
@@ -12,7 +13,7 @@ use percoat_core::problem::Problem;
 /// the window; and a given pressure that exceeds it somewhere. One that is the hardness is borne: it displaces elastically.
 pub(in crate::case) fn bears(load: &LoadSection, section: &TableAt<'_>, problem: &Problem) -> Result<(), Refusal> {
     let Some((hardness, side)) = problem.largest_hardness() else { return Ok(()) };
-    if let Some(given) = problem.counterbody().pressure() {
+    if let Some(given) = problem.given_pressure() {
         if given.highest() <= hardness {
             return Ok(());
         }
@@ -34,11 +35,12 @@ pub(in crate::case) fn bears(load: &LoadSection, section: &TableAt<'_>, problem:
         Value::List(items) => items[index].span,
         _ => value.node.span,
     };
-    let (most, size) = match (load.force.is_some(), cell.is_isolated()) {
-        (false, _) => (format!("a mean pressure below {}", float(hardness)), ""),
-        (true, false) => (format!("a force below {} on the cell", number(hardness * cell.area())), ""),
-        (true, true) => {
-            (format!("a force below {} on the window", number(hardness * cell.area())), ", a larger window")
+    let words = AroundWords::of(cell.surroundings());
+    let (most, size) = match load.force {
+        None => (format!("a mean pressure below {}", float(hardness)), ""),
+        Some(_) => {
+            let most = format!("a force below {} on the {}", number(hardness * cell.area()), words.cell);
+            (most, words.more_room)
         }
     };
     let message = format!(

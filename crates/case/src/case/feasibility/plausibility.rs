@@ -19,7 +19,7 @@ const COUNTERBODY: &str = "the counterbody";
 
 /// Warnings about a case before it is solved, a sentence each.
 pub fn of_case(case: &Case) -> Vec<String> {
-    let (counterbody, cell) = (case.counterbody(), case.counterbody().cell());
+    let (problem, cell) = (case.problem(), case.problem().cell());
     let mut doubts: Vec<String> = pressures(case).into_iter().collect();
     doubts.extend(moduli(case));
     let named: Vec<(Material, String)> = materials(case).collect();
@@ -31,11 +31,11 @@ pub fn of_case(case: &Case) -> Vec<String> {
     doubts.extend(lengths(case, cell));
     doubts.extend(ball::doubts(case));
     doubts.extend(sublayers::doubt(case));
-    if counterbody.indenters().is_some() {
-        doubts.extend(heights(counterbody.levels(), cell));
+    if problem.indenters().is_some() {
+        doubts.extend(heights(problem.levels(), cell));
     }
-    doubts.extend(counterbody.levels().iter().enumerate().filter_map(|(index, level)| steep_cone(index, level)));
-    doubts.extend(counterbody.topography().and_then(topography));
+    doubts.extend(problem.levels().iter().enumerate().filter_map(|(index, level)| steep_cone(index, level)));
+    doubts.extend(problem.topography().and_then(topography));
     doubts.extend_from_slice(case.file_doubts());
     if case.stress.as_ref().is_some_and(|stress| stress.mean == MeanStress::HalfSpace) {
         doubts.extend(springs::slipping(case, cell));
@@ -59,12 +59,11 @@ fn names<'a>(layers: &'a [LayerSection], prefix: &'static str) -> impl Iterator<
 fn pressures(case: &Case) -> Option<String> {
     let (material, name) = materials(case).min_by(|a, b| a.0.young().total_cmp(&b.0.young()))?;
     let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-    let (pressure, load) = if let Some(given) = case.counterbody().pressure() {
+    let (pressure, load) = if let Some(given) = case.problem().given_pressure() {
         (given.highest(), format!("the highest load.pressure, {},", number(given.highest())))
-    } else if case.problem().cell().is_isolated() {
-        return None;
     } else {
-        let (pressure, own) = (highest(&case.mean_pressures()?), number(highest(case.load.values())));
+        let loads = case.problem().cell().surroundings().per_cell(case.mean_pressures()?)?;
+        let (pressure, own) = (highest(&loads), number(highest(case.load.values())));
         match case.load.quantity() {
             "force" => (pressure, format!("load.force = {own}, a mean pressure of {} on the cell,", number(pressure))),
             quantity => (pressure, format!("load.{quantity} = {own}")),
@@ -140,7 +139,7 @@ fn lengths(case: &Case, cell: Cell) -> Vec<String> {
     let [side, other] = cell.vectors().map(|[x, y]| x.hypot(y));
     let side = side.min(other);
     let mut all: Vec<(String, f64)> = Vec::new();
-    for (number, level) in case.counterbody().levels().iter().enumerate() {
+    for (number, level) in case.problem().levels().iter().enumerate() {
         match level.shape() {
             Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
                 all.push((format!("levels[{number}].radius"), radius));

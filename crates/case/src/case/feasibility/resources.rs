@@ -6,17 +6,17 @@
 
 use crate::case::{Case, StressSection, identification};
 use percoat_common::machine::{Capacity, Threads, bytes};
-use percoat_core::body::{HalfSpace, InteriorTable};
 use percoat_core::counterbody::Topography;
 use percoat_core::friction::Friction;
 use percoat_core::identification::MOST_NODES;
+use percoat_core::lattice::Surroundings;
 use percoat_core::localized::Setup;
 use percoat_core::numeric::fourier::fast_points;
 use percoat_core::reading::Criterion;
 use percoat_core::run::places::{MOST_ROWS, SECTION};
 use percoat_core::run::{EVENTS, Sampling};
 use percoat_core::spectral::Memory;
-use percoat_core::stress::{FarTables, bytes_around};
+use percoat_core::stress::{FarTables, bytes_around, series_times};
 use std::f64::consts::PI;
 
 const MEBIBYTE: u64 = 1 << 20;
@@ -159,7 +159,7 @@ fn with_threads(case: &Case, points: [usize; 2], job: Job, threads: usize) -> Ne
 
 /// Heights of a topography; where grids are refined, those of its file, with their waves on the way to another grid.
 fn of_heights(case: &Case, samples: u64) -> u64 {
-    let Some([n1, n2]) = case.counterbody().topography().map(Topography::points) else { return 0 };
+    let Some([n1, n2]) = case.problem().topography().map(Topography::points) else { return 0 };
     let resampled = if matches!(case.grid, Sampling::Accuracy(_)) { 32 * (n1 * n2) as u64 } else { 0 };
     8 * samples + resampled
 }
@@ -169,14 +169,14 @@ fn yields(case: &Case) -> bool {
     case.problem().bodies().hardness().is_some()
 }
 
-/// Whether the case is one of an isolated contact.
-fn is_isolated(case: &Case) -> bool {
-    case.problem().cell().is_isolated()
+/// Cells of the series of stresses over the cell of the contact: those around an isolated contact are twice as wide.
+fn series_cells(case: &Case) -> u64 {
+    (series_times(case.problem().cell()) as u64).pow(2)
 }
 
-/// Samples of the series of stresses: those around an isolated contact are on a grid twice as wide.
+/// Samples of the series of stresses.
 fn of_series(case: &Case, samples: u64) -> u64 {
-    if is_isolated(case) { 4 * samples } else { samples }
+    series_cells(case) * samples
 }
 
 fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool, fields: bool) -> Needs {
@@ -260,7 +260,7 @@ fn of_limits(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pic
 /// The localized method's influence coefficients: of every pair of indenters, inside circles and of the whole lattice,
 /// on the mesh and on one of half as many elements; its spots; and a field for the stresses compared.
 fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> Needs {
-    let sites = case.counterbody().indenters().map_or(0, |all| all.lattice().sites().concat().len() as u64);
+    let sites = case.problem().indenters().map_or(0, |all| all.lattice().sites().concat().len() as u64);
     let width = Setup::width(case.localized.elements) as u64;
     let side = 2 * width - 1;
     let tables = 8 * (sites * sites * side * side * 5 / 2 + SPOT_FIELDS * sites * width * width);
@@ -296,7 +296,7 @@ fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u
 /// wavenumber: on cells without the symmetry of a square or a hexagon.
 fn of_shells(case: &Case, samples: u64) -> u64 {
     let (slides, cell) = (case.problem().friction().is_some(), case.problem().cell());
-    let area = if is_isolated(case) { 4.0 } else { 1.0 } * cell.area();
+    let area = series_cells(case) as f64 * cell.area();
     let of_body = |half_space: &HalfSpace, together: f64| {
         // On the grid, and on the coarser one of the error estimate; a wave and its conjugate count once.
         let of_grid = |samples: u64| {
@@ -307,7 +307,10 @@ fn of_shells(case: &Case, samples: u64) -> u64 {
     };
     let bodies = case.problem().bodies();
     let far = |own: &HalfSpace| (FarTables::bytes(cell, own, slides) + bytes_around(cell, own, slides)) as u64;
-    let far: u64 = if cell.is_isolated() { bodies.each().map(far).sum() } else { 0 };
+    let far: u64 = match cell.surroundings() {
+        Surroundings::Periodic => 0,
+        Surroundings::FreeSpace => bodies.each().map(far).sum(),
+    };
     let kept = |together: f64| far + bodies.each().map(|own| of_body(own, together)).sum::<u64>();
     let [a1, a2] = case.problem().cell().vectors();
     let [own, other, product] = [(a1, a1), (a2, a2), (a1, a2)].map(|(u, v)| u[0] * v[0] + u[1] * v[1]);
@@ -349,7 +352,7 @@ pub fn largest_points(case: &Case, points: [usize; 2], room: Capacity, job: Job)
 /// by [`Needs::fit`] when they are reached.
 pub fn refusal(case: &Case, room: Capacity, job: Job) -> Option<String> {
     let key = if matches!(case.grid, Sampling::Accuracy(_)) { "grid.accuracy" } else { "grid.points" };
-    let points = match (job, case.grid.grids(&case.counterbody().cell())) {
+    let points = match (job, case.grid.grids(&case.problem().cell())) {
         (Job::Identify { .. }, _) => [identification::points(case); 2],
         (_, Ok(grids)) => grids[0],
         (_, Err(error)) => return Some(format!("{key}: {error}")),

@@ -92,27 +92,27 @@ fn length(x: f64, name: &str, exponent: i32) -> Option<String> {
 
 /// Lengths of a case by their keys.
 fn lengths(case: &Case) -> Vec<(String, f64)> {
-    let counterbody = case.counterbody();
-    let sides = counterbody.cell().vectors().map(|[x, y]| x.hypot(y));
+    let problem = case.problem();
+    let sides = problem.cell().vectors().map(|[x, y]| x.hypot(y));
     let mut all: Vec<(String, f64)> = vec![
         ("a side of the cell".to_owned(), sides[0].min(sides[1])),
         ("a side of the cell".to_owned(), sides[0].max(sides[1])),
     ];
     // A given pressure may be that on a road or a foundation.
-    all.retain(|_| counterbody.pressure().is_none());
+    all.retain(|_| !problem.kind().is_given);
     all.dedup_by(|a, b| a.1 == b.1);
-    let levels = counterbody.levels().iter().map(Level::shape).enumerate();
+    let levels = problem.levels().iter().map(Level::shape).enumerate();
     all.extend(levels.filter_map(|(number, shape): (usize, Shape)| match shape {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some((format!("levels[{number}].radius"), radius)),
         Shape::Cone { .. } | Shape::Power { .. } => None,
     }));
     // Single heights are not checked: their reference is arbitrary, and they may differ by less than an atom.
-    let heights = counterbody.levels().iter().map(Level::height);
+    let heights = problem.levels().iter().map(Level::height);
     let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], h| [low.min(h), high.max(h)]);
     if high - low > LENGTHS[0].max(sides[0]) {
         all.push(("the largest difference of levels.height".to_owned(), high - low));
     }
-    all.extend(counterbody.topography().map(|own| ("the range of the surface's heights".to_owned(), range(own))));
+    all.extend(problem.topography().map(|own| ("the range of the surface's heights".to_owned(), range(own))));
     let thickness = |prefix: &'static str| {
         move |(number, layer): (usize, &LayerSection)| (format!("{prefix}layers[{number}].thickness"), layer.thickness)
     };

@@ -29,7 +29,7 @@ pub fn foreseen(case: &Case, touches: &[Option<f64>]) -> Vec<String> {
 /// A flank that is steep at the highest load; cones are not checked.
 fn steep_flank(case: &Case) -> Option<String> {
     let modulus = stiffer_modulus(case.problem().bodies());
-    let levels = (1..).zip(case.counterbody().levels().iter().map(Level::shape));
+    let levels = (1..).zip(case.problem().levels().iter().map(Level::shape));
     let flanks = levels.filter(|(_, shape)| !matches!(shape, Shape::Cone { .. }));
     let mut estimates =
         flanks.filter_map(|(number, shape)| Some((number, shape, highest_radius(case, shape, modulus)?)));
@@ -47,7 +47,7 @@ fn steep_ball(case: &Case) -> Option<String> {
         format!(
             "by Hertz the contact radius {} is as large as a ball of the radius {} hardly allows: strains are not small any more; is {}?",
             number(radius),
-            number(case.counterbody().topography().and_then(|own| own.ball()).unwrap_or_default()),
+            number(case.problem().topography().and_then(|own| own.ball()).unwrap_or_default()),
             measured(case, 0)
         )
     })
@@ -55,7 +55,7 @@ fn steep_ball(case: &Case) -> Option<String> {
 
 /// The ball on which a topography stands.
 fn rough_ball(case: &Case) -> Option<Shape> {
-    Some(Shape::Sphere { radius: case.counterbody().topography()?.ball()? })
+    Some(Shape::Sphere { radius: case.problem().topography()?.ball()? })
 }
 
 /// Size of a level, by its index, or of the ball below a roughness, and load with the units in which the case has them: "levels\[0\].radius in µm, and load.force in mN".
@@ -68,7 +68,7 @@ pub(super) fn measured(case: &Case, index: usize) -> String {
         "penetration" => length.clone(),
         _ => named(units.pressure(), "the unit of the moduli"),
     };
-    let size = match case.counterbody().levels().get(index).map(Level::shape) {
+    let size = match case.problem().levels().get(index).map(Level::shape) {
         Some(Shape::Paraboloid { .. } | Shape::Sphere { .. }) => format!("levels[{index}].radius"),
         Some(Shape::Cone { .. } | Shape::Power { .. }) => "every length".to_owned(),
         None => "surface.radius".to_owned(),
@@ -78,12 +78,12 @@ pub(super) fn measured(case: &Case, index: usize) -> String {
 
 /// An isolated contact that will hardly have room in its window at the highest load.
 fn narrow_window(case: &Case) -> Option<String> {
-    let cell = case.counterbody().cell();
+    let cell = case.problem().cell();
     let [[width, _], [_, height]] = cell.vectors();
-    if !cell.is_isolated() || sites(case)? != 1 {
+    if !is_lone(case) {
         return None;
     }
-    let shape = case.counterbody().levels().first().map(Level::shape).or_else(|| rough_ball(case))?;
+    let shape = case.problem().levels().first().map(Level::shape).or_else(|| rough_ball(case))?;
     let radius = layered_radius(case, shape)?;
     (2.0 * radius > 0.9 * width.min(height)).then(|| {
         format!(
@@ -98,7 +98,7 @@ fn narrow_window(case: &Case) -> Option<String> {
 
 /// Few samples along the contact radius of the highest level at the lowest load, which the levels that touch carry.
 fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
-    let (Some(indenters), Sampling::Points(points)) = (case.counterbody().indenters(), &case.grid) else {
+    let (Some(indenters), Sampling::Points(points)) = (case.problem().indenters(), &case.grid) else {
         return None;
     };
     let lattice = indenters.lattice();
@@ -134,12 +134,12 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
 
 /// What else helps where the window of an isolated contact is many times as wide as the contact, as words that go on.
 fn wide_window(case: &Case) -> Option<String> {
-    let cell = case.counterbody().cell();
+    let cell = case.problem().cell();
     let [[width, _], [_, height]] = cell.vectors();
-    let level = case.counterbody().levels().first()?.shape();
+    let level = case.problem().levels().first()?.shape();
     let contact = 2.0 * layered_radius(case, level)?;
     let times = width.min(height) / contact;
-    (cell.is_isolated() && sites(case)? == 1 && times > WIDE).then(|| {
+    (is_lone(case) && times > WIDE).then(|| {
         format!(
             ", or lower lattice.size to {}: the window is {} times as wide as the contact at the highest load, with {}",
             number(ROOM * contact),
@@ -152,21 +152,26 @@ fn wide_window(case: &Case) -> Option<String> {
 /// Number of indenters in the cell; one for a rough ball, `None` for another topography.
 fn sites(case: &Case) -> Option<usize> {
     let of_lattice = |lattice: &Lattice| lattice.sites().iter().map(Vec::len).sum();
-    let indenters = case.counterbody().indenters().map(|own| of_lattice(own.lattice()));
+    let indenters = case.problem().indenters().map(|own| of_lattice(own.lattice()));
     indenters.or_else(|| rough_ball(case).map(|_| 1))
+}
+
+/// Whether one indenter or one rough ball is pressed in alone.
+fn is_lone(case: &Case) -> bool {
+    case.problem().kind().is_indentation() && sites(case) == Some(1)
 }
 
 /// Contact radius of an indenter of this shape alone at the highest load, of which each in the cell has its part, on a half-space of this
 /// E*; `None` for a penetration of several indenters.
 pub(super) fn highest_radius(case: &Case, shape: Shape, modulus: f64) -> Option<f64> {
-    let (cell, sites) = (case.counterbody().cell(), sites(case)?);
+    let (cell, sites) = (case.problem().cell(), sites(case)?);
     let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     match case.mean_pressures() {
         Some(loads) => {
             let force = highest(&loads) * cell.area() / sites as f64;
             Some(radius(force, modulus, power_law(shape)))
         }
-        None if cell.is_isolated() && sites == 1 => Some(radius_at(highest(case.load.values()), power_law(shape))),
+        None if is_lone(case) => Some(radius_at(highest(case.load.values()), power_law(shape))),
         None => None,
     }
 }

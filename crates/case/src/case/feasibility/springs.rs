@@ -9,13 +9,11 @@ use std::iter::repeat_n;
 
 /// Springs that shear under the mean friction: the layers above them drift by μp̄/k_t against those below.
 pub(super) fn drifting(case: &Case, cell: Cell) -> Vec<String> {
-    let (Some(friction), Some(loads)) = (case.problem().friction(), case.mean_pressures()) else {
+    // A single contact has no mean friction.
+    let loads = case.mean_pressures().and_then(|loads| cell.surroundings().per_cell(loads));
+    let (Some(friction), Some(loads)) = (case.problem().friction(), loads) else {
         return Vec::new();
     };
-    // A single contact has no mean friction.
-    if cell.is_isolated() {
-        return Vec::new();
-    }
     let traction = friction.coefficient() * loads.iter().copied().fold(0.0, f64::max);
     let [side, other] = cell.vectors().map(|[x, y]| x.hypot(y));
     let period = side.min(other);

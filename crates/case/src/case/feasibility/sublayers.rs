@@ -28,7 +28,7 @@ pub fn sublayer_error(case: &Case) -> Option<f64> {
         Some(above) => Bodies::elastic(body, above.refined()?),
         None => Bodies::from(body),
     };
-    let cell = case.counterbody().cell();
+    let cell = case.problem().cell();
     let longer = cell.reduced().longer_side();
     let shorter = cell.area() / longer;
     Some(4.0 / 3.0 * difference(case.problem().bodies(), &finer, [TAU / longer, TAU * WAVES / shorter]))

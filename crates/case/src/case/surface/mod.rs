@@ -87,7 +87,7 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     let Prepared { heights: stored, run_out, stages, doubts: of_preparation } =
         prepared(section, heights, cell, stored, &treatment)?;
     let across = across(points, cell);
-    let jump = if cell.is_isolated() { None } else { file::not_periodic(&stored, &treatment) };
+    let jump = cell.surroundings().per_cell(&stored).and_then(|stored| file::not_periodic(stored, &treatment));
     let sampling = grid::read(&around.grid, Some(points))?;
     let (on_grid, lost) = match sampling {
         Sampling::Points(wanted) if wanted != points => resampled(heights, cell, stored, wanted)?,

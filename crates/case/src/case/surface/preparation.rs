@@ -15,7 +15,7 @@ use percoat_core::counterbody::roughness::{
     FILLING_MEMORY, MeasuredRms, RunOut, SMOOTHING_MEMORY, Spectrum, SurfaceForm, filled, short_wave_noise, smoothed,
     tapered, without_form,
 };
-use percoat_core::lattice::Cell;
+use percoat_core::lattice::{Cell, Surroundings};
 use percoat_core::notation::number;
 use percoat_surfaces::heights::fits;
 use std::borrow::Cow;
@@ -80,7 +80,7 @@ pub(super) fn prepared(
         ));
     }
     if let Some(cutoff) = cutoff {
-        let is_periodic = window.is_none() && !cell.is_isolated();
+        let is_periodic = window.is_none() && cell.surroundings() == Surroundings::Periodic;
         heights = without_short_waves(section, cell, &heights, cutoff, is_periodic)?;
         add(Treated::Smoothed { cutoff, is_periodic }, &heights);
     }

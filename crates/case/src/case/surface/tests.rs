@@ -33,7 +33,7 @@ fn read(folder: &Path, surface: &str, more: &str) -> Result<Case, CaseError> {
 const NPY: &str = "heights = \"surface.npy\"";
 
 fn heights(case: &Case) -> Array2<f64> {
-    case.counterbody().topography().expect("a topography").heights().to_owned()
+    case.problem().topography().expect("a topography").heights().to_owned()
 }
 
 fn reads_back(case: &Case) {
@@ -82,7 +82,7 @@ fn the_cell_is_that_of_the_lattice_the_period_the_pixel_or_the_points() {
         let text = format!("[surface]\n{surface}\n{REST}");
         let case = Case::read(&source(folder.path(), text), &[]).unwrap_or_else(|error| panic!("{error}"));
         reads_back(&case);
-        case.counterbody().cell().vectors()
+        case.problem().cell().vectors()
     };
     assert_eq!(vectors(&format!("{NPY}\nperiod = 4")), [[4.0, 0.0], [0.0, 4.0]]);
     assert_eq!(vectors(&format!("{NPY}\nperiod = [4, 3]")), [[4.0, 0.0], [0.0, 3.0]]);
@@ -279,7 +279,7 @@ fn a_file_in_memory_is_read_as_one_on_disk() {
     let nowhere =
         Source { files: [("surface.npy".to_owned(), bytes.into())].into(), ..source(Path::new("nowhere"), text) };
     let in_memory = Case::read(&nowhere, &[]).unwrap();
-    let heights = |case: &Case| case.counterbody().topography().unwrap().heights().to_owned();
+    let heights = |case: &Case| case.problem().topography().unwrap().heights().to_owned();
     assert_eq!(heights(&in_memory), heights(&on_disk));
     assert!(in_memory.to_toml().contains("heights = \"surface.npy\""), "{}", in_memory.to_toml());
     let again = Case::read(&Source { text: in_memory.to_toml(), ..nowhere.clone() }, &[]).unwrap();
@@ -306,7 +306,7 @@ fn a_file_with_a_header_is_the_image_that_it_says() {
     let case = of("");
     let expected = Array2::from_shape_fn((4, 3), |(i, j)| (10 * (2 - j) + i) as f64);
     assert!((heights(&case) - expected).iter().all(|d| d.abs() < 1e-4));
-    assert_eq!(case.counterbody().cell().vectors(), [[8.0, 0.0], [0.0, 3.0]]);
+    assert_eq!(case.problem().cell().vectors(), [[8.0, 0.0], [0.0, 3.0]]);
     assert!(case.to_toml().contains("unit = \"m\""), "{}", case.to_toml());
     let turned = of("unit = \"m\"\nscale = -2");
     assert_eq!(heights(&turned), heights(&case) * -2.0);
@@ -323,6 +323,6 @@ fn points_in_a_text_are_read_as_points() {
         let text = format!("[surface]\nheights = \"{name}\"\n{REST}");
         let case = Case::read(&source(folder.path(), text), &[]).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(heights(&case), Array2::from_shape_fn((5, 4), |(i, j)| (5 * j + i) as f64), "{name}");
-        assert_eq!(case.counterbody().cell().vectors(), [[2.5, 0.0], [0.0, 1.0]], "{name}");
+        assert_eq!(case.problem().cell().vectors(), [[2.5, 0.0], [0.0, 1.0]], "{name}");
     }
 }

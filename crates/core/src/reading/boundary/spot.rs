@@ -45,14 +45,7 @@ impl<'a> PolarSpot<'a> {
     /// classifies a sample by its flat index.
     pub fn new(grid: &'a Grid, centre: [f64; 2], farthest: f64, what: &'a (dyn Fn(usize) -> Sample + Sync)) -> Self {
         let (cell, reduced) = (grid.cell(), grid.cell().reduced());
-        let alone = if cell.is_isolated() {
-            // To the border of the window.
-            let [width, height] = [cell.vectors()[0][0], cell.vectors()[1][1]];
-            (0.5 * width - centre[0].abs()).min(0.5 * height - centre[1].abs())
-        } else {
-            let [x, y] = reduced.short();
-            0.499 * x.hypot(y)
-        };
+        let alone = cell.clear_radius().min(cell.border_distance(centre));
         Self { grid, reduced, alone, centre, farthest, what }
     }
 
@@ -70,16 +63,9 @@ impl<'a> PolarSpot<'a> {
     /// outside of a window.
     fn what(&self, index: usize, offset: [f64; 2]) -> Sample {
         let [x, y] = offset;
-        if x * x + y * y > self.alone * self.alone {
-            let cell = self.grid.cell();
-            if cell.is_isolated() {
-                let place = cell.fractions([self.centre[0] + x, self.centre[1] + y]);
-                return if place.iter().all(|s| (0.0..1.0).contains(s)) { (self.what)(index) } else { Sample::Other };
-            }
-            let [own_x, own_y] = self.reduced.nearest(cell.parts(offset));
-            if (own_x - x).abs().max((own_y - y).abs()) > 1e-6 * self.alone {
-                return Sample::Other;
-            }
+        let is_far = x * x + y * y > self.alone * self.alone;
+        if is_far && !self.grid.cell().belongs(&self.reduced, self.centre, offset, 1e-6 * self.alone) {
+            return Sample::Other;
         }
         (self.what)(index)
     }

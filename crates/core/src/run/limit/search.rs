@@ -71,10 +71,9 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let borne = SearchEnd::OF_HARDNESS * largest_borne(&run.problem) * per_pressure;
         let filling = complete.map_or(f64::INFINITY, |pressure| (pressure * per_pressure).min(borne));
         // An isolated contact is never complete, but fills its window under a load of this order.
-        let is_isolated = run.problem.cell().is_isolated();
-        let complete = if is_isolated || filling >= borne { f64::INFINITY } else { filling };
-        let has_windows = is_isolated && run.problem.counterbody().pressure().is_none();
-        let hardness_load = if has_windows { f64::INFINITY } else { borne };
+        let kind = run.problem.kind();
+        let complete = if kind.may_be_complete() && filling < borne { filling } else { f64::INFINITY };
+        let hardness_load = if kind.is_indentation() { f64::INFINITY } else { borne };
         let windows = Windows::new(Arc::clone(&run.problem), complete.min(hardness_load));
         let (tables, steps) = (Arc::default(), Vec::new());
         let mut search = Self {
@@ -258,7 +257,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     /// Whether the contact of the best resolved level, or that of a topography, has enough samples for its stresses.
     fn is_readable(&self, reading: &Reading) -> bool {
         // What is given does not grow with the load.
-        if self.run.problem.counterbody().pressure().is_some() {
+        if self.run.problem.kind().is_given {
             return true;
         }
         let samples = reading.contact_area / self.solver.grid().sample_area();
@@ -291,7 +290,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         if after.load(self.quantity) <= before.load(self.quantity) * (1.0 + TOUCHING) {
             return false;
         }
-        let Some(indenters) = self.run.problem.counterbody().indenters() else { return false };
+        let Some(indenters) = self.run.problem.indenters() else { return false };
         let (levels, drops) = (indenters.levels(), indenters.drops());
         let is_new = |own: usize| {
             (0..levels.len()).all(|other| {
@@ -321,7 +320,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
 
     /// Whether the highest level, which touches under any load, has tips whose pressure is infinite.
     fn first_is_tip(&self) -> bool {
-        let indenters = self.run.problem.counterbody().indenters();
+        let indenters = self.run.problem.indenters();
         let levels = indenters.into_iter().flat_map(|all| all.levels().iter().zip(all.drops()));
         levels.into_iter().any(|(level, drop)| drop == 0.0 && level.shape().singular_peak())
     }
@@ -395,7 +394,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
 fn largest_borne(problem: &Problem) -> f64 {
     let hardness = problem.largest_hardness().map_or(f64::INFINITY, |(hardness, _)| hardness);
     let over_highest =
-        problem.counterbody().pressure().map_or(1.0, |given| given.force() / problem.cell().area() / given.highest());
+        problem.given_pressure().map_or(1.0, |given| given.force() / problem.cell().area() / given.highest());
     hardness * over_highest
 }
 

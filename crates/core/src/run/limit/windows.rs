@@ -69,7 +69,7 @@ mod tests {
         assert_eq!([1.0, 3.0, 3.1, 20.0, 30.0].map(|load| windows.of(load)), [0, 0, 1, 1, 2]);
         let wide = windows.problem(2);
         // The indenters keep their distance.
-        let sites = wide.counterbody().indenters().unwrap().sites();
+        let sites = wide.indenters().unwrap().sites();
         assert_eq!(wide.cell().vectors(), [[4.0, 0.0], [0.0, 8.0]]);
         assert_eq!(wide.cell().point(sites[1].place), [0.25, 0.0]);
         let more = (0..20).take_while(|_| windows.end_at(50.0)).count();

@@ -12,9 +12,10 @@ use super::fields::Unknowns;
 use super::problem::{ContactProblem, Method, Settings};
 use super::report::{Report, Route, Stop};
 use super::stopping::unless_rounding;
+use crate::lattice::Surroundings;
 use crate::load::Control;
 use crate::numeric::sums;
-use crate::spectral::operator::{ElasticOperator, Surroundings};
+use crate::spectral::operator::ElasticOperator;
 use std::sync::Arc;
 
 /// Trials of the mean pressure after which the search counts as stalled.

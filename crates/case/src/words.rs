@@ -1,0 +1,113 @@
+//! Words for what differs between kinds of contact, in one table each.
+
+use percoat_core::kind::ContactKind;
+use percoat_core::lattice::Surroundings;
+use percoat_core::run::StepRecord;
+
+/// Words for a kind of contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Words {
+    /// Words for what lies around the cell.
+    pub around: &'static AroundWords,
+    /// Words for what loads the body.
+    pub load: &'static LoadWords,
+    /// Name of what is stated of the contact: its area, or its part of the surface.
+    pub extent: &'static str,
+    /// End of a sentence that begins with that area or part.
+    pub extent_of: &'static str,
+}
+
+/// Words for what lies around the cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AroundWords {
+    /// The rectangle or parallelogram of the grid.
+    pub cell: &'static str,
+    /// Its name at the head of a table.
+    pub heading: &'static str,
+    /// The points of the grid.
+    pub samples: &'static str,
+    /// What else makes room for a load.
+    pub more_room: &'static str,
+    /// The elastic energy.
+    pub energy: &'static str,
+    /// The number of contact spots of a topography.
+    pub spots: &'static str,
+    /// The stiffness by neighbouring load steps.
+    pub stiffness: &'static str,
+    /// The penetration over the load.
+    pub penetration: &'static str,
+    /// Which depth of what is worn off is stated first.
+    pub worn: &'static str,
+}
+
+/// Words for what loads the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LoadWords {
+    /// The penetration.
+    pub depth: &'static str,
+    /// The area of contact, as the head of a column.
+    pub area: &'static str,
+    /// The pressure on the surface.
+    pub pressure: &'static str,
+}
+
+const CELL: AroundWords = AroundWords {
+    cell: "cell",
+    heading: "Cell",
+    samples: "samples of the cell",
+    more_room: "",
+    energy: "elastic energy of a cell",
+    spots: "contact spots in the cell, joined at edges and corners of samples",
+    stiffness: "stiffness dp̄/dδ, a pressure per length",
+    penetration: "additional displacement",
+    worn: "mean",
+};
+
+// Far from an isolated contact there is nothing to which displacement could be additional, nor a mean of what is worn.
+const WINDOW: AroundWords = AroundWords {
+    cell: "window",
+    heading: "Window",
+    samples: "samples of the window",
+    more_room: ", a larger window",
+    energy: "elastic energy",
+    spots: "contact spots, joined at edges and corners of samples",
+    stiffness: "stiffness dP/dδ, a force per length",
+    penetration: "penetration",
+    worn: "depth",
+};
+
+const CONTACT: LoadWords = LoadWords { depth: "penetration", area: "contact", pressure: "contact pressure" };
+const PRESSURE: LoadWords = LoadWords { depth: "largest deflection", area: "under pressure", pressure: "pressure" };
+
+impl AroundWords {
+    /// Words for what lies around a cell.
+    pub fn of(surroundings: Surroundings) -> &'static Self {
+        match surroundings {
+            Surroundings::Periodic => &CELL,
+            Surroundings::FreeSpace => &WINDOW,
+        }
+    }
+}
+
+impl LoadWords {
+    /// Words for what loads the body in the steps of a run.
+    pub fn of(steps: &[StepRecord]) -> &'static Self {
+        if steps.iter().any(|step| step.kind().is_given) { &PRESSURE } else { &CONTACT }
+    }
+}
+
+impl Words {
+    /// Words for a kind of contact.
+    pub fn of(ContactKind { surroundings, is_given }: ContactKind) -> Self {
+        let (extent, extent_of) = match (surroundings, is_given) {
+            (Surroundings::Periodic, false) => ("part of the surface in contact", "of the surface is in contact"),
+            (Surroundings::Periodic, true) => {
+                ("part of the surface under pressure", "of the surface is under pressure")
+            }
+            (Surroundings::FreeSpace, false) => ("area of contact", "is the area of contact"),
+            (Surroundings::FreeSpace, true) => ("area under pressure", "is the area under pressure"),
+        };
+        let load = if is_given { &PRESSURE } else { &CONTACT };
+        Self { around: AroundWords::of(surroundings), load, extent, extent_of }
+    }
+}
