@@ -289,7 +289,7 @@ fn the_limit_is_the_load_over_its_utilisation() {
         let run = Run::new(Problem::new(given, body.clone()), vec![Load::Force(force)], Sampling::Points([96; 2]));
         let outcome = run.solve(&mut ()).unwrap();
         let record = &outcome.steps[0];
-        assert!(record.is_given() && record.converged() && record.rough.is_none() && record.strength.len() == 3);
+        assert!(record.kind().is_given && record.converged() && record.rough.is_none() && record.strength.len() == 3);
         // What is given has no contact stiffness.
         assert!(record.contact_stiffness.is_none());
         let limits = run.limits(&mut ()).unwrap();

@@ -2,12 +2,12 @@
 
 use percoat::{
     Bodies, Cell, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, Problem, Settings, Shape,
-    Solver,
+    Solver, Surroundings,
 };
 
 /// A ball of this radius on a coated half-space, its coating as stiff as given: isolated in a window, or in a periodic cell.
 fn problem(cell: Cell, radius: f64, coating: f64, substrate: f64) -> Problem {
-    let middle = if cell.is_isolated() { [0.5; 2] } else { [0.0; 2] };
+    let middle = if cell.surroundings() == Surroundings::FreeSpace { [0.5; 2] } else { [0.0; 2] };
     let lattice = Lattice::new(cell, vec![vec![middle]]).unwrap();
     let indenters = Indenters::new(lattice, vec![Level::new(Shape::Paraboloid { radius }, 0.0).unwrap()]).unwrap();
     let material = |young: f64, poisson: f64| Material::from_young(young, poisson).unwrap();
