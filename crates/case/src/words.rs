@@ -20,34 +20,34 @@ pub struct Words {
 /// Words for what lies around the cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AroundWords {
-    /// The rectangle or parallelogram of the grid.
+    /// Rectangle or parallelogram of the grid.
     pub cell: &'static str,
-    /// Its name at the head of a table.
+    /// Name of the rectangle or parallelogram at the head of a table.
     pub heading: &'static str,
-    /// The points of the grid.
+    /// Points of the grid.
     pub samples: &'static str,
-    /// What else makes room for a load.
+    /// Further way, beside a lower load, to stay below a hardness.
     pub more_room: &'static str,
-    /// The elastic energy.
+    /// Elastic energy.
     pub energy: &'static str,
-    /// The number of contact spots of a topography.
+    /// Number of contact spots of a topography.
     pub spots: &'static str,
-    /// The stiffness by neighbouring load steps.
+    /// Stiffness by neighbouring load steps.
     pub stiffness: &'static str,
-    /// The penetration over the load.
+    /// Penetration over the load.
     pub penetration: &'static str,
-    /// Which depth of what is worn off is stated first.
+    /// Depth of what is worn off that is stated.
     pub worn: &'static str,
 }
 
 /// Words for what loads the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LoadWords {
-    /// The penetration.
+    /// Penetration.
     pub depth: &'static str,
-    /// The area of contact, as the head of a column.
+    /// Area of contact, as the head of a column.
     pub area: &'static str,
-    /// The pressure on the surface.
+    /// Pressure on the surface.
     pub pressure: &'static str,
 }
 

@@ -78,9 +78,12 @@ mod tests {
             let given = GivenPressure::discs(cell.unwrap(), vec![disc]).unwrap();
             Problem::new(given, HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap()))
         });
-        let quantities = [&periodic, &isolated].map(|own| own.kind().load_quantity());
+        let quantities = [&periodic, &isolated].map(|problem| problem.kind().load_quantity());
         assert_eq!(quantities, [LoadQuantity::MeanPressure, LoadQuantity::Force]);
-        assert_eq!([&periodic, &isolated].map(|own| own.cell().surroundings().per_cell(2.0)), [Some(2.0), None]);
+        assert_eq!(
+            [&periodic, &isolated].map(|problem| problem.cell().surroundings().per_cell(2.0)),
+            [Some(2.0), None]
+        );
         let based = |poisson| {
             let layer = Layer::new(Material::from_young(1.0, poisson).unwrap(), 0.1, Interface::Bonded).unwrap();
             HalfSpace::on_rigid_base(vec![layer]).unwrap()

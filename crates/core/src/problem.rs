@@ -142,6 +142,11 @@ impl Problem {
         self.counterbody()?.topography()
     }
 
+    /// Whether a rigid counterbody is pressed onto the body.
+    pub fn has_rigid_counterbody(&self) -> bool {
+        self.counterbody().is_some() && self.bodies.counterbody().is_none()
+    }
+
     /// The given pressure; `None` under a counterbody.
     pub fn given_pressure(&self) -> Option<&GivenPressure> {
         self.loaded_by.pressure()

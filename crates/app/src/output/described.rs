@@ -4,7 +4,7 @@ use super::number::{number, with_error};
 use percoat_case::units::{Unit, Units};
 use percoat_core::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Side};
 use percoat_core::counterbody::{Counterbody, GivenPressure, Indenters, LoadedBy, LoadedDisc, Shape, Topography};
-use percoat_core::lattice::{Cell, Grid, Surroundings};
+use percoat_core::lattice::{Cell, Grid};
 use percoat_core::problem::Problem;
 
 /// A length with its unit, five digits.
@@ -36,8 +36,8 @@ fn area(units: &Units, x: f64) -> String {
 }
 
 fn cell(units: &Units, cell: Cell) -> String {
-    if cell.surroundings() == Surroundings::FreeSpace {
-        let [width, height] = [cell.vectors()[0][0], cell.vectors()[1][1]].map(|side| length(units, side));
+    if let Some(sides) = cell.window_sides() {
+        let [width, height] = sides.map(|side| length(units, side));
         return format!("isolated contact in a window of {width} × {height}");
     }
     let vectors = cell.vectors();
@@ -77,8 +77,8 @@ fn given_pressure(units: &Units, given: &GivenPressure) -> String {
 pub(super) fn loaded_by(units: &Units, loaded_by: &LoadedBy) -> String {
     let what = match loaded_by {
         LoadedBy::Pressure(given) => given_pressure(units, given),
-        LoadedBy::Counterbody(Counterbody::Topography(own)) => topography(units, own),
-        LoadedBy::Counterbody(Counterbody::Indenters(own)) => indenters(units, own),
+        LoadedBy::Counterbody(Counterbody::Topography(heights)) => topography(units, heights),
+        LoadedBy::Counterbody(Counterbody::Indenters(all)) => indenters(units, all),
     };
     format!("{}, {what}", cell(units, loaded_by.cell()))
 }

@@ -4,7 +4,7 @@ use percoat_case::units::{Unit, Units, lowered, reference_index};
 use percoat_core::body::{HalfSpace, Interface, Layer, Material};
 use percoat_core::counterbody::{Level, Shape};
 use percoat_core::friction::Friction;
-use percoat_core::lattice::{Cell, LatticeError, Surroundings};
+use percoat_core::lattice::{Cell, LatticeError};
 use percoat_core::problem::Problem;
 use percoat_core::reading::{Criterion, Governing, Reading, Utilisation};
 use percoat_core::spectral::Step;
@@ -214,8 +214,7 @@ fn cell_vectors(cell: &Cell, units: &Units) -> String {
 fn geometry(problem: &Problem, units: &Units) -> Option<String> {
     let cell = problem.cell();
     let mut parts = Vec::new();
-    if cell.surroundings() == Surroundings::FreeSpace {
-        let sides = [cell.vectors()[0][0], cell.vectors()[1][1]];
+    if let Some(sides) = cell.window_sides() {
         let own = if sides[0] == sides[1] { &sides[..1] } else { &sides };
         parts.push(format!("isolated, window {}", units.length_equals("w", own)));
     } else if is_oblique(&cell) {

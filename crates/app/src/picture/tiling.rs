@@ -72,7 +72,7 @@ impl Snapshot {
 mod tests {
     use super::super::window::View;
     use super::*;
-    use crate::lattice::Cell;
+    use percoat_core::lattice::Cell;
 
     #[test]
     fn a_window_holds_four_cells_and_every_site_four_times() {

@@ -136,7 +136,7 @@ impl SweepResult {
     /// The quantity of its loads; `None` for a load step that has both.
     pub fn quantity(&self) -> Option<LoadQuantity> {
         match self {
-            Self::Step(step) => Some(step.kind().load_quantity()).filter(|own| *own == LoadQuantity::Force),
+            Self::Step(step) => Some(step.kind().load_quantity()).filter(|quantity| *quantity == LoadQuantity::Force),
             Self::Limits(limits) => limits.first().map(|limit| limit.quantity),
         }
     }

@@ -71,6 +71,18 @@ impl LoadedBy {
             Self::Pressure(pressure) => Surface::flat(pressure.cell(), points),
         }
     }
+
+    /// The undeformed surface on a grid coarser than that of a `finer` one, for the start of a solution: exact for indenters, else as the
+    /// coarser grid holds the finer surface.
+    ///
+    /// # Errors
+    /// [`LatticeError`] when a number of points is zero.
+    pub(crate) fn coarser_surface(&self, finer: &Surface, points: [usize; 2]) -> Result<Surface, LatticeError> {
+        match finer.owner() {
+            Some(_) => self.surface(points),
+            None => finer.coarser(points),
+        }
+    }
 }
 
 impl From<Counterbody> for LoadedBy {

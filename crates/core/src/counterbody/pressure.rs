@@ -7,7 +7,7 @@
 
 use super::loaded_disc::Arrangement;
 use super::{CounterbodyError, LoadedDisc};
-use crate::lattice::{Cell, Grid, Surroundings};
+use crate::lattice::{Cell, Grid};
 use ndarray::{Array2, ArrayView2};
 use std::f64::consts::PI;
 use std::fmt;
@@ -45,10 +45,8 @@ impl GivenPressure {
             if !is_valid {
                 return Err(CounterbodyError::Disc(number));
             }
-            let [[width, _], [_, height]] = cell.vectors();
-            let room = [width, height].map(|side| 0.5 * ROOM * side);
-            let is_alone = cell.surroundings() == Surroundings::FreeSpace;
-            if is_alone && (x.abs() + radius > room[0] || y.abs() + radius > room[1]) {
+            let room = cell.window_sides().map(|sides| sides.map(|side| 0.5 * ROOM * side));
+            if let Some(room) = room.filter(|room| x.abs() + radius > room[0] || y.abs() + radius > room[1]) {
                 return Err(CounterbodyError::OutsideWindow { disc: number, room });
             }
         }

@@ -5,7 +5,7 @@
 //! radius, so that only the nearest periodic image of an indenter contributes.
 
 use super::roughness::Spectrum;
-use super::{Counterbody, Indenters, LoadedBy, Site};
+use super::{Counterbody, Indenters, Site};
 use crate::lattice::{Cell, Grid, LatticeError, ReducedBasis};
 use crate::numeric::array::{field, samples};
 use crate::numeric::sums;
@@ -51,18 +51,15 @@ impl Surface {
         Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() }
     }
 
-    /// Surface on a coarser grid of what loads the body, for the start of a solution: every k-th sample where the numbers of samples are
-    /// multiples along both directions, so that heights are unchanged; otherwise the waves that the coarser grid holds.
+    /// Surface without owners on a coarser grid: every k-th sample where the numbers of samples are multiples along both directions, so
+    /// that heights are unchanged; otherwise the waves that the coarser grid holds.
     ///
     /// # Errors
     /// [`LatticeError`] when a number of points is zero.
-    pub(crate) fn coarser(&self, loaded_by: &LoadedBy, points: [usize; 2]) -> Result<Self, LatticeError> {
-        if self.owner.is_some() {
-            return loaded_by.surface(points);
-        }
-        let grid = Arc::new(Grid::new(loaded_by.cell(), points)?);
-        let initial_gap = restricted(loaded_by.cell(), self.initial_gap(), points)?;
-        Ok(Self::without_owners(grid, initial_gap))
+    pub(super) fn coarser(&self, points: [usize; 2]) -> Result<Self, LatticeError> {
+        let cell = self.grid.cell();
+        let grid = Arc::new(Grid::new(cell, points)?);
+        Ok(Self::without_owners(grid, restricted(cell, self.initial_gap(), points)?))
     }
 
     /// The surface with another initial gap, f ≥ 0, lengths measured from first touch, axes along a₁ and a₂; the indenter of

@@ -59,6 +59,11 @@ impl Cell {
         }
     }
 
+    /// Sides of a window along x and y, lengths; `None` of a periodic cell.
+    pub fn window_sides(&self) -> Option<[f64; 2]> {
+        self.corner.map(|_| [self.a1[0], self.a2[1]])
+    }
+
     /// Whether the cell is a window.
     fn is_isolated(&self) -> bool {
         self.surroundings() == Surroundings::FreeSpace

@@ -19,13 +19,8 @@ impl Cell {
 
     /// Distance of a point from the border of a window around 0, a length; infinite in a periodic cell.
     pub(crate) fn border_distance(&self, place: [f64; 2]) -> f64 {
-        match self.surroundings() {
-            Surroundings::Periodic => f64::INFINITY,
-            Surroundings::FreeSpace => {
-                let [width, height] = [self.vectors()[0][0], self.vectors()[1][1]];
-                (0.5 * width - place[0].abs()).min(0.5 * height - place[1].abs())
-            }
-        }
+        let within = |[width, height]: [f64; 2]| (0.5 * width - place[0].abs()).min(0.5 * height - place[1].abs());
+        self.window_sides().map_or(f64::INFINITY, within)
     }
 
     /// Whether the place at an `offset` from a `centre`, lengths, belongs to it: no image of the centre is nearer, or the place lies in the
@@ -78,24 +73,22 @@ impl Cell {
             return [self.point(place)].into_iter().filter(is_inside).collect();
         }
         let reduced = self.reduced().cell();
-        let own = reduced.fractions(self.point(place));
+        let fractions = reduced.fractions(self.point(place));
         let corners = [[x0, y0], [x0, y1], [x1, y0], [x1, y1]].map(|corner| reduced.fractions(corner));
         // Multiples of the reduced vectors that may move the place into the rectangle.
         let range = |k: usize| {
-            let parts = corners.iter().map(|corner| corner[k] - own[k]);
+            let parts = corners.iter().map(|corner| corner[k] - fractions[k]);
             let [low, high] = parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
             (low - 1e-9).ceil() as i64..=(high + 1e-9).floor() as i64
         };
         let multiples = range(0).flat_map(|i| range(1).map(move |j| [i as f64, j as f64]));
-        let images = multiples.map(|[i, j]| reduced.point([own[0] + i, own[1] + j]));
+        let images = multiples.map(|[i, j]| reduced.point([fractions[0] + i, fractions[1] + j]));
         images.filter(is_inside).collect()
     }
 
     /// A window `factor` times as wide and as high around 0; `None` for a periodic cell, which has its size.
     pub(crate) fn widened(&self, factor: f64) -> Option<Self> {
-        let [[width, _], [_, height]] = self.vectors();
-        let window = || Self::window([width, height].map(|side| factor * side)).ok();
-        if self.surroundings() == Surroundings::FreeSpace { window() } else { None }
+        Self::window(self.window_sides()?.map(|side| factor * side)).ok()
     }
 }
 

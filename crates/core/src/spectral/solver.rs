@@ -55,7 +55,7 @@ impl Solver {
         for points in nested_points(points, settings.method, loaded_by.line()) {
             let surface = match levels.last() {
                 None => loaded_by.surface(points)?,
-                Some(finer) => finer.surface().coarser(loaded_by, points)?,
+                Some(finer) => loaded_by.coarser_surface(finer.surface(), points)?,
             };
             levels.push(GridLevel::new(&problem, surface));
         }

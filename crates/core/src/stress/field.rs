@@ -90,7 +90,7 @@ impl StressField {
             Side::Body => bodies.dundurs_beta(),
             Side::Counterbody => -bodies.dundurs_beta(),
         };
-        let (is_contact, line) = (!problem.kind().is_given, problem.loaded_by().line());
+        let (is_contact, line) = (problem.counterbody().is_some(), problem.loaded_by().line());
         let discs = discs_under(contact);
         let surface = SurfaceTraction { discs: &discs, friction: friction.as_ref(), beta, is_contact, line };
         Self::of_samples(contact.grid(), contact.pressures(), bodies.on(Some(side)), &surface, mean, tables)

@@ -124,11 +124,12 @@ pub(super) fn passed(ratio: f64) -> f64 {
     0.5 * libm::erfc(STEEPNESS * (ratio - 1.0))
 }
 
-/// Memory of the search around a window as far as stiff layers make it go, bytes, where contact fills half of the window.
-pub fn bytes_around(window: Cell, half_space: &HalfSpace, slides: bool) -> usize {
+/// Memory of what is far from an isolated contact, bytes: of the far field in its window, and of the search around it as far as stiff
+/// layers make it go, where contact fills half of the window. 0 of a periodic cell.
+pub fn bytes_far(cell: Cell, half_space: &HalfSpace, slides: bool) -> usize {
     /// Bytes of a sample of the series: its wave, and the rows of a plane.
     const SAMPLE: usize = 92;
-    let sides = sides(window);
+    let Some(sides) = cell.window_sides() else { return 0 };
     let extent = Extent { sides, points: [1 << 20; 2], half_size: sides.map(|side| 0.25 * side) };
     let reach = extent.reach(half_space);
     let numbers = (1..=MOST_WINDOWS).take_while(|number| extent.margin(number - 1) < reach);
@@ -142,5 +143,5 @@ pub fn bytes_around(window: Cell, half_space: &HalfSpace, slides: bool) -> usize
         tables += wide + InteriorTable::bytes(half_space, slides, |_| shells);
         largest = largest.max(SAMPLE * samples);
     }
-    tables + largest
+    FarTables::bytes(cell, half_space, slides) + tables + largest
 }

@@ -71,10 +71,9 @@ mod transform;
 mod window_waves;
 
 pub use crest::Crest;
-pub use far_tables::FarTables;
 pub use field::StressField;
 pub use fields::StressFields;
-pub use loaded_window::bytes_around;
+pub use loaded_window::bytes_far;
 pub use path_search::{PassOver, PathPeak, PathPeaks, PathSought, transmitted};
 pub use peak::{Peak, Rival};
 pub use plane::DepthPlane;

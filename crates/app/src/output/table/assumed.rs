@@ -49,7 +49,7 @@ impl Assumptions {
         Self {
             mean: problem.cell().surroundings().per_cell(case.mean_stress()),
             line: problem.loaded_by().line(),
-            rigid: problem.bodies().counterbody().is_none() && !problem.kind().is_given,
+            rigid: problem.has_rigid_counterbody(),
             untested: untested(problem.bodies()),
             library: library_strengths(&json!(case)),
         }

@@ -9,14 +9,13 @@ use percoat_common::machine::{Capacity, Threads, bytes};
 use percoat_core::counterbody::Topography;
 use percoat_core::friction::Friction;
 use percoat_core::identification::MOST_NODES;
-use percoat_core::lattice::Surroundings;
 use percoat_core::localized::Setup;
 use percoat_core::numeric::fourier::fast_points;
 use percoat_core::reading::Criterion;
 use percoat_core::run::places::{MOST_ROWS, SECTION};
 use percoat_core::run::{EVENTS, Sampling};
 use percoat_core::spectral::Memory;
-use percoat_core::stress::{FarTables, bytes_around, series_times};
+use percoat_core::stress::{bytes_far, series_times};
 use std::f64::consts::PI;
 
 const MEBIBYTE: u64 = 1 << 20;
@@ -306,11 +305,7 @@ fn of_shells(case: &Case, samples: u64) -> u64 {
         of_grid(samples) + of_grid(samples / 4)
     };
     let bodies = case.problem().bodies();
-    let far = |own: &HalfSpace| (FarTables::bytes(cell, own, slides) + bytes_around(cell, own, slides)) as u64;
-    let far: u64 = match cell.surroundings() {
-        Surroundings::Periodic => 0,
-        Surroundings::FreeSpace => bodies.each().map(far).sum(),
-    };
+    let far: u64 = bodies.each().map(|own| bytes_far(cell, own, slides) as u64).sum();
     let kept = |together: f64| far + bodies.each().map(|own| of_body(own, together)).sum::<u64>();
     let [a1, a2] = case.problem().cell().vectors();
     let [own, other, product] = [(a1, a1), (a2, a2), (a1, a2)].map(|(u, v)| u[0] * v[0] + u[1] * v[1]);

@@ -99,7 +99,7 @@ fn lengths(case: &Case) -> Vec<(String, f64)> {
         ("a side of the cell".to_owned(), sides[0].max(sides[1])),
     ];
     // A given pressure may be that on a road or a foundation.
-    all.retain(|_| !problem.kind().is_given);
+    all.retain(|_| problem.counterbody().is_some());
     all.dedup_by(|a, b| a.1 == b.1);
     let levels = problem.levels().iter().map(Level::shape).enumerate();
     all.extend(levels.filter_map(|(number, shape): (usize, Shape)| match shape {
