@@ -38,6 +38,10 @@ pub struct AroundWords {
     pub penetration: &'static str,
     /// Depth of what is worn off that is stated.
     pub worn: &'static str,
+    /// Keys of a case that have no effect, each with its section.
+    pub without_effect: &'static [[&'static str; 2]],
+    /// Alternative text and caption of the pictures of pressure, contact and profiles.
+    pub pictures: [[&'static str; 2]; 3],
 }
 
 /// Words for what loads the body.
@@ -49,6 +53,10 @@ pub struct LoadWords {
     pub area: &'static str,
     /// Pressure on the surface.
     pub pressure: &'static str,
+    /// Bars on top of a section of the body.
+    pub bars: &'static str,
+    /// Mean pressure over the area in contact; `None` where none is stated.
+    pub mean_pressure: Option<&'static str>,
 }
 
 const CELL: AroundWords = AroundWords {
@@ -61,6 +69,23 @@ const CELL: AroundWords = AroundWords {
     stiffness: "stiffness dp̄/dδ, a pressure per length",
     penetration: "additional displacement",
     worn: "mean",
+    without_effect: &[],
+    pictures: [
+        [
+            "Map of the contact pressure over several cells",
+            "Contact pressure over several cells, true to scale; white is no contact.",
+        ],
+        [
+            "Contact spots by level, and the radius of their boundaries over the direction",
+            "Contact spots by level with their boundaries, and how far each boundary is from a circle; dashed: without the \
+             mutual effect of the indenters.",
+        ],
+        [
+            "Curves of the pressure through an indenter of each level",
+            "Pressure through each level along the line of its largest extent; dashed: the same indenter alone under the \
+             same load.",
+        ],
+    ],
 };
 
 // Far from an isolated contact there is nothing to which displacement could be additional, nor a mean of what is worn.
@@ -74,10 +99,35 @@ const WINDOW: AroundWords = AroundWords {
     stiffness: "stiffness dP/dδ, a force per length",
     penetration: "penetration",
     worn: "depth",
+    without_effect: &[["stress", "mean"]],
+    pictures: [
+        ["Map of the contact pressure in the window", "Contact pressure, true to scale; white is no contact."],
+        [
+            "Contact spots, and the radius of their boundaries over the direction",
+            "Contact spots with their boundaries, and how far each boundary is from a circle.",
+        ],
+        [
+            "Curves of the pressure through an indenter of each level",
+            "Pressure through each level along the line of its largest extent.",
+        ],
+    ],
 };
 
-const CONTACT: LoadWords = LoadWords { depth: "penetration", area: "contact", pressure: "contact pressure" };
-const PRESSURE: LoadWords = LoadWords { depth: "largest deflection", area: "under pressure", pressure: "pressure" };
+const CONTACT: LoadWords = LoadWords {
+    depth: "penetration",
+    area: "contact",
+    pressure: "contact pressure",
+    bars: "contacts",
+    mean_pressure: Some("mean pressure where there is contact"),
+};
+
+const PRESSURE: LoadWords = LoadWords {
+    depth: "largest deflection",
+    area: "under pressure",
+    pressure: "pressure",
+    bars: "where the pressure acts",
+    mean_pressure: None,
+};
 
 impl AroundWords {
     /// Words for what lies around a cell.

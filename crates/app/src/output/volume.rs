@@ -9,7 +9,6 @@
 use super::checksum::Checksum;
 use super::{OutputError, write_file};
 use percoat_core::body::Depth;
-use percoat_core::lattice::Surroundings;
 use percoat_core::stress::{StressField, StressState};
 use std::io::{self, Write};
 use std::path::Path;
@@ -56,7 +55,7 @@ pub(super) fn added_volume(
         }
         let upwards: Vec<Depth> = depths.iter().rev().copied().collect();
         let states: Vec<StressState> = upwards.iter().flat_map(|&depth| closed_plane(field, depth, points)).collect();
-        let [last1, last2] = last(field, points);
+        let [last1, last2] = field.grid().cell().last_points(points);
         let per_layer = (last1 + 1) * (last2 + 1);
         head(writer, [last1, last2, depths.len() - 1], states.len())?;
         for c in 0..SCALARS.len() {
@@ -79,18 +78,10 @@ pub(super) fn added_volume(
     Ok(sum)
 }
 
-/// Indices of the last points along a₁ and a₂: the first ones again, unless contact is isolated.
-fn last(field: &StressField, points: [usize; 2]) -> [usize; 2] {
-    match field.grid().cell().surroundings() {
-        Surroundings::Periodic => points,
-        Surroundings::FreeSpace => points.map(|n| n - 1),
-    }
-}
-
 /// States of a plane, a₁ fastest, its border repeated in a periodic system.
 fn closed_plane(field: &StressField, depth: Depth, points: [usize; 2]) -> Vec<StressState> {
     let ([n1, n2], plane) = (points, field.plane(depth, points));
-    let [last1, last2] = last(field, points);
+    let [last1, last2] = field.grid().cell().last_points(points);
     (0..=last2).flat_map(|j| (0..=last1).map(move |i| (i, j))).map(|(i, j)| plane.state([i % n1, j % n2])).collect()
 }
 

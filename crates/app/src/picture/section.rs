@@ -4,20 +4,11 @@ use super::shown_depths::{ShownDepths, deepest};
 use super::signed_values::{SIGNS, SignedValues};
 use super::snapshot::Snapshot;
 use super::window::Window;
-use crate::picture::labels::Labels;
+use percoat_case::words::Words;
 use percoat_core::body::{HalfSpace, Side};
 use percoat_core::friction::Friction;
 use percoat_core::reading::{Criterion, LargestInSection, SectionMeasure, Utilisation, Verdict, tears, tips};
 use percoat_core::stress::{SurfaceLine, VerticalSection};
-use percoat_draw::axis::Axis;
-use percoat_draw::bar::Bar;
-use percoat_draw::canvas::{Canvas, Dash, Stroke};
-use percoat_draw::colour::Colour;
-use percoat_draw::curve::NUMBERED_COLOURS;
-use percoat_draw::label::equals;
-use percoat_draw::map::{Fill, Map, Over};
-use percoat_draw::number::degrees;
-use percoat_draw::sheet::{Panel, sheet};
 
 /// Width of the bar of a contact between the bodies, points.
 const BETWEEN: f64 = 2.4;
@@ -149,12 +140,9 @@ impl<'a> SectionPicture<'a> {
         let to_scale = self.whole.words(" Depth") + &coating;
         let residual = problem.bodies().each().flat_map(HalfSpace::residual_stresses).any(|stress| stress != 0.0);
         let residual = if residual { " Residual stress is in it." } else { "" };
-        let bodies = if problem.kind().is_given {
-            "; bars on top: where the pressure acts"
-        } else if self.sections.len() > 1 {
-            "; above z = 0 the counterbody, below it the body; bars between them: contacts"
-        } else {
-            "; bars on top: contacts"
+        let bodies = match self.sections.len() {
+            0 | 1 => format!("; bars on top: {}", Words::of(problem.kind()).load.bars),
+            _ => "; above z = 0 the counterbody, below it the body; bars between them: contacts".to_owned(),
         };
         format!(
             "Section along {} from the x axis{}{bodies}; level lines: interfaces; curved lines: \

@@ -49,10 +49,13 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
         (words.extent, numbers(&contact)),
         ("peak pressure", numbers(&peak)),
     ];
-    rows.extend(reading.mean_contact_pressure().filter(|_| !step.kind().is_given).map(|(mean, error)| {
-        let mean = with_unit(units.pressure(), mean, error);
-        ("mean pressure where there is contact", numbers(&mean))
-    }));
+    rows.extend(
+        words
+            .load
+            .mean_pressure
+            .zip(reading.mean_contact_pressure())
+            .map(|(name, (mean, error))| (name, numbers(&with_unit(units.pressure(), mean, error)))),
+    );
     if let [level] = &reading.levels[..]
         && let Some(radius) = level.contact_radius.filter(|_| level.load > 0.0 && !level.ring)
     {

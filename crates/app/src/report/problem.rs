@@ -43,6 +43,7 @@ const APART: [&str; 7] = ["title", "levels", "layers", "substrate", "counterbody
 
 /// Counterbody and body in a sentence, then the keys of the case in tables.
 pub(super) fn problem(case: &Value) -> Markup {
+    let words = AroundWords::of(kind_of(case).surroundings);
     let mut parts = vec![tag("p", sentence(case))];
     let levels = list(case, "levels");
     if !levels.is_empty() {
@@ -55,7 +56,7 @@ pub(super) fn problem(case: &Value) -> Markup {
             keys.iter().filter(|(key, _)| *key != "rigid").map(|(key, value)| (key.clone(), value.clone())).collect();
         parts.push(of_keys(
             "The surface of the rigid counterbody",
-            &entries("counterbody", &Value::Object(surface), Surroundings::Periodic),
+            &entries("counterbody", &Value::Object(surface), words),
         ));
     } else if let Some(keys) = case["counterbody"].as_object() {
         let substrate: Map<String, Value> =
@@ -64,10 +65,8 @@ pub(super) fn problem(case: &Value) -> Markup {
         parts.push(materials("The counterbody, from its surface inward", layers, &Value::Object(substrate)));
     }
     let sections = case.as_object().into_iter().flatten().filter(|(key, _)| !APART.contains(&key.as_str()));
-    let rows: Vec<(String, String)> =
-        sections.flat_map(|(section, value)| entries(section, value, kind_of(case).surroundings)).collect();
-    let cell = AroundWords::of(kind_of(case).surroundings).heading;
-    parts.push(of_keys(&format!("{cell}, load, grid and all other keys"), &rows));
+    let rows: Vec<(String, String)> = sections.flat_map(|(section, value)| entries(section, value, words)).collect();
+    parts.push(of_keys(&format!("{}, load, grid and all other keys", words.heading), &rows));
     parts.into()
 }
 
@@ -187,16 +186,15 @@ fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> Str
 }
 
 /// The keys of a section with their values, without those of no effect on an isolated contact.
-fn entries(section: &str, value: &Value, surroundings: Surroundings) -> Vec<(String, String)> {
+fn entries(section: &str, value: &Value, words: &AroundWords) -> Vec<(String, String)> {
     let prefix = |key: &str| {
         if matches!(section, "stress" | "friction" | "life") { format!("{section}: {key}") } else { key.to_owned() }
     };
-    let has_effect = |key: &str| surroundings == Surroundings::Periodic || section != "stress" || key != "mean";
-    let samples = AroundWords::of(surroundings).samples;
+    let has_effect = |key: &str| !words.without_effect.contains(&[section, key]);
     match value {
         Value::Object(keys) => {
             let entry = |(key, value): (&String, &Value)| match key.as_str() {
-                "points" if section == "grid" => (samples.to_owned(), text(value).replace(", ", " × ")),
+                "points" if section == "grid" => (words.samples.to_owned(), text(value).replace(", ", " × ")),
                 "points" => (prefix("single points"), text(value)),
                 "tolerance" if section == "life" => (prefix("error of a step of wear"), text(value)),
                 "size" => (named(key), text(value).replace(", ", " × ")),

@@ -13,52 +13,15 @@ use super::table::table;
 use super::units::{case_of, measured_in, units_of};
 use crate::output::{Summary, table as tables};
 use percoat_case::case::kind_of;
-use percoat_core::lattice::Surroundings;
+use percoat_case::words::AroundWords;
 
 /// The pictures of a run; those of an isolated contact have no neighbours.
-fn pictures(surroundings: Surroundings) -> [PictureText; 7] {
-    let [pressure, contact, profiles] = match surroundings {
-        Surroundings::FreeSpace => [
-            (
-                "pressure",
-                "Map of the contact pressure in the window",
-                "Contact pressure, true to scale; white is no contact.",
-            ),
-            (
-                "contact",
-                "Contact spots, and the radius of their boundaries over the direction",
-                "Contact spots with their boundaries, and how far each boundary is from a circle.",
-            ),
-            (
-                "profiles",
-                "Curves of the pressure through an indenter of each level",
-                "Pressure through each level along the line of its largest extent.",
-            ),
-        ],
-        Surroundings::Periodic => [
-            (
-                "pressure",
-                "Map of the contact pressure over several cells",
-                "Contact pressure over several cells, true to scale; white is no contact.",
-            ),
-            (
-                "contact",
-                "Contact spots by level, and the radius of their boundaries over the direction",
-                "Contact spots by level with their boundaries, and how far each boundary is from a circle; dashed: without the \
-                 mutual effect of the indenters.",
-            ),
-            (
-                "profiles",
-                "Curves of the pressure through an indenter of each level",
-                "Pressure through each level along the line of its largest extent; dashed: the same indenter alone under the \
-                 same load.",
-            ),
-        ],
-    };
+fn pictures(words: &AroundWords) -> [PictureText; 7] {
+    let [pressure, contact, profiles] = words.pictures;
     [
-        pressure,
-        contact,
-        profiles,
+        ("pressure", pressure[0], pressure[1]),
+        ("contact", contact[0], contact[1]),
+        ("profiles", profiles[0], profiles[1]),
         (
             "indentation",
             "Map of the depths pressed in, and a profile through the deepest place",
@@ -101,7 +64,11 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
             vec![doubts(steps), fails.unwrap_or_default(), answer(steps, &units), hertz.unwrap_or_default()],
         ),
         section("problem", "Problem", vec![problem(case), tag("p", measured_in(&units))]),
-        section("pictures", "Pictures", vec![figures(results, "summary.json", &pictures(kind_of(case).surroundings))?]),
+        section(
+            "pictures",
+            "Pictures",
+            vec![figures(results, "summary.json", &pictures(AroundWords::of(kind_of(case).surroundings)))?],
+        ),
         section(
             "steps",
             "Load steps",

@@ -86,6 +86,15 @@ impl Cell {
         images.filter(is_inside).collect()
     }
 
+    /// Indices of the last of `points` along a₁ and a₂ where the border of a cell is drawn on both sides: those of a periodic cell are the
+    /// first ones again.
+    pub fn last_points(&self, points: [usize; 2]) -> [usize; 2] {
+        match self.surroundings() {
+            Surroundings::Periodic => points,
+            Surroundings::FreeSpace => points.map(|n| n - 1),
+        }
+    }
+
     /// A window `factor` times as wide and as high around 0; `None` for a periodic cell, which has its size.
     pub(crate) fn widened(&self, factor: f64) -> Option<Self> {
         Self::window(self.window_sides()?.map(|side| factor * side)).ok()

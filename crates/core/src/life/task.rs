@@ -1,7 +1,7 @@
 //! What a life is followed from: bodies, load, grid, and how far.
 
 use crate::body::{Durability, MeanStress, Side};
-use crate::lattice::{LatticeError, Surroundings};
+use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::problem::Problem;
 use crate::run::{Sampling, TooOblong};
@@ -130,12 +130,8 @@ impl LifeTask {
 
     /// Wear of the surfaces of a problem.
     pub(super) fn wear(&self, problem: &Problem) -> Result<Wear, WearError> {
-        let wear = Wear::of(problem);
-        // A point of the track is passed once in each way.
-        match self.problem.cell().surroundings() {
-            Surroundings::Periodic => Ok(wear),
-            Surroundings::FreeSpace => wear.with_stroke(self.way().unwrap_or(self.slid())),
-        }
+        // A point of the track is passed once in each way; on a periodic cell the stroke does not count.
+        Wear::of(problem).with_stroke(self.way().unwrap_or(self.slid()))
     }
 
     /// Distance that the counterbody slides in one pass, a length: there and back where it goes to and fro. `None` of an isolated contact

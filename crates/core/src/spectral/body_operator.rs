@@ -1,9 +1,35 @@
 //! The operator of the bodies of a problem: on a periodic cell, or in the window of an isolated contact.
 
 use super::LayeredOperator;
+use super::free_space::{bytes_per_sample, bytes_while_made};
 use crate::body::Bodies;
-use crate::lattice::{Grid, Surroundings};
+use crate::lattice::{Cell, Grid, Surroundings};
 use crate::problem::Problem;
+
+/// Memory of the operator on a grid, bytes.
+#[derive(Debug)]
+pub(super) struct OperatorMemory {
+    /// Multipliers, per sample.
+    pub multipliers: usize,
+    /// Spectrum of a convolution, per sample.
+    pub spectrum: usize,
+    /// Tables while the operator is made.
+    pub setup: usize,
+}
+
+impl OperatorMemory {
+    /// Memory of the operator with `points` on a cell.
+    pub fn of(cell: Cell, points: [usize; 2], coupled: bool) -> Self {
+        match cell.surroundings() {
+            Surroundings::Periodic => Self { multipliers: 4 + 4 * usize::from(coupled), spectrum: 8, setup: 0 },
+            Surroundings::FreeSpace => Self {
+                multipliers: bytes_per_sample(points, coupled).ceil() as usize,
+                spectrum: 3 * 8,
+                setup: bytes_while_made(cell, points),
+            },
+        }
+    }
+}
 
 impl LayeredOperator {
     /// The operator of a problem on a grid, with its friction.

@@ -5,14 +5,14 @@
 //! the next coarser one, carried over, so that nothing unchanged by a step is interpolated twice. The baseline method
 //! works on the finest grid alone, as published.
 
-use super::free_space::{bytes_per_sample, bytes_while_made};
+use super::body_operator::{BodyOperator, OperatorMemory};
 use super::grid_level::{Coarser, GridLevel};
 use super::iteration::{Method, Progress, Report, Settings, Stop, Unknowns, Working};
 use super::worn::Worn;
 use super::{Contact, FieldError, Step, Tangent};
 use crate::counterbody::Surface;
 use crate::friction::Friction;
-use crate::lattice::{Cell, Grid, LatticeError, Surroundings};
+use crate::lattice::{Cell, Grid, LatticeError};
 use crate::load::Load;
 use crate::numeric::fourier::fast_points;
 use crate::problem::Problem;
@@ -301,12 +301,7 @@ impl Memory {
     /// Coupled friction adds a second multiplier. An isolated contact has the transforms of its kernel, a spectrum twice as wide,
     /// and three tables while the kernel is made.
     pub fn of(cell: Cell, points: [usize; 2], method: Method, coupled: bool) -> Self {
-        let (multipliers, spectrum, setup) = match cell.surroundings() {
-            Surroundings::Periodic => (4 + 4 * usize::from(coupled), 8, 0),
-            Surroundings::FreeSpace => {
-                (bytes_per_sample(points, coupled).ceil() as usize, 3 * 8, bytes_while_made(cell, points))
-            }
-        };
+        let OperatorMemory { multipliers, spectrum, setup } = OperatorMemory::of(cell, points, coupled);
         let (grid, rows) = (3 * 8 + 4 + multipliers, 512);
         let working = match method {
             Method::Preconditioned => 3 * 4 + spectrum,
