@@ -4,7 +4,6 @@ use super::StudyError;
 use ndarray::Array2;
 use percoat_case::case::{Case, Source};
 use percoat_core::body::Bodies;
-use percoat_core::counterbody::Counterbody;
 use percoat_core::counterbody::{LoadedBy, Topography};
 use percoat_core::lattice::Cell;
 use percoat_core::load::Load;

@@ -16,6 +16,10 @@ use percoat_app::output::{
     write_scalars,
 };
 use percoat_app::picture::Snapshot;
+use percoat_case::case::feasibility::Allowed;
+use percoat_case::case::resources::Job;
+use percoat_case::case::{Case, plausibility};
+use percoat_common::machine::Capacity;
 use percoat_common::plain;
 use percoat_core::run::{EarlierRun, Outcome, Run, Sampling, StepRecord};
 use percoat_core::stress::VerticalSection;

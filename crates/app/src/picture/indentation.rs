@@ -3,8 +3,16 @@
 use super::pressure::{axes, unit_cell};
 use super::snapshot::Snapshot;
 use super::zoom;
+use crate::picture::labels::Labels;
 use percoat_core::lattice::Surroundings;
 use percoat_core::numeric::array::samples;
+use percoat_draw::axis::Axis;
+use percoat_draw::bar::Bar;
+use percoat_draw::canvas::Canvas;
+use percoat_draw::chart::{Chart, Plot};
+use percoat_draw::curve::{Curve, Style};
+use percoat_draw::map::{Fill, Map};
+use percoat_draw::sheet::sheet;
 
 /// Points of the profile.
 const POINTS: u32 = 480;

@@ -1,6 +1,7 @@
 //! The damage that a pass does below the surface, with the interfaces; and the course of a life over the passes.
 
 use super::snapshot::{Snapshot, caption};
+use crate::picture::labels::Labels;
 use percoat_case::units::Units;
 use percoat_case::words::AroundWords;
 use percoat_core::body::Fatigue;
@@ -8,6 +9,15 @@ use percoat_core::life::{Course, Event, EventKind};
 use percoat_core::problem::Problem;
 use percoat_core::reading::FatigueReading;
 use percoat_core::stress::RangePlane;
+use percoat_draw::axis::Axis;
+use percoat_draw::bar::Bar;
+use percoat_draw::canvas::{Canvas, Dash, Stroke};
+use percoat_draw::chart::{Chart, plots};
+use percoat_draw::colour::{Colour, ColourMap};
+use percoat_draw::curve::{Curve, Style};
+use percoat_draw::map::{Fill, Map, Over};
+use percoat_draw::scale::Scale;
+use percoat_draw::sheet::sheet;
 
 /// Height over width of the map, least and largest.
 const ASPECT: [f64; 2] = [0.4, 1.1];

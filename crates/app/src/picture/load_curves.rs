@@ -2,6 +2,7 @@
 
 use super::snapshot::caption;
 use super::utilisations::{BARS, utilisation_axis, utilisation_curves};
+use crate::picture::labels::Labels;
 use crate::sweep::Measured;
 use percoat_case::units::Units;
 use percoat_case::words::AroundWords;
@@ -13,6 +14,12 @@ use percoat_core::run::StepRecord;
 use percoat_core::run::touches::touches;
 use percoat_core::stress::Peak;
 use percoat_core::stress::maxima::{Carried, Extremes};
+use percoat_draw::axis::{Axis, log_spaced};
+use percoat_draw::canvas::Canvas;
+use percoat_draw::chart::{Chart, plots};
+use percoat_draw::curve::{Curve, Ink, NUMBERED_COLOURS, Style};
+use percoat_draw::error_bars::MOST_MARKERS;
+use percoat_draw::label::Label;
 
 /// The picture; `None` for less than two steps, or where none of them carries load.
 pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepRecord]) -> Option<Canvas> {

@@ -3,8 +3,15 @@
 use super::snapshot::{Snapshot, is_oblique};
 use super::window::{View, Window};
 use super::zoom;
+use crate::picture::labels::Labels;
 use percoat_case::words::Words;
 use percoat_core::lattice::Surroundings;
+use percoat_draw::axis::Axis;
+use percoat_draw::bar::Bar;
+use percoat_draw::canvas::{Canvas, Dash, Stroke};
+use percoat_draw::colour::Colour;
+use percoat_draw::map::{Fill, Map, Over};
+use percoat_draw::sheet::{Panel, sheet};
 
 /// Least distance of numbers beside and above each other, in widths of a plot.
 const NUMBERS_APART: [f64; 2] = [0.035, 0.055];

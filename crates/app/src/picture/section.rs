@@ -4,11 +4,21 @@ use super::shown_depths::{ShownDepths, deepest};
 use super::signed_values::{SIGNS, SignedValues};
 use super::snapshot::Snapshot;
 use super::window::Window;
+use crate::picture::labels::Labels;
 use percoat_case::words::Words;
 use percoat_core::body::{HalfSpace, Side};
 use percoat_core::friction::Friction;
 use percoat_core::reading::{Criterion, LargestInSection, SectionMeasure, Utilisation, Verdict, tears, tips};
 use percoat_core::stress::{SurfaceLine, VerticalSection};
+use percoat_draw::axis::Axis;
+use percoat_draw::bar::Bar;
+use percoat_draw::canvas::{Canvas, Dash, Stroke};
+use percoat_draw::colour::Colour;
+use percoat_draw::curve::NUMBERED_COLOURS;
+use percoat_draw::label::equals;
+use percoat_draw::map::{Fill, Map, Over};
+use percoat_draw::number::degrees;
+use percoat_draw::sheet::{Panel, sheet};
 
 /// Width of the bar of a contact between the bodies, points.
 const BETWEEN: f64 = 2.4;

@@ -1,5 +1,6 @@
 //! A solved load step with its readings, from which the pictures of fields are drawn.
 
+use crate::picture::labels::Labels;
 use percoat_case::units::{Unit, Units, lowered, reference_index};
 use percoat_core::body::{HalfSpace, Interface, Layer, Material};
 use percoat_core::counterbody::{Level, Shape};

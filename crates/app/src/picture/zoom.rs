@@ -7,6 +7,9 @@
 use super::snapshot::Snapshot;
 use super::window::{View, Window};
 use percoat_core::lattice::{Grid, Surroundings};
+use percoat_draw::canvas::{Dash, Stroke};
+use percoat_draw::colour::Colour;
+use percoat_draw::map::Over;
 
 /// Width of a spot over that of the view below which it is shown once more.
 const SMALL: f64 = 1.0 / 12.0;

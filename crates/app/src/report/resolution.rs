@@ -4,6 +4,7 @@ use super::markup::{Markup, tag, with};
 use super::table::pairs;
 use crate::output::table::{largest_errors, solved};
 use percoat_case::words::Words;
+use percoat_core::numeric::search::largest;
 use percoat_core::reading::FEW_SAMPLES;
 use percoat_core::run::StepRecord;
 

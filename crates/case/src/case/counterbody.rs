@@ -8,6 +8,7 @@ use super::levels::LevelSection;
 use super::reader::TableAt;
 use super::source::Source;
 use super::surface::{self, Around, SurfaceSection};
+use crate::case::section::ReadTable;
 use percoat_core::counterbody::{Indenters, Level, LoadedBy};
 use percoat_core::run::Sampling;
 

@@ -32,9 +32,7 @@ use super::{
 use crate::units::Units;
 use percoat_core::body::{Bodies, HalfSpace, MeanStress};
 use percoat_core::comparison::ComparisonTask;
-use percoat_core::counterbody::{Counterbody, Topography};
 use percoat_core::life::LifeTask;
-use percoat_core::load::Load;
 use percoat_core::load::LoadQuantity;
 use percoat_core::problem::Problem;
 use percoat_core::run::{Run, Sampling, StressRequest};

@@ -8,7 +8,6 @@ use std::fmt;
 
 /// What loads the body.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum LoadedBy {
     /// A counterbody, whose pressure of contact is sought.
     Counterbody(Counterbody),

@@ -5,7 +5,7 @@
 //! the next coarser one, carried over, so that nothing unchanged by a step is interpolated twice. The baseline method
 //! works on the finest grid alone, as published.
 
-use super::body_operator::{BodyOperator, OperatorMemory};
+use super::body_operator::OperatorMemory;
 use super::grid_level::{Coarser, GridLevel};
 use super::iteration::{Method, Progress, Report, Settings, Stop, Unknowns, Working};
 use super::worn::Worn;

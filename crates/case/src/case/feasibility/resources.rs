@@ -6,6 +6,7 @@
 
 use crate::case::{Case, StressSection, identification};
 use percoat_common::machine::{Capacity, Threads, bytes};
+use percoat_core::body::{HalfSpace, InteriorTable};
 use percoat_core::counterbody::Topography;
 use percoat_core::friction::Friction;
 use percoat_core::identification::MOST_NODES;
