@@ -57,46 +57,55 @@ impl Bounds {
     }
 
     /// The nearest pressure within the bounds.
+    #[inline]
     pub fn clamp(self, pressure: f64) -> f64 {
         pressure.max(0.0).min(self.most)
     }
 
     /// The nearest pressure within the bounds, H where rounding alone keeps it from there.
+    #[inline]
     pub(super) fn project(self, pressure: f64) -> f64 {
         if self.is_nearly_full(pressure) { self.most } else { pressure.max(0.0) }
     }
 
     /// A pressure within the bounds `before` within these: H where it was the largest one.
+    #[inline]
     pub fn follow(self, before: Self, pressure: f64) -> f64 {
         if before.is_full(pressure) { self.most } else { self.clamp(pressure) }
     }
 
     /// Whether p = H.
+    #[inline]
     pub fn is_full(self, pressure: f64) -> bool {
         pressure >= self.most
     }
 
     /// Whether p is H, or rounding alone keeps it from there.
+    #[inline]
     pub(super) fn is_nearly_full(self, pressure: f64) -> bool {
         pressure > self.nearly
     }
 
     /// Whether 0 < p < H.
+    #[inline]
     pub(super) fn is_free(self, pressure: f64) -> bool {
         pressure > 0.0 && pressure < self.most
     }
 
     /// Whether p is at a bound on whose wrong side the gap is.
+    #[inline]
     pub(super) fn is_violated(self, pressure: f64, gap: f64) -> bool {
         if pressure < self.most { pressure == 0.0 && gap < 0.0 } else { gap > 0.0 }
     }
 
     /// How far the gap is on the wrong side of zero for a pressure that may grow (p < H) or that may not, a length.
+    #[inline]
     pub(super) fn violation(self, pressure: f64, gap: f64) -> f64 {
         if pressure < self.most { (-gap).max(0.0) } else { gap.max(0.0) }
     }
 
     /// Depth that the surface is pressed in for good, a length: −g where p = H.
+    #[inline]
     pub fn indentation(self, pressure: f64, gap: f64) -> f64 {
         if self.is_full(pressure) { (-gap).max(0.0) } else { 0.0 }
     }
@@ -104,8 +113,8 @@ impl Bounds {
     /// The bounds for eight samples at a time.
     #[inline(always)]
     pub(super) fn lanes<S: Simd>(self, simd: S) -> BoundLanes<S> {
-        let [zero, one, most, nearly] = [0.0, 1.0, self.most, self.nearly].map(|value| splat(simd, value));
-        BoundLanes { simd, zero, one, most, nearly }
+        let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
+        BoundLanes { simd, zero, one, most: splat(simd, self.most), nearly: splat(simd, self.nearly) }
     }
 }
 
