@@ -1,4 +1,11 @@
-//! The pressures among which the methods search.
+//! The pressures among which the methods search. Whatever they ask of the set is answered in four files, and nothing else knows its bounds:
+//!
+//! ```text
+//! bounds       one sample, or eight: least and largest pressure, free or full, whether a gap is on the wrong side, how far, what it weighs
+//! admissible   all samples: where contact may occur, which load the set bears, its pressure of least work
+//! projection   the pressure of the set that is near to any, with a mean
+//! duality      what bounds and gap say of penetration and energy
+//! ```
 
 use super::bounds::Bounds;
 use crate::load::Control;

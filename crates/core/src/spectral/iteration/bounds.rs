@@ -169,49 +169,49 @@ pub(super) struct Bounded<S: Simd> {
 }
 
 impl<S: Simd> BoundLanes<S> {
-    /// [`Bounds::clamp`].
+    /// Nearest pressures within the bounds, as [`Bounds::clamp`].
     #[inline(always)]
     pub fn clamp(self, pressure: f64x8<S>) -> f64x8<S> {
         pressure.max(self.zero).min(self.most)
     }
 
-    /// [`Bounds::project`].
+    /// Nearest pressures within the bounds, as [`Bounds::project`].
     #[inline(always)]
     pub fn project(self, pressure: f64x8<S>) -> f64x8<S> {
         self.is_nearly_full(pressure).select(self.most, self.raise(pressure))
     }
 
-    /// The pressure, at least the least one.
+    /// Pressures, at least the least one.
     #[inline(always)]
     pub fn raise(self, pressure: f64x8<S>) -> f64x8<S> {
         pressure.max(self.zero)
     }
 
-    /// [`Bounds::is_full`].
+    /// Where p = H.
     #[inline(always)]
     pub fn is_full(self, pressure: f64x8<S>) -> mask64x8<S> {
         !pressure.simd_lt(self.most)
     }
 
-    /// [`Bounds::is_nearly_full`].
+    /// Where p is H, or rounding alone keeps it from there.
     #[inline(always)]
     pub fn is_nearly_full(self, pressure: f64x8<S>) -> mask64x8<S> {
         pressure.simd_gt(self.nearly)
     }
 
-    /// [`Bounds::is_free`].
+    /// Where 0 < p < H.
     #[inline(always)]
     pub fn is_free(self, pressure: f64x8<S>) -> mask64x8<S> {
         pressure.simd_gt(self.zero) & pressure.simd_lt(self.most)
     }
 
-    /// Whether p is the least one, 0.
+    /// Where p is the least one, 0.
     #[inline(always)]
     pub fn is_empty(self, pressure: f64x8<S>) -> mask64x8<S> {
         !pressure.simd_gt(self.zero)
     }
 
-    /// The pressure after a step d in units of `unit`, as the bounds let it end.
+    /// Pressures after a step d in units of `unit`, as the bounds let them end.
     #[inline(always)]
     pub fn stepped(self, pressure: f64x8<S>, step: f64x8<S>, unit: f64) -> Bounded<S> {
         let end = step.mul_add(splat(self.simd, unit), pressure);
@@ -251,7 +251,7 @@ impl<S: Simd> BoundLanes<S> {
         gap.simd_gt(self.zero).select(pressure, pressure.min(self.most - pressure))
     }
 
-    /// [`Bounds::violation`] of samples that are `full` or not, and max(g, 0) where they are, else 0.
+    /// Violation of samples that are `full` or not, as [`Bounds::violation`], and max(g, 0) where they are, else 0.
     #[inline(always)]
     pub fn violation(self, full: mask64x8<S>, gap: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
         let open = gap.max(self.zero);

@@ -143,7 +143,7 @@ impl Bounds {
     }
 }
 
-/// [`LoadSums`] and [`WeightedSums`], eight samples at a time.
+/// Sums of [`LoadSums`] and [`WeightedSums`], eight samples at a time.
 #[derive(Clone, Copy)]
 pub(super) struct LoadLanes<S: Simd> {
     bounds: BoundLanes<S>,
@@ -181,7 +181,7 @@ impl<S: Simd> LoadLanes<S> {
     }
 }
 
-/// [`GapSums`], eight samples at a time.
+/// Sums of [`GapSums`], eight samples at a time.
 #[derive(Clone, Copy)]
 pub(super) struct GapLanes<S: Simd> {
     bounds: BoundLanes<S>,

@@ -8,15 +8,14 @@
 //!
 //! ```text
 //! init       problem          operator, initial gap, load, tolerance
-//!            admissible       where contact may occur, and between which bounds a pressure lies; projection onto these pressures
+//!            admissible       the pressures of the search: where contact may occur, between which bounds, projection, duality
 //!            fields           unknowns and working fields, and what lies in whose memory
 //!            route, fallback  what iterates: nothing, a variant of the method, a search for the load
 //!            full_step        pressures of zero and the hardness alone
 //! step       preconditioned   the method, by inner_iteration; direction and update are its fused loops
 //!            plain            its twin in plain lines
 //!            polonsky_keer    the baseline
-//! terminate  duality          what bounds and gap say of penetration and energy
-//!            check            criteria of convergence from one convolution, with the certificate
+//! terminate  check            criteria of convergence from one convolution, with the certificate
 //!            stopping         no progress, or nothing but rounding
 //!            report           reason and route
 //! ```
