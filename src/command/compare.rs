@@ -37,15 +37,14 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
     let results = Results::claim(folder, plan(Writer::Compare, &files(), pictures), common.saying())?;
     let (points, end) = grid(&case, &run, allowed)?;
     let comparison = compare(&task, points, common)?;
-    let json = ComparisonFile::new(&comparison, &case, steps).to_json();
-    results.write_all(&files(), &Compared { case: &case, comparison: &comparison, json: &json }, pictures)?;
+    results.write_all(&files(), &Compared { case: &case, comparison: &comparison, steps }, pictures)?;
     let mut warnings = [comparison.warnings(), plausibility::of_case(&case)].concat();
     if end != RefinementEnd::Reached {
         warnings.push(format!("grid.accuracy is not reached: {end}"));
     }
     let tables = || table::compared(&case, &comparison, terminal::width());
     let line = || format!("{:.2} s", started.elapsed().as_secs_f64());
-    results.finish(|| json, tables, line, &warnings)?;
+    results.finish("compare.json", tables, line, &warnings)?;
     Ok(Ending::of(comparison.converged() && end == RefinementEnd::Reached))
 }
 
@@ -53,17 +52,15 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
 struct Compared<'a> {
     case: &'a Case,
     comparison: &'a Comparison,
-    /// Content of `compare.json`.
-    json: &'a str,
+    /// Number of load steps of the case.
+    steps: usize,
 }
 
 /// The files of a comparison.
 fn files<'a>() -> [Declared<Compared<'a>>; 2] {
     [
-        Text("compare.json", |compared| Some(compared.json.to_owned())),
-        Picture("comparison", |compared| {
-            picture::comparison(&compared.case.title, &compared.case.units(), compared.comparison)
-        }),
+        Text("compare.json", |both| Some(ComparisonFile::new(both.comparison, both.case, both.steps).to_json())),
+        Picture("comparison", |both| picture::comparison(&both.case.title, &both.case.units(), both.comparison)),
     ]
 }
 

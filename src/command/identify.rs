@@ -40,11 +40,10 @@ pub fn run(
     let results = Results::claim(folder, plan(Writer::Identify, &files(), pictures), common.saying())?;
     let (found, best) = find(&task, &own, &measured, common)?;
     let warnings = [output::doubts(&measured, &found, &best), plausibility::of_case(&best)].concat();
-    let json = IdentificationFile::new(&found, &best, &warnings).to_json();
-    let result = Identified { measured: &measured, found: &found, best: &best, json: &json };
+    let result = Identified { measured: &measured, found: &found, best: &best, warnings: &warnings };
     results.write_all(&files(), &result, pictures)?;
     let line = || format!("{} steps of the search; {:.2} s", found.steps, started.elapsed().as_secs_f64());
-    results.finish(|| json, || identified(&found, &best, terminal::width()), line, &warnings)?;
+    results.finish("identification.json", || identified(&found, &best, terminal::width()), line, &warnings)?;
     Ok(Ending::Done)
 }
 
@@ -53,14 +52,15 @@ struct Identified<'a> {
     measured: &'a Measurement,
     found: &'a Identification,
     best: &'a Case,
-    /// Content of `identification.json`.
-    json: &'a str,
+    warnings: &'a [String],
 }
 
 /// The files of an identification.
 fn files<'a>() -> [Declared<Identified<'a>>; 3] {
     [
-        Text("identification.json", |case| Some(case.json.to_owned())),
+        Text("identification.json", |case| {
+            Some(IdentificationFile::new(case.found, case.best, case.warnings).to_json())
+        }),
         Text("identification.csv", |case| Some(fitted(case.measured, case.found))),
         Picture("identification", |case| {
             Some(picture::identification(&case.best.title, &case.best.units(), case.measured, case.found))

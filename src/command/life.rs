@@ -53,12 +53,11 @@ pub fn run(case: Option<&Path>, set: &[String], options: &LifeOptions, common: &
     let state = followed(&task, &begun, saved, &results, &fingerprint, &progress)?;
     progress.say("drawing pictures");
     let file = LifeFile::new(&case, &task, &begun, &state);
-    let json = file.to_json();
-    let followed = Followed { case: &case, task: &task, begun: &begun, state: &state, file: &file, json: &json };
+    let followed = Followed { case: &case, task: &task, begun: &begun, state: &state, file: &file };
     results.write_all(&files(), &followed, pictures)?;
     progress.finish();
     let line = || format!("{} loads solved; {:.2} s", state.solved.max(1), started.elapsed().as_secs_f64());
-    results.finish(|| json, || table::life(&case, &file, terminal::width()), line, &file.warnings)?;
+    results.finish("life.json", || table::life(&case, &file, terminal::width()), line, &file.warnings)?;
     Ok(Ending::of(state.converged(&begun)))
 }
 
@@ -113,14 +112,12 @@ struct Followed<'a> {
     begun: &'a Beginning,
     state: &'a LifeState,
     file: &'a LifeFile,
-    /// Content of `life.json`.
-    json: &'a str,
 }
 
 /// The files of a life.
 fn files<'a>() -> [Declared<Followed<'a>>; 6] {
     [
-        Text("life.json", |life| Some(life.json.to_owned())),
+        Text("life.json", |life| Some(life.file.to_json())),
         Text("life.csv", |life| Some(life.file.course())),
         Text("case.toml", |life| Some(life.case.to_toml())),
         File("damage.npz", |life, path| write_damage(path, life.task, life.begun)),

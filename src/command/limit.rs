@@ -71,10 +71,9 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
     let limits = run.limits(&mut searching)?;
     searching.progress.finish();
     let warnings = [limits.warnings.clone(), plausibility::of_case(&case)].concat();
-    let json = LimitFile::new(&limits, &case, &warnings).to_json();
-    results.write_all(&files(), &Found { case: &case, run: &run, limits: &limits, json: &json }, pictures)?;
+    results.write_all(&files(), &Found { case: &case, run: &run, limits: &limits, warnings: &warnings }, pictures)?;
     let line = || format!("{} loads solved; {:.2} s", limits.steps.len(), started.elapsed().as_secs_f64());
-    results.finish(|| json, || table::limited(&case, &limits, terminal::width()), line, &warnings)?;
+    results.finish("limit.json", || table::limited(&case, &limits, terminal::width()), line, &warnings)?;
     Ok(Ending::of(limits.converged()))
 }
 
@@ -83,14 +82,13 @@ struct Found<'a> {
     case: &'a Case,
     run: &'a Run,
     limits: &'a Limits,
-    /// Content of `limit.json`.
-    json: &'a str,
+    warnings: &'a [String],
 }
 
 /// The files of the limits; the sections are in the order in which the limits are reached.
 fn files<'a>() -> [Declared<Found<'a>>; 3 + EVENTS] {
     [
-        Text("limit.json", |found| Some(found.json.to_owned())),
+        Text("limit.json", |found| Some(LimitFile::new(found.limits, found.case, found.warnings).to_json())),
         Text("limit.csv", |found| (!found.limits.steps.is_empty()).then(|| summary::curve(&found.limits.steps))),
         Picture("limit", |found| {
             let Found { case, limits, .. } = found;

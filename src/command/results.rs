@@ -6,7 +6,7 @@ use super::interruption;
 use super::options::Saying;
 use super::pictures::PictureOptions;
 use super::terminal::{self, tell};
-use percoat_app::output::{Plan, RunFolder, make_folder, write_text};
+use percoat_app::output::{Plan, RunFolder, disk, make_folder, write_text};
 use percoat_common::plain;
 use std::io::Write;
 use std::path::PathBuf;
@@ -60,21 +60,23 @@ impl Results {
         Ok(interruption::publish(self.claim, &self.folder, self.saying.quiet)?)
     }
 
-    /// [Publishes](Self::publish) the files and prints the results: as JSON where `--json` is given, else as tables and a line on
-    /// the computation, unless quiet; then the warnings.
+    /// [Publishes](Self::publish) the files and prints the results: the file named `json` where `--json` is given, else tables and a
+    /// line on the computation, unless quiet; then the warnings.
     pub fn finish(
         self,
-        json: impl FnOnce() -> String,
+        json: &str,
         tables: impl FnOnce() -> String,
         line: impl FnOnce() -> String,
         warnings: &[String],
     ) -> Result<(), Failure> {
         let (folder, saying) = (self.folder.clone(), self.saying);
-        let outdated = self.claim.outdated_reports()?;
+        let (outdated, path) = (self.claim.outdated_reports()?, self.staging().join(json));
+        let printed = saying.json.then(|| disk::read_text(&path)).transpose();
+        let printed = printed.map_err(|error| Failure::Input { path, error })?;
         self.publish()?;
         let line = line();
-        if saying.json {
-            write!(terminal::out(), "{}", json())?;
+        if let Some(json) = printed {
+            write!(terminal::out(), "{json}")?;
         } else if !saying.quiet {
             writeln!(terminal::out(), "{}{line}; written to {}", tables(), plain::path(&folder))?;
         }

@@ -2,11 +2,12 @@
 
 use super::ending::Failure;
 use super::interruption;
-use percoat_app::output::{Plan, RunFolder, Writer, write_text};
-use percoat_app::picture::{self, Format};
 use percoat_case::case::{Case, RandomSection, SurfaceSection};
 use percoat_core::counterbody::roughness::{Radial, Spectrum};
+use percoat_app::output::{Plan, RunFolder, Writer, write_file};
+use percoat_app::picture::{self, Format};
 use std::f64::consts::TAU;
+use std::io::Write;
 use std::path::Path;
 
 /// Writes the spectrum of the surface of a case as `spectrum.png` and `spectrum.csv` into a folder.
@@ -16,11 +17,14 @@ pub fn write(case: &Case, folder: &Path) -> Result<(), Failure> {
     };
     let spectrum = Spectrum::of(topography.cell(), topography.own_heights().view()).map_err(Failure::refused)?;
     let random = case.surface.as_ref().and_then(SurfaceSection::random).map(RandomSection::surface);
-    let names = ["spectrum.png", "spectrum.csv"].map(str::to_owned).to_vec();
+    let canvas = picture::spectrum(&case.title, topography, &case.units(), random.as_ref());
+    let csv = ("spectrum.csv", table(&spectrum.radial()).into_bytes());
+    let png = canvas.map(|canvas| ("spectrum.png", canvas.encoded(Format::Png)));
+    let files: Vec<(&str, Vec<u8>)> = [csv].into_iter().chain(png).collect();
+    let names = files.iter().map(|(name, _)| (*name).to_owned()).collect();
     let claim = RunFolder::claim(folder, Plan { names, ..Plan::new(Writer::Check) })?;
-    write_text(&claim.staging().join("spectrum.csv"), &table(&spectrum.radial()))?;
-    if let Some(canvas) = picture::spectrum(&case.title, topography, &case.units(), random.as_ref()) {
-        picture::write(&canvas, &claim.staging(), "spectrum", Format::Png)?;
+    for (name, content) in &files {
+        write_file(&claim.staging().join(name), |writer| writer.write_all(content))?;
     }
     Ok(interruption::publish(claim, folder, false)?)
 }

@@ -83,7 +83,6 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
     draw(&results, &case, &outcome, sections, (&drawn, common))?;
     let timing = clock.timing();
     write_scalars(&results.staging(), &case, &outcome, &warnings, timing)?;
-    let json = || Summary::new(&case, &warnings, outcome.change, &outcome.steps, timing).to_json();
     let beside = || {
         let reading = &outcome.steps.last()?.reading;
         table::alone(&case, reading, &percoat_core::run::alone(case.problem(), reading)?)
@@ -93,7 +92,7 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
         text + &beside().unwrap_or_default()
     };
     let line = || format!("{:.2} s ({})", clock.seconds(), table::timing(&timing));
-    results.finish(json, tables, line, &warnings)?;
+    results.finish("summary.json", tables, line, &warnings)?;
     Ok(Ending::of(outcome.converged()))
 }
 

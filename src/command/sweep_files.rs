@@ -38,7 +38,7 @@ pub fn finish(
         let table = sweep::best_and_worst(rows, &loads);
         table.map_or(String::new(), |own| format!("{}\n{}\n\n", own.words, own.table))
     };
-    results.finish(|| description.to_json(), best, || counts(description), &warnings)?;
+    results.finish("sweep.json", best, || counts(description), &warnings)?;
     Ok(Ending::of(description.done == rows.len()))
 }
 
