@@ -28,17 +28,17 @@ pub fn run(
 ) -> Result<Ending, Failure> {
     let (started, pictures) = (Instant::now(), &common.pictures);
     let (source, name) = read_source(Some(case))?;
-    let own = Case::read(&source, set)?;
-    let measured = measurements::read(&read_text(data)?, &own.units())
+    let case = Case::read(&source, set)?;
+    let measured = measurements::read(&read_text(data)?, &case.units())
         .map_err(|fault| Failure::Refused(format!("{}: {fault}", plain::path(data))))?;
-    let task = IdentificationTask::new(&source, set, &own, free)
+    let task = IdentificationTask::new(&source, set, &case, free)
         .map_err(|error| Failure::Refused(format!("--free: {error}")))?;
     let known = known_instrument(stated).map_err(|error| Failure::Refused(format!("--known: {error}")))?;
     let task = task.with_instrument(known);
     let folder = output_folder(common, &name)?;
-    Allowed::new(&own, &folder, Job::Identify { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
+    Allowed::new(&case, &folder, Job::Identify { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
     let results = Results::claim(folder, plan(Writer::Identify, &files(), pictures), common.saying())?;
-    let (found, best) = find(&task, &own, &measured, common)?;
+    let (found, best) = find(&task, &case, &measured, common)?;
     let warnings = [output::doubts(&measured, &found, &best), plausibility::of_case(&best)].concat();
     let result = Identified { measured: &measured, found: &found, best: &best, warnings: &warnings };
     results.write_all(&files(), &result, pictures)?;

@@ -28,8 +28,8 @@ pub fn run(
 ) -> Result<Ending, Failure> {
     let parts: Vec<Vec<Part>> = folders.iter().map(|folder| parts(folder)).collect::<Result<_, _>>()?;
     let first = parts[0][0].description.clone();
-    for (own, folder) in parts.iter().zip(folders) {
-        if let Some(key) = own.iter().find_map(|own| difference(&own.description, &first)) {
+    for (found, folder) in parts.iter().zip(folders) {
+        if let Some(key) = found.iter().find_map(|part| difference(&part.description, &first)) {
             return Err(Failure::refused(format!(
                 "{} and {} are not parts of one sweep: `{key}` in their sweep.json differs",
                 plain::path(&folders[0]),
@@ -46,7 +46,7 @@ pub fn run(
         )));
     }
     let parts: Vec<Part> = parts.into_iter().flatten().collect();
-    let seconds: f64 = parts.iter().map(|own| own.description.timing.wall).sum();
+    let seconds: f64 = parts.iter().map(|part| part.description.timing.wall).sum();
     let (rows, twice) = join(parts)?;
     if twice > 0 && !saying.quiet {
         tell!("note: {twice} combinations stand in several parts, with the same results");
@@ -63,8 +63,8 @@ pub fn run(
 }
 
 /// The first key of `sweep.json` that describes the whole sweep and differs between two parts.
-fn difference(own: &Description, other: &Description) -> Option<&'static str> {
-    let [own, other] = [own, other].map(|it| {
+fn difference(one: &Description, other: &Description) -> Option<&'static str> {
+    let [one, other] = [one, other].map(|it| {
         let of = it.of.to_string();
         [
             ("fingerprint", it.fingerprint.clone()),
@@ -75,7 +75,7 @@ fn difference(own: &Description, other: &Description) -> Option<&'static str> {
             ("percoat", it.percoat.clone()),
         ]
     });
-    own.iter().zip(&other).find(|(own, other)| own != other).map(|((key, _), _)| *key)
+    one.iter().zip(&other).find(|(one, other)| one != other).map(|((key, _), _)| *key)
 }
 
 /// The parts of a sweep in a folder: a finished one, an unfinished one, or both of the same sweep.
@@ -87,11 +87,11 @@ fn parts(folder: &Path) -> Result<Vec<Part>, Failure> {
         let path = plain::path(&path);
         return Err(Failure::refused(format!("{path} {reason}; {first}give the command of this part again")));
     }
-    if let Some(own) = disk::found(&unfinished).ok().flatten().filter(|own| !own.is_dir()) {
+    if let Some(there) = disk::found(&unfinished).ok().flatten().filter(|there| !there.is_dir()) {
         return Err(Failure::refused(format!(
             "{} is {}, where percoat keeps a folder of its own: move it away",
             plain::path(&unfinished),
-            disk::kind(&own)
+            disk::kind(&there)
         )));
     }
     let found: Vec<Part> = [Part::read(folder)?, Part::read(&unfinished)?].into_iter().flatten().collect();
@@ -120,7 +120,7 @@ fn common_parent(folders: &[PathBuf]) -> Result<PathBuf, Failure> {
     let parents: Vec<Option<&Path>> = folders.iter().map(|folder| folder.parent()).collect();
     match parents[0] {
         // Names alone stand in the working folder.
-        Some(parent) if parents.iter().all(|own| *own == parents[0]) => {
+        Some(parent) if parents.iter().all(|parent| *parent == parents[0]) => {
             Ok(if parent == Path::new("") { PathBuf::from(".") } else { parent.to_owned() })
         }
         _ => Err(Failure::refused("the parts stand in different folders: say with -o where the whole shall be")),

@@ -25,6 +25,7 @@ mod report;
 mod results;
 mod roughness;
 mod solve;
+mod solved;
 mod sweep;
 mod sweep_files;
 mod terminal;

@@ -26,9 +26,9 @@ pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, 
     let file = output.map_or_else(|| folder.join(NAME), Path::to_path_buf);
     // A folder without a result is left unchanged.
     let mut page = report::page(folder)?;
-    let own = owned(&file)?;
+    let is_earlier = owned(&file)?;
     match file.file_name().and_then(|name| name.to_str()).filter(|_| is_in(&file, folder)) {
-        Some(name) => page = publish(folder, name, own)?,
+        Some(name) => page = publish(folder, name, is_earlier)?,
         None => {
             file.parent().filter(|parent| !parent.as_os_str().is_empty()).map_or(Ok(()), make_folder)?;
             remove_drafts(&file, report::BEGINNING);
@@ -45,9 +45,9 @@ pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, 
 }
 
 /// Writes the page beside its result, in the place of an earlier page.
-fn publish(folder: &Path, name: &str, own: bool) -> Result<Page, Failure> {
+fn publish(folder: &Path, name: &str, is_earlier: bool) -> Result<Page, Failure> {
     let names = vec![name.to_owned()];
-    let adopted = if own { names.clone() } else { Vec::new() };
+    let adopted = if is_earlier { names.clone() } else { Vec::new() };
     // Pages with other names are kept.
     let plan = Plan { names, adopted, within: name.to_owned(), ..Plan::new(Writer::Report) };
     let claim = RunFolder::claim(folder, plan)?;

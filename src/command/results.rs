@@ -15,7 +15,7 @@ use std::path::PathBuf;
 pub struct Results {
     /// The claimed folder.
     pub claim: RunFolder,
-    /// Its path.
+    /// The path of the folder.
     pub folder: PathBuf,
     /// Options of printing.
     pub saying: Saying,

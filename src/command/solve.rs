@@ -5,10 +5,10 @@ use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::interruption::{self, Saved};
 use super::options::Common;
-use super::pictures::{Solved, of_case};
 use super::progress::Progress;
 use super::progress_recorder::ProgressRecorder;
 use super::results::Results;
+use super::solved::{Solved, of_case};
 use super::terminal::{self, tell};
 use clap::Args;
 use percoat_app::output::{

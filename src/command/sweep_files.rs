@@ -36,7 +36,7 @@ pub fn finish(
     let warnings = if saying.json { Vec::new() } else { [warnings(rows), failures(rows)].concat() };
     let best = || {
         let table = sweep::best_and_worst(rows, &loads);
-        table.map_or(String::new(), |own| format!("{}\n{}\n\n", own.words, own.table))
+        table.map_or(String::new(), |best| format!("{}\n{}\n\n", best.words, best.table))
     };
     results.finish("sweep.json", best, || counts(description), &warnings)?;
     Ok(Ending::of(description.done == rows.len()))
@@ -66,7 +66,7 @@ fn warnings(rows: &[Row]) -> Vec<String> {
     let mut counted: Vec<(String, &str, HashSet<usize>)> = Vec::new();
     for (row, warning) in rows.iter().flat_map(|row| row.warnings.iter().map(move |warning| (row, warning))) {
         let words = without_numbers(warning);
-        let at = counted.iter().position(|(own, ..)| *own == words).unwrap_or(counted.len());
+        let at = counted.iter().position(|(known, ..)| *known == words).unwrap_or(counted.len());
         if at == counted.len() {
             counted.push((words, warning, HashSet::new()));
         }

@@ -157,7 +157,7 @@ fn add<W: Write + Seek>(archive: &mut Archive<W>, checkpoint: &Checkpoint, secon
 /// Writes a checkpoint as an `.npz` archive; [`Solver::restore`](percoat_core::Solver::restore) returns its step.
 ///
 /// # Errors
-/// Those of the writer.
+/// Errors of the writer.
 pub fn write_checkpoint(writer: impl Write + Seek, checkpoint: &Checkpoint) -> io::Result<()> {
     let solved = serde_json::to_string(&SolvedLoad::of(checkpoint)).expect("numbers and texts under names");
     let mut archive = Archive::new(writer);
@@ -169,7 +169,7 @@ pub fn write_checkpoint(writer: impl Write + Seek, checkpoint: &Checkpoint) -> i
 /// Reads a checkpoint written by [`write_checkpoint`].
 ///
 /// # Errors
-/// Those of the reader, and [`io::ErrorKind::InvalidData`] for anything but a checkpoint.
+/// Errors of the reader, and [`io::ErrorKind::InvalidData`] for anything but a checkpoint.
 pub fn read_checkpoint(reader: impl Read + Seek) -> io::Result<Checkpoint> {
     let mut saved = CheckpointReader::new(reader)?;
     let solved: SolvedLoad = saved.place()?;
@@ -190,7 +190,7 @@ pub(super) fn read(path: &Path) -> io::Result<(RunPosition, Vec<f64>, Option<Las
 /// Estimated time of writing a checkpoint on a disk of ordinary speed.
 fn foreseen(last: &Checkpoint) -> Duration {
     const BYTES_PER_SECOND: f64 = 1e9;
-    let samples: usize = last.grids.iter().map(|own| own.pressure.len()).sum();
+    let samples: usize = last.grids.iter().map(|grid| grid.pressure.len()).sum();
     Duration::from_secs_f64(16.0 * samples as f64 / BYTES_PER_SECOND)
 }
 

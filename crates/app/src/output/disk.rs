@@ -10,9 +10,7 @@
 //! name by [`sync_folder`]. A file system that does not support the latter is not an error.
 
 use super::system;
-pub(crate) use super::system::{
-    create_dir as create_folder, create_new as create, hard_link as link, remove_dir as remove_folder,
-};
+pub(crate) use super::system::{create_dir as create_folder, create_new as create, hard_link as link, remove_dir as remove_folder};
 use percoat_common::plain;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read, Write};
@@ -28,18 +26,18 @@ pub fn found(path: &Path) -> io::Result<Option<Metadata>> {
 }
 
 /// Whether a path is a regular file, not a link to one.
-pub fn is_file(path: &Path) -> bool {
-    found(path).is_ok_and(|found| found.is_some_and(|own| own.is_file()))
+pub(crate) fn is_file(path: &Path) -> bool {
+    found(path).is_ok_and(|found| found.is_some_and(|there| there.is_file()))
 }
 
 /// Whether a path is a folder, not a link to one.
 pub(crate) fn is_folder(path: &Path) -> bool {
-    found(path).is_ok_and(|found| found.is_some_and(|own| own.is_dir()))
+    found(path).is_ok_and(|found| found.is_some_and(|there| there.is_dir()))
 }
 
 /// The kind of a path, in words.
-pub fn kind(own: &Metadata) -> &'static str {
-    match own.file_type() {
+pub(crate) fn kind(there: &Metadata) -> &'static str {
+    match there.file_type() {
         kind if kind.is_symlink() => "a link",
         kind if kind.is_dir() => "a folder",
         kind if kind.is_file() => "a file",
@@ -50,7 +48,7 @@ pub fn kind(own: &Metadata) -> &'static str {
 /// Opens a regular file to read it.
 ///
 /// # Errors
-/// Those of the system, and a path that is not a regular file.
+/// Errors of the system, and a path that is not a regular file.
 pub(crate) fn open(path: &Path) -> io::Result<File> {
     open_as(path, OpenOptions::new().read(true))
 }
@@ -58,7 +56,7 @@ pub(crate) fn open(path: &Path) -> io::Result<File> {
 /// The bytes of a file.
 ///
 /// # Errors
-/// Those of [`open`].
+/// Errors of [`open`].
 pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     open(path)?.read_to_end(&mut bytes)?;
@@ -68,8 +66,8 @@ pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// The text of a file.
 ///
 /// # Errors
-/// Those of [`open`], and bytes that are not UTF-8.
-pub fn read_text(path: &Path) -> io::Result<String> {
+/// Errors of [`open`], and bytes that are not UTF-8.
+pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     let mut text = String::new();
     open(path)?.read_to_string(&mut text)?;
     Ok(text)
@@ -78,7 +76,7 @@ pub fn read_text(path: &Path) -> io::Result<String> {
 /// Opens an existing file for writing; its content stays.
 ///
 /// # Errors
-/// Those of [`open`].
+/// Errors of [`open`].
 pub(crate) fn open_to_change(path: &Path) -> io::Result<File> {
     open_as(path, OpenOptions::new().read(true).write(true))
 }
@@ -86,7 +84,7 @@ pub(crate) fn open_to_change(path: &Path) -> io::Result<File> {
 /// Opens a file that percoat has just written, to [append] to it.
 ///
 /// # Errors
-/// Those of [`open`].
+/// Errors of [`open`].
 pub(crate) fn open_to_append(path: &Path) -> io::Result<File> {
     open_as(path, OpenOptions::new().append(true))
 }
@@ -94,7 +92,7 @@ pub(crate) fn open_to_append(path: &Path) -> io::Result<File> {
 /// Appends bytes to a file and syncs them to the disk.
 ///
 /// # Errors
-/// Those of the system.
+/// Errors of the system.
 pub(crate) fn append(file: &mut File, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     sync(file)
@@ -103,7 +101,7 @@ pub(crate) fn append(file: &mut File, bytes: &[u8]) -> io::Result<()> {
 /// Syncs the content of a file to the disk.
 ///
 /// # Errors
-/// Those of the system.
+/// Errors of the system.
 pub(crate) fn sync(file: &File) -> io::Result<()> {
     unless_refused(system::sync(file))
 }
@@ -111,8 +109,8 @@ pub(crate) fn sync(file: &File) -> io::Result<()> {
 /// Syncs the names in a folder to the disk: files created, moved and removed there.
 ///
 /// # Errors
-/// Those of the system.
-pub fn sync_folder(folder: &Path) -> io::Result<()> {
+/// Errors of the system.
+pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     match system::sync_folder(folder) {
         // A folder that may be written and not listed cannot be opened.
@@ -132,10 +130,10 @@ fn unless_refused(synced: io::Result<()>) -> io::Result<()> {
 /// Moves a file to a path where a file stands or nothing.
 ///
 /// # Errors
-/// Those of the system, and anything but a regular file at `to`.
+/// Errors of the system, and anything but a regular file at `to`.
 pub(crate) fn replace(from: &Path, to: &Path) -> io::Result<()> {
-    if let Some(own) = found(to)?.filter(|own| !own.is_file()) {
-        return Err(not_a_file(&own));
+    if let Some(there) = found(to)?.filter(|there| !there.is_file()) {
+        return Err(not_a_file(&there));
     }
     system::rename(from, to)
 }
@@ -143,7 +141,7 @@ pub(crate) fn replace(from: &Path, to: &Path) -> io::Result<()> {
 /// Moves a file or a folder to a free path.
 ///
 /// # Errors
-/// Those of the system, and anything at `to`.
+/// Errors of the system, and anything at `to`.
 pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
     if found(to)?.is_some() {
         return Err(io::ErrorKind::AlreadyExists.into());
@@ -154,10 +152,10 @@ pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
 /// Removes the name of a file.
 ///
 /// # Errors
-/// Those of the system, and a path that is not a regular file.
+/// Errors of the system, and a path that is not a regular file.
 pub(crate) fn remove(path: &Path) -> io::Result<()> {
-    if let Some(own) = found(path)?.filter(|own| !own.is_file()) {
-        return Err(not_a_file(&own));
+    if let Some(there) = found(path)?.filter(|there| !there.is_file()) {
+        return Err(not_a_file(&there));
     }
     system::remove_file(path)
 }
@@ -165,7 +163,7 @@ pub(crate) fn remove(path: &Path) -> io::Result<()> {
 /// Creates a folder and its parents; their names are on the disk then.
 ///
 /// # Errors
-/// Those of the system, and anything but a folder in the way.
+/// Errors of the system, and anything but a folder in the way.
 pub(crate) fn make_folder(path: &Path) -> io::Result<()> {
     let missing: Vec<&Path> =
         path.ancestors().take_while(|part| !part.as_os_str().is_empty() && !part.is_dir()).collect();
@@ -198,18 +196,18 @@ pub(crate) fn has_other_name(_: &File) -> bool {
 
 fn open_as(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
     // Opening a device or a pipe can have side effects.
-    if let Some(own) = found(path)?.filter(|own| !own.is_file()) {
-        return Err(not_a_file(&own));
+    if let Some(there) = found(path)?.filter(|there| !there.is_file()) {
+        return Err(not_a_file(&there));
     }
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::custom_flags(options, libc::O_NOFOLLOW | libc::O_NONBLOCK);
     let file = options.open(path)?;
-    let own = file.metadata()?;
-    if own.is_file() { Ok(file) } else { Err(not_a_file(&own)) }
+    let opened = file.metadata()?;
+    if opened.is_file() { Ok(file) } else { Err(not_a_file(&opened)) }
 }
 
-fn not_a_file(own: &Metadata) -> io::Error {
-    let what = format!("it is {}, and percoat takes only a file itself there: move it away", kind(own));
+fn not_a_file(there: &Metadata) -> io::Error {
+    let what = format!("it is {}, and percoat takes only a file itself there: move it away", kind(there));
     io::Error::new(io::ErrorKind::InvalidInput, what)
 }
 
@@ -239,9 +237,9 @@ mod tests {
     #[test]
     fn only_a_file_itself_is_opened_replaced_and_removed() {
         let folder = tempfile::tempdir().unwrap();
-        let own = folder.path().join("own");
+        let file = folder.path().join("file");
         for path in no_files(folder.path()) {
-            fs::write(&own, "own").unwrap();
+            fs::write(&file, "file").unwrap();
             let refused = [
                 open(&path).map(drop),
                 read(&path).map(drop),
@@ -249,13 +247,13 @@ mod tests {
                 open_to_change(&path).map(drop),
                 open_to_append(&path).map(drop),
                 create(&path).map(drop),
-                replace(&own, &path),
-                move_to(&own, &path),
-                link(&own, &path),
+                replace(&file, &path),
+                move_to(&file, &path),
+                link(&file, &path),
                 remove(&path),
             ];
             assert!(refused.iter().all(Result::is_err), "{}: {refused:?}", path.display());
-            assert!(found(&path).unwrap().is_some_and(|own| !own.is_file()) && own.is_file());
+            assert!(found(&path).unwrap().is_some_and(|there| !there.is_file()) && file.is_file());
             let error = open(&path).unwrap_err();
             assert!(error.kind() == io::ErrorKind::InvalidInput && error.to_string().contains("it is a "), "{error}");
         }

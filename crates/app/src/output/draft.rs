@@ -27,7 +27,7 @@ pub fn write_file(
 pub(super) struct Draft {
     path: PathBuf,
     temporary: PathBuf,
-    /// None once it is complete.
+    /// `None` once it is complete.
     writer: Option<BufWriter<File>>,
 }
 

@@ -8,10 +8,12 @@ use std::io::Read;
 /// and of this version of percoat.
 pub fn fingerprint(case: &Case, task: &str) -> String {
     // The numbers of a file: of a surface, or of a given pressure.
-    let heights = case.problem().loaded_by().samples();
-    let points = heights.as_ref().map(|own| own.dim());
-    let heights = heights.as_ref().map(|own| own.as_standard_layout());
-    let samples = heights.as_ref().and_then(|own| own.as_slice()).unwrap_or_default();
+    let counterbody = case.counterbody();
+    let of_pressure = || counterbody.pressure().and_then(|pressure| pressure.values());
+    let heights = counterbody.topography().map(|topography| topography.heights()).or_else(of_pressure);
+    let points = heights.as_ref().map(|heights| heights.dim());
+    let heights = heights.as_ref().map(|heights| heights.as_standard_layout());
+    let samples = heights.as_ref().and_then(|heights| heights.as_slice()).unwrap_or_default();
     let text = format!("{} {task} {points:?}\n{}", env!("CARGO_PKG_VERSION"), case.to_toml());
     let (length, checksum) =
         checksum(&mut text.as_bytes().chain(bytemuck::cast_slice(samples))).expect("what is in memory can be read");

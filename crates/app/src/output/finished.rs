@@ -49,18 +49,17 @@ pub fn finished(folder: &Path, fingerprint: &str, run: &Run) -> Result<Option<Ea
         return Err(CannotGoOn::Foreign(folder.to_owned()));
     }
     let before = plausible(&position, &changes, last.as_ref(), run).map_err(damaged)?;
-    let (own, coarser) = (folder.join(steps_log::NAME), folder.join(COARSER).join(steps_log::NAME));
+    let (log, coarser) = (folder.join(steps_log::NAME), folder.join(COARSER).join(steps_log::NAME));
     // The steps of the coarser grid are moved after the checkpoint of the finer one has been saved.
-    let is_moved = position.steps > 0 || !disk::is_file(&own);
+    let is_moved = position.steps > 0 || !disk::is_file(&log);
     let all = run.loads.len();
     let coarser = before
         .map(|points| {
-            let log = GridLog { path: if is_moved { &coarser } else { &own }, fingerprint, run, points };
-            log.steps(all, all)
+            GridLog { path: if is_moved { &coarser } else { &log }, fingerprint, run, points }.steps(all, all)
         })
         .transpose()?;
     let count = position.steps.saturating_sub(1);
-    let steps = GridLog { path: &own, fingerprint, run, points: position.points }.steps(count, usize::MAX)?;
+    let steps = GridLog { path: &log, fingerprint, run, points: position.points }.steps(count, usize::MAX)?;
     whole(folder, &steps)?;
     let records = |steps: Vec<LoggedStep>| -> Vec<StepRecord> { steps.into_iter().map(|step| step.record).collect() };
     Ok(Some(EarlierRun {

@@ -34,11 +34,11 @@ impl RunFolder {
     /// [`FolderError`]; no file of the folder is then replaced or removed.
     pub fn claim(folder: &Path, plan: Plan) -> Result<Self, FolderError> {
         refuse_in_own_places(folder, plan.writer)?;
-        let own = folder.join(OWN);
-        if !disk::is_folder(&own) {
+        let kept = folder.join(OWN);
+        if !disk::is_folder(&kept) {
             refuse_planned(folder, &listed(folder, &plan)?, &plan)?;
         }
-        disk::make_folder(&own).at(&own)?;
+        disk::make_folder(&kept).at(&kept)?;
         let lock = lock(folder)?;
         manifest::remove_drafts(folder);
         let mut aside = remove_retired(folder)?;

@@ -17,9 +17,9 @@ pub enum FolderError {
     /// A path of percoat's own is a link, a pipe, or a folder in the place of a file (or the reverse).
     #[error("{} is {found}, where percoat keeps {expected} of its own: move it away, or choose another folder with -o", path.display())]
     WrongKind {
-        /// Its path.
+        /// The path.
         path: PathBuf,
-        /// Its kind, in words.
+        /// The kind of what stands there, in words.
         found: &'static str,
         /// The kind that percoat needs, in words.
         expected: &'static str,

@@ -34,7 +34,7 @@ pub(super) fn lock(folder: &Path) -> Result<File, FolderError> {
         Ok(()) => {}
         Err(TryLockError::WouldBlock) => {
             let owner = content(&file).ok().filter(|content| is_own(content));
-            let owner = owner.map(|own| String::from_utf8_lossy(&own).trim().to_owned()).unwrap_or_default();
+            let owner = owner.map(|content| String::from_utf8_lossy(&content).trim().to_owned()).unwrap_or_default();
             return Err(FolderError::Busy { folder: folder.to_owned(), owner });
         }
         // Some network file systems have no locks: there a second run is not refused.
@@ -85,8 +85,8 @@ mod tests {
             fs::write(&path, content).unwrap();
             is_foreign(&path)
         };
-        for own in ["", "process 4711\n", "process 1", "proc", "\0\0\0\0\0", "process \n"] {
-            assert!(!foreign(own), "{own:?}");
+        for content in ["", "process 4711\n", "process 1", "proc", "\0\0\0\0\0", "process \n"] {
+            assert!(!foreign(content), "{content:?}");
         }
         for other in ["mine", "process of my own\n", "\n\nprocess 1\n", "process 1\nmine", &"1".repeat(100), "é"] {
             assert!(foreign(other), "{other:?}");

@@ -240,14 +240,17 @@ mod tests {
         assert_eq!(run.publish().unwrap(), Some(folder.join("interrupted-1")));
         assert_eq!(files(folder).len(), 2);
         // Killed before its first step.
-        let own =
+        let gathered_names =
             ["case.toml", ".curve.csv.17.tmp", "stress.0001.vts", "coarser/curve.csv", "stress.partial/p.0001.npy"];
-        let run = gathered(folder, &own, "killed");
+        let run = gathered(folder, &gathered_names, "killed");
         foreign(&run.staging());
         drop(run);
         let next = claim(folder).unwrap();
         assert!(next.set_aside().unwrap().ends_with("interrupted-2"));
-        assert!(own.iter().all(|name| !folder.join("interrupted-2").join(name).exists()), "percoat's own is removed");
+        assert!(
+            gathered_names.iter().all(|name| !folder.join("interrupted-2").join(name).exists()),
+            "percoat's own is removed"
+        );
         for place in ["interrupted-1", "interrupted-2"] {
             for name in ["mine/x.txt", "2024/case.toml", "contact.partial/notes.txt", "notes.txt"] {
                 assert_eq!(fs::read_to_string(folder.join(place).join(name)).unwrap(), "mine", "{place}/{name}");

@@ -47,13 +47,13 @@ pub struct Recording<'a> {
     clock: Clock,
     /// When the present load began, by the clock.
     load_began: f64,
-    /// None where the run cannot be resumed.
+    /// `None` where the run cannot be resumed.
     checkpoints: Option<Checkpoints>,
     /// The steps of the interrupted run that is resumed, until the run takes them.
     earlier: Option<EarlierRun>,
     /// Number of steps on disk when the first grid begins; `None` for a run that is not resumed.
     standing: Option<usize>,
-    /// None before the first grid.
+    /// `None` before the first grid.
     files: Option<OnGrid>,
     set_aside: Option<PathBuf>,
 }
@@ -61,9 +61,9 @@ pub struct Recording<'a> {
 /// Files of the steps on one grid.
 #[derive(Debug)]
 struct OnGrid {
-    /// None where fields are not kept.
+    /// `None` where fields are not kept.
     fields: Option<ContactArchive>,
-    /// None where fields are not kept, or the case has no stresses.
+    /// `None` where fields are not kept, or the case has no stresses.
     stresses: Option<StressArchive>,
     /// The sections of the last step, where stresses are not kept.
     sections: Vec<VerticalSection>,
@@ -105,7 +105,7 @@ impl<'a> Recording<'a> {
         Self { fields: false, ..self }
     }
 
-    /// The same, where a refinement ends before a grid for which memory or disk do not suffice.
+    /// With an end of the refinement before a grid for which memory or disk do not suffice.
     pub fn within(self, allowed: Allowed<'a>) -> Self {
         Self { allowed: Some(allowed), ..self }
     }

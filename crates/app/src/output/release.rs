@@ -19,10 +19,10 @@ pub fn release(folder: &Path) -> Result<Files, OutputError> {
     for path in [LIST, lock::NAME].map(|name| folder.join(name)).iter().filter(|path| disk::is_file(path)) {
         disk::remove(path).at(path)?;
     }
-    let own = folder.join(OWN);
-    match disk::remove_folder(&own) {
+    let kept = folder.join(OWN);
+    match disk::remove_folder(&kept) {
         Err(error) if [ErrorKind::NotFound, ErrorKind::DirectoryNotEmpty].contains(&error.kind()) => Ok(files),
-        removed => removed.and_then(|()| disk::sync_folder(folder)).at(&own).map(|()| files),
+        removed => removed.and_then(|()| disk::sync_folder(folder)).at(&kept).map(|()| files),
     }
 }
 

@@ -57,9 +57,9 @@ impl Item {
 /// A file or folder in a staging folder.
 #[derive(Debug)]
 pub(super) struct Entry {
-    /// Its path relative to the staging folder.
+    /// Path relative to the staging folder.
     pub(super) path: PathBuf,
-    /// Its metadata, links not followed.
+    /// Metadata, links not followed.
     pub(super) there: Metadata,
     /// The item of percoat at that path; `None` where it is foreign.
     pub(super) item: Option<Item>,

@@ -21,10 +21,10 @@ const LINE: Trailer = Trailer { before: ",\"seal\":\"", after: "\"}" };
 /// Why a text is not accepted as unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum TrailerError {
-    /// It has no checksum.
+    /// There is no checksum.
     #[error("it has no checksum, as lines of earlier versions have none")]
     Missing,
-    /// It has the checksum of another text.
+    /// The checksum is that of another text.
     #[error("its checksum is not that of its content, which has been changed or damaged since it was written")]
     Different,
 }

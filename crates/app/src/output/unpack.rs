@@ -38,10 +38,10 @@ pub(super) fn unpack<'a>(folder: &Path, archive: &str, names: impl Iterator<Item
         };
         for name in entries.values() {
             let length = shape.iter().try_fold(size_of::<f64>() as u64, |bytes, &n| bytes.checked_mul(n as u64));
-            let mut own = (&mut values).take(length.unwrap_or(u64::MAX));
+            let mut entry = (&mut values).take(length.unwrap_or(u64::MAX));
             let copied = write_file(&folder.join(name), |writer| {
                 header::<f64>(&mut *writer, shape)?;
-                io::copy(&mut own, writer).map(|_| ())
+                io::copy(&mut entry, writer).map(|_| ())
             });
             copied.map_err(io::Error::other)?;
         }

@@ -6,7 +6,8 @@
 
 use super::image::{self, Image};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{self, File};
+use std::fs::File;
+use std::io::{Read, Seek};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -14,7 +15,7 @@ use std::sync::{Arc, Mutex};
 /// A change of the disk.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Change<'a> {
-    Created(&'a Path, &'a File),
+    Created(&'a Path),
     CreatedFolder(&'a Path),
     /// Old path, new path.
     Moved(&'a Path, &'a Path),
@@ -51,12 +52,14 @@ pub(crate) struct Journal {
     pub(crate) has_links: bool,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 enum Thing {
     Folder,
-    /// Number on the disk; synced content, if any, and content added since.
+    /// Number on the disk; the file opened a second time, so that its number is not given to another; synced content, if any, and
+    /// content added since.
     File {
         inode: u64,
+        opened: File,
         durable: Option<Vec<u8>>,
         added: Vec<u8>,
     },
@@ -79,9 +82,13 @@ pub(super) fn note(change: Change<'_>) {
     for journal in journals {
         let mut journal = journal.lock().unwrap();
         let is_within = match change {
-            Created(path, _) | Moved(path, _) | Linked(path, _) => path.starts_with(&journal.root),
-            CreatedFolder(path) | Removed(path) | SyncedFolder(path) => path.starts_with(&journal.root),
             Synced(file) => journal.file(file).is_some(),
+            Created(path)
+            | CreatedFolder(path)
+            | Moved(path, _)
+            | Linked(path, _)
+            | Removed(path)
+            | SyncedFolder(path) => path.starts_with(&journal.root),
         };
         if is_within {
             journal.note(change);
@@ -135,9 +142,10 @@ impl Journal {
         self.noted += 1;
         match change {
             Change::Synced(_) | Change::SyncedFolder(_) if self.ignores_syncs => {}
-            Change::Created(path, file) => {
-                let inode = file.metadata().unwrap().ino();
-                self.create(path, Thing::File { inode, durable: None, added: Vec::new() });
+            Change::Created(path) => {
+                let opened = File::open(path).unwrap();
+                let inode = opened.metadata().unwrap().ino();
+                self.create(path, Thing::File { inode, opened, durable: None, added: Vec::new() });
             }
             Change::CreatedFolder(path) => self.create(path, Thing::Folder),
             Change::Moved(from, to) => {
@@ -175,25 +183,22 @@ impl Journal {
     /// Makes the content of a file durable; before that it may be lost.
     fn sync(&mut self, file: &File) {
         let thing = self.file(file).expect("it has a name");
-        let content = fs::read(self.path(thing)).unwrap();
-        let Thing::File { durable, added, .. } = &mut self.things[thing] else { unreachable!("it is a file") };
-        *added = content[durable.as_ref().map_or(0, Vec::len)..].to_vec();
+        let mut content = Vec::new();
+        if let Thing::File { opened, durable, added, .. } = &mut self.things[thing] {
+            opened.rewind().and_then(|()| opened.read_to_end(&mut content)).unwrap();
+            *added = content[durable.as_ref().map_or(0, Vec::len)..].to_vec();
+        }
         self.remember();
-        let Thing::File { durable, added, .. } = &mut self.things[thing] else { unreachable!("it is a file") };
-        (*durable, *added) = (Some(content), Vec::new());
+        if let Thing::File { durable, added, .. } = &mut self.things[thing] {
+            (*durable, *added) = (Some(content), Vec::new());
+        }
     }
 
     /// The number of an open file that has a name here.
     fn file(&self, file: &File) -> Option<usize> {
-        let wanted = file.metadata().unwrap().ino();
-        let is_it = |thing: &usize| matches!(self.things[*thing], Thing::File { inode, .. } if inode == wanted);
+        let number = file.metadata().unwrap().ino();
+        let is_it = |thing: &usize| matches!(self.things[*thing], Thing::File { inode, .. } if inode == number);
         self.seen.values().copied().find(is_it)
-    }
-
-    /// The path of a file or folder by its first name.
-    fn path(&self, thing: usize) -> PathBuf {
-        let name = self.seen.iter().find(|(_, named)| **named == thing);
-        name.map_or_else(|| self.root.clone(), |((folder, name), _)| self.path(*folder).join(name))
     }
 
     /// The number of a folder.

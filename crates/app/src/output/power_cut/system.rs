@@ -7,7 +7,7 @@ use std::path::Path;
 
 pub(crate) fn create_new(path: &Path) -> io::Result<File> {
     let file = File::create_new(path)?;
-    note(Change::Created(path, &file));
+    note(Change::Created(path));
     Ok(file)
 }
 

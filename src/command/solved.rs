@@ -1,0 +1,56 @@
+//! The pictures of a solved case, each declared once.
+
+use super::declared::Declared::{self, Picture};
+use percoat_core::VerticalSection;
+use percoat_case::case::Case;
+use percoat_core::localized::isolated;
+use percoat_app::picture::{self, Canvas, Snapshot};
+use percoat_core::run::StepRecord;
+
+/// The last step of a solved case with the sections of its stresses, if there are any, and all steps.
+#[derive(Debug)]
+pub struct Solved {
+    pub last: Snapshot,
+    pub sections: Vec<VerticalSection>,
+    pub steps: Vec<StepRecord>,
+}
+
+impl Solved {
+    fn touches(&self) -> bool {
+        self.last.reading.touches()
+    }
+
+    fn cut(&self) -> Option<&[VerticalSection]> {
+        Some(&self.sections[..]).filter(|sections| self.touches() && !sections.is_empty())
+    }
+
+    fn contact(&self) -> Option<Canvas> {
+        let radii = || isolated::radii(self.last.step.problem(), &self.last.reading);
+        if self.touches() { picture::contact(&self.last, radii().as_deref()) } else { None }
+    }
+
+    fn profiles(&self) -> Option<Canvas> {
+        let profiles = isolated::profiles(self.last.step.problem(), &self.last.reading);
+        picture::profiles(&self.last, profiles.as_deref())
+    }
+
+    fn curve(&self) -> Option<Canvas> {
+        picture::load_curves(&self.last.title, self.last.step.problem(), &self.last.units, &self.steps)
+    }
+}
+
+/// The pictures of a case with so many load steps.
+pub fn of_case(case: &Case, steps: usize) -> Vec<Declared<Solved>> {
+    let is_cut = case.stress.as_ref().is_some_and(|stress| stress.section.is_some());
+    let is_indented = case.problem().bodies().hardness().is_some();
+    let pictures: [(bool, Declared<Solved>); 7] = [
+        (true, Picture("pressure", |solved| solved.touches().then(|| picture::pressure(&solved.last)))),
+        (true, Picture("contact", Solved::contact)),
+        (true, Picture("profiles", Solved::profiles)),
+        (is_indented, Picture("indentation", |solved| picture::indentation(&solved.last))),
+        (is_cut, Picture("section", |solved| Some(picture::section(&solved.last, solved.cut()?)))),
+        (is_cut, Picture("lines", |solved| Some(picture::lines(&solved.last, solved.cut()?)))),
+        (steps > 1, Picture("curve", Solved::curve)),
+    ];
+    pictures.into_iter().filter_map(|(is_drawn, picture)| is_drawn.then_some(picture)).collect()
+}
