@@ -1,9 +1,9 @@
 //! Options on the pictures of the commands.
 
 use super::ending::Failure;
-use percoat_app::picture::{Canvas, Format};
 use clap::Args;
 use percoat_app::picture::{self, Snapshot};
+use percoat_app::picture::{Canvas, Format};
 use percoat_case::case::Case;
 use percoat_core::VerticalSection;
 use percoat_core::localized::isolated;

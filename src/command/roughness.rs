@@ -2,10 +2,10 @@
 
 use super::ending::Failure;
 use super::interruption;
-use percoat_case::case::{Case, RandomSection, SurfaceSection};
-use percoat_core::counterbody::roughness::{Radial, Spectrum};
 use percoat_app::output::{Plan, RunFolder, Writer, write_file};
 use percoat_app::picture::{self, Format};
+use percoat_case::case::{Case, RandomSection, SurfaceSection};
+use percoat_core::counterbody::roughness::{Radial, Spectrum};
 use std::f64::consts::TAU;
 use std::io::Write;
 use std::path::Path;

@@ -1,10 +1,10 @@
 //! The pictures of a solved case, each declared once.
 
 use super::declared::Declared::{self, Picture};
-use percoat_core::VerticalSection;
-use percoat_case::case::Case;
-use percoat_core::localized::isolated;
 use percoat_app::picture::{self, Canvas, Snapshot};
+use percoat_case::case::Case;
+use percoat_core::VerticalSection;
+use percoat_core::localized::isolated;
 use percoat_core::run::StepRecord;
 
 /// The last step of a solved case with the sections of its stresses, if there are any, and all steps.

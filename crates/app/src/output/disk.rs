@@ -10,7 +10,9 @@
 //! name by [`sync_folder`]. A file system that does not support the latter is not an error.
 
 use super::system;
-pub(crate) use super::system::{create_dir as create_folder, create_new as create, hard_link as link, remove_dir as remove_folder};
+pub(crate) use super::system::{
+    create_dir as create_folder, create_new as create, hard_link as link, remove_dir as remove_folder,
+};
 use percoat_common::plain;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read, Write};
@@ -26,17 +28,17 @@ pub fn found(path: &Path) -> io::Result<Option<Metadata>> {
 }
 
 /// Whether a path is a regular file, not a link to one.
-pub(crate) fn is_file(path: &Path) -> bool {
+pub fn is_file(path: &Path) -> bool {
     found(path).is_ok_and(|found| found.is_some_and(|there| there.is_file()))
 }
 
 /// Whether a path is a folder, not a link to one.
-pub(crate) fn is_folder(path: &Path) -> bool {
+pub fn is_folder(path: &Path) -> bool {
     found(path).is_ok_and(|found| found.is_some_and(|there| there.is_dir()))
 }
 
 /// The kind of a path, in words.
-pub(crate) fn kind(there: &Metadata) -> &'static str {
+pub fn kind(there: &Metadata) -> &'static str {
     match there.file_type() {
         kind if kind.is_symlink() => "a link",
         kind if kind.is_dir() => "a folder",
@@ -49,7 +51,7 @@ pub(crate) fn kind(there: &Metadata) -> &'static str {
 ///
 /// # Errors
 /// Errors of the system, and a path that is not a regular file.
-pub(crate) fn open(path: &Path) -> io::Result<File> {
+pub fn open(path: &Path) -> io::Result<File> {
     open_as(path, OpenOptions::new().read(true))
 }
 
@@ -57,7 +59,7 @@ pub(crate) fn open(path: &Path) -> io::Result<File> {
 ///
 /// # Errors
 /// Errors of [`open`].
-pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     open(path)?.read_to_end(&mut bytes)?;
     Ok(bytes)
@@ -67,7 +69,7 @@ pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// Errors of [`open`], and bytes that are not UTF-8.
-pub(crate) fn read_text(path: &Path) -> io::Result<String> {
+pub fn read_text(path: &Path) -> io::Result<String> {
     let mut text = String::new();
     open(path)?.read_to_string(&mut text)?;
     Ok(text)
@@ -77,7 +79,7 @@ pub(crate) fn read_text(path: &Path) -> io::Result<String> {
 ///
 /// # Errors
 /// Errors of [`open`].
-pub(crate) fn open_to_change(path: &Path) -> io::Result<File> {
+pub fn open_to_change(path: &Path) -> io::Result<File> {
     open_as(path, OpenOptions::new().read(true).write(true))
 }
 
@@ -85,7 +87,7 @@ pub(crate) fn open_to_change(path: &Path) -> io::Result<File> {
 ///
 /// # Errors
 /// Errors of [`open`].
-pub(crate) fn open_to_append(path: &Path) -> io::Result<File> {
+pub fn open_to_append(path: &Path) -> io::Result<File> {
     open_as(path, OpenOptions::new().append(true))
 }
 
@@ -93,7 +95,7 @@ pub(crate) fn open_to_append(path: &Path) -> io::Result<File> {
 ///
 /// # Errors
 /// Errors of the system.
-pub(crate) fn append(file: &mut File, bytes: &[u8]) -> io::Result<()> {
+pub fn append(file: &mut File, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     sync(file)
 }
@@ -102,7 +104,7 @@ pub(crate) fn append(file: &mut File, bytes: &[u8]) -> io::Result<()> {
 ///
 /// # Errors
 /// Errors of the system.
-pub(crate) fn sync(file: &File) -> io::Result<()> {
+pub fn sync(file: &File) -> io::Result<()> {
     unless_refused(system::sync(file))
 }
 
@@ -110,7 +112,7 @@ pub(crate) fn sync(file: &File) -> io::Result<()> {
 ///
 /// # Errors
 /// Errors of the system.
-pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
+pub fn sync_folder(folder: &Path) -> io::Result<()> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     match system::sync_folder(folder) {
         // A folder that may be written and not listed cannot be opened.
@@ -131,7 +133,7 @@ fn unless_refused(synced: io::Result<()>) -> io::Result<()> {
 ///
 /// # Errors
 /// Errors of the system, and anything but a regular file at `to`.
-pub(crate) fn replace(from: &Path, to: &Path) -> io::Result<()> {
+pub fn replace(from: &Path, to: &Path) -> io::Result<()> {
     if let Some(there) = found(to)?.filter(|there| !there.is_file()) {
         return Err(not_a_file(&there));
     }
@@ -142,7 +144,7 @@ pub(crate) fn replace(from: &Path, to: &Path) -> io::Result<()> {
 ///
 /// # Errors
 /// Errors of the system, and anything at `to`.
-pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
+pub fn move_to(from: &Path, to: &Path) -> io::Result<()> {
     if found(to)?.is_some() {
         return Err(io::ErrorKind::AlreadyExists.into());
     }
@@ -153,7 +155,7 @@ pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
 ///
 /// # Errors
 /// Errors of the system, and a path that is not a regular file.
-pub(crate) fn remove(path: &Path) -> io::Result<()> {
+pub fn remove(path: &Path) -> io::Result<()> {
     if let Some(there) = found(path)?.filter(|there| !there.is_file()) {
         return Err(not_a_file(&there));
     }
@@ -164,7 +166,7 @@ pub(crate) fn remove(path: &Path) -> io::Result<()> {
 ///
 /// # Errors
 /// Errors of the system, and anything but a folder in the way.
-pub(crate) fn make_folder(path: &Path) -> io::Result<()> {
+pub fn make_folder(path: &Path) -> io::Result<()> {
     let missing: Vec<&Path> =
         path.ancestors().take_while(|part| !part.as_os_str().is_empty() && !part.is_dir()).collect();
     for folder in missing.into_iter().rev() {
@@ -184,13 +186,13 @@ pub(crate) fn make_folder(path: &Path) -> io::Result<()> {
 
 /// Whether a file has a second name (hard link).
 #[cfg(unix)]
-pub(crate) fn has_other_name(file: &File) -> bool {
+pub fn has_other_name(file: &File) -> bool {
     file.metadata().is_ok_and(|found| std::os::unix::fs::MetadataExt::nlink(&found) > 1)
 }
 
 /// Whether a file has a second name, which is known on Unix alone.
 #[cfg(not(unix))]
-pub(crate) fn has_other_name(_: &File) -> bool {
+pub fn has_other_name(_: &File) -> bool {
     false
 }
 

@@ -8,9 +8,7 @@ use std::io::Read;
 /// and of this version of percoat.
 pub fn fingerprint(case: &Case, task: &str) -> String {
     // The numbers of a file: of a surface, or of a given pressure.
-    let counterbody = case.counterbody();
-    let of_pressure = || counterbody.pressure().and_then(|pressure| pressure.values());
-    let heights = counterbody.topography().map(|topography| topography.heights()).or_else(of_pressure);
+    let heights = case.problem().loaded_by().samples();
     let points = heights.as_ref().map(|heights| heights.dim());
     let heights = heights.as_ref().map(|heights| heights.as_standard_layout());
     let samples = heights.as_ref().and_then(|heights| heights.as_slice()).unwrap_or_default();
