@@ -15,25 +15,22 @@
 //!   count from it: δ then has the mean compression of the layers, p̄ Σ h/M.
 //! - Frictionless interfaces carry tension: they slide but do not open.
 //!
-//! # Modules
+//! # Crates
 //!
-//! Problem → solver on a grid → step → reading, built in that order, none reaching back. Each module uses only what
-//! stands to its left:
+//! Each crate sees those that stand to its left, and the compiler holds it; within a crate no files import each other in a ring:
 //!
 //! ```text
-//! numeric → notation → lattice → load → kind → body → counterbody → friction → problem → spectral → stress → reading → identification
-//! → localized → run → life → comparison → plain → units → words → measurements → machine → heights → case → output → sweep → picture → report → validation → command
+//! core, common → surfaces, draw → case → app → validation → percoat: this facade and the program
 //! ```
 //!
-//! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
-//! - [`load`], [`kind`], [`friction`], [`problem`]: what is solved;
-//! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
-//! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
-//! - [`identification`]: parameters of a stack from a measured indentation curve;
-//! - [`run`]: load paths, refinement, warnings; [`life`]: damage and wear pass after pass; [`comparison`]: both methods side by side.
+//! - `percoat-core`: the numerical library, which reads no file and prints nothing. All of it is here too, module by module;
+//! - `percoat-common`: [`plain`] text, the unit of a number, memory and threads of the [`machine`];
+//! - `percoat-surfaces`: the formats of instruments; `percoat-draw`: charts and maps, which know no physics ([`draw`]);
+//! - `percoat-case`: [`case`] files, [`units`], [`words`] for kinds of contact, [`measurements`] from tables;
+//! - `percoat-app`: [`output`], [`sweep`], [`picture`] and [`report`];
+//! - `percoat-validation`: the studies and the closed forms that they compare with ([`validation`]).
 //!
-//! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `words` for kinds of contact, `measurements` from tables, `machine` (memory, disk, threads), file formats
-//! of `heights`, `case`, `output`, `sweep`, `picture`, `report` and the `command` line; behind `validate`: `validation`, the studies and the closed forms they compare with.
+//! The feature `cli` has the crates around the core and the [`command`] line, `validate` the studies.
 //!
 //! [`theory`] leads from each equation of the book, `docs/src/theory.md`, to its code and to the test that guards it.
 //!

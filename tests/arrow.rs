@@ -1,34 +1,43 @@
-//! The arrow of modules in `lib.rs` is true, and no files of the library import each other, in a ring of any length, nor of the Python
-//! module.
+//! The arrow of modules in the core's `lib.rs` is true, and no files of a crate import each other, in a ring of any length.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Every source file of the library by its module path, without its tests and comments.
-fn library() -> BTreeMap<String, String> {
-    sources(&[("src", ""), ("validation", "validation")])
-}
+/// Folders of the sources of every crate. The published package has those of its own alone.
+const CRATES: [&str; 10] = [
+    "crates/core/src",
+    "crates/common/src",
+    "crates/surfaces/src",
+    "crates/case/src",
+    "crates/draw/src",
+    "crates/app/src",
+    "src",
+    "validation",
+    "python/src",
+    "docs/page/src",
+];
 
-/// The source files in folders by their module paths below that of the folder.
-fn sources(folders: &[(&str, &str)]) -> BTreeMap<String, String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+/// Every source file of a folder by its module path, without its tests and comments.
+fn sources(folder: &str) -> BTreeMap<String, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let mut sources = BTreeMap::new();
-    let folders = folders.iter().map(|(folder, module)| (root.join(folder), (*module).to_owned()));
-    // The published crate has no Python module.
-    let mut folders: Vec<_> = folders.filter(|(folder, _)| folder.is_dir()).collect();
+    let mut folders: Vec<_> = root.is_dir().then(|| (root, String::new())).into_iter().collect();
     while let Some((folder, module)) = folders.pop() {
         for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
             let stem = path.file_stem().unwrap().to_string_lossy().replace('-', "_");
-            let own = if module.is_empty() { stem.clone() } else { format!("{module}::{stem}") };
+            let below = if module.is_empty() { stem.clone() } else { format!("{module}::{stem}") };
             if path.is_dir() {
-                folders.push((path, own));
-            } else if path.extension().is_some_and(|ending| ending == "rs") && own != "main" {
-                let name = if ["mod", "study"].contains(&&stem[..]) { module.clone() } else { own };
+                folders.push((path, below));
+            } else if path.extension().is_some_and(|ending| ending == "rs") && below != "main" {
+                let name = if ["mod", "study"].contains(&&stem[..]) { module.clone() } else { below };
                 sources.insert(name, code(&path));
             }
         }
     }
+    // What a crate hands on is no import.
+    sources.remove("lib");
+    sources.remove("");
     sources
 }
 
@@ -93,11 +102,11 @@ fn groups_within_groups_are_named_one_by_one() {
 
 #[test]
 fn every_module_uses_only_what_stands_to_its_left() {
-    let lib = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs")).unwrap();
+    let lib = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/core/src/lib.rs")).unwrap();
     let arrow = lib.split("```text").nth(1).and_then(|rest| rest.split("```").next()).expect("the arrow of modules");
     let order: Vec<&str> = arrow.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let place = |module: &str| order.iter().position(|name| *name == module);
-    let sources: BTreeMap<String, String> = library().into_iter().filter(|(path, _)| path != "lib").collect();
+    let sources = sources("crates/core/src");
     let modules: BTreeSet<String> =
         sources.keys().filter_map(|path| path.split("::").next().map(str::to_owned)).collect();
     assert_eq!(modules, order.iter().map(|name| (*name).to_owned()).collect(), "modules of the arrow");
@@ -111,12 +120,10 @@ fn every_module_uses_only_what_stands_to_its_left() {
 
 #[test]
 fn no_files_import_each_other_in_a_ring() {
-    assert_eq!(rings(&imports(&library())), [] as [Ring; 0], "files of the library that import each other");
-    assert_eq!(
-        rings(&imports(&sources(&[("python/src", "")]))),
-        [] as [Ring; 0],
-        "files of the Python module that import each other"
-    );
+    for folder in CRATES {
+        assert_eq!(rings(&imports(&sources(folder))), [] as [Ring; 0], "files of {folder} that import each other");
+    }
+    assert!(sources("src").contains_key("command"), "the program's own files are read");
 }
 
 #[test]
@@ -182,7 +189,6 @@ fn imports(sources: &BTreeMap<String, String>) -> Imports {
     };
     sources
         .iter()
-        .filter(|(path, _)| *path != "lib")
         .map(|(path, text)| {
             let folder = is_folder(path);
             // What a folder's own file names of the files in it, beside handing it on.

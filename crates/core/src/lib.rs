@@ -1,4 +1,4 @@
-//! **percoat**: periodic contact of coated bodies.
+//! The numerical core of percoat: periodic and isolated contact of coated bodies.
 //!
 //! Normal and sliding contact of a doubly periodic, multi-level system of rigid indenters (or any periodic topography)
 //! with a layered elastic half-space: I. Goryacheva & E. Torskaya, *Contact of multi-level periodic system of indenters
@@ -21,26 +21,23 @@
 //! stands to its left:
 //!
 //! ```text
-//! numeric → notation → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → identification
-//! → localized → run → life → comparison → plain → units → measurements → machine → heights → case → output → sweep → picture → report → validation → command
+//! numeric → notation → lattice → load → kind → body → counterbody → friction → problem → spectral → stress → reading → identification
+//! → localized → run → life → comparison
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
-//! - [`friction`], [`problem`], [`load`]: what is solved;
+//! - [`load`], [`kind`], [`friction`], [`problem`]: what is solved;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
 //! - [`identification`]: parameters of a stack from a measured indentation curve;
 //! - [`run`]: load paths, refinement, warnings; [`life`]: damage and wear pass after pass; [`comparison`]: both methods side by side.
 //!
-//! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `measurements` from tables, `machine` (memory, disk, threads), file formats
-//! of `heights`, `case`, `output`, `sweep`, `picture`, `report` and the `command` line; behind `validate`: `validation`, the studies and the closed forms they compare with.
-//!
-//! [`theory`] leads from each equation of the book, `docs/src/theory.md`, to its code and to the test that guards it.
+//! Nothing of these reads a file or prints.
 //!
 //! # Example
 //!
 //! ```
-//! use percoat::*;
+//! use percoat_core::*;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let level = |height| Level::new(Shape::Paraboloid { radius: 0.8 }, height);
