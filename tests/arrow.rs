@@ -171,7 +171,7 @@ fn imports(sources: &BTreeMap<String, String>) -> Imports {
             let path = &text[at + 4..at + text[at..].find(';').unwrap_or(4)];
             let (file, names) = path.split_once("::").unwrap_or((path, ""));
             let file = format!("{folder}::{file}");
-            if sources.contains_key(&file) && text[..at].ends_with("pub ") {
+            if sources.contains_key(&file) && ["pub ", "pub(crate) "].iter().any(|open| text[..at].ends_with(open)) {
                 let names = names.trim_matches(['{', '}']).split(',').map(|name| format!("{folder}::{}", name.trim()));
                 homes.extend(names.map(|name| (name, file.clone())));
             }
@@ -192,7 +192,9 @@ fn imports(sources: &BTreeMap<String, String>) -> Imports {
         .map(|(path, text)| {
             let folder = is_folder(path);
             // What a folder's own file names of the files in it, beside handing it on.
-            let lines = text.lines().filter(|line| folder && !line.starts_with("pub use "));
+            let lines = text
+                .lines()
+                .filter(|line| folder && !line.starts_with("pub use ") && !line.starts_with("pub(crate) use "));
             let words = lines.flat_map(|line| line.split(|c: char| !(c.is_alphanumeric() || "_:".contains(c))));
             let below = words.filter_map(|word| Some(format!("{path}::{}", word.split_once("::")?.0)));
             let used = named(text, path, folder).into_iter().chain(below).filter_map(|path| file(&path));
