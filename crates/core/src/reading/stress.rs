@@ -10,7 +10,7 @@ use crate::spectral::Step;
 use crate::stress::maxima::{Carried, Extremes, Maxima};
 use crate::stress::{PathPeak, Peak, StressField, StressFields};
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, SQRT_2};
 
 /// Largest stresses of a step, residual stresses among them, see [`crate::stress::maxima`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -81,9 +81,11 @@ fn in_body(
     peaks(materials, faces, interfaces).for_each(|peak| move_beside_site(step, peak));
     if let Some(tip) = Tip::of(step, reading, field.half_space()) {
         let first = [materials, faces].map(|all| all.first_mut());
-        for Extremes { tau1, mises, tension } in first.into_iter().flatten() {
+        for Extremes { tau1, mises, tension, strain, compression, horizontal_strain: _ } in first.into_iter().flatten()
+        {
             let peaks = [Some(tau1), Some(mises), Some(tension).filter(|_| tip.tears)];
-            peaks.into_iter().flatten().for_each(|peak| tip.press(peak));
+            let strains = [strain.as_mut().filter(|_| tip.stretches), compression.as_mut().filter(|_| tip.compresses)];
+            peaks.into_iter().chain(strains).flatten().for_each(|peak| tip.press(peak));
         }
     }
     Some(maxima)
@@ -101,13 +103,23 @@ pub(super) struct Tip {
     material: MaterialId,
     /// Whether tension is infinite too.
     pub tears: bool,
+    /// Whether the largest principal strain is.
+    stretches: bool,
+    /// Whether the compression along z is.
+    compresses: bool,
 }
 
 impl Tip {
     pub fn of(step: &Step, reading: &Reading, half_space: &HalfSpace) -> Option<Self> {
         let [x, y] = step.grid().cell().point(tips(step, reading, half_space).next()?.place);
         let material = half_space.material_id(1);
-        Some(Self { position: [x, y, 0.0], material, tears: tears(step, half_space) })
+        Some(Self {
+            position: [x, y, 0.0],
+            material,
+            tears: tears(step, half_space),
+            stretches: stretches(step, half_space),
+            compresses: half_space.surface_material().poisson() < 0.5,
+        })
     }
 
     pub fn press(&self, peak: &mut Peak) {
@@ -128,7 +140,10 @@ fn peaks<'a>(
     interfaces: &'a mut [Carried],
 ) -> impl Iterator<Item = &'a mut Peak> {
     let extremes = materials.iter_mut().chain(faces);
-    let extremes = extremes.flat_map(|Extremes { tau1, tension, mises }| [tau1, tension, mises]);
+    let extremes = extremes.flat_map(|Extremes { tau1, tension, mises, strain, horizontal_strain, compression }| {
+        let strains = [strain, horizontal_strain, compression].map(Option::as_mut);
+        [tau1, tension, mises].into_iter().chain(strains.into_iter().flatten())
+    });
     let interfaces = interfaces.iter_mut().flat_map(|carried| {
         let Carried { normal, shear, delamination, .. } = carried;
         [Some(normal), Some(shear), delamination.as_mut()].into_iter().flatten()
@@ -138,11 +153,18 @@ fn peaks<'a>(
 
 /// The extremes over all of some materials.
 fn overall(materials: &[Extremes]) -> Extremes {
-    let largest = |peak: fn(&Extremes) -> Peak| {
-        let peaks: Vec<Peak> = materials.iter().map(peak).collect();
-        Peak::highest(&peaks, 0.0).expect("a body has materials")
-    };
-    Extremes { tau1: largest(|own| own.tau1), tension: largest(|own| own.tension), mises: largest(|own| own.mises) }
+    let highest = |peaks: Vec<Peak>| Peak::highest(&peaks, 0.0);
+    let largest =
+        |peak: fn(&Extremes) -> Peak| highest(materials.iter().map(peak).collect()).expect("a body has materials");
+    let strain = |peak: fn(&Extremes) -> Option<Peak>| highest(materials.iter().filter_map(peak).collect());
+    Extremes {
+        tau1: largest(|own| own.tau1),
+        tension: largest(|own| own.tension),
+        mises: largest(|own| own.mises),
+        strain: strain(|own| own.strain),
+        horizontal_strain: strain(|own| own.horizontal_strain),
+        compression: strain(|own| own.compression),
+    }
 }
 
 /// Where τ₁ is infinite at the surface of one of the bodies: at the tips in contact, unless its material there is
@@ -162,6 +184,13 @@ pub fn tips<'a>(
 pub fn tears(step: &Step, half_space: &HalfSpace) -> bool {
     let (nu, mu) = (half_space.surface_material().poisson(), friction(step));
     mu * mu > 0.5 + nu
+}
+
+/// Whether the largest principal strain is infinite at the surface of one of the bodies at a tip in contact: with the stresses of [`tears`]
+/// ε_z = −(1 + ν)(1 − 2ν)p/E, ε_x = ½ε_z and ε_xz = −(1 + ν)μp/E, so that there is extension from μ > (1 − 2ν)/√2 on. All horizontal
+/// strains are compressions there.
+fn stretches(step: &Step, half_space: &HalfSpace) -> bool {
+    friction(step) > (1.0 - 2.0 * half_space.surface_material().poisson()) / SQRT_2
 }
 
 /// μ, 0 without friction.

@@ -73,8 +73,16 @@ impl StepRecord {
         }
         if let Some(stress) = &self.stress {
             let within = [&stress.overall].into_iter().chain(&stress.materials).chain(&stress.faces).flat_map(|own| {
-                [("max_tau1", own.tau1.value), ("max_tension", own.tension.value), ("max_mises", own.mises.value)]
+                [
+                    ("max_tau1", Some(own.tau1)),
+                    ("max_tension", Some(own.tension)),
+                    ("max_mises", Some(own.mises)),
+                    ("max_strain", own.strain),
+                    ("max_horizontal_strain", own.horizontal_strain),
+                    ("max_vertical_compression", own.compression),
+                ]
             });
+            let within = within.filter_map(|(name, peak)| Some((name, peak?.value)));
             let between = stress.interfaces.iter();
             let between = between.flat_map(|own| [("max_normal", own.normal.value), ("max_shear", own.shear.value)]);
             within.chain(between).try_for_each(|(name, value)| number(name, value))?;

@@ -277,7 +277,8 @@ impl Run {
         }
         let fields = self.mean_stress().map(|mean| {
             recorder.stresses(&step, &record);
-            StressFields::with_tables(step.finest(), mean, tables)
+            let strains = self.stress.as_ref().is_some_and(|request| request.strain);
+            StressFields::with_tables(step.finest(), mean, tables).with_strains(strains)
         });
         if let Some(fields) = fields.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
             let ended = Cell::new(None);

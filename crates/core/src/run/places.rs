@@ -15,7 +15,7 @@ pub const THIN: f64 = 1.0 / 12.0;
 /// Depth down to which a thin coating is shown on its own, in thicknesses of all layers.
 pub const BELOW_COATING: f64 = 2.5;
 
-/// A request for stresses.
+/// A request for stresses and strains.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StressRequest {
     /// Convention for the mean lateral stress.
@@ -28,6 +28,8 @@ pub struct StressRequest {
     pub points: Vec<[f64; 3]>,
     /// The volume under the cell.
     pub volume: Option<Volume>,
+    /// Whether strains are computed beside stresses.
+    pub strain: bool,
 }
 
 /// A vertical section to be computed.

@@ -9,6 +9,7 @@ use crate::reading::{
     Utilisation, stiffness, within_the_errors,
 };
 use crate::spectral::{Certificate, Report, Route, Step, Stop};
+use crate::stress::maxima::Extremes;
 use serde::{Deserialize, Serialize};
 
 /// Every scalar of a load step.
@@ -229,8 +230,10 @@ impl StepRecord {
         let scalars = [force, penetration, self.reading.grid_peak(), self.certificate.energy_gap];
         // Stresses are infinite under a tip.
         let stresses = self.stress.iter().flat_map(|stress| {
-            let [tau1, tension, mises] = [stress.overall.tau1, stress.overall.tension, stress.overall.mises];
-            [tau1.value, tension.value, mises.value, stress.surface_error]
+            let Extremes { tau1, tension, mises, strain, horizontal_strain, compression } = &stress.overall;
+            let strains = [strain, horizontal_strain, compression].into_iter().flatten();
+            let peaks = [tau1, tension, mises].into_iter().chain(strains).map(|peak| peak.value);
+            peaks.chain([stress.surface_error])
         });
         let utilisations = self.strength.iter().map(|utilisation| utilisation.value);
         let interfaces = self.stress.iter().flat_map(|stress| &stress.interfaces);

@@ -112,6 +112,9 @@ impl Contender {
         }
         let deep = match measure {
             StressMeasure::Tension => DEEP_TENSION_ERROR,
+            StressMeasure::Strain(_) | StressMeasure::HorizontalStrain(_) | StressMeasure::Compression(_) => {
+                DEEP_TENSION_ERROR
+            }
             StressMeasure::Opening => DEEP_OPENING_ERROR,
             _ => DEEP_SHEAR_ERROR,
         };

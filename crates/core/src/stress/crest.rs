@@ -182,11 +182,12 @@ impl StressField {
         let SurfacePoint { kind, place, state, smoothed_pressure } = highest;
         let value = measure.of(&state);
         // By how much the stress at an edge of few samples may exceed the largest one.
-        let usual = if measure == StressMeasure::Tension { USUAL_TENSION * pressed } else { 0.0 };
+        let per_stress = measure.per_stress();
+        let usual = if measure.is_tensile() { USUAL_TENSION * pressed * per_stress } else { 0.0 };
         let spread: f64 = others.map(|other| (measure.of(&other.state) - value).abs()).sum();
-        let unlike = if kind == Location::Edge { smoothed_pressure.abs() * smoothed.unlike } else { 0.0 };
+        let unlike = if kind == Location::Edge { smoothed_pressure.abs() * smoothed.unlike * per_stress } else { 0.0 };
         let [tx, ty] = self.traction();
-        let cusp = 2.0 * tx.hypot(ty) * pressed;
+        let cusp = 2.0 * tx.hypot(ty) * pressed * per_stress;
         let eta = self.edge_exponent().abs();
         let few = |edge: &EdgePoint| {
             let (own, n) = (value_of(edge), edge.resolution);

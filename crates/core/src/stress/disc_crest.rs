@@ -91,12 +91,13 @@ impl StressField {
         let (state, point) = highest(own);
         let value = measure.of(&state);
         let pressed = self.discs().iter().map(|disc| disc.pressure).fold(0.0, f64::max);
-        let usual = if measure == StressMeasure::Tension { USUAL_TENSION * pressed } else { 0.0 };
+        let per_stress = measure.per_stress();
+        let usual = if measure.is_tensile() { USUAL_TENSION * pressed * per_stress } else { 0.0 };
         let scale = usual.max(value.abs());
         let spread: f64 = others.iter().map(|other| (measure.of(&highest(other).0) - value).abs()).sum();
         let at_edge = |side: Side| {
             let LoadedDisc { radius, pressure, .. } = self.discs()[side.disc];
-            0.5 * pressure * unlike + EDGE_ERROR * (self.spacing() / radius).powi(2) * scale
+            0.5 * pressure * unlike * per_stress + EDGE_ERROR * (self.spacing() / radius).powi(2) * scale
         };
         let [x, y] = point.place;
         let material = self.half_space().material_id(1);

@@ -59,6 +59,8 @@ pub struct StressField {
     /// State under the mean pressure at the upper face of each material, and the derivative of its displacement by depth.
     mean: Vec<(StressState, [f64; 3])>,
     mean_stress: MeanStress,
+    /// Whether the largest strains are searched beside the largest stresses.
+    pub(super) strains: bool,
     /// The mean pressure over the cell, or the force on an isolated contact.
     load: Load,
     regions: Regions,
@@ -153,6 +155,7 @@ impl StressField {
             tables,
             mean: mean_states(half_space, (mean, across(grid, line)), series.mean, traction.unwrap_or_default()),
             mean_stress: mean,
+            strains: false,
             load,
             regions: if is_contact { regions } else { regions.without_edges(&series_grid, &spread, !discs.is_empty()) },
             discs: discs.to_vec(),
@@ -165,6 +168,12 @@ impl StressField {
             edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(beta)),
             series,
         }
+    }
+
+    /// The field, of which the largest strains are searched beside the largest stresses where `strains` is set.
+    #[must_use]
+    pub fn with_strains(self, strains: bool) -> Self {
+        Self { strains, ..self }
     }
 
     /// The field of other waves of the same pressure, on the grids of another window and of its series, that holds outside of a `hole`.

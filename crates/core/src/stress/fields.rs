@@ -30,9 +30,16 @@ impl StressFields {
         Self { body: of(Side::Body), counterbody }
     }
 
+    /// The fields, of which the largest strains are searched beside the largest stresses where `strains` is set.
+    #[must_use]
+    pub fn with_strains(self, strains: bool) -> Self {
+        let Self { body, counterbody } = self;
+        Self { body: body.with_strains(strains), counterbody: counterbody.map(|own| own.with_strains(strains)) }
+    }
+
     /// The fields under another contact of the same run, or of this step on another grid.
     pub(crate) fn of_other(&self, contact: &Contact) -> Self {
-        Self::with_tables(contact, self.body.mean_stress(), self.body.tables())
+        Self::with_tables(contact, self.body.mean_stress(), self.body.tables()).with_strains(self.body.strains)
     }
 
     /// The field of the body.

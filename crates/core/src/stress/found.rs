@@ -64,6 +64,7 @@ impl Following {
             StressMeasure::Tension => strength.is_some_and(|own| own.tensile.is_some()),
             StressMeasure::Mises => strength.is_some_and(|own| own.yielding.is_some()),
             StressMeasure::Tau1 | StressMeasure::Opening | StressMeasure::Shear => false,
+            StressMeasure::Strain(_) | StressMeasure::HorizontalStrain(_) | StressMeasure::Compression(_) => false,
         }
     }
 
@@ -71,7 +72,8 @@ impl Following {
     /// where it is not faint: from a value that is no larger than that at rest, or lies on the border, unless it is faint and deep and no strength is judged by it.
     fn goes_on(&self, own: &Contender, measure: StressMeasure, [rest, border]: [f64; 2]) -> bool {
         let Peak { value, position: [_, _, z], .. } = own.peak;
-        let is_followed = || value >= self.faint || z <= self.depth || self.is_judged(own.peak, measure);
+        let is_followed =
+            || value >= self.faint * measure.per_stress() || z <= self.depth || self.is_judged(own.peak, measure);
         border > self.faint && (value <= rest || own.is_still_on(border) && is_followed())
     }
 }
@@ -149,9 +151,10 @@ impl FoundStresses {
         materials.map(|(number, contenders)| [is_there(contenders), of_interface(number)]).collect()
     }
 
-    /// The largest utilisation of an interface by its contenders; `None` without a strength.
-    pub fn delamination(&self, contenders: &Contenders) -> Option<Peak> {
-        let measure = contenders.iter().map(|(measure, _)| *measure).find(StressMeasure::is_delamination)?;
+    /// The largest of some contenders by the measure of a kind, which has the strength or the compliance of their place; `None` where it
+    /// was not sought.
+    pub fn stated_of(&self, contenders: &Contenders, is_kind: fn(&StressMeasure) -> bool) -> Option<Peak> {
+        let measure = contenders.iter().map(|(measure, _)| *measure).find(is_kind)?;
         self.stated(contenders, measure)
     }
 

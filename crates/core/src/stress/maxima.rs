@@ -1,5 +1,6 @@
 //! Largest stresses of coating and substrate: principal shear stress τ₁, tension σ₁ and von Mises stress in each material and
-//! on each of its faces, tension and shear on each interface.
+//! on each of its faces, tension and shear on each interface. Where they are asked for, the largest strains in each material and on
+//! each of its faces too.
 //!
 //! Maxima are searched plane by plane and refined; on the surface itself, where the series converges slowly, the largest
 //! values are those of the [`Crest`]s.
@@ -17,7 +18,7 @@ use super::peak::Peak;
 use crate::body::InterfaceId;
 use serde::{Deserialize, Serialize};
 
-/// Largest stresses of a material or a face.
+/// Largest stresses and strains of a material or a face.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
     /// Largest principal shear stress τ₁.
@@ -29,6 +30,15 @@ pub struct Extremes {
     /// Largest von Mises stress.
     #[serde(rename = "max_mises")]
     pub mises: Peak,
+    /// Largest principal strain ε₁; `None` where no strains were asked for, as of the others.
+    #[serde(rename = "max_strain", default, skip_serializing_if = "Option::is_none")]
+    pub strain: Option<Peak>,
+    /// Largest normal strain of the horizontal directions; negative where all of them are in compression.
+    #[serde(rename = "max_horizontal_strain", default, skip_serializing_if = "Option::is_none")]
+    pub horizontal_strain: Option<Peak>,
+    /// Largest compression along z, −ε_zz: positive in compression.
+    #[serde(rename = "max_vertical_compression", default, skip_serializing_if = "Option::is_none")]
+    pub compression: Option<Peak>,
 }
 
 /// Largest stresses that an interface carries.
@@ -70,7 +80,15 @@ impl Maxima {
         let extremes = |contenders: &Contenders| {
             let [tau1, tension, mises] = MATERIAL_MEASURES
                 .map(|measure| found.stated(contenders, measure).expect("each material and each face has one of each"));
-            Extremes { tau1, tension, mises }
+            let strain = |is_kind: fn(&StressMeasure) -> bool| found.stated_of(contenders, is_kind);
+            Extremes {
+                tau1,
+                tension,
+                mises,
+                strain: strain(|own| matches!(own, StressMeasure::Strain(_))),
+                horizontal_strain: strain(|own| matches!(own, StressMeasure::HorizontalStrain(_))),
+                compression: strain(|own| matches!(own, StressMeasure::Compression(_))),
+            }
         };
         let everywhere = found.everywhere();
         let materials = everywhere.materials.iter().map(extremes).collect();
@@ -80,7 +98,7 @@ impl Maxima {
                 interface: *interface,
                 normal: found.stated(contenders, StressMeasure::Opening)?,
                 shear: found.stated(contenders, StressMeasure::Shear)?,
-                delamination: found.delamination(contenders),
+                delamination: found.stated_of(contenders, StressMeasure::is_delamination),
             })
         };
         let interfaces = everywhere.interfaces.iter().filter_map(carried).collect();
@@ -101,7 +119,7 @@ impl Maxima {
     ///
     /// The error of a contender is 1.6 times the change of its value from the next `coarser` grid, which at second order is
     /// three times the error, plus a part of the size of the stress that n samples along the radius of the smallest spot leave
-    /// open: 0.015 n⁻² for τ₁, von Mises and shears, 0.01 n⁻² for the opening stress of an interface, 0.1 n⁻² for a tension, within
+    /// open: 0.015 n⁻² for τ₁, von Mises and shears, 0.01 n⁻² for the opening stress of an interface, 0.1 n⁻² for a tension and strains, within
     /// two samples of the surface 0.2 n⁻¹. The size of the stress is √(Σσᵢⱼ²) of the stresses of the waves at the position: mean and
     /// residual stresses do not depend on the grid. For a stress on the surface the error is that of its [`Crest`]; beside a jump of a
     /// given pressure the waves of the grid ring, and within two samples of the surface 0.09 of the largest jump is added, less with the depth. Under discs, whose

@@ -1,5 +1,6 @@
 //! Stress measures whose largest values are searched.
 
+use super::strain::Compliance;
 use super::tensor::StressState;
 use crate::body::{InterfaceStrength, Strength};
 use crate::numeric::search::first_largest;
@@ -17,6 +18,12 @@ pub(super) enum StressMeasure {
     Tension,
     /// Von Mises stress.
     Mises,
+    /// Largest principal strain ε₁ in a material of this compliance.
+    Strain(Compliance),
+    /// Largest normal strain of the horizontal directions.
+    HorizontalStrain(Compliance),
+    /// Compression along z, −ε_zz.
+    Compression(Compliance),
     /// Opening stress σ_zz on an interface.
     Opening,
     /// Shear stress √(σ_xz² + σ_yz²) on an interface.
@@ -25,35 +32,37 @@ pub(super) enum StressMeasure {
     Delamination(InterfaceStrength),
 }
 
-/// Measures that are maximised in every material.
+/// Measures of stress that are maximised in every material.
 pub(super) const MATERIAL_MEASURES: [StressMeasure; 3] =
     [StressMeasure::Tau1, StressMeasure::Tension, StressMeasure::Mises];
 
 /// Which largest stresses are searched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sought {
-    /// All measures of each material, each face and each interface.
-    All,
+    /// All measures of stress of each material, each face and each interface, and those of strain where `strains` is set.
+    All { strains: bool },
     /// Those by which strengths are judged, where there are strengths.
     Strengths,
 }
 
 impl Sought {
-    /// Measures of a material of this strength.
-    pub fn in_material(self, strength: Strength) -> Vec<StressMeasure> {
+    /// Measures of a material of this strength and compliance.
+    pub fn in_material(self, strength: Strength, compliance: Compliance) -> Vec<StressMeasure> {
         let is_sought = |measure: &StressMeasure| match (self, measure) {
-            (Self::All, _) => true,
+            (Self::All { .. }, _) => true,
             (Self::Strengths, StressMeasure::Tension) => strength.tensile.is_some(),
             (Self::Strengths, StressMeasure::Mises) => strength.yielding.is_some(),
             (Self::Strengths, _) => false,
         };
-        MATERIAL_MEASURES.into_iter().filter(is_sought).collect()
+        let of_strain =
+            if self == (Self::All { strains: true }) { &StressMeasure::of_strain(compliance)[..] } else { &[] };
+        MATERIAL_MEASURES.iter().filter(|own| is_sought(own)).chain(of_strain).copied().collect()
     }
 
     /// Further measures on an interface of this strength.
     pub fn on_interface(self, strength: InterfaceStrength) -> Vec<StressMeasure> {
         let all = StressMeasure::of_interface(strength);
-        all.filter(|measure| self == Self::All || measure.is_delamination()).collect()
+        all.filter(|measure| self != Self::Strengths || measure.is_delamination()).collect()
     }
 }
 
@@ -62,6 +71,21 @@ impl StressMeasure {
     fn of_interface(strength: InterfaceStrength) -> impl Iterator<Item = Self> {
         let delamination = (!strength.is_empty()).then_some(Self::Delamination(strength));
         [Self::Opening, Self::Shear].into_iter().chain(delamination)
+    }
+
+    /// Measures of strain in a material of this compliance.
+    fn of_strain(compliance: Compliance) -> [Self; 3] {
+        [Self::Strain, Self::HorizontalStrain, Self::Compression].map(|measure| measure(compliance))
+    }
+
+    /// Whether the measure is one of an interface, not of a material.
+    pub fn is_of_interface(&self) -> bool {
+        matches!(self, Self::Opening | Self::Shear | Self::Delamination(_))
+    }
+
+    /// Whether the measure is a tension or an extension, which is small where a material is incompressible.
+    pub fn is_tensile(&self) -> bool {
+        matches!(self, Self::Tension | Self::Strain(_) | Self::HorizontalStrain(_))
     }
 
     /// Whether the measure is the utilisation of an interface.
@@ -78,7 +102,17 @@ impl StressMeasure {
             }
             // √(3/2 s:s) of a deviator no larger than the stresses.
             Self::Mises => 1.5f64.sqrt() * by,
-            _ => by,
+            _ => self.per_stress() * by,
+        }
+    }
+
+    /// The measure that a stress of size 1 makes at most: 1 of a stress, one over a pressure of a strain.
+    pub fn per_stress(self) -> f64 {
+        match self {
+            Self::Strain(compliance) | Self::HorizontalStrain(compliance) | Self::Compression(compliance) => {
+                compliance.size()
+            }
+            _ => 1.0,
         }
     }
 
@@ -88,18 +122,22 @@ impl StressMeasure {
             Self::Tau1 => state.tau1(),
             Self::Tension => state.s1(),
             Self::Mises => state.mises(),
+            Self::Strain(compliance) => compliance.first(state.s1(), state.mean()),
+            Self::HorizontalStrain(compliance) => compliance.strain(state).horizontal(),
+            Self::Compression(compliance) => -compliance.strain(state).zz,
             Self::Opening => state.zz,
             Self::Shear => state.interface_shear(),
             Self::Delamination(strength) => strength.utilisation(state.zz, state.interface_shear()),
         }
     }
 
-    /// Upper bound of the measure without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3); for the other measures the value
-    /// itself, up to rounding. `mean` is σ_kk/3, `root` is √J₂.
+    /// Upper bound of the measure without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3), and ε₁ by σ₁; for the other measures the
+    /// value itself, up to rounding. `mean` is σ_kk/3, `root` is √J₂.
     fn bound(self, state: &StressState, mean: f64, root: f64) -> f64 {
         match self {
             Self::Tau1 => root,
             Self::Tension => mean + 2.0 / 3f64.sqrt() * root,
+            Self::Strain(compliance) => compliance.first(mean + 2.0 / 3f64.sqrt() * root, mean),
             Self::Mises => 3f64.sqrt() * root,
             _ => self.of(state),
         }
@@ -170,16 +208,25 @@ fn from_ordered(number: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::Material;
+
+    /// A state whose stresses lie between −50 and 50.
+    fn state(k: usize) -> StressState {
+        StressState::from_stresses(std::array::from_fn(|c| ((k * k * 37 + 11 * c * k + c) % 101) as f64 - 50.0))
+    }
+
+    /// All measures, those of strains for two materials, one of them incompressible.
+    fn every_measure() -> Vec<StressMeasure> {
+        let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0), friction: 0.3 };
+        let materials = [(210.0, 0.3), (2.0, 0.5)].map(|(young, nu)| Material::from_young(young, nu).unwrap());
+        let of_strain = materials.into_iter().flat_map(|own| StressMeasure::of_strain(own.into()));
+        MATERIAL_MEASURES.into_iter().chain(of_strain).chain(StressMeasure::of_interface(strength)).collect()
+    }
 
     #[test]
     fn bounds_hold_and_the_largest_is_the_first_of_equals() {
-        let state = |k: usize| {
-            StressState::from_stresses(std::array::from_fn(|c| ((k * k * 37 + 11 * c * k + c) % 101) as f64 - 50.0))
-        };
         let states: Vec<StressState> = (0..200).map(state).chain((0..200).map(state)).collect();
-        let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0), friction: 0.3 };
-        let measures: Vec<StressMeasure> =
-            MATERIAL_MEASURES.into_iter().chain(StressMeasure::of_interface(strength)).collect();
+        let measures = every_measure();
         // All at once, and part by part: the largest of all is among what the parts give.
         let found = RunningMaxima::new(&measures);
         let parts: Vec<_> = states.chunks(50).map(|part| found.add(part.len(), |j| part[j])).collect();
@@ -188,13 +235,56 @@ mod tests {
             let values: Vec<f64> = states.iter().map(|state| measure.of(state)).collect();
             for (state, value) in states.iter().zip(&values) {
                 let (mean, j2) = state.invariants();
-                assert!(*value <= measure.bound(state, mean, j2.sqrt()) + 1e-12 * value.abs());
+                let rounding = 1e-12 * measure.per_stress() * state.size();
+                assert!(*value <= measure.bound(state, mean, j2.sqrt()) + rounding, "{measure:?}");
             }
             let largest = first_largest(values.into_iter());
             assert_eq!(Some(whole[k]), largest);
             let (part, value) = first_largest(parts.iter().map(|part| part[k].1)).unwrap();
             assert_eq!(Some((50 * part + parts[part][k].0, value)), largest);
         }
+    }
+
+    #[test]
+    fn strains_are_those_of_the_tensor_and_no_added_stresses_raise_a_measure_by_more() {
+        let of_size_one = |k: usize| {
+            let added = state(3 * k + 1).components();
+            StressState::from_components(added.map(|own| own / state(3 * k + 1).size()))
+        };
+        for measure in every_measure().into_iter().filter(|own| !own.is_delamination()) {
+            let mut largest = 0.0f64;
+            for (k, by) in (0..200).map(|k| (k, 0.01 * (1 + k % 7) as f64)) {
+                let (base, added) = (state(k), of_size_one(k));
+                let sum: [f64; 9] = std::array::from_fn(|c| base.components()[c] + by * added.components()[c]);
+                let rise = measure.of(&StressState::from_components(sum)) - measure.of(&base);
+                assert!(rise <= measure.rise(&base, by) * (1.0 + 1e-9), "{measure:?}: {rise}");
+                largest = largest.max(rise / measure.rise(&base, by));
+            }
+            assert!(largest > 0.5, "{measure:?}: {largest}");
+        }
+        let material = Material::from_young(210.0, 0.3).unwrap();
+        let strain = Compliance::from(material).strain(&state(3));
+        let [first, horizontal, compression] = StressMeasure::of_strain(material.into()).map(|own| own.of(&state(3)));
+        assert!((first - strain.principal()[0]).abs() < 1e-14 && (horizontal - strain.horizontal()).abs() < 1e-14);
+        assert!((compression + strain.zz).abs() < 1e-14);
+    }
+
+    /// The bound is reached by the stresses [(1 + ν) n_i n_j − ν δ_ij], which strain along **n** most for their size.
+    #[test]
+    fn the_stresses_that_strain_most_for_their_size_reach_the_rise() {
+        let nu = 0.3;
+        let material = Material::from_young(210.0, nu).unwrap();
+        let along = |n: [f64; 3]| {
+            let of = |i: usize, j: usize| (1.0 + nu) * n[i] * n[j] - if i == j { nu } else { 0.0 };
+            StressState::from_stresses([of(0, 0), of(1, 1), of(2, 2), of(0, 1), of(0, 2), of(1, 2)])
+        };
+        let [first, horizontal, compression] = StressMeasure::of_strain(material.into());
+        let rest = StressState::default();
+        for (measure, own) in [(first, along([0.6, 0.0, 0.8])), (horizontal, along([0.6, 0.8, 0.0]))] {
+            assert!((measure.of(&own) / measure.rise(&rest, own.size()) - 1.0).abs() < 1e-12);
+        }
+        let pressed = StressState::from_components(along([0.0, 0.0, 1.0]).components().map(|own| -own));
+        assert!((compression.of(&pressed) / compression.rise(&rest, pressed.size()) - 1.0).abs() < 1e-12);
     }
 
     #[test]

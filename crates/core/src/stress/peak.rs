@@ -1,4 +1,4 @@
-//! A largest stress with its position, its error and its rival.
+//! A largest stress or strain with its position, its error and its rival.
 
 use crate::body::MaterialId;
 use crate::numeric::serialised;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// A largest value and its position.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Peak {
-    /// The value, a pressure; infinite under a tip in contact.
+    /// The value, a pressure or a strain; infinite under a tip in contact.
     #[serde(flatten, with = "serialised::value")]
     pub value: f64,
     /// Estimated discretisation error of the value; `None` without a coarser grid or for a value that is not a number. It covers

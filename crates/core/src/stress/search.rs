@@ -15,11 +15,12 @@ use super::crest::Crest;
 use super::field::{REACH, StressField};
 use super::found::{ContenderLists, FoundStresses};
 use super::maxima::Maxima;
-use super::measure::{MATERIAL_MEASURES, Sought, StressMeasure};
+use super::measure::{Sought, StressMeasure};
 use super::peak::Peak;
 use super::plane_search::{Candidate, PlaneSamples, SEARCH_REACH};
+use super::strain::Compliance;
 use super::tensor::StressState;
-use crate::body::{Depth, Layer, Strength};
+use crate::body::{Depth, Layer};
 
 /// What the searches in all materials share.
 #[derive(Clone, Copy)]
@@ -61,7 +62,7 @@ impl StressField {
     /// Maxima over all materials, faces and interfaces; `None` when `goes_on`, called between planes and between searches,
     /// returns false. `radii` as in [`Self::maxima`].
     pub fn maxima_while(&self, radii: [f64; 2], goes_on: &dyn Fn() -> bool) -> Option<Maxima> {
-        self.found_everywhere(radii, Sought::All, goes_on).map(Maxima::new)
+        self.found_everywhere(radii, Sought::All { strains: self.strains }, goes_on).map(Maxima::new)
     }
 
     /// The contenders for what is `sought` in the cell or the window, in those materials, and on those interfaces below them, that are `wanted`;
@@ -73,11 +74,14 @@ impl StressField {
         wanted: &[[bool; 2]],
         goes_on: &dyn Fn() -> bool,
     ) -> Option<FoundStresses> {
-        let strengths: Vec<Strength> = self.half_space().strengths().collect();
-        let of_surface = sought.in_material(strengths[0]);
-        let crests = if of_surface.is_empty() || self.has_hole() { Vec::new() } else { self.crests_of(&of_surface) };
+        let compliances = self.half_space().materials().map(Compliance::from);
+        let measures = self.half_space().strengths().zip(compliances);
+        let measures: Vec<Vec<StressMeasure>> =
+            measures.map(|(strength, compliance)| sought.in_material(strength, compliance)).collect();
+        let of_surface = &measures[0];
+        let crests = if of_surface.is_empty() || self.has_hole() { Vec::new() } else { self.crests_of(of_surface) };
         let (search, mut contenders) = (Search { radii, sought, crests: &crests, goes_on }, ContenderLists::default());
-        for ((material, &strength), wanted) in (1..).zip(&strengths).zip(wanted) {
+        for ((material, measures), wanted) in (1..).zip(&measures).zip(wanted) {
             match wanted {
                 [false, false] => contenders.add_none(self.half_space(), material),
                 [false, true] => {
@@ -85,9 +89,7 @@ impl StressField {
                     // The upper face of the layer.
                     contenders.faces.push(Vec::new());
                 }
-                [true, _] => {
-                    self.add_contenders(material, &sought.in_material(strength), &search, &mut contenders)?;
-                }
+                [true, _] => self.add_contenders(material, measures, &search, &mut contenders)?,
             }
         }
         Some(FoundStresses {
@@ -129,7 +131,7 @@ impl StressField {
             goes_on().then(|| self.search_plane(depth, radii[0], &own, is_face, crests))
         };
         let planes: Vec<SearchedPlane> = (0..depths.len()).map(plane).collect::<Option<_>>()?;
-        let is_overall = |contender: &&(StressMeasure, Contender)| MATERIAL_MEASURES.contains(&contender.0);
+        let is_overall = |contender: &&(StressMeasure, Contender)| !contender.0.is_of_interface();
         let mut own: Contenders =
             planes.iter().flat_map(|plane| plane.on_face.iter().filter(is_overall)).copied().collect();
         let mut inside: Contenders = Vec::new();

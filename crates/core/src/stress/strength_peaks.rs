@@ -26,7 +26,7 @@ impl StrengthPeaks {
         };
         let [tension, mises] = [StressMeasure::Tension, StressMeasure::Mises].map(of);
         let interfaces = contenders.interfaces.iter();
-        let delamination = interfaces.map(|(_, contenders)| found.delamination(contenders)).collect();
+        let delamination = interfaces.map(|(_, own)| found.stated_of(own, StressMeasure::is_delamination)).collect();
         Self { tension, mises, delamination }
     }
 

@@ -78,9 +78,14 @@ impl StressState {
         [mean + first, mean - first - last, mean + last]
     }
 
+    /// Mean normal stress σ_kk/3.
+    pub(super) fn mean(&self) -> f64 {
+        (self.xx + self.yy + self.zz) / 3.0
+    }
+
     /// Mean normal stress σ_kk/3, and J₂ of the deviator.
     pub(super) fn invariants(&self) -> (f64, f64) {
-        let mean = (self.xx + self.yy + self.zz) / 3.0;
+        let mean = self.mean();
         let (a, b, c) = (self.xx - mean, self.yy - mean, self.zz - mean);
         (mean, 0.5 * (a * a + b * b + c * c) + self.xy * self.xy + self.xz * self.xz + self.yz * self.yz)
     }
