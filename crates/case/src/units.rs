@@ -99,7 +99,7 @@ impl Units {
                 let prefix = Unit::Si { base: "m", exponent: *exponent }.name().unwrap_or_default();
                 Unit::Named(format!("{prefix}²"))
             }
-            Unit::None | Unit::Relative(_) => Unit::None,
+            Unit::None | Unit::Relative(_) | Unit::Strain => Unit::None,
         }
     }
 
@@ -174,6 +174,16 @@ mod tests {
         assert_eq!(shown("m", "Pa", [1e-20, 1e20, 0.0]), ["0 pm", "100000000 TPa", "0 N"]);
         assert_eq!(shown("in", "psi", [1e-3, 3e7, 1.0]), ["0.001 in", "30000000 psi", "1 psi·in²"]);
         assert_eq!(shown("pm", "Pa", [1.0, 1.0, 1.0]), ["1 pm", "1 Pa", "0 pN"]);
+    }
+
+    #[test]
+    fn strains_are_microstrain_or_per_cent() {
+        let shown =
+            |x: f64| Unit::Strain.with_unit(x, |x| format!("{}", (1e6 * x).round() / 1e6)).replace('\u{a0}', " ");
+        assert_eq!(
+            [100.5e-6, -185.1e-6, 0.0, 2.5e-3, -0.04].map(shown),
+            ["100.5 µε", "-185.1 µε", "0 µε", "0.25 %", "-4 %"]
+        );
     }
 
     #[test]

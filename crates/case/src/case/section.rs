@@ -92,6 +92,10 @@ impl KeyValue for bool {
     fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
         value.boolean()
     }
+
+    fn is_nothing(&self) -> bool {
+        !self
+    }
 }
 
 impl KeyValue for String {

@@ -1,4 +1,4 @@
-//! `[stress]`: places at which stresses are computed.
+//! `[stress]`: places at which stresses and strains are computed.
 
 use serde::{Serialize, Serializer};
 
@@ -54,6 +54,8 @@ section! {
         /// the field under the cell, for ParaView
         pub volume: Option<Volume> =
             Key::new(&[Form::Table(&VOLUME)], "{ depth = 1.0, rows = 40, points = 96 }").otherwise("no field"),
+        /// strains beside stresses, at the same places, and the largest ones
+        pub strain: bool = Key::new(&[Form::Boolean], "true").default("false").omitted_as_nothing(),
     }
 }
 
@@ -181,6 +183,7 @@ impl StressSection {
             cut: self.section.and_then(cut),
             points: self.points.clone(),
             volume: self.volume,
+            strain: self.strain,
         }
     }
 }

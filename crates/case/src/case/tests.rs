@@ -141,6 +141,7 @@ fn a_case_has_the_keys_of_its_file_in_json() {
     assert_eq!(case["solver"]["method"], json!("polonsky-keer"));
     assert_eq!(case["stress"]["section"]["toward"], json!("level 3"));
     assert_eq!(case["stress"]["mean"], json!("half-space"));
+    assert_eq!(case["stress"]["strain"], json!(true));
     assert_eq!(case["localized"]["radius"], json!("area-balanced"));
     assert_eq!(case.get("surface"), None::<&Value>);
 }
@@ -157,7 +158,21 @@ fn what_is_not_said_has_its_default() {
     let coated = format!("{text}[[layers]]\nthickness = 1\nshear_ratio = 2\npoisson = 0.2\n[stress]\n");
     let case = read(&coated, &[]).unwrap();
     assert_eq!(case.half_space().layers()[0].interface(), Interface::Bonded);
-    assert_eq!(case.stress.map(|stress| stress.planes), Some(vec![]));
+    assert_eq!(case.stress.map(|stress| (stress.planes, stress.strain)), Some((vec![], false)));
+}
+
+#[test]
+fn a_case_without_strains_is_written_as_before_there_were_any() {
+    let [without, denied, asked] = ["{planes=[0.1]}", "{planes=[0.1],strain=false}", "{planes=[0.1],strain=true}"]
+        .map(|section| read(&fig2(), &[&format!("stress={section}")]).unwrap());
+    assert_eq!(without.to_toml(), denied.to_toml());
+    assert!(
+        !without.to_toml().contains("strain") && asked.to_toml().contains("\nstrain = true\n"),
+        "{}",
+        asked.to_toml()
+    );
+    let requested = |case: &Case| case.run().stress.unwrap().strain;
+    assert_eq!([&without, &denied, &asked].map(requested), [false, false, true]);
 }
 
 #[test]

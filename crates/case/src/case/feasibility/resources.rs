@@ -16,7 +16,7 @@ use percoat_core::reading::Criterion;
 use percoat_core::run::places::{MOST_ROWS, SECTION};
 use percoat_core::run::{EVENTS, Sampling};
 use percoat_core::spectral::Memory;
-use percoat_core::stress::{bytes_far, series_times};
+use percoat_core::stress::{FarTables, StrainState, bytes_around};
 use std::f64::consts::PI;
 
 const MEBIBYTE: u64 = 1 << 20;
@@ -46,8 +46,9 @@ const SPOT_FIELDS: u64 = 24;
 const KEPT: u64 = 64;
 /// Per point of a volume: the states of all its planes, kept until they are written.
 const STATE: u64 = 72;
-/// Numbers stored for a place of a stress field in `stress.npz`, and for a point of a VTK file.
+/// Numbers stored for a place of a stress field in `stress.npz`, those of strains, and numbers for a point of a VTK file.
 const COMPONENTS: u64 = 12;
+const STRAINS: u64 = StrainState::NAMES.len() as u64;
 const VTK_NUMBERS: u64 = 16;
 /// Sheets of paper as pixels, several at a time: maps and profiles, cuts, load curves.
 const MAPS: u64 = 23 * MEBIBYTE;
@@ -289,7 +290,8 @@ fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u
     let stored = planes * samples + section + stress.points.len() as u64;
     let plane = if planes > 0 { PLANE } else { 0 };
     let memory = ((STRESS + plane) * samples + STATE * section).max(STATE * volume + 64 * samples);
-    (memory, 8 * COMPONENTS * stored, 8 * VTK_NUMBERS * volume)
+    let components = COMPONENTS + if stress.strain { STRAINS } else { 0 };
+    (memory, 8 * components * stored, 8 * VTK_NUMBERS * volume)
 }
 
 /// Amplitudes inside the body, kept from load to load, and coefficients of a stress field where few waves have the same
@@ -488,6 +490,7 @@ mod tests {
         let of = |overrides: &[&str]| needs(&case(overrides), [512; 2], SOLVE).disk as f64;
         assert!((of(&[]) / 11_546_733.0 - 1.0).abs() < 0.01);
         assert!((of(&["stress={planes=[0,0.5]}"]) / 87_057_440.0 - 1.0).abs() < 0.01);
+        assert!((of(&["stress={planes=[0,0.5],strain=true}"]) / 150_000_000.0 - 1.0).abs() < 0.01);
         let volume = needs(&case(&["stress={volume={depth=1.0,rows=100,points=200}}"]), [256; 2], SOLVE);
         assert!((volume.disk as f64 / 530_383_216.0 - 1.0).abs() < 0.02);
     }
