@@ -27,6 +27,8 @@ pub enum Unit {
         /// The power of ten.
         exponent: i32,
     },
+    /// A strain, as microstrain or in per cent.
+    Strain,
 }
 
 /// A unit with the prefix that suits numbers of some size.
@@ -38,6 +40,8 @@ pub struct Prefixed {
     pub exponent: i32,
 }
 
+/// Strains below this are shown as microstrain.
+const MOST_MICROSTRAIN: f64 = 2e-3;
 /// Prefixes from 10⁻¹² to 10¹² by thousands.
 const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
 
@@ -97,7 +101,7 @@ impl Unit {
     /// Its name, if it has one.
     pub fn name(&self) -> Option<String> {
         match self {
-            Self::None | Self::Relative(_) => None,
+            Self::None | Self::Relative(_) | Self::Strain => None,
             Self::Named(name) => Some(name.clone()),
             Self::Si { base, exponent } if exponent.abs() <= 12 => Some(si(base, *exponent)),
             // No prefix goes so far.
@@ -105,10 +109,17 @@ impl Unit {
         }
     }
 
-    /// With the prefix for numbers up to `size`: its own while they are from 0.01 to 9999, which stand as they are.
+    /// With the prefix for numbers up to `size`: its own while they are from 0.01 to 9999, which stand as they are. A strain is one of
+    /// microstrain below 0.2 %.
     pub fn prefixed(&self, size: f64) -> Prefixed {
         let own = || Prefixed { name: self.name().unwrap_or_default(), exponent: 0 };
-        let Self::Si { base, exponent } = *self else { return own() };
+        let Self::Si { base, exponent } = *self else {
+            return match (self, size.abs() < MOST_MICROSTRAIN) {
+                (Self::Strain, true) => Prefixed { name: "µε".to_owned(), exponent: 6 },
+                (Self::Strain, false) => Prefixed { name: "%".to_owned(), exponent: 2 },
+                _ => own(),
+            };
+        };
         let reads_well = !size.is_normal() || (0.01..9999.5).contains(&size.abs());
         // A force of small units may lie below all prefixes.
         if reads_well && exponent.abs() <= 12 {

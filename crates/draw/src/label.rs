@@ -22,7 +22,7 @@ impl Label {
         let symbol = match unit {
             Unit::None => format!("{symbol}\u{a0}({unknown})"),
             Unit::Relative(to) => format!("{symbol}/{to}"),
-            Unit::Named(_) | Unit::Si { .. } => symbol.to_owned(),
+            Unit::Named(_) | Unit::Si { .. } | Unit::Strain => symbol.to_owned(),
         };
         let text = match (words.is_empty(), symbol.is_empty()) {
             (true, _) => symbol,

@@ -1,5 +1,5 @@
-//! `stress.npz`: stresses and displacements on planes, on a vertical section and at points, for every load step; and a
-//! VTK file of the volume for each.
+//! `stress.npz`: stresses and displacements on planes, on a vertical section and at points, for every load step, and strains where they
+//! are asked for; and a VTK file of the volume for each.
 
 use super::clock::{Clock, Phase};
 use super::layout::{STRESS, archive};
@@ -10,7 +10,7 @@ use super::{Files, OutputError};
 use ndarray::{ArrayView3, Axis};
 use percoat_core::body::{Bodies, Depth, HalfSpace, Side};
 use percoat_core::run::StressRequest;
-use percoat_core::stress::{StressField, StressFields, StressState, VerticalSection};
+use percoat_core::stress::{Compliance, StrainState, StressField, StressFields, StressState, VerticalSection};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
@@ -74,14 +74,18 @@ impl StressArchive {
     fn add_places(&mut self, field: &StressField, clock: &mut Clock) -> Result<(), OutputError> {
         let Self { arrays, request, sections, .. } = self;
         let (half_space, prefix) = (field.half_space(), prefix(field.half_space()));
+        let strained = request.strain.then_some(half_space);
         for (number, depth) in (1..).zip(request.plane_depths(half_space)) {
-            add_plane(arrays, number, field, depth, clock)?;
+            add_plane(arrays, number, field, depth, strained, clock)?;
         }
         if let Some(cut) = &request.cut {
             clock.turn(Phase::Stress);
             let section = field.section(&cut.line, &cut.depths(half_space));
             clock.turn(Phase::Output);
-            add_states(arrays, &format!("{prefix}section"), section.states.shape(), section.states.iter())?;
+            let rows = section.states.outer_iter().zip(&section.depths);
+            let states = rows.flat_map(|(row, &depth)| row.to_vec().into_iter().map(move |state| (state, depth)));
+            let states: Vec<(StressState, Depth)> = states.collect();
+            add_states(arrays, &format!("{prefix}section"), section.states.shape(), &states, strained)?;
             let near = section.depths.iter().flat_map(|&depth| field.near_edge(depth, &cut.line.places()));
             add_flags(arrays, &format!("{prefix}section"), section.states.shape(), near)?;
             sections.push(section);
@@ -89,10 +93,10 @@ impl StressArchive {
         let points = request.points_at(half_space);
         if !points.is_empty() {
             clock.turn(Phase::Stress);
-            let states: Vec<StressState> =
-                points.iter().map(|&(place, depth)| field.points(depth, &[place])[0]).collect();
+            let states: Vec<(StressState, Depth)> =
+                points.iter().map(|&(place, depth)| (field.points(depth, &[place])[0], depth)).collect();
             clock.turn(Phase::Output);
-            add_states(arrays, &format!("{prefix}points"), &[states.len()], states.iter())?;
+            add_states(arrays, &format!("{prefix}points"), &[states.len()], &states, strained)?;
             let near = points.chunk_by(|one, other| one.1 == other.1).flat_map(|level| {
                 let places: Vec<[f64; 2]> = level.iter().map(|&(place, _)| place).collect();
                 field.near_edge(level[0].1, &places)
@@ -160,12 +164,13 @@ fn add_axes<W: Write + Seek>(
 }
 
 /// Adds the components of a plane to the arrays `planes_<component>`, some rows at a time: first stresses and derived
-/// quantities, then displacements.
+/// quantities, with them the strains in a half-space that is `strained`, then displacements.
 fn add_plane(
     arrays: &mut StepArrays,
     number: usize,
     field: &StressField,
     depth: Depth,
+    strained: Option<&HalfSpace>,
     clock: &mut Clock,
 ) -> Result<(), OutputError> {
     let (points, prefix) = (field.grid().points(), prefix(field.half_space()));
@@ -174,10 +179,17 @@ fn add_plane(
         components.iter().map(|name| arrays.begin(&format!("{prefix}planes_{name}"), number, &points)).collect()
     };
     let mut entries = begin(arrays, &[stresses, derived].concat())?;
+    let compliance = strained.map(|half_space| Compliance::from(half_space.material(depth.material)));
+    let mut strains = begin(arrays, if compliance.is_some() { &StrainState::NAMES } else { &[] })?;
     clock.turn(Phase::Stress);
-    field.stresses_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
+    field.stresses_by_rows(depth, points, |rows| {
+        if let Some(compliance) = compliance {
+            add_rows(&mut strains, compliance.strains(rows).view(), clock)?;
+        }
+        add_rows(&mut entries, rows, clock)
+    })?;
     clock.turn(Phase::Output);
-    entries.into_iter().try_for_each(|entry| arrays.end(entry))?;
+    entries.into_iter().chain(strains).try_for_each(|entry| arrays.end(entry))?;
     let mut entries = begin(arrays, displacements)?;
     clock.turn(Phase::Stress);
     field.displacements_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
@@ -196,17 +208,25 @@ fn add_rows(entries: &mut [GrowingEntry], rows: ArrayView3<'_, f64>, clock: &mut
     Ok(())
 }
 
-/// Adds the components of states of this shape to the arrays `<place>_<component>`.
-fn add_states<'a>(
+/// Adds the components of states of this shape to the arrays `<place>_<component>`, with the strains in a half-space that is `strained`.
+fn add_states(
     arrays: &mut StepArrays,
     place: &str,
     shape: &[usize],
-    states: impl Iterator<Item = &'a StressState> + Clone,
+    states: &[(StressState, Depth)],
+    strained: Option<&HalfSpace>,
 ) -> Result<(), OutputError> {
-    (0..).zip(COMPONENTS).try_for_each(|(c, name)| {
-        let values = states.clone().map(|state| component(state, c));
-        arrays.add(&format!("{place}_{name}"), shape, values)
-    })
+    for (c, name) in (0..).zip(COMPONENTS) {
+        arrays.add(&format!("{place}_{name}"), shape, states.iter().map(|(state, _)| component(state, c)))?;
+    }
+    let Some(half_space) = strained else { return Ok(()) };
+    let compliances: Vec<Compliance> = half_space.materials().map(Compliance::from).collect();
+    let strain = |(state, depth): &(StressState, Depth)| compliances[depth.material - 1].strain(state).all();
+    let strains: Vec<[f64; 10]> = states.iter().map(strain).collect();
+    for (c, name) in (0..).zip(StrainState::NAMES) {
+        arrays.add(&format!("{place}_{name}"), shape, strains.iter().map(|all| all[c]))?;
+    }
+    Ok(())
 }
 
 /// Adds 1 where no error is known of the stresses, beside an edge of contact, and 0 elsewhere.

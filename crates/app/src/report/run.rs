@@ -80,11 +80,16 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         let pressed = pressed.map(|pressed| table(caption, &pressed)).unwrap_or_default();
         sections.push(section("hardness", "Hardness", vec![tag("p", upper(&words)), pressed]));
     }
+    let strains = tables::largest_strains(steps, &units).map(|own| table("Largest strains and their places", &own));
     if let Some(largest) = tables::largest_stresses(steps, &units) {
         sections.push(section(
             "stresses",
             "Largest stresses",
-            vec![table("Largest stresses and their places", &largest), assumed(case, false)],
+            vec![
+                table("Largest stresses and their places", &largest),
+                strains.unwrap_or_default(),
+                assumed(case, false),
+            ],
         ));
     }
     if let Some(taken) = &taken {

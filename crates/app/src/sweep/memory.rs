@@ -29,10 +29,11 @@ pub(super) fn of_results(case: &Case, task: Task) -> u64 {
     let scalars = match task {
         Task::Limit => STEP + PEAK * (criteria + 1),
         Task::Solve => {
-            // τ₁, tension and von Mises of each material and face, normal and shear of each interface.
+            // τ₁, tension and von Mises of each material and face, normal and shear of each interface; three strains beside the former.
             let has_stress = case.stress.is_some() || criteria > 0;
+            let measures = if case.stress.as_ref().is_some_and(|own| own.strain) { 6 } else { 3 };
             let stress = if has_stress {
-                PEAK * (3 * (3 * layers + 2 * bodies.each().count()) + 2 * layers + criteria)
+                PEAK * (measures * (3 * layers + 2 * bodies.each().count()) + 2 * layers + criteria)
             } else {
                 0
             };

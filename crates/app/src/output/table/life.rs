@@ -147,7 +147,7 @@ fn worn_alone(last: &Course, units: &Units) -> String {
 fn specific_rate(rate: f64, units: &Units) -> String {
     let pressure = match units.pressure() {
         Unit::Si { .. } | Unit::Named(_) => units.pressure().name(),
-        Unit::None | Unit::Relative(_) => None,
+        Unit::None | Unit::Relative(_) | Unit::Strain => None,
     };
     match pressure.as_deref().and_then(pascals) {
         // One over a gigapascal is a cubic millimetre per newton and metre.

@@ -9,6 +9,7 @@ mod hertz;
 mod largest;
 mod life;
 mod plastic;
+mod strains;
 mod strength;
 mod text;
 
@@ -20,6 +21,7 @@ pub use hertz::hertz;
 pub use largest::largest_stresses;
 pub use life::{events, headline, left};
 pub use plastic::plastic;
+pub use strains::largest_strains;
 pub use strength::{limits, utilisations};
 pub(super) use text::lines;
 pub use text::{Table, Worded};
@@ -66,6 +68,7 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     if let Some(largest) = &largest {
         text += &format!("\n{}\n", largest.fitted(width));
     }
+    text += &largest_strains(steps, &units).map_or(String::new(), |strains| format!("\n{}\n", strains.fitted(width)));
     let strength = utilisations(steps, Some(case.problem().bodies()), &units);
     if let Some(strength) = &strength {
         text += &format!("\n{}\n", strength.fitted(width));
