@@ -23,7 +23,7 @@ from percoat._identify import Identification, identify
 from percoat._life import Life, life
 from percoat._limit import Limits, limit
 from percoat._record import Record
-from percoat._solve import COMPONENTS, Plane, Result, Section, Step, solve
+from percoat._solve import COMPONENTS, STRAINS, Plane, Result, Section, Step, solve
 from percoat._stress import mises, principal, s1, tau1
 from percoat._sweep import Columns, sweep
 from percoat._warnings import NotConverged, PercoatWarning
@@ -43,6 +43,7 @@ __all__ = [
     "Progress",
     "Record",
     "Result",
+    "STRAINS",
     "Section",
     "Step",
     "__version__",

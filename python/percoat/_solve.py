@@ -26,6 +26,9 @@ Listener = Union[None, bool, Callable[["_core.Progress"], object]]
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz", "ux", "uy", "uz", "tau1", "mises", "s1")
 """Stresses σ_xx … σ_yz, displacements u_x, u_y, u_z, largest shear τ₁, von Mises' stress and the largest tension σ₁."""
 
+STRAINS = ("exx", "eyy", "ezz", "exy", "exz", "eyz", "e1", "e2", "e3", "ev")
+"""Strains ε_xx … ε_yz (half the shear angles), principal strains ε₁ ≥ ε₂ ≥ ε₃ and the volumetric strain."""
+
 
 class Level(Record):
     """What is read off the contact of one level; ``load`` and areas are those of one indenter."""
@@ -44,7 +47,7 @@ class Level(Record):
 
 
 class Field(Record):
-    """Arrays under the names of :data:`COMPONENTS`."""
+    """Arrays under the names of :data:`COMPONENTS`, and where strains were asked for under those of :data:`STRAINS`."""
 
     xx: Array
     yy: Array
@@ -58,6 +61,16 @@ class Field(Record):
     tau1: Array
     mises: Array
     s1: Array
+    exx: Array
+    eyy: Array
+    ezz: Array
+    exy: Array
+    exz: Array
+    eyz: Array
+    e1: Array
+    e2: Array
+    e3: Array
+    ev: Array
 
 
 class Plane(Field):
@@ -100,6 +113,14 @@ class Section(Field):
     def __repr__(self) -> str:
         rows, points = self.xx.shape
         return f"<percoat.Section: {rows} rows × {points} points, s = {self.s[0]:g} … {self.s[-1]:g}>"
+
+
+def _flat(points: ArrayLike) -> tuple[Array, tuple[int, ...]]:
+    """Points (…, 3) as rows (n, 3), and the shape … of them."""
+    own = np.asarray(points, dtype=float)
+    if own.ndim == 0 or own.shape[-1] != 3:
+        raise _core.CaseError(f"points have three coordinates x, y, z along their last axis, not {own.shape}")
+    return np.ascontiguousarray(own.reshape(-1, 3)), own.shape[:-1]
 
 
 class Common:
@@ -288,11 +309,37 @@ class Step:
         >>> percoat.mises(stress).shape
         (11,)
         """
-        points = np.asarray(points, dtype=float)
-        if points.ndim == 0 or points.shape[-1] != 3:
-            raise _core.CaseError(f"points have three coordinates x, y, z along their last axis, not {points.shape}")
-        flat = np.ascontiguousarray(points.reshape(-1, 3))
-        return self._core.stress(flat, material, body).reshape(*points.shape[:-1], 6)
+        flat, shape = _flat(points)
+        return self._core.stress(flat, material, body).reshape(*shape, 6)
+
+    def strain(
+        self, points: ArrayLike, *, material: Optional[int] = None, body: Body = "body"
+    ) -> Array:
+        """Strains at points inside one of the bodies, those of :meth:`stress` by Hooke's law.
+
+        Residual stresses count as they do there: strains are measured from the state without stress.
+
+        Parameters
+        ----------
+        points, material, body
+            As of :meth:`stress`.
+
+        Returns
+        -------
+        array (…, 6)
+            ε_xx, ε_yy, ε_zz, ε_xy, ε_xz, ε_yz, positive in extension; the last three are half the shear angles. The
+            eigenvalues that :func:`percoat.principal` gives are the principal strains.
+
+        Examples
+        --------
+        >>> import percoat
+        >>> step = percoat.solve("fig2", set={"grid.points": 96}).steps[0]
+        >>> strain = step.strain([0.0, 0.0, 0.5], material=2)
+        >>> bool(strain[2] < 0.0)
+        True
+        """
+        flat, shape = _flat(points)
+        return self._core.strain(flat, material, body).reshape(*shape, 6)
 
     def plane(
         self,
@@ -301,6 +348,7 @@ class Step:
         points: Union[None, int, Sequence[int]] = None,
         material: Optional[int] = None,
         body: Body = "body",
+        strain: bool = False,
     ) -> Plane:
         """Stresses and displacements on the horizontal plane at the depth z.
 
@@ -314,6 +362,8 @@ class Step:
             Of the two that meet at an interface, from 1; else the one nearer to the surface.
         body
             ``"counterbody"`` for an elastic one; z grows into it.
+        strain
+            Whether it has strains too, under the names of :data:`percoat.STRAINS`.
 
         Examples
         --------
@@ -323,10 +373,11 @@ class Step:
         (96, 96)
         """
         wanted = [points, points] if isinstance(points, (int, np.integer)) else points
-        components, material, name = self._core.plane(z, None if wanted is None else list(wanted), material, body)
+        counts = None if wanted is None else list(wanted)
+        components, material, name = self._core.plane(z, counts, material, body, strain)
         x, y = self._common.places(*components.shape[1:])
         place = {"x": x, "y": y, "z": float(z), "material": material, "name": name, "isolated": self.isolated}
-        return Plane({**place, **dict(zip(COMPONENTS, components))})
+        return Plane({**place, **dict(zip(COMPONENTS + STRAINS, components))})
 
     def section(
         self,
@@ -337,6 +388,7 @@ class Step:
         depth: Optional[float] = None,
         behind: Optional[float] = None,
         body: Body = "body",
+        strain: bool = False,
     ) -> Section:
         """Stresses and displacements on a vertical cut; without arguments, on that of the case.
 
@@ -355,6 +407,8 @@ class Step:
             How much of the length lies before ``start``.
         body
             ``"counterbody"`` for an elastic one; z grows into it.
+        strain
+            Whether it has strains too, under the names of :data:`percoat.STRAINS`.
 
         Examples
         --------
@@ -373,15 +427,15 @@ class Step:
                 "depth": 0.5 * period if depth is None else depth,
                 "behind": behind,
             }
-        (s, x, y, z), material, components = self._core.section(cut, body)
-        return Section(
-            {"s": s, "x": x, "y": y, "z": z, "material": material, **dict(zip(COMPONENTS, components))}
-        )
+        (s, x, y, z), material, components = self._core.section(cut, body, strain)
+        place = {"s": s, "x": x, "y": y, "z": z, "material": material}
+        return Section({**place, **dict(zip(COMPONENTS + STRAINS, components))})
 
     def maxima(self) -> Optional[Record]:
         """The largest stresses over each material, on each face and interface, with their places and errors.
 
-        As ``stress`` in ``summary.json``; ``None`` without contact.
+        As ``stress`` in ``summary.json``, with the largest strains where the case has ``stress.strain = true``; ``None``
+        without contact.
 
         Examples
         --------

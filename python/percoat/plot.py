@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from percoat import _core
 from percoat._identify import Identification
 from percoat._limit import criterion_name
-from percoat._solve import COMPONENTS, Array, Plane, Result, Section, Step
+from percoat._solve import COMPONENTS, STRAINS, Array, Plane, Result, Section, Step
 
 try:
     import matplotlib.pyplot as plt
@@ -47,10 +47,13 @@ LABELS = {
     "tau1": r"largest shear $\tau_1$",
     "mises": "von Mises' stress",
     "s1": r"largest tension $\sigma_1$",
+    **{name: rf"$\varepsilon_{{{name[1:]}}}$" for name in STRAINS[:-1]},
+    "ev": r"volumetric strain $\varepsilon_v$",
 }
 
 KINDS = {
     **dict.fromkeys(COMPONENTS, "pressure"),
+    **dict.fromkeys((*STRAINS, "max_strain", "max_horizontal_strain", "max_vertical_compression"), "strain"),
     **dict.fromkeys(("ux", "uy", "uz", "penetration", "additional_displacement"), "length"),
     **dict.fromkeys(("contact_radius", "radius_min", "radius_max", "radius_inner", "radius_outer"), "length"),
     **dict.fromkeys(("mean_pressure", "max_pressure", "value"), "pressure"),
@@ -140,7 +143,8 @@ def plane(
     plane
         From :meth:`percoat.Step.plane`.
     quantity
-        One of :data:`percoat.COMPONENTS`. What takes both signs has white for zero.
+        One of :data:`percoat.COMPONENTS`, or of :data:`percoat.STRAINS` where the plane has strains. What takes both
+        signs has white for zero.
     ax, window, artist
         As for :func:`pressure`.
     units
@@ -174,7 +178,8 @@ def section(
     section
         From :meth:`percoat.Step.section`.
     quantity
-        One of :data:`percoat.COMPONENTS`. What takes both signs has white for zero.
+        One of :data:`percoat.COMPONENTS`, or of :data:`percoat.STRAINS` where the section has strains. What takes both
+        signs has white for zero.
     ax, artist
         As for :func:`pressure`.
     units
@@ -256,7 +261,7 @@ def curve(
     labels = []
     for *path, last in (x.split("."), y.split(".")):
         words = path[-1] if path and last == "value" else last
-        labels.append(_label(words.replace("_", " "), KINDS.get(last), result.units))
+        labels.append(_label(words.replace("_", " "), KINDS.get(words, KINDS.get(last)), result.units))
     ax.set(xlabel=labels[0], ylabel=labels[1])
     if ax.get_xscale() == "linear":
         # Numbers such as 0.0475 stand side by side.
@@ -371,8 +376,10 @@ def _interrupted(across: Array, up: Array, errors: Array) -> tuple[Array, Array]
 
 
 def _component(record: Union[Plane, Section], quantity: str) -> Array:
-    if quantity not in COMPONENTS:
-        raise ValueError(f"no quantity {quantity!r}; there are {', '.join(COMPONENTS)}")
+    known = [name for name in COMPONENTS + STRAINS if name in record]
+    if quantity not in known:
+        asked = "; strains stand in it with strain=True" if quantity in STRAINS else ""
+        raise ValueError(f"no quantity {quantity!r}; there are {', '.join(known)}{asked}")
     return np.asarray(record[quantity])
 
 

@@ -3,7 +3,8 @@
 use crate::work::Listener;
 use ndarray::{Array2, Array3, ArrayView2, Axis, s};
 use percoat::machine::{available_memory, bytes};
-use percoat::{Depth, HalfSpace, StressField, SurfaceLine};
+use percoat::stress::{Compliance, StrainState};
+use percoat::{Depth, HalfSpace, StressField, StressState, SurfaceLine};
 
 /// The depth z ≥ 0 in the material of this number, from 1; without one, in the upper of two that meet there.
 fn depth(half_space: &HalfSpace, z: f64, material: Option<i64>) -> Result<Depth, String> {
@@ -31,6 +32,36 @@ pub fn at(
     material: Option<i64>,
     listener: &Listener,
 ) -> Result<Array2<f64>, String> {
+    read_at(field, points, material, listener, |state, _| {
+        let [stress @ .., _, _, _] = state.components();
+        stress
+    })
+}
+
+/// ε_xx, ε_yy, ε_zz, ε_xy, ε_xz, ε_yz (n, 6) at points x, y, z (n, 3).
+pub fn strains_at(
+    field: &StressField,
+    points: ArrayView2<'_, f64>,
+    material: Option<i64>,
+    listener: &Listener,
+) -> Result<Array2<f64>, String> {
+    let compliance = |depth: Depth| compliance(field, depth);
+    read_at(field, points, material, listener, |state, depth| compliance(depth).strain(state).components())
+}
+
+/// The compliance of the material at a depth.
+fn compliance(field: &StressField, depth: Depth) -> Compliance {
+    field.half_space().material(depth.material).into()
+}
+
+/// Six numbers of the states (n, 6) at points x, y, z (n, 3).
+fn read_at(
+    field: &StressField,
+    points: ArrayView2<'_, f64>,
+    material: Option<i64>,
+    listener: &Listener,
+    read: impl Fn(&StressState, Depth) -> [f64; 6],
+) -> Result<Array2<f64>, String> {
     if points.iter().any(|x| !x.is_finite()) {
         return Err("a point has a coordinate that is no finite number".to_owned());
     }
@@ -48,28 +79,36 @@ pub fn at(
     let mut order: Vec<usize> = (0..depths.len()).collect();
     let key = |index: usize| (depths[index].material, depths[index].z);
     order.sort_by(|&a, &b| key(a).partial_cmp(&key(b)).expect("depths are numbers"));
-    let mut stresses = Array2::zeros([depths.len(), 6]);
+    let mut found = Array2::zeros([depths.len(), 6]);
     for level in order.chunk_by(|&a, &b| depths[a] == depths[b]).flat_map(|level| level.chunks(CHUNK)) {
         listener.check()?;
         let places: Vec<[f64; 2]> = level.iter().map(|&index| [points[[index, 0]], points[[index, 1]]]).collect();
         for (&index, state) in level.iter().zip(field.points(depths[level[0]], &places)) {
-            let [stress @ .., _, _, _] = state.components();
-            stresses.row_mut(index).iter_mut().zip(stress).for_each(|(to, value): (&mut f64, f64)| *to = value);
+            let own = read(&state, depths[index]);
+            found.row_mut(index).iter_mut().zip(own).for_each(|(to, value): (&mut f64, f64)| *to = value);
         }
     }
-    Ok(stresses)
+    Ok(found)
 }
 
-/// Memory of a point of a plane, bytes: twelve components, and the six fields from which they are transformed.
-const POINT: u64 = 8 * 12 + 16 * 6;
+/// Components of a state, and those of a strain.
+const STRESSES: usize = 12;
+const STRAINS: usize = StrainState::NAMES.len();
 
-/// Numbers of points along a₁ and a₂: refused unless both are above 0 and memory holds the plane.
-pub fn counts(points: &[i64]) -> Result<[usize; 2], String> {
+/// Components of a plane or section, with those of its `strain`.
+fn components(strain: bool) -> usize {
+    STRESSES + if strain { STRAINS } else { 0 }
+}
+
+/// Numbers of points along a₁ and a₂: refused unless both are above 0 and memory holds the components of the plane, with those of its
+/// `strain`, and the six fields from which they are transformed.
+pub fn counts(points: &[i64], strain: bool) -> Result<[usize; 2], String> {
     let counts: Vec<u64> = points.iter().filter_map(|&n| u64::try_from(n).ok()).filter(|&n| n > 0).collect();
     let [n1, n2] = counts[..] else {
         return Err(format!("points are two numbers above 0, those along a₁ and a₂, not {points:?}"));
     };
-    let (needed, there) = (n1.saturating_mul(n2).saturating_mul(POINT), available_memory());
+    let (needed, there) =
+        (n1.saturating_mul(n2).saturating_mul(8 * components(strain) as u64 + 16 * 6), available_memory());
     if needed > there {
         return Err(format!(
             "{n1} × {n2} points take about {} of memory, and {} are available",
@@ -81,22 +120,25 @@ pub fn counts(points: &[i64]) -> Result<[usize; 2], String> {
 }
 
 /// The twelve components xx, yy, zz, xy, xz, yz, u_x, u_y, u_z, τ₁, von Mises, σ₁ (12, n₁, n₂) at n₁ × n₂ points of a plane, and
-/// the number of its material, from 1.
+/// the number of its material, from 1; with `strain` the numbers of its strains follow, (22, n₁, n₂).
 pub fn plane(
     field: &StressField,
     z: f64,
     points: [usize; 2],
-    material: Option<i64>,
+    (material, strain): (Option<i64>, bool),
     listener: &Listener,
 ) -> Result<(Array3<f64>, usize), String> {
     let depth = depth(field.half_space(), z, material)?;
     let [n1, n2] = points;
-    let mut all = Array3::zeros([12, n1, n2]);
-    let mut row = 0;
+    let mut all = Array3::zeros([components(strain), n1, n2]);
+    let (mut row, compliance) = (0, compliance(field, depth));
     field.stresses_by_rows(depth, points, |rows| {
         let count = rows.len_of(Axis(1));
         all.slice_mut(s![..6, row..row + count, ..]).assign(&rows.slice(s![..6, .., ..]));
-        all.slice_mut(s![9.., row..row + count, ..]).assign(&rows.slice(s![6.., .., ..]));
+        all.slice_mut(s![9..STRESSES, row..row + count, ..]).assign(&rows.slice(s![6.., .., ..]));
+        if strain {
+            all.slice_mut(s![STRESSES.., row..row + count, ..]).assign(&compliance.strains(rows));
+        }
         row += count;
         listener.check()
     })?;
@@ -110,13 +152,14 @@ pub fn plane(
     Ok((all, depth.material))
 }
 
-/// The same components on a vertical section: (12, rows, points), a row a depth.
-pub fn section(field: &StressField, line: &SurfaceLine, depths: &[Depth]) -> Array3<f64> {
+/// The same components on a vertical section: (12, rows, points), with `strain` (22, rows, points), a row a depth.
+pub fn section(field: &StressField, line: &SurfaceLine, depths: &[Depth], strain: bool) -> Array3<f64> {
     let states = field.section(line, depths).states;
     let (rows, points) = states.dim();
-    let mut all = Array3::zeros([12, rows, points]);
+    let mut all = Array3::zeros([components(strain), rows, points]);
     for ((row, point), state) in states.indexed_iter() {
-        let components = state.components().into_iter().chain(state.derived());
+        let strains = strain.then(|| compliance(field, depths[row]).strain(state).all());
+        let components = state.components().into_iter().chain(state.derived()).chain(strains.into_iter().flatten());
         all.slice_mut(s![.., row, point]).iter_mut().zip(components).for_each(|(to, value)| *to = value);
     }
     all

@@ -42,7 +42,8 @@ impl From<Kept> for Step {
 impl Kept {
     /// The stress fields under the contact.
     fn fields(&self) -> StressFields {
-        StressFields::new(self.step.finest(), self.case.mean_stress())
+        let strains = self.case.stress.as_ref().is_some_and(|own| own.strain);
+        StressFields::new(self.step.finest(), self.case.mean_stress()).with_strains(strains)
     }
 
     /// The half-space of this name, "body" or "counterbody".
@@ -58,10 +59,10 @@ impl Kept {
     }
 }
 
-/// Twelve components on a plane (12, n₁, n₂), the number of its material, from 1, and the name where it has one.
+/// Twelve components on a plane (12, n₁, n₂), or 22 with its strains, the number of its material, from 1, and the name where it has one.
 type Plane<'py> = (Bound<'py, PyArray3<f64>>, usize, Option<&'static str>);
 
-/// Of a section s, x, y of its points and z of its rows; the materials of the rows; the components (12, rows, points).
+/// Of a section s, x, y of its points and z of its rows; the materials of the rows; the components (12, rows, points), or 22 with its strains.
 type Cross<'py> = ([Bound<'py, PyArray1<f64>>; 4], Bound<'py, PyArray1<i32>>, Bound<'py, PyArray3<f64>>);
 
 #[pymethods]
@@ -101,9 +102,26 @@ impl Step {
         Ok(states.map_err(refused)?.into_pyarray(py))
     }
 
-    /// Twelve components on a plane (12, n₁, n₂), at the samples of the contact without `points`; the number of its
-    /// material, and the name.
-    #[pyo3(signature = (z, points = None, material = None, body = "body"))]
+    /// Strains (n, 6) at points (n, 3); on an interface in the material of this number, from 1.
+    #[pyo3(signature = (points, material = None, body = "body"))]
+    fn strain<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'py, f64>,
+        material: Option<i64>,
+        body: &str,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let side = self.0.half_space(body).map_err(refused)?.side();
+        let (kept, points) = (Arc::clone(&self.0), points.as_array().to_owned());
+        let strains = work::run(py, None, None, move |listener| {
+            interior::strains_at(kept.fields().on(side), points.view(), material, listener)
+        })?;
+        Ok(strains.map_err(refused)?.into_pyarray(py))
+    }
+
+    /// Twelve components on a plane (12, n₁, n₂), at the samples of the contact without `points`, or 22 with its strains; the number of
+    /// its material, and the name.
+    #[pyo3(signature = (z, points = None, material = None, body = "body", strain = false))]
     fn plane<'py>(
         &self,
         py: Python<'py>,
@@ -111,22 +129,30 @@ impl Step {
         points: Option<Vec<i64>>,
         material: Option<i64>,
         body: &str,
+        strain: bool,
     ) -> PyResult<Plane<'py>> {
         let half_space = self.0.half_space(body).map_err(refused)?;
         let (side, kept) = (half_space.side(), Arc::clone(&self.0));
-        let points = points.map_or(Ok(kept.step.grid().points()), |points| interior::counts(&points));
+        let points = points.map_or(Ok(kept.step.grid().points()), |points| interior::counts(&points, strain));
         let points = points.map_err(refused)?;
         let plane = work::run(py, None, None, move |listener| {
-            interior::plane(kept.fields().on(side), z, points, material, listener)
+            interior::plane(kept.fields().on(side), z, points, (material, strain), listener)
         })?;
         let (components, material) = plane.map_err(refused)?;
         let name = half_space.material_id(material).name;
         Ok((components.into_pyarray(py), material, name.map(|name| name.text())))
     }
 
-    /// Twelve components on the vertical cut of this value of the key `stress.section`, without one on that of the case.
-    #[pyo3(signature = (cut = None, body = "body"))]
-    fn section<'py>(&self, py: Python<'py>, cut: Option<&Bound<'py, PyAny>>, body: &str) -> PyResult<Cross<'py>> {
+    /// Twelve components, or 22 with the strains, on the vertical cut of this value of the key `stress.section`, without one on that of
+    /// the case.
+    #[pyo3(signature = (cut = None, body = "body", strain = false))]
+    fn section<'py>(
+        &self,
+        py: Python<'py>,
+        cut: Option<&Bound<'py, PyAny>>,
+        body: &str,
+        strain: bool,
+    ) -> PyResult<Cross<'py>> {
         let side = self.0.half_space(body).map_err(refused)?.side();
         let kept = Arc::clone(&self.0);
         let request = match cut {
@@ -139,7 +165,7 @@ impl Step {
         let (line, sides, components) = work::run(py, None, None, move |_| {
             let fields = kept.fields();
             let depths = cut.depths(fields.on(side).half_space());
-            let components = interior::section(fields.on(side), &cut.line, &depths);
+            let components = interior::section(fields.on(side), &cut.line, &depths, strain);
             (cut.line, depths, components)
         })?;
         let places = line.places();
@@ -150,7 +176,7 @@ impl Step {
         Ok((own, materials.into_pyarray(py), components.into_pyarray(py)))
     }
 
-    /// The largest stresses, as a dict; `None` without contact.
+    /// The largest stresses, and strains where the case asks for them, as a dict; `None` without contact.
     fn maxima<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let kept = Arc::clone(&self.0);
         let stress = work::run(py, None, None, move |listener| {

@@ -186,15 +186,15 @@ def test_a_step_without_contact_is_drawn_blank() -> None:
         assert all(np.ma.getmaskarray(np.ma.asarray(mesh.get_array())).all() for mesh in meshes(ax))
 
 
-@pytest.mark.parametrize("quantity", percoat.COMPONENTS)
+@pytest.mark.parametrize("quantity", percoat.COMPONENTS + percoat.STRAINS)
 def test_every_quantity_of_a_plane_and_a_section(oblique: percoat.Result, quantity: str) -> None:
-    slice_, section = oblique[1].plane(0.35, points=24), oblique[1].section()
+    slice_, section = oblique[1].plane(0.35, points=24, strain=True), oblique[1].section(strain=True)
     own = plot.plane(slice_, quantity, units=oblique.units)
     assert own.get_title() == "z = 0.35 mm, material 2"
     values = [np.ma.asarray(mesh.get_array()) for mesh in meshes(own)]
     assert all(np.isin(value, slice_[quantity]).all() for value in values)
     bars = own.child_axes
-    unit = "(mm)" if quantity.startswith("u") else "(MPa)"
+    unit = "(mm)" if quantity.startswith("u") else "$" if quantity in percoat.STRAINS else "(MPa)"
     assert len(bars) == 1 and bars[0].get_ylabel().endswith(unit)
     cut = plot.section(section, quantity, units=oblique.units)
     assert (cut.get_xlabel(), cut.get_ylabel()) == ("s (mm)", "z (mm)")

@@ -224,3 +224,42 @@ def test_points_in_any_memory(three_levels: percoat.Result) -> None:
         assert np.array_equal(three_levels[0].stress(form), expected)
     whole = np.array([[0, 0, 1], [1, 1, 2]])
     assert np.array_equal(three_levels[0].stress(whole), three_levels[0].stress(whole.astype(float)))
+
+
+def test_strains_follow_hookes_law_at_points_on_planes_and_on_sections(three_levels: percoat.Result) -> None:
+    step = three_levels[1]
+    case = three_levels.case
+    young, nu = case["substrate"]["young"], case["substrate"]["poisson"]
+    point = [0.1, 0.2, 0.7]
+    stress, strain = step.stress(point), step.strain(point)
+    expected = (1.0 + nu) / young * stress
+    expected[:3] -= nu / young * stress[:3].sum()
+    assert np.allclose(strain, expected, rtol=1e-12, atol=1e-15)
+    assert step.strain(np.zeros((2, 5, 3))).shape == (2, 5, 6)
+    plane, section = step.plane(0.7, strain=True), step.section("level 1", "level 2", length=1.0, depth=1.0, strain=True)
+    for field in (plane, section):
+        below = slice(None) if field is plane else section.material == 2
+        strains = np.stack([field[name][below] for name in percoat.STRAINS[:6]], axis=-1)
+        stresses = np.stack([field[name][below] for name in percoat.COMPONENTS[:6]], axis=-1)
+        hydrostatic = nu / young * stresses[..., :3].sum(axis=-1, keepdims=True) * [1, 1, 1, 0, 0, 0]
+        assert np.abs(strains - (1.0 + nu) / young * stresses + hydrostatic).max() < 1e-15
+        principal = np.stack([field[name][below] for name in ("e1", "e2", "e3")], axis=-1)
+        # Half of the digits are lost where two are equal, as of stresses.
+        assert np.abs(percoat.principal(strains) - principal).max() < 1.5e-8 * np.abs(strains).max()
+        assert np.abs(strains[..., :3].sum(axis=-1) - field.ev[below]).max() < 1e-16
+    assert not set(percoat.STRAINS) & {*step.plane(0.7), *step.section("level 1", "level 2", length=1.0, depth=1.0)}
+
+
+def test_the_largest_strains_are_there_where_the_case_asks_for_them() -> None:
+    settings = {"grid.points": 96, "stress.strain": True}
+    step = percoat.solve("fig2", set=settings)[0]
+    maxima = step.maxima()
+    assert maxima is not None and maxima.to_dict() == step.to_dict()["stress"]
+    for own in [maxima, *maxima.materials, *maxima.faces]:
+        assert own.max_strain.error > 0.0 and own.max_vertical_compression.value > 0.0
+    peak = maxima.materials[1].max_vertical_compression
+    there = step.strain([peak.x, peak.y, peak.z], material=2)
+    assert -there[2] == pytest.approx(peak.value, rel=1e-9)
+    without = percoat.solve("fig2", set={"grid.points": 96})[0].maxima()
+    assert without is not None and "max_strain" not in without
+    assert without.max_tau1 == maxima.max_tau1
