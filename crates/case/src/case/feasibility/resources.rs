@@ -16,7 +16,7 @@ use percoat_core::reading::Criterion;
 use percoat_core::run::places::{MOST_ROWS, SECTION};
 use percoat_core::run::{EVENTS, Sampling};
 use percoat_core::spectral::Memory;
-use percoat_core::stress::{FarTables, StrainState, bytes_around};
+use percoat_core::stress::{StrainState, bytes_far, series_times};
 use std::f64::consts::PI;
 
 const MEBIBYTE: u64 = 1 << 20;
