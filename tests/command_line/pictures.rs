@@ -43,7 +43,7 @@ fn svg_pictures_hold_the_words_of_their_axes_and_captions() {
         ("pressure", &["contact pressure p/E₂", "x/r₁", "y/r₁", "χ", "<image"]),
         ("contact", &["x/r₁", "direction θ (degrees)", "level 1"]),
         ("profiles", &["contact pressure p/E₂", "distance from the axis s/r₁", "level 1"]),
-        ("curve", &["mean pressure p̄/E₂", "peak pressure p/E₂", "additional displacement δ/r₁"]),
+        ("curve", &["mean pressure p̄/E₂", "peak pressure p/E₂", "penetration δ/r₁"]),
         ("section", &["depth z/r₁", "σₛ/E₂", "τ₁/E₂"]),
         ("lines", &["principal shear stress τ₁/E₂", "interface, coating", "interface, substrate"]),
     ];

@@ -121,7 +121,7 @@ fn the_page_of_an_isolated_contact_has_its_force_its_window_and_hertz_beside() {
         "The indenters, level by level",
         "The counterbody, from its surface inward",
         "Under the force 5000",
-        "area of contact",
+        "contact area",
         "mean pressure where there is contact",
         "contact radius<",
         "elastic energy<",
@@ -155,7 +155,7 @@ fn the_page_of_a_sweep_of_isolated_contacts_has_forces_and_areas() {
     }
     assert!(!page.contains("NaN") && !page.contains(">mean pressure<") && !page.contains(">contact<"), "{page}");
     let picture = Folder(desk.path("out")).text("sweep.svg").replace('\u{a0}', " ");
-    assert!(picture.contains("P = 5000 mN") && picture.contains("area of contact A"), "{picture}");
+    assert!(picture.contains("P = 5000 mN") && picture.contains("contact area A"), "{picture}");
     assert!(!picture.contains("step 1") && !picture.contains("fraction in contact"), "{picture}");
 }
 

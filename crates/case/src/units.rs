@@ -13,6 +13,7 @@ use percoat_core::body::HalfSpace;
 use percoat_core::counterbody::{Level, Shape};
 use percoat_core::load::LoadQuantity;
 use percoat_core::problem::Problem;
+use percoat_core::quantity::Kind;
 
 pub use percoat_common::unit::{CARRIED, Prefixed, Unit, is_force, is_length, is_pressure, lowered, pascals};
 
@@ -93,19 +94,40 @@ impl Units {
 
     /// Unit of areas: a length squared; [`Unit::None`] where lengths have no name.
     pub fn area(&self) -> Unit {
-        match &self.length {
-            Unit::Named(name) => Unit::Named(format!("{name}²")),
-            Unit::Si { exponent, .. } => {
-                let prefix = Unit::Si { base: "m", exponent: *exponent }.name().unwrap_or_default();
-                Unit::Named(format!("{prefix}²"))
-            }
-            Unit::None | Unit::Relative(_) | Unit::Strain => Unit::None,
-        }
+        self.raised("²")
     }
 
     /// Unit of energies: a pressure times a volume; [`Unit::None`] where one of both has no name.
     pub fn energy(&self) -> Unit {
         self.pressure_times(3, "J", "³")
+    }
+
+    /// Unit of a quantity by its kind; [`Unit::None`] of a number without dimension, and where a unit has no name.
+    pub fn unit(&self, kind: Kind) -> Unit {
+        match kind {
+            Kind::Pressure => self.pressure.clone(),
+            Kind::Force => self.force(),
+            Kind::Length => self.length.clone(),
+            Kind::Area => self.area(),
+            Kind::Volume => self.raised("³"),
+            Kind::Energy => self.energy(),
+            Kind::Stiffness => per(&self.force(), &self.length),
+            Kind::PressurePerLength => per(&self.pressure, &self.length),
+            Kind::Fraction | Kind::Passes | Kind::Utilisation => Unit::None,
+            Kind::Strain => Unit::Strain,
+        }
+    }
+
+    /// A power of a length, without a prefix of its own; [`Unit::None`] where lengths have no name.
+    fn raised(&self, power: &str) -> Unit {
+        match &self.length {
+            Unit::Named(name) => Unit::Named(format!("{name}{power}")),
+            Unit::Si { exponent, .. } => {
+                let prefix = Unit::Si { base: "m", exponent: *exponent }.name().unwrap_or_default();
+                Unit::Named(format!("{prefix}{power}"))
+            }
+            Unit::None | Unit::Relative(_) | Unit::Strain => Unit::None,
+        }
     }
 
     /// A pressure times a power of a length, in SI `base`.
@@ -120,6 +142,11 @@ impl Units {
             },
         }
     }
+}
+
+/// A unit over another; [`Unit::None`] where one of both has no name.
+fn per(unit: &Unit, other: &Unit) -> Unit {
+    unit.name().zip(other.name()).map_or(Unit::None, |(unit, other)| Unit::Named(format!("{unit}/{other}")))
 }
 
 /// Index of the substrate's material, on a rigid base of the first layer's, as letters carry it: none where there is one material.
@@ -194,6 +221,15 @@ mod tests {
         let told = [("µm", "GPa"), ("mm", "MPa"), ("m", "Pa"), ("in", "psi")].map(|(l, p)| energy(l, p));
         // GPa·µm³ = nJ, MPa·mm³ = mJ.
         assert_eq!(told.map(|text| text.replace('\u{a0}', " ")), ["2 nJ", "2 mJ", "2 J", "2 psi·in³"]);
+    }
+
+    #[test]
+    fn every_kind_has_its_unit_where_both_units_have_a_name() {
+        let named = units(1.0, 1.0, 1.0).named(Some("µm"), Some("GPa"));
+        let kinds = [Kind::Force, Kind::Area, Kind::Volume, Kind::Stiffness, Kind::PressurePerLength, Kind::Fraction];
+        let told = kinds.map(|kind| named.unit(kind).name().unwrap_or_default());
+        assert_eq!(told, ["mN", "µm²", "µm³", "mN/µm", "GPa/µm", ""]);
+        assert!(kinds.iter().all(|kind| Units::unknown().unit(*kind) == Unit::None));
     }
 
     #[test]

@@ -11,9 +11,7 @@ pub struct Words {
     pub around: &'static AroundWords,
     /// Words for what loads the body.
     pub load: &'static LoadWords,
-    /// Name of what is stated of the contact: its area, or its part of the surface.
-    pub extent: &'static str,
-    /// End of a sentence that begins with that area or part.
+    /// End of a sentence that begins with the area of contact, or its part of the surface.
     pub extent_of: &'static str,
 }
 
@@ -34,8 +32,6 @@ pub struct AroundWords {
     pub spots: &'static str,
     /// Stiffness by neighbouring load steps.
     pub stiffness: &'static str,
-    /// Penetration over the load.
-    pub penetration: &'static str,
     /// Depth of what is worn off that is stated.
     pub worn: &'static str,
     /// Keys of a case that have no effect, each with its section.
@@ -47,8 +43,6 @@ pub struct AroundWords {
 /// Words for what loads the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LoadWords {
-    /// Penetration.
-    pub depth: &'static str,
     /// Area of contact, as the head of a column.
     pub area: &'static str,
     /// Pressure on the surface.
@@ -67,7 +61,6 @@ const CELL: AroundWords = AroundWords {
     energy: "elastic energy of a cell",
     spots: "contact spots in the cell, joined at edges and corners of samples",
     stiffness: "stiffness dp̄/dδ, a pressure per length",
-    penetration: "additional displacement",
     worn: "mean",
     without_effect: &[],
     pictures: [
@@ -88,7 +81,7 @@ const CELL: AroundWords = AroundWords {
     ],
 };
 
-// Far from an isolated contact there is nothing to which displacement could be additional, nor a mean of what is worn.
+// Far from an isolated contact there is no mean of what is worn.
 const WINDOW: AroundWords = AroundWords {
     cell: "window",
     heading: "Window",
@@ -97,7 +90,6 @@ const WINDOW: AroundWords = AroundWords {
     energy: "elastic energy",
     spots: "contact spots, joined at edges and corners of samples",
     stiffness: "stiffness dP/dδ, a force per length",
-    penetration: "penetration",
     worn: "depth",
     without_effect: &[["stress", "mean"]],
     pictures: [
@@ -114,20 +106,14 @@ const WINDOW: AroundWords = AroundWords {
 };
 
 const CONTACT: LoadWords = LoadWords {
-    depth: "penetration",
     area: "contact",
     pressure: "contact pressure",
     bars: "contacts",
     mean_pressure: Some("mean pressure where there is contact"),
 };
 
-const PRESSURE: LoadWords = LoadWords {
-    depth: "largest deflection",
-    area: "under pressure",
-    pressure: "pressure",
-    bars: "where the pressure acts",
-    mean_pressure: None,
-};
+const PRESSURE: LoadWords =
+    LoadWords { area: "under pressure", pressure: "pressure", bars: "where the pressure acts", mean_pressure: None };
 
 impl AroundWords {
     /// Words for what lies around a cell.
@@ -149,15 +135,13 @@ impl LoadWords {
 impl Words {
     /// Words for a kind of contact.
     pub fn of(ContactKind { surroundings, is_given }: ContactKind) -> Self {
-        let (extent, extent_of) = match (surroundings, is_given) {
-            (Surroundings::Periodic, false) => ("part of the surface in contact", "of the surface is in contact"),
-            (Surroundings::Periodic, true) => {
-                ("part of the surface under pressure", "of the surface is under pressure")
-            }
-            (Surroundings::FreeSpace, false) => ("area of contact", "is the area of contact"),
-            (Surroundings::FreeSpace, true) => ("area under pressure", "is the area under pressure"),
+        let extent_of = match (surroundings, is_given) {
+            (Surroundings::Periodic, false) => "of the surface is in contact",
+            (Surroundings::Periodic, true) => "of the surface is under pressure",
+            (Surroundings::FreeSpace, false) => "is the area of contact",
+            (Surroundings::FreeSpace, true) => "is the area under pressure",
         };
         let load = if is_given { &PRESSURE } else { &CONTACT };
-        Self { around: AroundWords::of(surroundings), load, extent, extent_of }
+        Self { around: AroundWords::of(surroundings), load, extent_of }
     }
 }

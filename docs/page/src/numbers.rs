@@ -1,44 +1,34 @@
 //! The numbers of a step that are shown first.
 
 use crate::answer::CaseNumber;
-use percoat::output::table::in_unit;
-use percoat::output::with_error;
-use percoat::run::StepRecord;
-use percoat::stress::Peak;
-use percoat::units::{Unit, Units};
+use percoat::output::shown;
+use percoat::quantity::Quantity;
+use percoat::reading::{LEVEL, READING};
+use percoat::run::{STEP, StepRecord};
+use percoat::stress::maxima::EXTREMES;
+use percoat::units::Units;
 
-/// Penetration, contact, largest pressure and largest stresses of a step.
+/// Penetration, contact, peak pressure, largest stresses and contact stiffness of a step.
 pub fn of(step: &StepRecord, units: &Units) -> Vec<CaseNumber> {
+    /// The number of a quantity; `None` where the record does not have it.
+    fn number<R>(quantity: &Quantity<R>, record: &R, units: &Units) -> Option<CaseNumber> {
+        let own = quantity.of(record)?;
+        let (text, value) = (shown(&quantity.named, own, units), own.finite().map(|own| own.value));
+        Some(CaseNumber { name: quantity.named.name.to_owned(), text, value, error: own.error })
+    }
     let reading = &step.reading;
-    let shown = |name: &str, unit: &Unit, value: f64, error: Option<f64>| {
-        let suited = unit.suited([value]);
-        let text = suited.behind(&in_unit(&suited, value, error));
-        CaseNumber { name: name.to_owned(), text, value: Some(value).filter(|x| x.is_finite()), error }
+    let radius = match &reading.levels[..] {
+        [level] => number(&LEVEL.contact_radius, level, units),
+        _ => None,
     };
-    let (length, pressure) = (units.length(), units.pressure());
-    let mut all = vec![shown("penetration", length, reading.penetration, reading.errors.penetration)];
-    if let [level] = &reading.levels[..]
-        && let Some(radius) = level.contact_radius
-    {
-        all.push(shown("contact radius", length, radius, level.errors.contact_radius));
-    } else if let Some(part) = reading.contact_fraction {
-        all.push(shown("fraction in contact", &Unit::None, part, reading.errors.contact_fraction));
-    }
-    all.push(shown("largest pressure", pressure, reading.max_pressure, reading.errors.max_pressure));
+    let mut all = vec![
+        number(&READING.penetration, reading, units),
+        radius.or_else(|| number(&READING.contact_fraction, reading, units)),
+        number(&READING.max_pressure, reading, units),
+    ];
     if let Some(stress) = &step.stress {
-        let peak = |name: &str, Peak { value, error, .. }: Peak| shown(name, pressure, value, error);
-        all.push(peak("largest shear stress τ₁", stress.overall.tau1));
-        all.push(peak("largest tension", stress.overall.tension));
-        all.push(peak("largest von Mises stress", stress.overall.mises));
+        all.extend(EXTREMES.each().into_iter().map(|quantity| number(quantity, &stress.overall, units)));
     }
-    if let Some(stiffness) = step.contact_stiffness {
-        let error = step.contact_stiffness_error;
-        all.push(CaseNumber {
-            name: "contact stiffness".to_owned(),
-            text: with_error(stiffness, error),
-            value: Some(stiffness),
-            error,
-        });
-    }
-    all
+    all.push(number(&STEP.contact_stiffness, step, units));
+    all.into_iter().flatten().collect()
 }

@@ -1,5 +1,9 @@
 //! Numbers with their errors.
 
+use percoat_case::units::{Prefixed, Unit, Units};
+use percoat_core::measured::Measured;
+use percoat_core::quantity::{Kind, Named};
+
 pub use percoat_core::notation::number;
 
 /// Relative errors below this are rounding.
@@ -26,6 +30,47 @@ pub fn with_error(x: f64, error: Option<f64>) -> String {
     } else {
         let (scale, decimals) = (10f64.powi(-lead), usize::try_from(lead - digit).unwrap_or(0));
         format!("{:.decimals$}e{lead} ± {:.decimals$}e{lead}", x * scale, error * scale)
+    }
+}
+
+/// A value with its error, both in the unit of their column, which is not named; "singular" for an infinite one.
+pub fn in_unit(unit: &Prefixed, own: Measured) -> String {
+    if own.value.is_infinite() {
+        return "singular".to_owned();
+    }
+    with_error(unit.shown(own.value), own.error.map(|error| unit.shown(error)))
+}
+
+/// A value with its error and its unit, "0.5 ± 0.1 µm"; "singular" for an infinite one.
+pub fn with_unit(unit: &Unit, own: Measured) -> String {
+    if own.value.is_infinite() {
+        return in_unit(&unit.prefixed(1.0), own);
+    }
+    let prefixed = unit.prefixed(own.value);
+    prefixed.behind(&in_unit(&prefixed, own))
+}
+
+/// A quantity with its error and its unit, a part in per cent.
+pub fn shown(named: &Named, own: Measured, units: &Units) -> String {
+    match named.kind {
+        Kind::Fraction => percent_with_error(own),
+        kind => with_unit(&units.unit(kind), own),
+    }
+}
+
+/// Two decimals; no sign for zero.
+pub(super) fn percent(x: f64) -> String {
+    let text = format!("{:.2} %", 100.0 * x);
+    text.strip_prefix('-').filter(|text| *text == "0.00 %").map_or(text.clone(), str::to_owned)
+}
+
+/// A part with its error in per cent: at most two decimals, fewer where the error is larger.
+pub fn percent_with_error(own: Measured) -> String {
+    match own.times(100.0) {
+        Measured { value, error: Some(error) } if error > ROUNDING * value.abs() => {
+            format!("{} %", with_error(value, Some(error.max(0.01))))
+        }
+        _ => percent(own.value),
     }
 }
 
@@ -67,5 +112,19 @@ mod tests {
                 "12.000"
             ]
         );
+    }
+
+    #[test]
+    fn what_is_infinite_has_no_number_and_a_part_is_in_per_cent() {
+        let units = Units::unknown().named(Some("µm"), Some("GPa"));
+        let named = |kind: Kind| Named::new("", "", "", kind, percoat_core::quantity::ErrorAt::Nowhere);
+        let text = |kind: Kind, value: f64, error: Option<f64>| {
+            shown(&named(kind), Measured::new(value, error), &units).replace('\u{a0}', " ")
+        };
+        assert_eq!(text(Kind::Pressure, f64::INFINITY, None), "singular");
+        assert_eq!(text(Kind::Pressure, 0.002, Some(0.0001)), "2.0 ± 0.1 MPa");
+        assert_eq!(text(Kind::Fraction, 0.25, Some(0.002)), "25.0 ± 0.2 %");
+        assert_eq!(text(Kind::Stiffness, 2.0, None), "2.0000 mN/µm");
+        assert_eq!(text(Kind::Passes, 2e6, Some(1e5)), "2.0e6 ± 0.1e6");
     }
 }

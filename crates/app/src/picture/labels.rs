@@ -3,14 +3,16 @@
 use percoat_case::case::NamedKey;
 use percoat_case::units::{Unit, Units};
 use percoat_core::load::LoadQuantity;
+use percoat_core::quantity::{Kind, Named};
 use percoat_draw::Label;
 use percoat_draw::label::equals;
 
-/// Labels of lengths, areas, pressures and loads in the units of a case.
+/// Labels of quantities, lengths, pressures and loads in the units of a case.
 pub trait Labels {
     fn length_of(&self, words: &str, symbol: &str) -> Label;
-    fn area_of(&self, words: &str, symbol: &str) -> Label;
     fn pressure_of(&self, words: &str, symbol: &str) -> Label;
+    /// A quantity by its name, and its symbol where it has a unit.
+    fn label(&self, named: &Named) -> Label;
     /// The quantity of loads, with its words.
     fn load_of(&self, words: &str) -> Label;
     /// The key of a case, with its words.
@@ -28,12 +30,26 @@ impl Labels for Units {
         Label::of(words, symbol, self.length(), "unit\u{a0}of\u{a0}length")
     }
 
-    fn area_of(&self, words: &str, symbol: &str) -> Label {
-        Label::of(words, symbol, &self.area(), "unit\u{a0}of\u{a0}area")
-    }
-
     fn pressure_of(&self, words: &str, symbol: &str) -> Label {
         Label::of(words, symbol, self.pressure(), "unit\u{a0}of\u{a0}E")
+    }
+
+    fn label(&self, named: &Named) -> Label {
+        let Named { name, symbol, kind, .. } = *named;
+        let unknown = match kind {
+            Kind::Fraction | Kind::Passes | Kind::Utilisation => return name.into(),
+            // Always known.
+            Kind::Strain => "",
+            Kind::Pressure => "unit\u{a0}of\u{a0}E",
+            Kind::Force => "unit\u{a0}of\u{a0}force",
+            Kind::Length => "unit\u{a0}of\u{a0}length",
+            Kind::Area => "unit\u{a0}of\u{a0}area",
+            Kind::Volume => "unit\u{a0}of\u{a0}volume",
+            Kind::Energy => "unit\u{a0}of\u{a0}energy",
+            Kind::Stiffness => "unit\u{a0}of\u{a0}force\u{a0}per\u{a0}length",
+            Kind::PressurePerLength => "unit\u{a0}of\u{a0}E\u{a0}per\u{a0}length",
+        };
+        Label::of(name, symbol, &self.unit(kind), unknown)
     }
 
     fn load_of(&self, words: &str) -> Label {

@@ -7,7 +7,7 @@ use percoat_case::words::AroundWords;
 use percoat_core::body::Fatigue;
 use percoat_core::life::{Course, Event, EventKind};
 use percoat_core::problem::Problem;
-use percoat_core::reading::FatigueReading;
+use percoat_core::reading::{FatigueReading, READING};
 use percoat_core::stress::RangePlane;
 use percoat_draw::axis::Axis;
 use percoat_draw::bar::Bar;
@@ -187,7 +187,7 @@ pub fn course(
     let before = course.windows(2).filter(|pair| jumps(&pair[1])).map(|pair| [pair[1].passes, finite(&pair[0])]);
     let mut pressures: Vec<[f64; 2]> = before.chain(points(finite)).collect();
     pressures.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let y = Axis::linear(units.pressure_of("largest pressure", "p"));
+    let y = Axis::linear(units.label(&READING.max_pressure.named));
     charts.push(Chart { title: "pressure".to_owned(), x: x(), y, curves: vec![curve("", 1, pressures, Style::Line)] });
     for (letter, chart) in ('a'..).zip(&mut charts) {
         chart.title = format!("({letter}) {}", chart.title);

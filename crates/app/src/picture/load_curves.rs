@@ -3,17 +3,15 @@
 use super::snapshot::caption;
 use super::utilisations::{BARS, utilisation_axis, utilisation_curves};
 use crate::picture::labels::Labels;
-use crate::sweep::Measured;
 use percoat_case::units::Units;
-use percoat_case::words::AroundWords;
 use percoat_core::body::MaterialId;
-use percoat_core::lattice::Surroundings;
+use percoat_core::measured::Measured;
 use percoat_core::problem::Problem;
-use percoat_core::reading::{Criterion, LevelReading, PlasticReading, Reading};
+use percoat_core::quantity::Quantity;
+use percoat_core::reading::{Criterion, LEVEL, LevelReading, PLASTIC, PlasticReading, READING, Reading};
 use percoat_core::run::StepRecord;
 use percoat_core::run::touches::touches;
-use percoat_core::stress::Peak;
-use percoat_core::stress::maxima::{Carried, Extremes};
+use percoat_core::stress::maxima::{CARRIED, Carried, EXTREMES, Extremes};
 use percoat_draw::axis::{Axis, log_spaced};
 use percoat_draw::canvas::Canvas;
 use percoat_draw::chart::{Chart, plots};
@@ -29,9 +27,8 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
     let levels = problem.levels().len();
     let touches = touches(problem, steps, units.quantity());
     let loads: Vec<f64> = steps.iter().map(|step| step.reading.load(units.quantity())).collect();
-    let surroundings = problem.cell().surroundings();
     // Loads that are spread evenly on a logarithmic axis rather than on a linear one have one.
-    let path = LoadPath { steps, levels, units, surroundings, logarithmic: log_spaced(&loads), touches: &touches };
+    let path = LoadPath { steps, levels, units, logarithmic: log_spaced(&loads), touches: &touches };
     let mut charts = vec![path.peak_pressure(), path.extent(), path.penetration()];
     charts.extend(path.indentation());
     if path.levels > 1 {
@@ -60,7 +57,6 @@ struct LoadPath<'a> {
     /// Number of levels; 0 for a topography.
     levels: usize,
     units: &'a Units,
-    surroundings: Surroundings,
     /// Whether the load and the quantities that grow with it have logarithmic axes.
     logarithmic: bool,
     /// Levels and the loads at which they touch first.
@@ -86,29 +82,21 @@ impl LoadPath<'_> {
     fn curve(&self, label: &str, colour: Ink, value: impl Fn(&StepRecord) -> Option<Measured>) -> Curve {
         let values: Vec<Option<Measured>> = self.steps.iter().map(value).collect();
         let load = |step: &StepRecord| step.reading.load(self.units.quantity());
-        let points = self.steps.iter().zip(&values).map(|(step, own)| [load(step), own.map_or(f64::NAN, |own| own.0)]);
+        let points =
+            self.steps.iter().zip(&values).map(|(step, own)| [load(step), own.map_or(f64::NAN, |own| own.value)]);
         let points: Vec<[f64; 2]> = points.collect();
-        let errors = values.iter().map(|own| own.and_then(|own| own.1).unwrap_or(f64::NAN)).collect();
+        let errors = values.iter().map(|own| own.and_then(|own| own.error).unwrap_or(f64::NAN)).collect();
         // Markers show the steps of short paths.
         let style = if points.len() <= MOST_MARKERS { Style::LineMarkers } else { Style::Line };
         Curve { label: label.to_owned(), points, errors, style, colour }
     }
 
-    /// The curve of a largest stress.
-    fn peaks(&self, label: &str, colour: Ink, peak: impl Fn(&StepRecord) -> Option<Peak>) -> Curve {
-        self.curve(label, colour, |step| peak(step).and_then(|peak| Some((peak.finite()?, peak.error))))
-    }
-
-    /// One curve for each level, interrupted where the level has no value or no contact; one of the `whole` for a topography.
-    fn by_level(
-        &self,
-        whole: impl Fn(&Reading) -> Option<Measured>,
-        value: impl Fn(&LevelReading) -> Option<Measured>,
-    ) -> Vec<Curve> {
+    /// One curve of a quantity for each level, interrupted where the level has no value or no contact; one of the `whole` for a topography.
+    fn by_level(&self, whole: &Quantity<Reading>, quantity: &Quantity<LevelReading>) -> Vec<Curve> {
         if self.levels == 0 {
-            return vec![self.curve("", 1.into(), |step| whole(&step.reading))];
+            return vec![self.curve("", 1.into(), |step| whole.finite(&step.reading))];
         }
-        let touching = |level: &LevelReading| if level.load > 0.0 { value(level) } else { None };
+        let touching = |level: &LevelReading| if level.load > 0.0 { quantity.finite(level) } else { None };
         let of = |level: usize| {
             self.curve(&format!("level {level}"), level.into(), |step| touching(&step.reading.levels[level - 1]))
         };
@@ -116,53 +104,46 @@ impl LoadPath<'_> {
     }
 
     fn peak_pressure(&self) -> Chart {
-        let label = self.units.pressure_of("peak pressure", "p");
-        let whole = |own: &Reading| Some((own.finite_peak()?, own.errors.max_pressure));
-        let of_level = |own: &LevelReading| Some((own.finite_peak()?, own.errors.max_pressure));
-        self.chart("peak pressure", self.axis(label), self.by_level(whole, of_level))
+        let (whole, of_level) = (&READING.max_pressure, &LEVEL.max_pressure);
+        let axis = self.axis(self.units.label(&whole.named));
+        self.chart(whole.named.name, axis, self.by_level(whole, of_level))
     }
 
     fn extent(&self) -> Chart {
-        let (title, label) = match (self.levels, self.surroundings) {
-            (0, Surroundings::FreeSpace) => ("contact area", self.units.area_of("contact area", "A")),
-            (0, Surroundings::Periodic) => ("contact area", "fraction of the cell in contact".into()),
-            _ => ("contact radius", self.units.length_of("contact radius", "a")),
-        };
-        let area = |own: &Reading| match own.contact_fraction {
-            Some(part) => Some((part, own.errors.contact_fraction)),
-            None => Some((own.contact_area, own.errors.contact_area)),
-        };
-        let curves = self.by_level(area, |level| Some((level.contact_radius?, level.errors.contact_radius)));
-        self.chart(title, self.axis(label), curves)
+        let whole = self.steps.first().map_or(&READING.contact_area, |step| step.reading.extent());
+        let of_level = &LEVEL.contact_radius;
+        let named = if self.levels == 0 { &whole.named } else { &of_level.named };
+        self.chart(named.name, self.axis(self.units.label(named)), self.by_level(whole, of_level))
     }
 
     fn penetration(&self) -> Chart {
-        let title = AroundWords::of(self.surroundings).penetration;
-        let curve = self.curve("", 0.into(), |step| Some((step.reading.penetration, step.reading.errors.penetration)));
-        self.chart(title, self.axis(self.units.length_of(title, "δ")), vec![curve])
+        let named = &READING.penetration.named;
+        let curve = self.curve("", 0.into(), |step| READING.penetration.finite(&step.reading));
+        self.chart(named.name, self.axis(self.units.label(named)), vec![curve])
     }
 
     /// What hardness has pressed in; `None` where it has pressed nothing.
     fn indentation(&self) -> Option<Chart> {
         let mut readings = self.steps.iter().filter_map(|step| step.plastic.as_ref());
         readings.any(PlasticReading::is_pressed_in).then(|| {
-            let curve = |label: &str, colour: usize, value: fn(&PlasticReading) -> Measured| {
-                self.curve(label, colour.into(), |step| step.plastic.as_ref().map(value))
+            let curve = |own: &Quantity<PlasticReading>, colour: usize| {
+                self.curve(own.named.short, colour.into(), |step| own.finite(step.plastic.as_ref()?))
             };
-            let curves = vec![
-                curve("largest depth", 1, |own| (own.depth, own.depth_error)),
-                curve("permanent depth", 2, |own| (own.permanent_depth, own.permanent_depth_error)),
-            ];
+            let curves = vec![curve(&PLASTIC.depth, 1), curve(&PLASTIC.permanent_depth, 2)];
             let label = self.units.length_of("pressed in for good", "u");
             self.chart("pressed in for good", Axis::linear(label), curves)
         })
     }
 
     fn shares(&self) -> Chart {
-        let percent = |own: f64| 100.0 * own;
-        let share = |own: &LevelReading| Some((percent(own.load_share), own.errors.load_share.map(percent)));
-        let curves = self.by_level(|_| None, share);
-        self.chart("share of the load", Axis::linear("load share (%)").from_to(0.0, 105.0), curves)
+        let share =
+            |level: &LevelReading| Some(level).filter(|own| own.load > 0.0).and_then(|own| LEVEL.load_share.of(own));
+        let of = |level: usize| {
+            let value = |step: &StepRecord| Some(share(&step.reading.levels[level - 1])?.times(100.0));
+            self.curve(&format!("level {level}"), level.into(), value)
+        };
+        let axis = Axis::linear("load share (%)").from_to(0.0, 105.0);
+        self.chart(LEVEL.load_share.named.name, axis, (1..=self.levels).map(of).collect())
     }
 
     /// Charts of the largest stresses in each material; empty for runs without stresses.
@@ -170,45 +151,40 @@ impl LoadPath<'_> {
         let Some(any) = self.steps.iter().find_map(|step| step.stress.as_ref()) else { return Vec::new() };
         let ids: Vec<MaterialId> = any.materials.iter().map(|own| own.tau1.material).collect();
         let (names, materials) = (names(&ids), ids.len());
-        let curves = |value: fn(&Extremes) -> Peak| -> Vec<Curve> {
+        let chart = |quantity: &Quantity<Extremes>| {
             let of = |index: usize| {
-                self.peaks(&names[index], Ink::by_depth(index, materials), |step| {
-                    step.stress.as_ref()?.materials.get(index).map(value)
+                self.curve(&names[index], Ink::by_depth(index, materials), |step| {
+                    quantity.finite(step.stress.as_ref()?.materials.get(index)?)
                 })
             };
-            (0..materials).map(of).collect()
+            let label = self.units.label(&quantity.named);
+            // A shear and von Mises are not below zero.
+            let is_positive = [EXTREMES.tau1.named, EXTREMES.mises.named].contains(&quantity.named);
+            let axis = if is_positive { self.axis(label) } else { Axis::linear(label) };
+            self.chart(quantity.named.short, axis, (0..materials).map(of).collect())
         };
-        let tau1 = self.units.pressure_of("largest principal shear stress", "τ₁");
-        let tension = self.units.pressure_of("largest tension", "σ₁");
-        let mises = self.units.pressure_of("largest von Mises stress", "σᵥ");
-        vec![
-            self.chart("principal shear stress", self.axis(tau1), curves(|extremes| extremes.tau1)),
-            self.chart("tension", Axis::linear(tension), curves(|extremes| extremes.tension)),
-            self.chart("von Mises", self.axis(mises), curves(|extremes| extremes.mises)),
-        ]
+        let is_there = |quantity: &&Quantity<Extremes>| any.materials.iter().any(|own| quantity.of(own).is_some());
+        EXTREMES.each().into_iter().filter(is_there).map(chart).collect()
     }
 
     /// Chart of the largest tension and shear of each interface.
     fn interfaces(&self) -> Option<Chart> {
         let any = &self.steps.iter().find_map(|step| step.stress.as_ref())?.interfaces;
         let interfaces = any.len();
-        let curve = |index: usize, what: &str, value: fn(&Carried) -> Peak, thin: bool| {
+        let curve = |index: usize, quantity: &Quantity<Carried>, thin: bool| {
+            let what = quantity.named.short;
             let name = match interfaces {
                 1 => what.to_owned(),
                 NUMBERED_COLOURS.. if thin => String::new(),
                 NUMBERED_COLOURS.. => any[index].interface.to_string(),
                 _ => format!("{what}, {}", any[index].interface),
             };
-            let of = |step: &StepRecord| step.stress.as_ref()?.interfaces.get(index).map(value);
-            let curve = self.peaks(&name, Ink::by_depth(index, interfaces), of);
+            let of = |step: &StepRecord| quantity.finite(step.stress.as_ref()?.interfaces.get(index)?);
+            let curve = self.curve(&name, Ink::by_depth(index, interfaces), of);
             if thin { Curve { style: Style::Thin, ..curve } } else { curve }
         };
-        let curves = (0..interfaces).flat_map(|index| {
-            [
-                curve(index, "tension", |carried| carried.normal, true),
-                curve(index, "shear", |carried| carried.shear, false),
-            ]
-        });
+        let curves = (0..interfaces)
+            .flat_map(|index| [curve(index, &CARRIED.normal, true), curve(index, &CARRIED.shear, false)]);
         let y = Axis::linear(self.units.pressure_of("largest tension and shear", "σ, τ"));
         let title =
             if interfaces < NUMBERED_COLOURS { "interfaces" } else { "interfaces; thick: shear, thin: tension" };

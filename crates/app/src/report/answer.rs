@@ -2,13 +2,12 @@
 
 use super::markup::{Markup, numbers, tag, with};
 use super::table::pairs;
-use super::units::with_unit;
-use crate::output::table::percent_with_error;
-use crate::output::with_error;
+use crate::output::{shown, with_error, with_unit};
 use percoat_case::units::Units;
 use percoat_case::words::Words;
-use percoat_core::reading::LevelReading;
-use percoat_core::run::StepRecord;
+use percoat_core::quantity::Quantity;
+use percoat_core::reading::{LEVEL, LevelReading, READING, ROUGH, Reading, ReadingQuantities, RoughReading};
+use percoat_core::run::{STEP, StepRecord};
 
 /// The first section of a run: a sentence on the last load step with contact, and a table of its numbers.
 pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
@@ -16,78 +15,89 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     let Some(step) = number.checked_sub(1).and_then(|index| steps.get(index)) else {
         return tag("p", "The case has no load step.");
     };
+    let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());
+    let answer = with("p", &[("class", "answer")], numbers(&sentence(step, units)));
+    vec![answer, pairs(&step_of, &rows(step, units))].into()
+}
+
+/// A quantity of a record with its error and unit; empty where the record does not have it.
+fn text<R>(quantity: &Quantity<R>, record: &R, units: &Units) -> String {
+    quantity.of(record).map_or(String::new(), |own| shown(&quantity.named, own, units))
+}
+
+/// What a load does, in a sentence.
+fn sentence(step: &StepRecord, units: &Units) -> String {
     let reading = &step.reading;
-    let errors = &reading.errors;
-    let quantity = units.quantity();
-    let load = with_unit(&units.load(), reading.load(quantity), reading.load_error(quantity));
-    let penetration = with_unit(units.length(), reading.penetration, errors.penetration);
+    if !reading.touches() {
+        return "Nothing touches: there is no load.".to_owned();
+    }
+    let ReadingQuantities { penetration: depth, max_pressure: peak, .. } = &READING;
+    let load = READING.load(units.quantity());
+    let is = match reading.singular() {
+        true => "is infinite".to_owned(),
+        false => format!("is {}", text(peak, reading, units)),
+    };
+    let under = highest(&reading.levels).map_or(String::new(), |level| format!(" under level {}", level.level));
+    format!(
+        "Under the {} {} the {} is {}; {} {}, and the {} {is}{under}.",
+        load.named.name,
+        text(load, reading, units),
+        depth.named.of(step.kind().is_given),
+        text(depth, reading, units),
+        text(reading.extent(), reading, units),
+        Words::of(step.kind()).extent_of,
+        peak.named.name
+    )
+}
+
+/// The numbers of a step under their names.
+fn rows(step: &StepRecord, units: &Units) -> Vec<(&'static str, Markup)> {
+    let (reading, is_given) = (&step.reading, step.kind().is_given);
     let words = Words::of(step.kind());
-    let contact = match reading.contact_fraction {
-        Some(part) => percent_with_error(part, errors.contact_fraction),
-        None => with_unit(&units.area(), reading.contact_area, errors.contact_area),
-    };
-    let peak = reading
-        .finite_peak()
-        .map_or("singular".to_owned(), |peak| with_unit(units.pressure(), peak, errors.max_pressure));
-    let sentence = if reading.touches() {
-        let highest = highest(&reading.levels);
-        let under = highest.map_or(String::new(), |level| format!(" under level {}", level.level));
-        let peak = if reading.singular() { "is infinite".to_owned() } else { format!("is {peak}") };
-        format!(
-            "Under the {} {load} the {} is {penetration}; {contact} {}, and \
-             the largest pressure {peak}{under}.",
-            quantity.name(),
-            words.load.depth,
-            words.extent_of
-        )
-    } else {
-        "Nothing touches: there is no load.".to_owned()
-    };
-    let mut rows: Vec<(&str, Markup)> = vec![
-        (quantity.name(), numbers(&load)),
-        (words.load.depth, numbers(&penetration)),
-        (words.extent, numbers(&contact)),
-        ("peak pressure", numbers(&peak)),
+    let around = words.around;
+    let row = |own: &Quantity<Reading>| (own.named.of(is_given), numbers(&text(own, reading, units)));
+    let mut rows = vec![
+        row(READING.load(units.quantity())),
+        row(&READING.penetration),
+        row(reading.extent()),
+        row(&READING.max_pressure),
     ];
     rows.extend(
         words
             .load
             .mean_pressure
             .zip(reading.mean_contact_pressure())
-            .map(|(name, (mean, error))| (name, numbers(&with_unit(units.pressure(), mean, error)))),
+            .map(|(name, mean)| (name, numbers(&with_unit(units.pressure(), mean)))),
     );
     if let [level] = &reading.levels[..]
-        && let Some(radius) = level.contact_radius.filter(|_| level.load > 0.0 && !level.ring)
+        && level.contact_radius.is_some_and(|_| level.load > 0.0 && !level.ring)
     {
-        let radius = with_unit(units.length(), radius, level.errors.contact_radius);
-        rows.push(("contact radius", numbers(&radius)));
+        rows.push((LEVEL.contact_radius.named.name, numbers(&text(&LEVEL.contact_radius, level, units))));
     }
-    rows.push((
-        words.around.energy,
-        numbers(&with_unit(&units.energy(), reading.elastic_energy, errors.elastic_energy)),
-    ));
-    let shares = reading.levels.iter().map(|level| {
-        let share = percent_with_error(level.load_share, level.errors.load_share);
-        tag("li", numbers(&format!("level {}: {share}", level.level)))
-    });
+    rows.push((around.energy, numbers(&text(&READING.elastic_energy, reading, units))));
     if reading.levels.len() > 1 {
-        rows.push(("share of the load", with("ul", &[("class", "plain")], shares.collect::<Markup>())));
+        let shares = reading.levels.iter().map(|level| {
+            let share = text(&LEVEL.load_share, level, units);
+            tag("li", numbers(&format!("level {}: {share}", level.level)))
+        });
+        let shares = with("ul", &[("class", "plain")], shares.collect::<Markup>());
+        rows.push((LEVEL.load_share.named.name, shares));
     }
     if let Some(rough) = &step.rough {
-        let stiffness = rough.stiffness.map(|stiffness| with_error(stiffness, rough.stiffness_error));
-        rows.extend(rough.corrected_fraction.map(|part| {
-            let part = percent_with_error(part, rough.corrected_fraction_error);
-            ("counted, corrected by the perimeter", numbers(&part))
-        }));
-        rows.push((words.around.spots, rough.spots.count.to_string().into()));
-        let gap = rough.mean_gap.map(|gap| with_unit(units.length(), gap, rough.mean_gap_error));
-        rows.extend(gap.map(|gap| ("mean gap", numbers(&gap))));
-        rows.extend(stiffness.map(|text| (words.around.stiffness, numbers(&text))));
+        let row = |own: &Quantity<RoughReading>| {
+            own.of(rough).map(|measured| (own.named.short, numbers(&shown(&own.named, measured, units))))
+        };
+        rows.extend(row(&ROUGH.corrected_fraction));
+        rows.push((around.spots, rough.spots.count.to_string().into()));
+        rows.extend(row(&ROUGH.mean_gap));
+        let stiffness = ROUGH.stiffness.of(rough).map(|own| with_error(own.value, own.error));
+        rows.extend(stiffness.map(|text| (around.stiffness, numbers(&text))));
     }
-    let stiffness = step.contact_stiffness.map(|stiffness| with_error(stiffness, step.contact_stiffness_error));
-    rows.extend(stiffness.map(|text| (words.around.stiffness, numbers(&text))));
-    let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());
-    vec![with("p", &[("class", "answer")], numbers(&sentence)), pairs(&step_of, &rows)].into()
+    let stiffness = STEP.contact_stiffness.of(step);
+    rows.extend(
+        stiffness.map(|_| (STEP.contact_stiffness.named.name, numbers(&text(&STEP.contact_stiffness, step, units)))),
+    );
+    rows
 }
 
 /// The level with the largest pressure, where there are several.

@@ -21,8 +21,8 @@ const PICTURES: [PictureText; 2] = [
     ),
     (
         "life",
-        "Curves of the layers that are left, of what is removed and of the largest pressure over the passes",
-        "What is left of the layers, what is removed and worn off, and the largest pressure, over the passes.",
+        "Curves of the layers that are left, of what is removed and of the peak pressure over the passes",
+        "What is left of the layers, what is removed and worn off, and the peak pressure, over the passes.",
     ),
 ];
 

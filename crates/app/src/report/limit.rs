@@ -10,9 +10,10 @@ use super::problem::problem;
 use super::resolution::{resolution, upper};
 use super::results::Results;
 use super::table::table;
-use super::units::{case_of, measured_in, units_of, with_unit};
-use crate::output::{LimitFile, table as tables};
+use super::units::{case_of, measured_in, units_of};
+use crate::output::{LimitFile, table as tables, with_unit};
 use percoat_case::units::Units;
+use percoat_core::measured::Measured;
 use percoat_core::run::{At, EVENTS, Limits};
 
 const PICTURES: [PictureText; 1 + EVENTS] = [
@@ -87,6 +88,6 @@ fn first(limits: &Limits, units: &Units) -> Option<String> {
     if !first.is_sharp() || !limits.contenders().is_empty() {
         return None;
     }
-    let load = with_unit(&units.load(), load, error);
+    let load = with_unit(&units.load(), Measured::new(load, error));
     Some(format!("First: {} at the {} {load}.", first.criterion, limits.quantity.name()))
 }

@@ -3,12 +3,14 @@
 use super::given::settings;
 use super::markup::{Markup, numbers, with};
 use super::table::table;
-use super::units::with_unit;
-use crate::output::table::{Table, percent_with_error};
-use crate::output::with_error;
-use crate::sweep::{Foremost, Kind, LimitValue, Row, SCALARS, Scalar, SweepResult, SweptKey, scalars_with};
-use percoat_case::units::{Unit, Units};
-use percoat_core::reading::Criterion;
+use crate::output::table::Table;
+use crate::output::{in_unit, percent_with_error, with_unit};
+use crate::sweep::{Foremost, LimitValue, Row, SweepResult, SweptKey, shown_with, stated};
+use percoat_case::units::Units;
+use percoat_core::measured::Measured;
+use percoat_core::quantity::{Kind, Named};
+use percoat_core::reading::{Criterion, READING};
+use percoat_core::run::OfStep;
 
 /// The least and the largest value of a result.
 struct ValueRange {
@@ -27,8 +29,7 @@ pub(super) fn sentences(rows: &[Row], keys: &[SweptKey], units: &Units) -> Vec<M
         format!("The {name} lies between {} ({}) and {} ({})", least.0, least.1, most.0, most.1)
     };
     if !are_limits(rows) {
-        let peak = SCALARS.iter().find(|scalar| scalar.name == "peak pressure");
-        let peak = peak.and_then(|scalar| scalar_range(rows, keys, scalar, units));
+        let peak = quantity_range(rows, keys, &READING.max_pressure, units);
         return peak.map(|peak| sentence(format!("{}{}.", between(peak), of_last(rows)))).into_iter().collect();
     }
     let mut sentences: Vec<Markup> = firsts(rows).map(sentence).into_iter().collect();
@@ -39,7 +40,7 @@ pub(super) fn sentences(rows: &[Row], keys: &[SweptKey], units: &Units) -> Vec<M
     });
     let below: Vec<f64> = below.collect();
     let below = below.iter().copied().reduce(f64::max).map(|most| {
-        let most = with_unit(&units.load(), most, None);
+        let most = with_unit(&units.load(), Measured::exact(most));
         format!("in {} the first limit is known only to lie below {most}", combinations(below.len()))
     });
     let parts: Vec<String> = first.map(between).into_iter().chain(below).collect();
@@ -58,11 +59,11 @@ pub(super) fn ranges(rows: &[Row], keys: &[SweptKey], units: &Units) -> Markup {
         limit_range(rows, keys, &name, criterion, units)
     });
     // The load is prescribed.
-    let quantity = units.quantity();
-    let scalars = scalars_with(quantity).filter(|scalar| scalar.name != quantity.name());
-    let scalars = scalars.map(|scalar| scalar_range(rows, keys, scalar, units));
+    let load = &READING.load(units.quantity()).named;
+    let others = shown_with(units.quantity()).filter(|own| own.named() != load);
+    let others = others.map(|own| quantity_range(rows, keys, own, units));
     let row = |ValueRange { name, ends: [least, most] }: ValueRange| vec![name, least.0, least.1, most.0, most.1];
-    let all: Vec<Vec<String>> = limits.chain(scalars).flatten().map(row).collect();
+    let all: Vec<Vec<String>> = limits.chain(others).flatten().map(row).collect();
     if all.is_empty() || rows.len() < 2 {
         return Markup::default();
     }
@@ -95,16 +96,10 @@ pub(super) fn are_limits(rows: &[Row]) -> bool {
     last(rows).next().is_some_and(|(_, result)| result.limits().is_some())
 }
 
-/// The least and the largest of a scalar.
-fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units) -> Option<ValueRange> {
-    let unit = match scalar.kind {
-        Kind::Pressure => Some(units.pressure().clone()),
-        Kind::Force => Some(units.force()),
-        Kind::Length => Some(units.length().clone()),
-        Kind::Area => Some(units.area()),
-        Kind::Fraction | Kind::Passes => None,
-    };
-    range(rows, keys, scalar.name, |result| (scalar.of)(result.step()?), unit)
+/// The least and the largest of a quantity of load steps.
+fn quantity_range(rows: &[Row], keys: &[SweptKey], own: &'static dyn OfStep, units: &Units) -> Option<ValueRange> {
+    let Named { name, kind, .. } = *own.named();
+    range(rows, keys, name, |result| stated(own, result.step()?), (kind, units))
 }
 
 /// The least and the largest of the first limit, or of that of a criterion.
@@ -115,32 +110,28 @@ fn limit_range(
     of: Option<Criterion>,
     units: &Units,
 ) -> Option<ValueRange> {
-    let value = |result: &SweepResult| match result.limit_value(of)? {
-        LimitValue::At(load, error) => Some((load, error)),
-        LimitValue::Below(_) | LimitValue::Above(_) | LimitValue::Undecided => None,
-    };
-    range(rows, keys, name, value, Some(units.load()))
+    let kind = READING.load(units.quantity()).named.kind;
+    range(rows, keys, name, |result| result.limit_value(of)?.measured(), (kind, units))
 }
 
-/// The least and the largest of a value over the combinations that have it.
+/// The least and the largest of a value of a kind over the combinations that have it.
 fn range(
     rows: &[Row],
     keys: &[SweptKey],
     name: &str,
-    value: impl Fn(&SweepResult) -> Option<(f64, Option<f64>)>,
-    unit: Option<Unit>,
+    value: impl Fn(&SweepResult) -> Option<Measured>,
+    (kind, units): (Kind, &Units),
 ) -> Option<ValueRange> {
-    let found = last(rows).filter_map(|(row, result)| value(result).map(|(x, error)| (x, error, row)));
-    let found: Vec<(f64, Option<f64>, &Row)> = found.collect();
-    let least = found.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let most = found.iter().rev().max_by(|a, b| a.0.total_cmp(&b.0))?;
-    // Both in one unit; a value without a unit is a part of a whole.
-    let unit = unit.map(|unit| unit.prefixed(most.0));
-    let text = |x: f64, error: Option<f64>| match &unit {
-        Some(unit) => unit.behind(&with_error(unit.shown(x), error.map(|error| unit.shown(error)))),
-        None => percent_with_error(x, error),
+    let found: Vec<(Measured, &Row)> = last(rows).filter_map(|(row, result)| Some((value(result)?, row))).collect();
+    let least = found.iter().min_by(|a, b| a.0.value.total_cmp(&b.0.value))?;
+    let most = found.iter().rev().max_by(|a, b| a.0.value.total_cmp(&b.0.value))?;
+    // Both in one unit.
+    let unit = units.unit(kind).prefixed(most.0.value);
+    let text = |own: Measured| match kind {
+        Kind::Fraction => percent_with_error(own),
+        _ => unit.behind(&in_unit(&unit, own)),
     };
-    let end = |(x, error, row): &(f64, Option<f64>, &Row)| (text(*x, *error), settings(keys, row));
+    let end = |(own, row): &(Measured, &Row)| (text(*own), settings(keys, row));
     Some(ValueRange { name: name.to_owned(), ends: [end(least), end(most)] })
 }
 

@@ -11,13 +11,13 @@ use super::results::{Results, Swept};
 use super::table::table;
 use super::units::{case_of, measured_in, units_of};
 use crate::output::UnitNames;
-use crate::output::table::{Table, percent_with_error};
-use crate::output::with_error;
-use crate::sweep::{
-    Description, Kind, LimitValue, Row, Scalar, Status, SweepResult, SweptKey, best_and_worst, scalars_with,
-};
+use crate::output::table::Table;
+use crate::output::{percent_with_error, with_error};
+use crate::sweep::{Description, LimitValue, Row, Status, SweepResult, SweptKey, best_and_worst, shown_with, stated};
 use percoat_core::load::LoadQuantity;
-use percoat_core::reading::Verdict;
+use percoat_core::quantity::Kind;
+use percoat_core::reading::{LEVEL, Verdict};
+use percoat_core::run::OfStep;
 use serde_json::json;
 use std::collections::BTreeMap;
 
@@ -161,22 +161,22 @@ fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey], quantity: LoadQuantity) ->
         let limit = move |own: Shown<'_>| own.result?.limit_value(criterion).as_ref().map(LimitValue::to_string);
         add(name, Box::new(limit));
     }
-    for scalar in scalars_with(quantity).filter(|scalar| steps().any(|step| (scalar.of)(step).is_some())) {
-        add(scalar.name.to_owned(), Box::new(|own| scalar_text(scalar, own)));
+    for quantity in shown_with(quantity).filter(|quantity| steps().any(|step| stated(*quantity, step).is_some())) {
+        add(quantity.named().name.to_owned(), Box::new(move |own| quantity_text(quantity, own)));
     }
     let levels = steps().map(|step| step.reading.levels.len()).max().unwrap_or(0);
     for index in 0..levels {
         let share = move |own: Shown<'_>| {
-            let level = own.result?.step()?.reading.levels.get(index)?;
-            Some(percent_with_error(level.load_share, level.errors.load_share))
+            LEVEL.load_share.of(own.result?.step()?.reading.levels.get(index)?).map(percent_with_error)
         };
-        add(format!("share {}", index + 1), Box::new(share));
+        add(format!("{} {}", LEVEL.load_share.named.short, index + 1), Box::new(share));
     }
     columns
 }
 
-/// A scalar of a step with its error.
-fn scalar_text(scalar: &Scalar, own: Shown<'_>) -> Option<String> {
-    let (x, error) = (scalar.of)(own.result?.step()?)?;
-    Some(if scalar.kind == Kind::Fraction { percent_with_error(x, error) } else { with_error(x, error) })
+/// A quantity of a step with its error, in the unit of the case.
+fn quantity_text(quantity: &dyn OfStep, own: Shown<'_>) -> Option<String> {
+    let measured = stated(quantity, own.result?.step()?)?;
+    let is_part = quantity.named().kind == Kind::Fraction;
+    Some(if is_part { percent_with_error(measured) } else { with_error(measured.value, measured.error) })
 }

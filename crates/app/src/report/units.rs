@@ -1,6 +1,6 @@
 //! Units of the numbers of a result.
 
-use crate::output::{UnitNames, with_error};
+use crate::output::UnitNames;
 use percoat_case::case::{Case, Source, kind_of};
 use percoat_case::units::{Unit, Units};
 use percoat_core::load::LoadQuantity;
@@ -21,12 +21,6 @@ pub(super) fn case_of(text: &str, folder: &Path) -> Option<Case> {
     let source =
         Source { name: "case.toml".to_owned(), text: text.to_owned(), folder: folder.to_owned(), ..Source::default() };
     Case::read(&source, &[]).ok()
-}
-
-/// A number with its error and its unit: "0.5 ± 0.1 µm".
-pub(super) fn with_unit(unit: &Unit, x: f64, error: Option<f64>) -> String {
-    let prefixed = unit.prefixed(x);
-    prefixed.behind(&with_error(prefixed.shown(x), error.map(|error| prefixed.shown(error))))
 }
 
 /// The units of the tables, in a sentence.

@@ -4,11 +4,17 @@
 //! that reaches no limit is better than one that does, if it was loaded at least as far. Combinations that failed or did not converge
 //! are not ranked, and counted; of several load steps the last one counts.
 
-use super::result::{LimitValue, Measured, SCALARS, SweepResult};
+use super::result::{LimitValue, SweepResult, stated};
 use super::row::{Row, Status};
-use crate::output::number;
-use crate::output::table::{Table, Worded, in_unit};
-use percoat_case::units::{Unit, Units};
+use crate::output::table::{Table, Worded};
+use crate::output::{in_unit, number};
+use percoat_case::units::Units;
+use percoat_core::load::LoadQuantity;
+use percoat_core::measured::Measured;
+use percoat_core::quantity::Kind;
+use percoat_core::reading::{LIFE, READING, UTILISATION};
+use percoat_core::run::OfStep;
+use percoat_core::stress::maxima::EXTREMES;
 use std::collections::BTreeSet;
 
 /// Results that are ranked, at most: each has two lines.
@@ -19,8 +25,8 @@ struct Merit {
     name: String,
     /// Whether more of it is better.
     more: bool,
-    unit: Unit,
-    of: fn(&SweepResult) -> Option<LimitValue>,
+    kind: Kind,
+    of: Box<dyn Fn(&SweepResult) -> Option<LimitValue>>,
 }
 
 /// A value of a merit with its row.
@@ -35,29 +41,27 @@ struct Ends<'a> {
 }
 
 /// The results in the order of their weight: what fails, then what strains.
-fn merits(units: &Units) -> [Merit; 6] {
-    fn known((value, error): Measured) -> LimitValue {
-        LimitValue::At(value, error)
-    }
-    fn scalar(result: &SweepResult, name: &str) -> Option<LimitValue> {
-        let scalar = SCALARS.iter().find(|scalar| scalar.name == name)?;
-        (scalar.of)(result.step()?).map(known)
-    }
-    let merit = |name: &str, more: bool, unit: Unit, of: fn(&SweepResult) -> Option<LimitValue>| Merit {
-        name: name.to_owned(),
-        more,
-        unit,
-        of,
+fn merits(quantity: LoadQuantity) -> [Merit; 6] {
+    let known = |own: Measured| LimitValue::At(own.value, own.error);
+    let merit = |own: &'static dyn OfStep, more: bool| {
+        let of = move |result: &SweepResult| stated(own, result.step()?).map(known);
+        Merit { name: own.named().name.to_owned(), more, kind: own.named().kind, of: Box::new(of) }
     };
-    let pressure = || units.pressure().clone();
-    let first = format!("first limit, {}", units.quantity().name());
+    let kind = READING.load(quantity).named.kind;
+    let first = format!("first limit, {}", quantity.name());
+    let largest = move |own: &SweepResult| own.largest_utilisation().map(known);
     [
-        merit(&first, true, units.load(), first_limit),
-        merit("passes to damage", true, Unit::None, |own| scalar(own, "passes to damage")),
-        merit("largest utilisation", false, Unit::None, |own| own.largest_utilisation().map(known)),
-        merit("largest tension", false, pressure(), |own| scalar(own, "largest tension")),
-        merit("peak pressure", false, pressure(), |own| scalar(own, "peak pressure")),
-        merit("largest von Mises", false, pressure(), |own| scalar(own, "largest von Mises")),
+        Merit { name: first, more: true, kind, of: Box::new(first_limit) },
+        merit(&LIFE.passes, true),
+        Merit {
+            name: format!("largest {}", UTILISATION.value.named.name),
+            more: false,
+            kind: UTILISATION.value.named.kind,
+            of: Box::new(largest),
+        },
+        merit(&EXTREMES.tension, false),
+        merit(&READING.max_pressure, false),
+        merit(&EXTREMES.mises, false),
     ]
 }
 
@@ -76,10 +80,10 @@ fn first_limit(own: &SweepResult) -> Option<LimitValue> {
 /// in the quantity of `units`.
 pub fn best_and_worst(rows: &[Row], units: &Units) -> Option<Worded> {
     let done: Vec<&Row> = rows.iter().filter(|row| row.status == Status::Done).collect();
-    let ranked = merits(units).into_iter().filter_map(|merit| Some((ends(&done, &merit)?, merit)));
+    let ranked = merits(units.quantity()).into_iter().filter_map(|merit| Some((ends(&done, &merit)?, merit)));
     let lines = ranked.take(MOST).flat_map(|(Ends { best, worst, unlimited }, merit)| {
         let line = |name: &str, word: &str, (value, row): Ranked<'_>, open: &str| {
-            vec![name.to_owned(), word.to_owned(), text(&merit, value) + open, settings(row)]
+            vec![name.to_owned(), word.to_owned(), text(units, &merit, value) + open, settings(row)]
         };
         let or_another = match unlimited {
             0 => String::new(),
@@ -136,15 +140,15 @@ fn load(value: LimitValue) -> Option<f64> {
 
 /// Whether two values differ by less than their errors, so that either may be the better one.
 fn is_open(best: LimitValue, worst: LimitValue) -> bool {
-    let (Some((best, up)), Some((worst, down))) = (best.measured(), worst.measured()) else { return false };
-    (best - worst).abs() < up.unwrap_or(0.0) + down.unwrap_or(0.0)
+    let (Some(best), Some(worst)) = (best.measured(), worst.measured()) else { return false };
+    (best.value - worst.value).abs() < best.error.unwrap_or(0.0) + worst.error.unwrap_or(0.0)
 }
 
-fn text(merit: &Merit, value: LimitValue) -> String {
-    let unit = merit.unit.prefixed(load(value).unwrap_or_default());
+fn text(units: &Units, merit: &Merit, value: LimitValue) -> String {
+    let unit = units.unit(merit.kind).prefixed(load(value).unwrap_or_default());
     let bound = |sign: &str, load: f64| unit.behind(&format!("{sign} {}", number(unit.shown(load))));
     match value {
-        LimitValue::At(load, error) => unit.behind(&in_unit(&unit, load, error)),
+        LimitValue::At(load, error) => unit.behind(&in_unit(&unit, Measured::new(load, error))),
         LimitValue::Below(load) => bound("<", load),
         LimitValue::Above(load) => bound(">", load),
         LimitValue::Undecided => String::new(),

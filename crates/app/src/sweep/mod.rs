@@ -33,7 +33,7 @@ pub use combinations::{Combination, Combinations, CombinationsError, Group, colu
 pub use known::Known;
 pub use log::{Damage, Log, Logged, read};
 pub use parts::{Part, PartError, UNFINISHED, join};
-pub use result::{Foremost, Kind, LimitValue, Measured, SCALARS, Scalar, SweepResult, scalars_with};
+pub use result::{Foremost, LimitValue, SHOWN, SweepResult, shown_with, stated};
 pub use row::{Row, Status};
 pub use study::{Study, StudyError};
 pub use table::{Description, SweptKey, columns, files, table, write};

@@ -3,8 +3,10 @@
 use crate::output::columns::{Cells, scalars};
 use crate::output::{FirstLimit, number, with_error};
 use percoat_core::load::LoadQuantity;
-use percoat_core::reading::{Criterion, Reading, within_the_errors};
-use percoat_core::run::{At, Limit, StepRecord, first, rivals};
+use percoat_core::measured::Measured;
+use percoat_core::reading::{Criterion, LIFE, READING, UTILISATION, within_the_errors};
+use percoat_core::run::{At, Limit, OfStep, StepRecord, first, rivals};
+use percoat_core::stress::maxima::EXTREMES;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -44,82 +46,34 @@ pub enum LimitValue {
     Undecided,
 }
 
-/// A value with its error, where one is known.
-pub type Measured = (f64, Option<f64>);
+/// The main quantities of a load step: the load in both of its quantities, and either extent of contact.
+pub static SHOWN: [&dyn OfStep; 10] = [
+    &READING.mean_pressure,
+    &READING.force,
+    &READING.penetration,
+    &READING.contact_fraction,
+    &READING.contact_area,
+    &READING.max_pressure,
+    &EXTREMES.tau1,
+    &EXTREMES.tension,
+    &EXTREMES.mises,
+    &LIFE.passes,
+];
 
-/// A scalar of a load step with its error.
-#[derive(Debug, Clone, Copy)]
-pub struct Scalar {
-    /// Name in tables.
-    pub name: &'static str,
-    /// The kind of its unit.
-    pub kind: Kind,
-    /// Its value and error; `None` where the step has none, or an infinite one.
-    pub of: fn(&StepRecord) -> Option<Measured>,
-}
-
-/// The kind of a unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// A pressure.
-    Pressure,
-    /// A force.
-    Force,
-    /// A length.
-    Length,
-    /// An area.
-    Area,
-    /// A fraction.
-    Fraction,
-    /// A number of passes.
-    Passes,
-}
-
-/// The main scalars of a load step: the load in both of its quantities; the fraction in contact, or the area of an isolated one.
-pub static SCALARS: [Scalar; 10] = {
-    use Kind::{Area, Force, Fraction, Length, Passes, Pressure};
-    const fn scalar(name: &'static str, kind: Kind, of: fn(&StepRecord) -> Option<Measured>) -> Scalar {
-        Scalar { name, kind, of }
-    }
-    [
-        scalar("mean pressure", Pressure, |step| load(step, LoadQuantity::MeanPressure)),
-        scalar("force", Force, |step| load(step, LoadQuantity::Force)),
-        scalar("penetration", Length, |step| Some((step.reading.penetration, step.reading.errors.penetration))),
-        scalar("contact", Fraction, |step| {
-            let Reading { contact_fraction, errors, .. } = &step.reading;
-            Some(((*contact_fraction)?, errors.contact_fraction))
-        }),
-        scalar("contact area", Area, |step| {
-            let Reading { contact_area, contact_fraction, errors, .. } = &step.reading;
-            contact_fraction.is_none().then_some((*contact_area, errors.contact_area))
-        }),
-        scalar("peak pressure", Pressure, |step| Some((step.reading.finite_peak()?, step.reading.errors.max_pressure))),
-        scalar("largest τ₁", Pressure, |step| finite(&step.stress.as_ref()?.overall.tau1)),
-        scalar("largest tension", Pressure, |step| finite(&step.stress.as_ref()?.overall.tension)),
-        scalar("largest von Mises", Pressure, |step| finite(&step.stress.as_ref()?.overall.mises)),
-        scalar("passes to damage", Passes, |step| {
-            let first = step.fatigue.as_ref()?.first;
-            first.passes.is_finite().then_some((first.passes, first.error.map(|error| error * first.passes)))
-        }),
-    ]
-};
-
-/// The main scalars, with the load in this quantity alone.
-pub fn scalars_with(quantity: LoadQuantity) -> impl Iterator<Item = &'static Scalar> {
+/// The main quantities, with the load in this one alone.
+pub fn shown_with(quantity: LoadQuantity) -> impl Iterator<Item = &'static dyn OfStep> {
     let other = match quantity {
-        LoadQuantity::MeanPressure => LoadQuantity::Force,
-        LoadQuantity::Force => LoadQuantity::MeanPressure,
+        LoadQuantity::MeanPressure => &READING.force,
+        LoadQuantity::Force => &READING.mean_pressure,
     };
-    SCALARS.iter().filter(move |scalar| scalar.name != other.name())
+    SHOWN.into_iter().filter(move |own| *own.named() != other.named)
 }
 
-/// The load of a step; `None` for the mean pressure of an isolated contact.
-fn load(step: &StepRecord, quantity: LoadQuantity) -> Option<Measured> {
-    Some((step.reading.load_in(quantity)?, step.reading.load_error(quantity)))
-}
-
-fn finite(peak: &percoat_core::stress::Peak) -> Option<Measured> {
-    Some((peak.finite()?, peak.error))
+/// A quantity of a load step in a sweep; `None` where the step has none, or an infinite one, and of the area of contact where the step has
+/// its fraction.
+pub fn stated(quantity: &dyn OfStep, step: &StepRecord) -> Option<Measured> {
+    let is_stated = *quantity.named() != READING.contact_area.named || step.reading.contact_fraction.is_none();
+    quantity.of_step(step).filter(|_| is_stated).and_then(Measured::finite)
 }
 
 impl SweepResult {
@@ -166,8 +120,8 @@ impl SweepResult {
 
     /// The largest utilisation of a load step and its error; `None` of one without strengths, and of limits.
     pub fn largest_utilisation(&self) -> Option<Measured> {
-        let finite = self.step()?.strength.iter().filter(|own| own.value.is_finite());
-        finite.max_by(|a, b| a.value.total_cmp(&b.value)).map(|own| (own.value, own.error))
+        let finite = self.step()?.strength.iter().filter_map(|own| UTILISATION.value.finite(own));
+        finite.max_by(|a, b| a.value.total_cmp(&b.value))
     }
 
     /// The criterion that comes first; `None` of a load step without strengths.
@@ -250,7 +204,7 @@ impl fmt::Display for Foremost {
 impl LimitValue {
     /// The limit and its error; `None` of a bound.
     pub fn measured(self) -> Option<Measured> {
-        if let Self::At(load, error) = self { Some((load, error)) } else { None }
+        if let Self::At(load, error) = self { Some(Measured::new(load, error)) } else { None }
     }
 }
 
@@ -305,13 +259,13 @@ mod tests {
         let periodic = super::super::examples::step(2.0, None, 0.5);
         let isolated = super::super::examples::isolated(3.0, 2.0);
         let values = |step: &StepRecord, quantity: LoadQuantity| -> Vec<(&str, f64)> {
-            scalars_with(quantity).filter_map(|own| Some((own.name, (own.of)(step)?.0))).collect()
+            shown_with(quantity).filter_map(|own| Some((own.named().name, stated(own, step)?.value))).collect()
         };
         let peak = ("peak pressure", 2.0);
         let own = [("force", 3.0), ("penetration", 2.0), ("contact area", 1.5), peak];
         assert_eq!(values(&isolated, LoadQuantity::Force), own);
         assert_eq!(values(&isolated, LoadQuantity::MeanPressure), own[1..]);
-        let own = [("mean pressure", 0.1), ("penetration", 2.0), ("contact", 0.5), peak];
+        let own = [("mean pressure", 0.1), ("penetration", 2.0), ("fraction in contact", 0.5), peak];
         assert_eq!(values(&periodic, LoadQuantity::MeanPressure), own);
         assert_eq!(values(&periodic, LoadQuantity::Force)[0], ("force", 0.1));
     }

@@ -6,71 +6,106 @@ use super::counted::CountedArea;
 use super::edge::ContactEdge;
 use super::fractions::Fractions;
 use super::level_spots::LevelSpots;
-use super::{Errors, LevelReading, peak, spots, topography};
+use super::{LevelReading, peak, spots, topography};
 use crate::lattice::components::Component;
 use crate::lattice::{Grid, Surroundings};
 use crate::load::LoadQuantity;
+use crate::measured::Measured;
 use crate::notation::number;
 use crate::numeric::serialised;
 use crate::numeric::sums;
+use crate::quantity::{Quantity, quantities};
 use crate::spectral::Contact;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::fmt;
 
-/// Scalars of the contact of one load step.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Reading {
-    /// Mean pressure p̄ over the cell, in the unit of Young's modulus; `None` for an isolated contact.
-    #[serde(deserialize_with = "Option::deserialize")]
-    pub mean_pressure: Option<f64>,
-    /// Force P on the cell, or on the isolated contact, a pressure times an area.
-    #[serde(default = "unknown", deserialize_with = "serialised::number")]
-    pub force: f64,
-    /// Penetration δ, a length: measured from the mean plane of the deformed surface, the additional displacement of Eq. (8); of an
-    /// isolated contact the approach of points far away.
-    #[serde(flatten, with = "both_names")]
-    pub penetration: f64,
-    /// Area of contact in the cell, a length squared.
-    #[serde(default = "unknown", deserialize_with = "serialised::number")]
-    pub contact_area: f64,
-    /// Fraction of the cell in contact: read between the samples, or counted and corrected by the perimeter where that errs
-    /// less, as on rough surfaces whose spots have few samples. `None` for an isolated contact.
-    #[serde(deserialize_with = "Option::deserialize")]
-    pub contact_fraction: Option<f64>,
-    /// Uncertainty of the fraction in contact, from the samples of this grid alone; not kept in files.
-    #[serde(skip)]
-    pub contact_fraction_uncertainty: f64,
-    /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length: see
-    /// [`Contact::elastic_energy`](crate::spectral::Contact::elastic_energy).
-    #[serde(default = "unknown", deserialize_with = "serialised::number")]
-    pub elastic_energy: f64,
-    /// Largest pressure, between the samples, in the unit of Young's modulus; infinite where that of a level is.
-    #[serde(flatten, with = "serialised::max_pressure")]
-    pub max_pressure: f64,
-    /// Largest pressure that the grid resolves, where the largest one is infinite; `None` where it is finite.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub resolved_peak: Option<f64>,
-    /// Estimated discretisation errors; empty without coarser grids.
-    pub errors: Errors,
-    /// Samples between the largest pressure and the edge of contact, at most `spot_resolution`; not kept in files.
-    #[serde(skip)]
-    pub peak_to_edge: f64,
-    /// Number of contact spots in the cell; merged contacts are one.
-    pub contact_spots: usize,
-    /// Samples along the radius of a disc as large as the typical spot: the one up to which, from the smallest on, half
-    /// of the load is carried. 0 without contact.
-    #[serde(deserialize_with = "serialised::number")]
-    pub spot_resolution: f64,
-    /// Per level; empty for a topography.
-    pub levels: Vec<LevelReading>,
-    /// Per site, the boundary of its contact; `None` without contact, for merged contacts and for spots of too few
-    /// samples or no smooth boundary. Empty for a topography; not kept in files.
-    #[serde(skip)]
-    pub boundaries: Vec<Option<Boundary>>,
-    /// All readings of the fraction in contact; not kept in files.
-    #[serde(skip)]
-    pub fractions: Fractions,
+quantities! {
+    /// Scalars of the contact of one load step.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    pub struct Reading {
+        /// Mean pressure p̄ over the cell, in the unit of Young's modulus; `None` for an isolated contact.
+        #[serde(deserialize_with = "Option::deserialize")]
+        pub mean_pressure: Option<f64> = Pressure "mean pressure" "p̄",
+        /// Force P on the cell, or on the isolated contact, a pressure times an area.
+        #[serde(default = "unknown", deserialize_with = "serialised::number")]
+        pub force: f64 = Force "force" "P",
+        /// Penetration δ, a length: measured from the mean plane of the deformed surface, the additional displacement of Eq. (8); of an
+        /// isolated contact the approach of points far away.
+        #[serde(flatten, with = "both_names")]
+        pub penetration: f64 = Length "penetration" "δ" given "largest deflection",
+        /// Area of contact in the cell, a length squared.
+        #[serde(default = "unknown", deserialize_with = "serialised::number")]
+        pub contact_area: f64 = Area "contact area" "A" given "area under pressure",
+        /// Fraction of the cell in contact: read between the samples, or counted and corrected by the perimeter where that errs
+        /// less, as on rough surfaces whose spots have few samples. `None` for an isolated contact.
+        #[serde(deserialize_with = "Option::deserialize")]
+        pub contact_fraction: Option<f64> = Fraction "fraction in contact" "A/A₀" given "fraction under pressure",
+        /// Uncertainty of the fraction in contact, from the samples of this grid alone; not kept in files.
+        #[serde(skip)]
+        pub contact_fraction_uncertainty: f64,
+        /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length: see
+        /// [`Contact::elastic_energy`](crate::spectral::Contact::elastic_energy).
+        #[serde(default = "unknown", deserialize_with = "serialised::number")]
+        pub elastic_energy: f64 = Energy "elastic energy" "U",
+        /// Largest pressure, between the samples, in the unit of Young's modulus; infinite where that of a level is.
+        #[serde(flatten, with = "serialised::max_pressure")]
+        pub max_pressure: f64 = Pressure "peak pressure" "p" short "peak",
+        /// Largest pressure that the grid resolves, where the largest one is infinite; `None` where it is finite.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub resolved_peak: Option<f64>,
+        /// Estimated discretisation errors; empty without coarser grids.
+        pub errors: Errors,
+        /// Samples between the largest pressure and the edge of contact, at most `spot_resolution`; not kept in files.
+        #[serde(skip)]
+        pub peak_to_edge: f64,
+        /// Number of contact spots in the cell; merged contacts are one.
+        pub contact_spots: usize,
+        /// Samples along the radius of a disc as large as the typical spot: the one up to which, from the smallest on, half
+        /// of the load is carried. 0 without contact.
+        #[serde(deserialize_with = "serialised::number")]
+        pub spot_resolution: f64,
+        /// Per level; empty for a topography.
+        pub levels: Vec<LevelReading>,
+        /// Per site, the boundary of its contact; `None` without contact, for merged contacts and for spots of too few
+        /// samples or no smooth boundary. Empty for a topography; not kept in files.
+        #[serde(skip)]
+        pub boundaries: Vec<Option<Boundary>>,
+        /// All readings of the fraction in contact; not kept in files.
+        #[serde(skip)]
+        pub fractions: Fractions,
+    }
+    table ReadingQuantities as READING;
+    /// Estimated errors of the scalars of a load step, each in the unit of its quantity; `None` where there is no
+    /// coarser grid to compare with or no such quantity.
+    ///
+    /// On the way to a solution the nested grids have solved the same load step with a half, a quarter, … of the points.
+    /// Quantities converge at second order, a cusp of the pressure slower; errors oscillate as the edge of contact moves
+    /// among the samples, so that two grids can agree by chance. The estimate is therefore 1.5 to 4 times the largest of
+    ///
+    /// |q(h) − q(2h)|,  |q(h) − q(4h)|/4,  and the error by the law for n samples along a contact radius:
+    ///
+    /// | quantity | relative |
+    /// |---|---|
+    /// | peak pressure | 0.1 n⁻² + n⁻⁴ for profiles rᵏ with k ≥ 2; 0.25 n^{1−k} for the cusps of 1 < k < 2; n samples between the peak and the edge, which under a stiff coating lies in a ridge along it |
+    /// | load on an indenter, prescribed the penetration | 0.03 n⁻² + 0.3 n⁻⁴ |
+    /// | share of the load, absolute; load on an indenter, prescribed the mean pressure | 0.002 n⁻² |
+    /// | penetration | 0.01 n⁻²; 0.05 n⁻² under a topography |
+    /// | elastic energy | 0.03 n⁻², prescribed the mean pressure, 0.05 n⁻² under a topography; 0.03 n⁻² + 0.3 n⁻⁴, prescribed the penetration |
+    /// | mean gap of a topography | 0.05 n⁻² of the penetration |
+    /// | area of a topography corrected by its perimeter | a quarter of the correction |
+    /// | centre of the pressure | 0.005 n⁻² of the contact radius |
+    /// | areas, radii, asymmetry, fraction in contact | the uncertainty of the reading of the boundary |
+    ///
+    /// The fraction in contact of a topography is read between the samples; where its spots are narrower than ten samples on the
+    /// average, or many and without boundaries of their own, it is that or the count corrected by the perimeter, whichever has the
+    /// smaller error by these laws.
+    ///
+    /// The numbers are read off seven hundred random cases solved again with four times the points; that the estimates hold
+    /// in 95 % of others is shown in `validation/discretisation`. A prescribed quantity has no error; the peak under a tip is
+    /// infinite and has none either.
+    #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+    errors Errors {}
 }
 
 impl Reading {
@@ -81,11 +116,11 @@ impl Reading {
 
     /// Mean pressure P/A where there is contact, in the unit of Young's modulus, and its error (those of force and area added, relative);
     /// `None` without contact.
-    pub fn mean_contact_pressure(&self) -> Option<(f64, Option<f64>)> {
+    pub fn mean_contact_pressure(&self) -> Option<Measured> {
         let Self { force, contact_area, errors, .. } = self;
         let mean = (self.touches() && *contact_area > 0.0).then(|| force / contact_area)?;
         let error = errors.contact_area.map(|area| mean * (area / contact_area + errors.force.unwrap_or(0.0) / force));
-        Some((mean, error))
+        Some(Measured::new(mean, error))
     }
 
     /// What lies around the cell.
@@ -111,10 +146,12 @@ impl Reading {
 
     /// Estimated error of the [load](Self::load).
     pub fn load_error(&self, quantity: LoadQuantity) -> Option<f64> {
-        match quantity {
-            LoadQuantity::MeanPressure => self.errors.mean_pressure,
-            LoadQuantity::Force => self.errors.force,
-        }
+        READING.load(quantity).of(self).and_then(|load| load.error)
+    }
+
+    /// What states how far contact extends: the fraction of the cell, or of an isolated contact the area.
+    pub fn extent(&self) -> &'static Quantity<Self> {
+        if self.contact_fraction.is_some() { &READING.contact_fraction } else { &READING.contact_area }
     }
 
     /// Whether the largest pressure is infinite: that of a level is.
@@ -197,6 +234,16 @@ impl Reading {
             boundaries: spots.into_iter().map(|spot| spot.boundary).collect(),
             errors: Errors::default(),
             fractions,
+        }
+    }
+}
+
+impl ReadingQuantities {
+    /// The load in one of its quantities.
+    pub fn load(&self, quantity: LoadQuantity) -> &Quantity<Reading> {
+        match quantity {
+            LoadQuantity::MeanPressure => &self.mean_pressure,
+            LoadQuantity::Force => &self.force,
         }
     }
 }

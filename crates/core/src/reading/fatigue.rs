@@ -15,7 +15,9 @@ use super::strength::Criterion;
 use super::stress::{Tip, beside_site, contact_radii};
 use super::{Reading, Utilisation};
 use crate::body::{Fatigue, HalfSpace, InterfaceId, MaterialId, Side};
+use crate::measured::Measured;
 use crate::numeric::serialised;
+use crate::quantity::quantities;
 use crate::spectral::Step;
 use crate::stress::{
     PassOver, PathPeak, PathPeaks, PathSought, RangePlane, SlidingPath, StressField, StressFields, transmitted,
@@ -52,28 +54,32 @@ impl fmt::Display for FatiguePart {
     }
 }
 
-/// How long a material or an interface lasts.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Life {
-    /// What tires.
-    #[serde(flatten)]
-    pub part: FatiguePart,
-    /// Largest range of τ₁ along the path, or of the shear traction of an interface, a pressure: that of one cycle that does the damage
-    /// of all cycles of a pass; infinite under a tip.
-    #[serde(deserialize_with = "serialised::infinite")]
-    pub range: f64,
-    /// Damage in one pass by that range; infinite under a tip.
-    #[serde(deserialize_with = "serialised::infinite")]
-    pub damage: f64,
-    /// Passes until the damage first reaches 1; infinite without a range.
-    #[serde(deserialize_with = "serialised::infinite")]
-    pub passes: f64,
-    /// Estimated relative error of the passes by the grid, m times that of the range; `None` without a coarser grid, and where the passes
-    /// are zero or infinite.
-    pub error: Option<f64>,
-    /// Place x, y, z of the damage, lengths: x is where τ₁ is largest, in the frame of the counterbody.
-    #[serde(flatten, with = "serialised::place")]
-    pub position: [f64; 3],
+quantities! {
+    /// How long a material or an interface lasts.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+    pub struct Life {
+        /// What tires.
+        #[serde(flatten)]
+        pub part: FatiguePart,
+        /// Largest range of τ₁ along the path, or of the shear traction of an interface, a pressure: that of one cycle that does the damage
+        /// of all cycles of a pass; infinite under a tip.
+        #[serde(deserialize_with = "serialised::infinite")]
+        pub range: f64,
+        /// Damage in one pass by that range; infinite under a tip.
+        #[serde(deserialize_with = "serialised::infinite")]
+        pub damage: f64,
+        /// Passes until the damage first reaches 1; infinite without a range.
+        #[serde(deserialize_with = "serialised::infinite")]
+        pub passes: f64 = Passes "passes to damage" "N"
+            by |own: &Life| Some(Measured::new(own.passes, own.error.map(|error| error * own.passes))),
+        /// Estimated relative error of the passes by the grid, m times that of the range; `None` without a coarser grid, and where the passes
+        /// are zero or infinite.
+        pub error: Option<f64>,
+        /// Place x, y, z of the damage, lengths: x is where τ₁ is largest, in the frame of the counterbody.
+        #[serde(flatten, with = "serialised::place")]
+        pub position: [f64; 3],
+    }
+    table LifeQuantities as LIFE;
 }
 
 /// Lives of all that tires in a load step.

@@ -1,61 +1,71 @@
 //! Reading of one level: loads, areas, radii and their errors.
 
-use super::LevelErrors;
 use crate::numeric::serialised;
+use crate::quantity::quantities;
 use serde::{Deserialize, Serialize};
 
-/// Scalars of one level. Where a level has several indenters in the cell, loads and areas are means over them, contact,
-/// inner and outer radius means by area, the others extremes.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct LevelReading {
-    /// Level, from 1.
-    pub level: usize,
-    /// Force on one indenter: a pressure times an area.
-    #[serde(deserialize_with = "serialised::number")]
-    pub load: f64,
-    /// Share of the whole load that the level carries.
-    #[serde(deserialize_with = "serialised::number")]
-    pub load_share: f64,
-    /// Peak pressure, between the samples, in the unit of Young's modulus; infinite under a tip with load, see
-    /// [`crate::counterbody::Shape::singular_peak`].
-    #[serde(flatten, with = "serialised::max_pressure")]
-    pub max_pressure: f64,
-    /// Largest pressure on the grid where the peak pressure is infinite; `None` where it is finite.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub resolved_peak: Option<f64>,
-    /// Contact area of one indenter, a length squared.
-    #[serde(deserialize_with = "serialised::number")]
-    pub contact_area: f64,
-    /// √(area/π), a length; `None` for merged contacts.
-    pub contact_radius: Option<f64>,
-    /// Whether the contact of an indenter of this level is open in the middle.
-    pub ring: bool,
-    /// √(area/π) of a ring's hole, a length. `None` without a hole, for merged contacts and for spots of too few samples
-    /// or no smooth boundary.
-    pub radius_inner: Option<f64>,
-    /// √(area/π) of all inside a ring's outer boundary, a length; see `radius_inner`.
-    pub radius_outer: Option<f64>,
-    /// Smallest distance of the boundary from the axis, a length; `None` for merged contacts and for spots of too few
-    /// samples or no smooth boundary.
-    pub radius_min: Option<f64>,
-    /// Largest distance of the boundary from the axis, a length; see `radius_min`.
-    pub radius_max: Option<f64>,
-    /// (largest − smallest)/largest boundary radius; see `radius_min`.
-    pub asymmetry: Option<f64>,
-    /// Centre [x, y] of the pressure from the axis, lengths: Σ p **x**/Σ p. `None` without load and for merged contacts.
-    #[serde(with = "serialised::pair")]
-    pub centre: Option<[f64; 2]>,
-    /// Whether the contact of an indenter of this level touches that of a neighbour, or by the localized method one of
-    /// both reaches under the other's surface.
-    pub merged: bool,
-    /// Samples, or elements, along the contact radius: below [`FEW_SAMPLES`] the radii are rough.
-    #[serde(deserialize_with = "serialised::number")]
-    pub resolution: f64,
-    /// Uncertainties of the reading of the boundary on one grid; not kept in files.
-    #[serde(skip)]
-    pub uncertainty: Uncertainty,
-    /// Estimated discretisation errors, where there are coarser grids.
-    pub errors: LevelErrors,
+quantities! {
+    /// Scalars of one level. Where a level has several indenters in the cell, loads and areas are means over them, contact,
+    /// inner and outer radius means by area, the others extremes.
+    #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+    pub struct LevelReading {
+        /// Level, from 1.
+        pub level: usize,
+        /// Force on one indenter: a pressure times an area.
+        #[serde(deserialize_with = "serialised::number")]
+        pub load: f64 = Force "load on one" "P",
+        /// Share of the whole load that the level carries.
+        #[serde(deserialize_with = "serialised::number")]
+        pub load_share: f64 = Fraction "share of the load" "P/ΣP" short "share",
+        /// Peak pressure, between the samples, in the unit of Young's modulus; infinite under a tip with load, see
+        /// [`crate::counterbody::Shape::singular_peak`].
+        #[serde(flatten, with = "serialised::max_pressure")]
+        pub max_pressure: f64 = Pressure "peak pressure" "p" short "peak",
+        /// Largest pressure on the grid where the peak pressure is infinite; `None` where it is finite.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub resolved_peak: Option<f64>,
+        /// Contact area of one indenter, a length squared.
+        #[serde(deserialize_with = "serialised::number")]
+        pub contact_area: f64 = Area "contact area" "A",
+        /// √(area/π), a length; `None` for merged contacts.
+        pub contact_radius: Option<f64> = Length "contact radius" "a",
+        /// Whether the contact of an indenter of this level is open in the middle.
+        pub ring: bool,
+        /// √(area/π) of a ring's hole, a length. `None` without a hole, for merged contacts and for spots of too few samples
+        /// or no smooth boundary.
+        pub radius_inner: Option<f64> = Length "inner radius of a ring" "a",
+        /// √(area/π) of all inside a ring's outer boundary, a length; see `radius_inner`.
+        pub radius_outer: Option<f64> = Length "outer radius of a ring" "a",
+        /// Smallest distance of the boundary from the axis, a length; `None` for merged contacts and for spots of too few
+        /// samples or no smooth boundary.
+        pub radius_min: Option<f64> = Length "smallest boundary radius" "a",
+        /// Largest distance of the boundary from the axis, a length; see `radius_min`.
+        pub radius_max: Option<f64> = Length "largest boundary radius" "a",
+        /// (largest − smallest)/largest boundary radius; see `radius_min`.
+        pub asymmetry: Option<f64> = Fraction "asymmetry" "Δa/a",
+        /// Centre [x, y] of the pressure from the axis, lengths: Σ p **x**/Σ p. `None` without load and for merged contacts.
+        #[serde(with = "serialised::pair")]
+        pub centre: Option<[f64; 2]>,
+        /// Whether the contact of an indenter of this level touches that of a neighbour, or by the localized method one of
+        /// both reaches under the other's surface.
+        pub merged: bool,
+        /// Samples, or elements, along the contact radius: below [`FEW_SAMPLES`] the radii are rough.
+        #[serde(deserialize_with = "serialised::number")]
+        pub resolution: f64,
+        /// Uncertainties of the reading of the boundary on one grid; not kept in files.
+        #[serde(skip)]
+        pub uncertainty: Uncertainty,
+        /// Estimated discretisation errors, where there are coarser grids.
+        pub errors: LevelErrors,
+    }
+    table LevelQuantities as LEVEL;
+    /// Estimated errors of the scalars of a level.
+    #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+    errors LevelErrors {
+        /// Errors of x and y of the pressure's centre, lengths.
+        #[serde(default)]
+        pub centre: [Option<f64>; 2],
+    }
 }
 
 /// Uncertainties of the reading of a level's peak and boundaries on one grid.

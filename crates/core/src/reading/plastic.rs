@@ -9,41 +9,45 @@
 use super::{area, estimate};
 use crate::notation::number;
 use crate::numeric::{serialised, sums};
+use crate::quantity::quantities;
 use crate::spectral::{Contact, Step};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What the hardness of the softer surface has pressed in. Errors are those of the grid; `None` without a coarser one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct PlasticReading {
-    /// Hardness H of the softer surface, a pressure.
-    pub hardness: f64,
-    /// Penetration of which H is the [composite hardness](crate::body::CompositeHardness), a length; `None` where H does not depend on it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hardness_depth: Option<f64>,
-    /// Error of a composite hardness by that of the penetration, a pressure.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hardness_error: Option<f64>,
-    /// Area where the pressure is H in this step, a length squared.
-    #[serde(deserialize_with = "serialised::number")]
-    pub area: f64,
-    /// Error of the area.
-    pub area_error: Option<f64>,
-    /// Largest depth pressed in by this step and those before it, a length.
-    #[serde(deserialize_with = "serialised::number")]
-    pub depth: f64,
-    /// Error of the depth.
-    pub depth_error: Option<f64>,
-    /// Volume pressed in by this step and those before it, in the cell, a cubed length.
-    #[serde(deserialize_with = "serialised::number")]
-    pub volume: f64,
-    /// Error of the volume.
-    pub volume_error: Option<f64>,
-    /// Penetration at which contact begins when it is loaded again, a length: the permanent depth of an indentation curve.
-    #[serde(deserialize_with = "serialised::number")]
-    pub permanent_depth: f64,
-    /// Error of the permanent depth.
-    pub permanent_depth_error: Option<f64>,
+quantities! {
+    /// What the hardness of the softer surface has pressed in. Errors are those of the grid; `None` without a coarser one.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+    pub struct PlasticReading {
+        /// Hardness H of the softer surface, a pressure.
+        pub hardness: f64 = Pressure "hardness" "H" error hardness_error,
+        /// Penetration of which H is the [composite hardness](crate::body::CompositeHardness), a length; `None` where H does not depend on it.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub hardness_depth: Option<f64>,
+        /// Error of a composite hardness by that of the penetration, a pressure.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub hardness_error: Option<f64>,
+        /// Area where the pressure is H in this step, a length squared.
+        #[serde(deserialize_with = "serialised::number")]
+        pub area: f64 = Area "area at the hardness" "A" error area_error,
+        /// Error of the area.
+        pub area_error: Option<f64>,
+        /// Largest depth pressed in by this step and those before it, a length.
+        #[serde(deserialize_with = "serialised::number")]
+        pub depth: f64 = Length "largest depth pressed in" "u" short "largest depth" error depth_error,
+        /// Error of the depth.
+        pub depth_error: Option<f64>,
+        /// Volume pressed in by this step and those before it, in the cell, a cubed length.
+        #[serde(deserialize_with = "serialised::number")]
+        pub volume: f64 = Volume "volume pressed in" "V" error volume_error,
+        /// Error of the volume.
+        pub volume_error: Option<f64>,
+        /// Penetration at which contact begins when it is loaded again, a length: the permanent depth of an indentation curve.
+        #[serde(deserialize_with = "serialised::number")]
+        pub permanent_depth: f64 = Length "permanent depth" "u" error permanent_depth_error,
+        /// Error of the permanent depth.
+        pub permanent_depth_error: Option<f64>,
+    }
+    table PlasticQuantities as PLASTIC;
 }
 
 /// Area, depth, volume and permanent depth on one grid, and the uncertainty of the area.

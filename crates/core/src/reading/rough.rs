@@ -22,42 +22,47 @@ use super::histogram::Histogram;
 use crate::lattice::Grid;
 use crate::lattice::components::SpotCounts;
 use crate::numeric::sums;
+use crate::quantity::quantities;
 use crate::spectral::Contact;
 use serde::{Deserialize, Serialize};
 
-/// Scalars and distributions of the contact of a topography.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct RoughReading {
-    /// Samples in contact over all samples; `None` for an isolated contact.
-    #[serde(deserialize_with = "Option::deserialize")]
-    pub counted_fraction: Option<f64>,
-    /// Fraction of the cell in contact, counted and corrected by the perimeter; `None` for an isolated contact.
-    #[serde(deserialize_with = "Option::deserialize")]
-    pub corrected_fraction: Option<f64>,
-    /// Estimated discretisation error of the corrected fraction; `None` without a coarser grid.
-    #[serde(default)]
-    pub corrected_fraction_error: Option<f64>,
-    /// Length of the contacts' borders along the samples' edges, over the cell's area: 1/length. A border without preferred
-    /// direction is 4/π times as long along the edges of rectangular samples as it is. `None` for an isolated contact.
-    #[serde(deserialize_with = "Option::deserialize")]
-    pub perimeter_density: Option<f64>,
-    /// Contact spots, by their counted areas.
-    pub spots: SpotSizes,
-    /// Mean gap over the cell, zero in contact; a length. `None` for an isolated contact.
-    #[serde(deserialize_with = "Option::deserialize")]
-    pub mean_gap: Option<f64>,
-    /// Estimated discretisation error of the mean gap, a length; `None` without a coarser grid, and for an isolated contact.
-    #[serde(default)]
-    pub mean_gap_error: Option<f64>,
-    /// Normal stiffness dp̄/dδ by the neighbouring load steps, pressure per length; `None` without them. Of an isolated contact dP/dδ,
-    /// force per length, under friction that couples alone: `None` where the step has its contact stiffness by the tangent.
-    pub stiffness: Option<f64>,
-    /// Estimated error of the stiffness, in its unit.
-    pub stiffness_error: Option<f64>,
-    /// Histograms of pressure and gap over the samples, and of the areas of spots; of an isolated contact without the gap, and of the
-    /// pressure over the samples in contact.
-    #[serde(skip)]
-    pub histograms: Vec<Histogram>,
+quantities! {
+    /// Scalars and distributions of the contact of a topography.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    pub struct RoughReading {
+        /// Samples in contact over all samples; `None` for an isolated contact.
+        #[serde(deserialize_with = "Option::deserialize")]
+        pub counted_fraction: Option<f64>,
+        /// Fraction of the cell in contact, counted and corrected by the perimeter; `None` for an isolated contact.
+        #[serde(deserialize_with = "Option::deserialize")]
+        pub corrected_fraction: Option<f64> = Fraction "fraction counted and corrected by the perimeter" "A/A₀"
+            short "counted, corrected by the perimeter" error corrected_fraction_error,
+        /// Estimated discretisation error of the corrected fraction; `None` without a coarser grid.
+        #[serde(default)]
+        pub corrected_fraction_error: Option<f64>,
+        /// Length of the contacts' borders along the samples' edges, over the cell's area: 1/length. A border without preferred
+        /// direction is 4/π times as long along the edges of rectangular samples as it is. `None` for an isolated contact.
+        #[serde(deserialize_with = "Option::deserialize")]
+        pub perimeter_density: Option<f64>,
+        /// Contact spots, by their counted areas.
+        pub spots: SpotSizes,
+        /// Mean gap over the cell, zero in contact; a length. `None` for an isolated contact.
+        #[serde(deserialize_with = "Option::deserialize")]
+        pub mean_gap: Option<f64> = Length "mean gap" "ū" error mean_gap_error,
+        /// Estimated discretisation error of the mean gap, a length; `None` without a coarser grid, and for an isolated contact.
+        #[serde(default)]
+        pub mean_gap_error: Option<f64>,
+        /// Normal stiffness dp̄/dδ by the neighbouring load steps, pressure per length; `None` without them. Of an isolated contact dP/dδ,
+        /// force per length, under friction that couples alone: `None` where the step has its contact stiffness by the tangent.
+        pub stiffness: Option<f64> = PressurePerLength "stiffness" "dp̄/dδ" error stiffness_error,
+        /// Estimated error of the stiffness, in its unit.
+        pub stiffness_error: Option<f64>,
+        /// Histograms of pressure and gap over the samples, and of the areas of spots; of an isolated contact without the gap, and of the
+        /// pressure over the samples in contact.
+        #[serde(skip)]
+        pub histograms: Vec<Histogram>,
+    }
+    table RoughQuantities as ROUGH;
 }
 
 /// Sizes of the contact spots; areas are counted, lengths squared. 0 without contact.

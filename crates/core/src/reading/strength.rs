@@ -9,6 +9,7 @@ use super::StressReading;
 use super::verdict::Verdict;
 use crate::body::{Bodies, Endurance, HalfSpace, InterfaceId, MaterialId, Name, Side};
 use crate::numeric::serialised;
+use crate::quantity::quantities;
 use crate::stress::{PathPeak, Peak};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -198,26 +199,29 @@ impl FromStr for Criterion {
     }
 }
 
-/// The utilisation of a criterion, and its place.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Utilisation {
-    /// The criterion.
-    #[serde(flatten)]
-    pub criterion: Criterion,
-    /// Stress over strength: 1 where the criterion fails; infinite under a tip.
-    #[serde(flatten, with = "serialised::utilisation")]
-    pub value: f64,
-    /// Estimated error of the value by the grid.
-    pub error: Option<f64>,
-    /// Whether the criterion fails, by value and error.
-    #[serde(rename = "state")]
-    pub verdict: Verdict,
-    /// Place x, y, z of the largest utilisation; lengths.
-    #[serde(flatten, with = "serialised::place")]
-    pub position: [f64; 3],
-    /// Another place (x, y, z), lengths, where the utilisation may be largest within the errors; see [`Peak::rival`].
-    #[serde(with = "serialised::place_or_none")]
-    pub rival: Option<[f64; 3]>,
+quantities! {
+    /// The utilisation of a criterion, and its place.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+    pub struct Utilisation {
+        /// The criterion.
+        #[serde(flatten)]
+        pub criterion: Criterion,
+        /// Stress over strength: 1 where the criterion fails; infinite under a tip.
+        #[serde(flatten, with = "serialised::utilisation")]
+        pub value: f64 = Utilisation "utilisation" "u" code "utilisation" error error,
+        /// Estimated error of the value by the grid.
+        pub error: Option<f64>,
+        /// Whether the criterion fails, by value and error.
+        #[serde(rename = "state")]
+        pub verdict: Verdict,
+        /// Place x, y, z of the largest utilisation; lengths.
+        #[serde(flatten, with = "serialised::place")]
+        pub position: [f64; 3],
+        /// Another place (x, y, z), lengths, where the utilisation may be largest within the errors; see [`Peak::rival`].
+        #[serde(with = "serialised::place_or_none")]
+        pub rival: Option<[f64; 3]>,
+    }
+    table UtilisationQuantities as UTILISATION;
 }
 
 impl Utilisation {

@@ -140,10 +140,7 @@ fn peaks<'a>(
     interfaces: &'a mut [Carried],
 ) -> impl Iterator<Item = &'a mut Peak> {
     let extremes = materials.iter_mut().chain(faces);
-    let extremes = extremes.flat_map(|Extremes { tau1, tension, mises, strain, horizontal_strain, compression }| {
-        let strains = [strain, horizontal_strain, compression].map(Option::as_mut);
-        [tau1, tension, mises].into_iter().chain(strains.into_iter().flatten())
-    });
+    let extremes = extremes.flat_map(Extremes::peaks_mut);
     let interfaces = interfaces.iter_mut().flat_map(|carried| {
         let Carried { normal, shear, delamination, .. } = carried;
         [Some(normal), Some(shear), delamination.as_mut()].into_iter().flatten()

@@ -1,8 +1,10 @@
 //! Validation of the record of a load step that is read back.
 
 use super::StepRecord;
-use crate::reading::{FatigueReading, Governing, Utilisation, Verdict};
+use crate::quantity::Quantity;
+use crate::reading::{FatigueReading, Governing, LEVEL, PLASTIC, Utilisation, Verdict};
 use crate::spectral::{Certificate, Stop};
+use crate::stress::maxima::{CARRIED, EXTREMES};
 
 /// A number that is null was not finite, which is allowed only in a step with [`Stop::NotANumber`]; elsewhere a null, or a pressure
 /// below zero, shows that the file was damaged or edited.
@@ -37,15 +39,10 @@ impl StepRecord {
             }
         }
         if let Some(own) = &self.plastic {
-            for (key, value) in [
-                ("hardness", own.hardness),
-                ("area", own.area),
-                ("depth", own.depth),
-                ("volume", own.volume),
-                ("permanent_depth", own.permanent_depth),
-            ] {
-                at_least_zero(&format!("plastic.{key}"), value)?;
-            }
+            PLASTIC
+                .each()
+                .into_iter()
+                .try_for_each(|quantity| positive(quantity, own, |code| format!("plastic.{code}")))?;
         }
         if let Some(own) = &self.beneath {
             let numbers =
@@ -64,28 +61,15 @@ impl StepRecord {
         }
         for level in &reading.levels {
             let name = |key: &str| format!("{key} of level {}", level.level);
-            for (key, value) in
-                [("load", level.load), ("load_share", level.load_share), ("contact_area", level.contact_area)]
-            {
-                at_least_zero(&name(key), value)?;
-            }
+            let quantities = [&LEVEL.load, &LEVEL.load_share, &LEVEL.contact_area];
+            quantities.into_iter().try_for_each(|quantity| positive(quantity, level, name))?;
             peak(&name("max_pressure"), level.max_pressure)?;
         }
         if let Some(stress) = &self.stress {
-            let within = [&stress.overall].into_iter().chain(&stress.materials).chain(&stress.faces).flat_map(|own| {
-                [
-                    ("max_tau1", Some(own.tau1)),
-                    ("max_tension", Some(own.tension)),
-                    ("max_mises", Some(own.mises)),
-                    ("max_strain", own.strain),
-                    ("max_horizontal_strain", own.horizontal_strain),
-                    ("max_vertical_compression", own.compression),
-                ]
-            });
-            let within = within.filter_map(|(name, peak)| Some((name, peak?.value)));
-            let between = stress.interfaces.iter();
-            let between = between.flat_map(|own| [("max_normal", own.normal.value), ("max_shear", own.shear.value)]);
-            within.chain(between).try_for_each(|(name, value)| number(name, value))?;
+            for own in [&stress.overall].into_iter().chain(&stress.materials).chain(&stress.faces) {
+                known(&EXTREMES.each(), own)?;
+            }
+            stress.interfaces.iter().try_for_each(|own| known(&CARRIED.each(), own))?;
         }
         for own in &self.strength {
             number(&format!("utilisation of {}", own.criterion), own.value)?;
@@ -138,6 +122,17 @@ fn finite(name: &str, value: f64) -> Result<(), String> {
 fn at_least_zero(name: &str, value: f64) -> Result<(), String> {
     finite(name, value)?;
     if value < 0.0 { Err(format!("`{name}` is {value}, which is below zero")) } else { Ok(()) }
+}
+
+/// Numbers of a record, which may be infinite.
+fn known<R>(quantities: &[&Quantity<R>], record: &R) -> Result<(), String> {
+    let all = quantities.iter().filter_map(|quantity| Some((quantity.named.code, quantity.of(record)?.value)));
+    all.into_iter().try_for_each(|(code, value)| number(code, value))
+}
+
+/// A number of a record that is not below zero, under the name made of its code.
+fn positive<R>(quantity: &Quantity<R>, record: &R, name: impl Fn(&str) -> String) -> Result<(), String> {
+    quantity.of(record).map_or(Ok(()), |own| at_least_zero(&name(quantity.named.code), own.value))
 }
 
 /// A number that may be infinite and is not below zero.

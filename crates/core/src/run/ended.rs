@@ -146,7 +146,7 @@ pub(super) fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<Str
     let all = steps.iter().flat_map(|step| strains(problem, step)).filter(|own| own.part > HIGH);
     let Strain { part, step, peak, whose } = all.reduce(|a, b| if b.part > a.part { b } else { a })?;
     Some(format!(
-        "step {step}: the largest pressure {} is {} of E* {whose}: strains are not small any more; are load and moduli in one unit?",
+        "step {step}: the peak pressure {} is {} of E* {whose}: strains are not small any more; are load and moduli in one unit?",
         number(peak),
         ratio(part)
     ))

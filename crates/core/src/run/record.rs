@@ -4,6 +4,7 @@ use super::Tapered;
 use crate::body::Bodies;
 use crate::kind::ContactKind;
 use crate::numeric::serialised;
+use crate::quantity::quantities;
 use crate::reading::{
     Beneath, Criterion, FatigueReading, Governing, PathReading, PlasticReading, Reading, RoughReading, StressReading,
     Utilisation, stiffness, within_the_errors,
@@ -12,68 +13,71 @@ use crate::spectral::{Certificate, Report, Route, Step, Stop};
 use crate::stress::maxima::Extremes;
 use serde::{Deserialize, Serialize};
 
-/// Every scalar of a load step.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StepRecord {
-    /// Loads, penetration, pressures, contact areas and radii with their errors.
-    #[serde(flatten)]
-    pub reading: Reading,
-    /// Why the iteration ended.
-    #[serde(flatten, with = "with_verdict")]
-    pub stop: Stop,
-    /// Route of the iteration to the solution.
-    #[serde(flatten)]
-    pub route: Route,
-    /// Iterations of all methods and trials on the finest grid.
-    pub iterations: usize,
-    /// Convolutions on all grids, as equivalents of the finest one.
-    pub convolutions: f64,
-    /// ε = Σ p|g| / (δ Σp) of the last iterate.
-    #[serde(deserialize_with = "serialised::number")]
-    pub residual: f64,
-    /// Bounds on the error of the pressure.
-    pub certificate: Certificate,
-    /// Grid points along a₁ and a₂.
-    pub points: [usize; 2],
-    /// Contact stiffness S = ∂P/∂δ of an isolated contact, a force per length; `None` in a periodic cell, without contact, and under
-    /// friction that couples.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub contact_stiffness: Option<f64>,
-    /// Estimated error of the contact stiffness, a force per length.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub contact_stiffness_error: Option<f64>,
-    /// Areas, spots, gap and stiffness of a topography; `None` for indenters.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rough: Option<RoughReading>,
-    /// Parts of load and contact where the window of a topography is below 1; `None` without a window.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tapered: Option<Tapered>,
-    /// What the hardness of the softer surface has pressed in; `None` without hardness.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub plastic: Option<PlasticReading>,
-    /// Pressure above the hardness of a material beneath the surface; `None` where none is exceeded.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub beneath: Option<Beneath>,
-    /// How contact and traction were solved together; `None` without friction.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub friction: Option<Sliding>,
-    /// Largest stresses; `None` where they are not computed, without contact, and under loads of a search for limits that are not shown.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stress: Option<StressReading>,
-    /// Utilisation of each criterion with a strength; empty without contact.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub strength: Vec<Utilisation>,
-    /// The criterion nearest to failure, with its rivals; `None` without contact or strengths.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub governing: Option<Governing>,
-    /// Passes until the first damage of each material and interface with a law of fatigue; `None` without contact or laws, and under loads
-    /// of a search for limits that are not shown.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub fatigue: Option<FatigueReading>,
-    /// Wall time of the solution, the readings and the largest stresses, seconds, by the [clock](super::Recorder::clock)
-    /// of the recorder; `None` where it has none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub seconds: Option<f64>,
+quantities! {
+    /// Every scalar of a load step.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    pub struct StepRecord {
+        /// Loads, penetration, pressures, contact areas and radii with their errors.
+        #[serde(flatten)]
+        pub reading: Reading,
+        /// Why the iteration ended.
+        #[serde(flatten, with = "with_verdict")]
+        pub stop: Stop,
+        /// Route of the iteration to the solution.
+        #[serde(flatten)]
+        pub route: Route,
+        /// Iterations of all methods and trials on the finest grid.
+        pub iterations: usize,
+        /// Convolutions on all grids, as equivalents of the finest one.
+        pub convolutions: f64,
+        /// ε = Σ p|g| / (δ Σp) of the last iterate.
+        #[serde(deserialize_with = "serialised::number")]
+        pub residual: f64,
+        /// Bounds on the error of the pressure.
+        pub certificate: Certificate,
+        /// Grid points along a₁ and a₂.
+        pub points: [usize; 2],
+        /// Contact stiffness S = ∂P/∂δ of an isolated contact, a force per length; `None` in a periodic cell, without contact, and under
+        /// friction that couples.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub contact_stiffness: Option<f64> = Stiffness "contact stiffness" "∂P/∂δ" error contact_stiffness_error,
+        /// Estimated error of the contact stiffness, a force per length.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub contact_stiffness_error: Option<f64>,
+        /// Areas, spots, gap and stiffness of a topography; `None` for indenters.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub rough: Option<RoughReading>,
+        /// Parts of load and contact where the window of a topography is below 1; `None` without a window.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub tapered: Option<Tapered>,
+        /// What the hardness of the softer surface has pressed in; `None` without hardness.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub plastic: Option<PlasticReading>,
+        /// Pressure above the hardness of a material beneath the surface; `None` where none is exceeded.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub beneath: Option<Beneath>,
+        /// How contact and traction were solved together; `None` without friction.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub friction: Option<Sliding>,
+        /// Largest stresses; `None` where they are not computed, without contact, and under loads of a search for limits that are not shown.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub stress: Option<StressReading>,
+        /// Utilisation of each criterion with a strength; empty without contact.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        pub strength: Vec<Utilisation>,
+        /// The criterion nearest to failure, with its rivals; `None` without contact or strengths.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub governing: Option<Governing>,
+        /// Passes until the first damage of each material and interface with a law of fatigue; `None` without contact or laws, and under loads
+        /// of a search for limits that are not shown.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub fatigue: Option<FatigueReading>,
+        /// Wall time of the solution, the readings and the largest stresses, seconds, by the [clock](super::Recorder::clock)
+        /// of the recorder; `None` where it has none.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub seconds: Option<f64>,
+    }
+    table StepQuantities as STEP;
 }
 
 /// How contact and traction were solved together.
@@ -229,15 +233,13 @@ impl StepRecord {
         // Under a tip the pressure is infinite, also where that of the grid is finite.
         let scalars = [force, penetration, self.reading.grid_peak(), self.certificate.energy_gap];
         // Stresses are infinite under a tip.
-        let stresses = self.stress.iter().flat_map(|stress| {
-            let Extremes { tau1, tension, mises, strain, horizontal_strain, compression } = &stress.overall;
-            let strains = [strain, horizontal_strain, compression].into_iter().flatten();
-            let peaks = [tau1, tension, mises].into_iter().chain(strains).map(|peak| peak.value);
-            peaks.chain([stress.surface_error])
-        });
+        let stresses = self
+            .stress
+            .iter()
+            .flat_map(|stress| stress.overall.peaks().map(|peak| peak.value).chain([stress.surface_error]));
         let utilisations = self.strength.iter().map(|utilisation| utilisation.value);
         let interfaces = self.stress.iter().flat_map(|stress| &stress.interfaces);
-        let interfaces = interfaces.flat_map(|carried| [carried.normal.value, carried.shear.value]);
+        let interfaces = interfaces.flat_map(|carried| carried.peaks().map(|peak| peak.value));
         let ranges = self.fatigue.iter().flat_map(|own| own.lives.iter().map(|life| life.range));
         let stresses = stresses.chain(utilisations).chain(interfaces).chain(ranges);
         scalars.iter().all(|x| x.is_finite()) && !stresses.into_iter().any(f64::is_nan)

@@ -16,46 +16,77 @@ use super::found::FoundStresses;
 use super::measure::{MATERIAL_MEASURES, StressMeasure};
 use super::peak::Peak;
 use crate::body::InterfaceId;
+use crate::quantity::quantities;
 use serde::{Deserialize, Serialize};
 
-/// Largest stresses and strains of a material or a face.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Extremes {
-    /// Largest principal shear stress τ₁.
-    #[serde(rename = "max_tau1")]
-    pub tau1: Peak,
-    /// Largest principal stress σ₁; negative where all of it is in compression.
-    #[serde(rename = "max_tension")]
-    pub tension: Peak,
-    /// Largest von Mises stress.
-    #[serde(rename = "max_mises")]
-    pub mises: Peak,
-    /// Largest principal strain ε₁; `None` where no strains were asked for, as of the others.
-    #[serde(rename = "max_strain", default, skip_serializing_if = "Option::is_none")]
-    pub strain: Option<Peak>,
-    /// Largest normal strain of the horizontal directions; negative where all of them are in compression.
-    #[serde(rename = "max_horizontal_strain", default, skip_serializing_if = "Option::is_none")]
-    pub horizontal_strain: Option<Peak>,
-    /// Largest compression along z, −ε_zz: positive in compression.
-    #[serde(rename = "max_vertical_compression", default, skip_serializing_if = "Option::is_none")]
-    pub compression: Option<Peak>,
+quantities! {
+    /// Largest stresses and strains of a material or a face; strains are `None` where none were asked for.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+    pub struct Extremes {
+        /// Largest principal shear stress τ₁.
+        #[serde(rename = "max_tau1")]
+        pub tau1: Peak = Pressure "largest shear stress" "τ₁" code "max_tau1" short "τ₁",
+        /// Largest principal stress σ₁; negative where all of it is in compression.
+        #[serde(rename = "max_tension")]
+        pub tension: Peak = Pressure "largest tension" "σ₁" code "max_tension" short "tension",
+        /// Largest von Mises stress.
+        #[serde(rename = "max_mises")]
+        pub mises: Peak = Pressure "largest von Mises" "σᵥ" code "max_mises" short "von Mises",
+        /// Largest principal strain ε₁.
+        #[serde(rename = "max_strain", default, skip_serializing_if = "Option::is_none")]
+        pub strain: Option<Peak> = Strain "largest strain" "ε₁" code "max_strain" short "strain",
+        /// Largest normal strain of the horizontal directions; negative where all of them are in compression.
+        #[serde(rename = "max_horizontal_strain", default, skip_serializing_if = "Option::is_none")]
+        pub horizontal_strain: Option<Peak> = Strain "largest horizontal strain" "ε_h" code "max_horizontal_strain" short "horizontal strain",
+        /// Largest compression along z, −ε_zz: positive in compression.
+        #[serde(rename = "max_vertical_compression", default, skip_serializing_if = "Option::is_none")]
+        pub compression: Option<Peak> = Strain "largest vertical compression" "−ε_zz" code "max_vertical_compression" short "compression",
+    }
+    table ExtremesQuantities as EXTREMES;
 }
 
-/// Largest stresses that an interface carries.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Carried {
-    /// The interface.
-    #[serde(flatten)]
-    pub interface: InterfaceId,
-    /// Largest σ_zz; negative where all of the interface is in compression.
-    #[serde(rename = "max_normal")]
-    pub normal: Peak,
-    /// Largest shear √(σ_xz² + σ_yz²).
-    #[serde(rename = "max_shear")]
-    pub shear: Peak,
-    /// Largest utilisation of the interface's strength, dimensionless; `None` without a strength.
-    #[serde(skip)]
-    pub delamination: Option<Peak>,
+quantities! {
+    /// Largest stresses that an interface carries.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+    pub struct Carried {
+        /// The interface.
+        #[serde(flatten)]
+        pub interface: InterfaceId,
+        /// Largest σ_zz; negative where all of the interface is in compression.
+        #[serde(rename = "max_normal")]
+        pub normal: Peak = Pressure "largest tension" "σ" code "max_normal" short "tension",
+        /// Largest shear √(σ_xz² + σ_yz²).
+        #[serde(rename = "max_shear")]
+        pub shear: Peak = Pressure "largest shear" "τ" code "max_shear" short "shear",
+        /// Largest utilisation of the interface's strength, dimensionless; `None` without a strength.
+        #[serde(skip)]
+        pub delamination: Option<Peak>,
+    }
+    table CarriedQuantities as CARRIED;
+}
+
+impl Extremes {
+    /// Every peak that there is, in the order of [`EXTREMES`].
+    pub fn peaks(&self) -> impl Iterator<Item = Peak> {
+        let Self { tau1, tension, mises, strain, horizontal_strain, compression } = *self;
+        let strains = [strain, horizontal_strain, compression].into_iter().flatten();
+        [tau1, tension, mises].into_iter().chain(strains)
+    }
+
+    /// Every peak that there is, to be changed.
+    pub(crate) fn peaks_mut(&mut self) -> impl Iterator<Item = &mut Peak> {
+        let Self { tau1, tension, mises, strain, horizontal_strain, compression } = self;
+        let strains = [strain, horizontal_strain, compression].into_iter().flatten();
+        [tau1, tension, mises].into_iter().chain(strains)
+    }
+}
+
+impl Carried {
+    /// Every peak of a stress, in the order of [`CARRIED`].
+    pub fn peaks(&self) -> [Peak; 2] {
+        let Self { normal, shear, .. } = *self;
+        [normal, shear]
+    }
 }
 
 /// Largest stresses of a stress field.

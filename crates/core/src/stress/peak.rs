@@ -1,7 +1,9 @@
 //! A largest stress or strain with its position, its error and its rival.
 
 use crate::body::MaterialId;
+use crate::measured::Measured;
 use crate::numeric::serialised;
+use crate::quantity::{ErrorAt, Reads};
 use serde::{Deserialize, Serialize};
 
 /// A largest value and its position.
@@ -52,5 +54,13 @@ impl Peak {
     /// The value; `None` unless it is finite.
     pub fn finite(&self) -> Option<f64> {
         self.value.is_finite().then_some(self.value)
+    }
+}
+
+impl Reads for Peak {
+    const ERROR: ErrorAt = ErrorAt::InPeak;
+
+    fn measured(&self, _: Option<f64>) -> Option<Measured> {
+        Some(Measured::new(self.value, self.error))
     }
 }

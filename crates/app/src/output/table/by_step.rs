@@ -1,15 +1,15 @@
 //! Tables of quantities and their places over the load steps, a row each.
 
-use super::{DETAILED, Table, in_unit};
-use crate::output::number::number;
+use super::{DETAILED, Table};
+use crate::output::number::{in_unit, number};
 use percoat_case::units::{Prefixed, Unit, Units};
+use percoat_core::measured::Measured;
 use percoat_core::run::StepRecord;
 
 /// Value and place of a quantity in a load step.
 #[derive(Clone, Copy)]
 pub(super) struct QuantityInStep {
-    pub value: f64,
-    pub error: Option<f64>,
+    pub own: Measured,
     /// Place x, y, z; lengths.
     pub position: [f64; 3],
     /// Another place where it may be largest within the errors.
@@ -37,23 +37,17 @@ pub(super) fn by_step(
     let loads = steps[shown.clone()].iter().map(|step| step.reading.load(units.quantity()));
     let loads = loads.map(|load| format!("{} = {}", units.quantity().symbol(), units.load().with_unit(load, number)));
     let place_of = if shown.len() > 1 { "place (x, y, z) in the last" } else { "place (x, y, z)" };
-    let unit = unit.suited(rows.iter().flat_map(|row| &row.found[shown.clone()]).flatten().map(|found| found.value));
+    let unit =
+        unit.suited(rows.iter().flat_map(|row| &row.found[shown.clone()]).flatten().map(|found| found.own.value));
     let length = units.length().suited(rows.iter().filter_map(|row| row.found[last]).flat_map(|found| found.position));
     let header: Vec<String> = [unit.headed(head)].into_iter().chain(loads).chain([length.headed(place_of)]).collect();
     let line = |row: &Quantity| {
-        let of = |found: &Option<QuantityInStep>| {
-            found.map_or("–".to_owned(), |found| finite(&unit, found.value, found.error))
-        };
+        let of = |found: &Option<QuantityInStep>| found.map_or("–".to_owned(), |found| in_unit(&unit, found.own));
         let values = row.found[shown.clone()].iter().map(of);
         let place = row.found[last].map_or("–".to_owned(), |found| places(&length, found));
         [row.name.clone()].into_iter().chain(values).chain([place]).collect()
     };
     Some(Table::new(&header, rows.iter().map(line).collect(), 1))
-}
-
-/// A value with its error, or "singular".
-fn finite(unit: &Prefixed, x: f64, error: Option<f64>) -> String {
-    if x.is_infinite() { "singular".to_owned() } else { in_unit(unit, x, error) }
 }
 
 /// The place, and where it is undecided within the errors the other one.

@@ -4,6 +4,7 @@ use super::{Table, percent};
 use crate::output::number;
 use percoat_case::units::{Prefixed, Units};
 use percoat_core::comparison::{Answer, CircleComparison, Comparison, Deviation};
+use percoat_core::reading::{LEVEL, READING};
 
 /// Table of both solutions level by level, one block for the spectral one and for each circle.
 pub fn readings(comparison: &Comparison, units: &Units) -> Table {
@@ -18,12 +19,12 @@ pub fn readings(comparison: &Comparison, units: &Units) -> Table {
     let header = [
         "solution".to_owned(),
         "inside".to_owned(),
-        penetration.headed("penetration"),
+        penetration.headed(READING.penetration.named.name),
         "level".to_owned(),
-        load.headed("load on one"),
-        "share".to_owned(),
-        pressure.headed("peak pressure"),
-        radius.headed("contact radius"),
+        load.headed(LEVEL.load.named.name),
+        LEVEL.load_share.named.short.to_owned(),
+        pressure.headed(LEVEL.max_pressure.named.name),
+        radius.headed(LEVEL.contact_radius.named.name),
         around.headed("circle"),
     ];
     let nowhere = vec![f64::INFINITY; spectral.levels.len()];

@@ -4,7 +4,7 @@ use super::Worded;
 use super::by_step::{Quantity, QuantityInStep, by_step, place};
 use crate::output::number::number;
 use percoat_case::units::{Unit, Units};
-use percoat_core::reading::{FatiguePart, Life};
+use percoat_core::reading::{FatiguePart, LIFE, Life};
 use percoat_core::run::StepRecord;
 
 /// Table of the passes after which each material and interface first has the damage 1, one row each, the one that lasts shortest in the
@@ -15,9 +15,8 @@ pub fn lives(steps: &[StepRecord], units: &Units) -> Option<Worded> {
     parts.sort_by(|a, b| a.passes.total_cmp(&b.passes));
     let row = |part: FatiguePart| {
         let of = |step: &StepRecord| {
-            let life = step.fatigue.as_ref()?.life(part).filter(|life| life.passes.is_finite())?;
-            let error = life.error.map(|error| error * life.passes);
-            Some(QuantityInStep { value: life.passes, error, position: life.position, rival: None })
+            let life = step.fatigue.as_ref()?.life(part)?;
+            Some(QuantityInStep { own: LIFE.passes.finite(life)?, position: life.position, rival: None })
         };
         Quantity { name: part.to_string(), found: steps.iter().map(of).collect() }
     };

@@ -3,9 +3,12 @@
 use super::Table;
 use super::by_step::{Quantity, QuantityInStep, by_step};
 use percoat_case::units::Units;
+use percoat_core::measured::Measured;
+use percoat_core::quantity::Kind;
 use percoat_core::reading::StressReading;
 use percoat_core::run::StepRecord;
 use percoat_core::stress::Peak;
+use percoat_core::stress::maxima::{CARRIED, EXTREMES};
 
 /// Table of the largest stresses, one row a quantity; `None` where no step has stresses.
 pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<Table> {
@@ -13,24 +16,27 @@ pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<Table> {
     let row = |name: String, peak: &dyn Fn(&StressReading) -> Option<Peak>| {
         let of = |step: &StepRecord| {
             let Peak { value, error, position, rival, .. } = peak(step.stress.as_ref()?)?;
-            Some(QuantityInStep { value, error, position, rival: rival.map(|rival| rival.position) })
+            let rival = rival.map(|rival| rival.position);
+            Some(QuantityInStep { own: Measured::new(value, error), position, rival })
         };
         Quantity { name, found: steps.iter().map(of).collect() }
     };
     let material = |index: usize| {
         let own = any.materials[index].tau1.material;
-        [
-            row(format!("τ₁ in {own}"), &|stress| Some(stress.materials.get(index)?.tau1)),
-            row(format!("tension in {own}"), &|stress| Some(stress.materials.get(index)?.tension)),
-            row(format!("von Mises in {own}"), &|stress| Some(stress.materials.get(index)?.mises)),
-        ]
+        let stresses = EXTREMES.each().into_iter().filter(|quantity| quantity.named.kind == Kind::Pressure);
+        let rows = stresses.enumerate().map(|(at, quantity)| {
+            let peak = |stress: &StressReading| stress.materials.get(index)?.peaks().nth(at);
+            row(format!("{} in {own}", quantity.named.short), &peak)
+        });
+        rows.collect::<Vec<_>>()
     };
     let interface = |index: usize| {
         let own = any.interfaces[index].interface;
-        [
-            row(format!("tension on {own}"), &|stress| Some(stress.interfaces.get(index)?.normal)),
-            row(format!("shear on {own}"), &|stress| Some(stress.interfaces.get(index)?.shear)),
-        ]
+        let rows = CARRIED.each().into_iter().enumerate().map(|(at, quantity)| {
+            let peak = |stress: &StressReading| Some(stress.interfaces.get(index)?.peaks()[at]);
+            row(format!("{} on {own}", quantity.named.short), &peak)
+        });
+        rows.collect::<Vec<_>>()
     };
     let materials = (0..any.materials.len()).flat_map(material);
     let rows: Vec<Quantity> = materials.chain((0..any.interfaces.len()).flat_map(interface)).collect();

@@ -26,17 +26,18 @@ pub use strength::{limits, utilisations};
 pub(super) use text::lines;
 pub use text::{Table, Worded};
 
-use super::number::{ROUNDING, number, with_error};
+use super::number::{in_unit, number, percent, percent_with_error, shown, with_unit};
 use super::{LifeFile, Timing};
 use percoat_case::case::{Case, SurfaceSection};
-use percoat_case::units::{Prefixed, Units};
+use percoat_case::units::Units;
 use percoat_case::words::LoadWords;
 use percoat_common::plain;
 use percoat_core::comparison::Comparison;
 use percoat_core::lattice::Surroundings;
 use percoat_core::numeric::search::largest;
-use percoat_core::reading::{LevelReading, Reading};
-use percoat_core::run::{Limits, StepRecord};
+use percoat_core::quantity::{Kind, Named, Quantity};
+use percoat_core::reading::{LEVEL, LevelQuantities, LevelReading, READING, Reading};
+use percoat_core::run::{Limits, STEP, StepRecord};
 use percoat_core::spectral::Stop;
 
 /// Relative errors up to this are rounding.
@@ -94,14 +95,10 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
 
 /// The contact stiffness of the last step that has one, as a line.
 fn contact_stiffness(steps: &[StepRecord], units: &Units) -> Option<String> {
-    let step = steps.iter().rev().find(|step| step.contact_stiffness.is_some())?;
-    let (stiffness, error) = (step.contact_stiffness?, step.contact_stiffness_error);
+    let (step, stiffness) = steps.iter().rev().find_map(|step| Some((step, STEP.contact_stiffness.of(step)?)))?;
+    let Named { name, symbol, kind, .. } = STEP.contact_stiffness.named;
     let load = units.force().with_unit(step.reading.force, number);
-    let per = match (units.force().name(), units.length().name()) {
-        (Some(force), Some(length)) => format!("\u{a0}{force}/{length}"),
-        _ => String::new(),
-    };
-    Some(format!("contact stiffness ∂P/∂δ at the force {load}: {}{per}\n", with_error(stiffness, error)))
+    Some(format!("{name} {symbol} at the force {load}: {}\n", with_unit(&units.unit(kind), stiffness)))
 }
 
 /// The title of a case as a line, and the assumed orientation of its surface file where the file does not state it.
@@ -169,124 +166,119 @@ pub fn compared(case: &Case, comparison: &Comparison, width: usize) -> String {
     text + &stresses(comparison, &units).map_or(String::new(), |stresses| format!("{stresses}\n{mean}"))
 }
 
-/// The units of the load and the penetration.
-fn units_of_loads(steps: &[StepRecord], units: &Units) -> [Prefixed; 2] {
-    let readings = || steps.iter().map(|step| &step.reading);
-    [
-        units.load().suited(readings().map(|reading| reading.load(units.quantity()))),
-        units.length().suited(readings().map(|reading| reading.penetration)),
-    ]
+/// A column of a table of records: its head, and its cell in the row of a record.
+struct Column<'a, R> {
+    head: String,
+    cell: Box<dyn Fn(&R) -> String + 'a>,
+}
+
+impl<'a, R: 'static> Column<'a, R> {
+    fn new(head: impl Into<String>, cell: impl Fn(&R) -> String + 'a) -> Self {
+        Self { head: head.into(), cell: Box::new(cell) }
+    }
+
+    /// The column of a quantity under a name, in the unit that suits `all` of its rows.
+    fn of(quantity: &'static Quantity<R>, name: &str, units: &Units, all: impl Iterator<Item = &'a R>) -> Self {
+        let unit =
+            units.unit(quantity.named.kind).suited(all.filter_map(|own| quantity.finite(own)).map(|own| own.value));
+        Self::new(unit.headed(name), move |own| match (quantity.of(own), quantity.named.kind) {
+            (None, _) => "–".to_owned(),
+            (Some(own), Kind::Fraction) => percent_with_error(own),
+            (Some(own), _) => in_unit(&unit, own),
+        })
+    }
+}
+
+/// The columns of a load step itself: load, penetration, and how far contact extends.
+fn leading<'a>(steps: &'a [StepRecord], units: &'a Units) -> Vec<Column<'a, Reading>> {
+    let is_given = steps.iter().any(|step| step.kind().is_given);
+    let of = |quantity: &'static Quantity<Reading>| {
+        Column::of(quantity, quantity.named.of(is_given), units, steps.iter().map(|step| &step.reading))
+    };
+    let extent = |reading: &Reading| {
+        let extent = reading.extent();
+        extent.of(reading).map_or("–".to_owned(), |own| shown(&extent.named, own, units))
+    };
+    vec![of(READING.load(units.quantity())), of(&READING.penetration), Column::new(LoadWords::of(steps).area, extent)]
 }
 
 fn detailed(steps: &[StepRecord], units: &Units) -> Table {
-    let levels = || steps.iter().flat_map(|step| &step.reading.levels);
-    let [load_unit, penetration] = units_of_loads(steps, units);
-    let quantity = units.quantity();
-    let load = units.force().suited(levels().map(|level| level.load));
-    let pressure = units.pressure().suited(levels().filter_map(|level| level.finite_peak()));
-    let length = units.length().suited(levels().filter_map(|level| level.contact_radius));
-    let header = [
-        load_unit.headed(units.quantity().name()),
-        penetration.headed("penetration"),
-        "contact".to_owned(),
-        "level".to_owned(),
-        load.headed("load on one"),
-        "share".to_owned(),
-        pressure.headed("peak pressure"),
-        length.headed("contact radius"),
-        "asymmetry".to_owned(),
-    ];
-    let mut rows = Vec::new();
-    for step in steps {
-        let mut lead = [
-            in_unit(&load_unit, step.reading.load(quantity), step.reading.load_error(quantity)),
-            in_unit(&penetration, step.reading.penetration, step.reading.errors.penetration),
-            contact(&step.reading, units),
-        ];
-        for level in &step.reading.levels {
-            let radius = match level.contact_radius {
-                _ if level.load == 0.0 => "–".to_owned(),
-                // A ring has two radii.
-                Some(radius) if level.ring => match (level.radius_inner, level.radius_outer) {
-                    (Some(inner), Some(outer)) => format!(
-                        "ring {} to {}",
-                        in_unit(&length, inner, level.errors.radius_inner),
-                        in_unit(&length, outer, level.errors.radius_outer)
-                    ),
-                    _ => format!("ring, area of {}", number(length.shown(radius))),
-                },
-                Some(radius) => in_unit(&length, radius, level.errors.contact_radius),
-                None => "merged".to_owned(),
-            };
-            let cells = [
-                level.level.to_string(),
-                in_unit(&load, level.load, level.errors.load),
-                percent_with_error(level.load_share, level.errors.load_share),
-                finite(&pressure, level.finite_peak(), level.errors.max_pressure),
-                radius,
-                level.asymmetry.map_or("–".to_owned(), |part| percent_with_error(part, level.errors.asymmetry)),
-            ];
-            rows.push([&lead[..], &cells[..]].concat());
-            lead = [const { String::new() }; 3];
-        }
-    }
-    let table = Table::new(&header, rows, 0);
-    if steps.iter().any(|step| step.reading.levels.len() > 1) {
-        return table.keyed(&[0, 3]);
-    }
+    let readings = || steps.iter().map(|step| &step.reading);
+    let levels = || readings().flat_map(|reading| &reading.levels);
+    let of = |own: &'static Quantity<LevelReading>, name| Column::of(own, name, units, levels());
+    let several = readings().any(|reading| reading.levels.len() > 1);
     // A single level has the whole load, and a single isolated indenter the force: no columns of level, load on one and share.
     let has_force = |reading: &Reading| (reading.levels[0].load - reading.force).abs() <= NOTHING * reading.force;
     let is_alone = |reading: &Reading| reading.surroundings() == Surroundings::FreeSpace && has_force(reading);
-    table.without(if steps.iter().all(|step| is_alone(&step.reading)) { &[3, 4, 5] } else { &[3, 5] })
+    let mut columns: Vec<Column<'_, LevelReading>> = Vec::new();
+    if several {
+        columns.push(Column::new("level", |level: &LevelReading| level.level.to_string()));
+    }
+    if several || !readings().all(is_alone) {
+        columns.push(of(&LEVEL.load, LEVEL.load.named.name));
+    }
+    if several {
+        columns.push(of(&LEVEL.load_share, LEVEL.load_share.named.short));
+    }
+    columns.push(of(&LEVEL.max_pressure, LEVEL.max_pressure.named.name));
+    columns.push(contact_radius(levels(), units));
+    columns.push(of(&LEVEL.asymmetry, LEVEL.asymmetry.named.name));
+    let lead = leading(steps, units);
+    let mut rows = Vec::new();
+    for reading in readings() {
+        for (index, level) in reading.levels.iter().enumerate() {
+            let first = |column: &Column<'_, Reading>| if index == 0 { (column.cell)(reading) } else { String::new() };
+            rows.push(lead.iter().map(first).chain(columns.iter().map(|column| (column.cell)(level))).collect());
+        }
+    }
+    let heads: Vec<&String> = lead.iter().map(|own| &own.head).chain(columns.iter().map(|own| &own.head)).collect();
+    let table = Table::new(&heads, rows, 0);
+    if several { table.keyed(&[0, lead.len()]) } else { table }
+}
+
+/// The contact radius, both radii of a ring, or that contacts have merged.
+fn contact_radius<'a>(all: impl Iterator<Item = &'a LevelReading>, units: &Units) -> Column<'a, LevelReading> {
+    let LevelQuantities { contact_radius: radius, radius_inner, radius_outer, .. } = &LEVEL;
+    let Named { name, kind, .. } = radius.named;
+    let length = units.unit(kind).suited(all.filter_map(|level| radius.of(level)).map(|own| own.value));
+    Column::new(length.headed(name), move |level: &LevelReading| match radius.of(level) {
+        _ if level.load == 0.0 => "–".to_owned(),
+        Some(own) if level.ring => match radius_inner.of(level).zip(radius_outer.of(level)) {
+            Some((inner, outer)) => format!("ring {} to {}", in_unit(&length, inner), in_unit(&length, outer)),
+            None => format!("ring, area of {}", number(length.shown(own.value))),
+        },
+        Some(own) => in_unit(&length, own),
+        None => "merged".to_owned(),
+    })
 }
 
 fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
     let readings = || steps.iter().map(|step| &step.reading);
-    let [load_unit, penetration] = units_of_loads(steps, units);
-    let quantity = units.quantity();
-    let pressure = units.pressure().suited(readings().filter_map(Reading::finite_peak));
-    let LoadWords { depth, area, .. } = *LoadWords::of(steps);
-    let mut header = vec![load_unit.headed(units.quantity().name()), penetration.headed(depth), area.to_owned()];
-    header.extend((1..=levels).map(|level| pressure.headed(&format!("peak {level}"))));
+    let peaks = readings().filter_map(|reading| READING.max_pressure.finite(reading)).map(|own| own.value);
+    let pressure = units.pressure().suited(peaks);
+    let pressure = &pressure;
+    let mut columns = leading(steps, units);
+    let of_level = |quantity: &'static Quantity<LevelReading>, head: &str, level: usize| {
+        let head = if quantity.named.kind == Kind::Pressure { pressure.headed(head) } else { head.to_owned() };
+        Column::new(head, move |reading: &Reading| {
+            quantity.of(&reading.levels[level - 1]).map_or("–".to_owned(), |own| match quantity.named.kind {
+                Kind::Fraction => percent_with_error(own),
+                _ => in_unit(pressure, own),
+            })
+        })
+    };
     // A single level has the whole load.
-    let shares = if levels > 1 { levels } else { 0 };
-    header.extend((1..=shares).map(|level| format!("share {level}")));
-    let energy = units.energy().suited(readings().map(|reading| reading.elastic_energy));
-    if levels == 0 {
-        header.extend([pressure.headed("peak pressure"), energy.headed("elastic energy")]);
+    for quantity in [&LEVEL.max_pressure, &LEVEL.load_share].into_iter().take(if levels > 1 { 2 } else { 1 }) {
+        let named = |level: usize| format!("{} {level}", quantity.named.short);
+        columns.extend((1..=levels).map(|level| of_level(quantity, &named(level), level)));
     }
-    let row = |reading: &Reading| {
-        let mut row = vec![
-            in_unit(&load_unit, reading.load(quantity), reading.load_error(quantity)),
-            in_unit(&penetration, reading.penetration, reading.errors.penetration),
-            contact(reading, units),
-        ];
-        let peak = |level: &LevelReading| finite(&pressure, level.finite_peak(), level.errors.max_pressure);
-        row.extend(reading.levels.iter().map(peak));
-        let shared = reading.levels.iter().take(shares);
-        row.extend(shared.map(|level| percent_with_error(level.load_share, level.errors.load_share)));
-        if levels == 0 {
-            row.push(finite(&pressure, reading.finite_peak(), reading.errors.max_pressure));
-            row.push(in_unit(&energy, reading.elastic_energy, reading.errors.elastic_energy));
-        }
-        row
-    };
-    Table::new(&header, readings().map(row).collect(), 0)
-}
-
-/// The fraction in contact, or the area of an isolated one.
-fn contact(reading: &Reading, units: &Units) -> String {
-    let Some(part) = reading.contact_fraction else {
-        let area = units.area().suited([reading.contact_area]);
-        return area.behind(&in_unit(&area, reading.contact_area, reading.errors.contact_area));
-    };
-    percent_with_error(part, reading.errors.contact_fraction)
-}
-
-/// Two decimals; no sign for zero.
-fn percent(x: f64) -> String {
-    let text = format!("{:.2} %", 100.0 * x);
-    text.strip_prefix('-').filter(|text| *text == "0.00 %").map_or(text.clone(), str::to_owned)
+    if levels == 0 {
+        let whole = [&READING.max_pressure, &READING.elastic_energy];
+        columns.extend(whole.map(|own| Column::of(own, own.named.name, units, readings())));
+    }
+    let row = |reading: &Reading| columns.iter().map(|column| (column.cell)(reading)).collect();
+    let heads: Vec<&String> = columns.iter().map(|column| &column.head).collect();
+    Table::new(&heads, readings().map(row).collect(), 0)
 }
 
 /// "`name` by +1.25 %": the relative change of a quantity, from its value `without` layers or neighbours to the one `found`; `None`
@@ -295,26 +287,6 @@ fn change(name: &str, found: Option<f64>, without: Option<f64>) -> Option<String
     let text = percent(found? / without? - 1.0);
     let sign = if text.starts_with('-') { "" } else { "+" };
     Some(format!("{name} by {sign}{text}"))
-}
-
-/// A number with its error, or "singular".
-fn finite(unit: &Prefixed, x: Option<f64>, error: Option<f64>) -> String {
-    x.map_or("singular".to_owned(), |x| in_unit(unit, x, error))
-}
-
-/// A number with its error, both in the unit of their column, which is not named.
-pub fn in_unit(unit: &Prefixed, x: f64, error: Option<f64>) -> String {
-    with_error(unit.shown(x), error.map(|error| unit.shown(error)))
-}
-
-/// A part with its error in per cent: at most two decimals, fewer where the error is larger.
-pub(crate) fn percent_with_error(x: f64, error: Option<f64>) -> String {
-    match error.map(|error| 100.0 * error) {
-        Some(error) if error > ROUNDING * 100.0 * x.abs() => {
-            format!("{} %", with_error(100.0 * x, Some(error.max(0.01))))
-        }
-        _ => percent(x),
-    }
 }
 
 /// Convergence of the load steps, in a line.
@@ -347,26 +319,18 @@ fn spots(steps: &[StepRecord]) -> Option<String> {
 /// The largest estimated discretisation errors of all steps, in a line; `None` where there are none.
 pub fn largest_errors(steps: &[StepRecord]) -> Option<String> {
     // What is rounding is no error of the grid.
-    let relative = |value: f64, error: Option<f64>| {
-        error.filter(|_| value != 0.0).map(|error| error / value.abs()).filter(|error| *error > NOTHING)
-    };
+    fn most<'a, R: 'static>(quantity: &Quantity<R>, all: impl Iterator<Item = &'a R>) -> Option<f64> {
+        let errors = all.filter_map(|own| quantity.finite(own)?.relative());
+        errors.filter(|error| *error > NOTHING).reduce(f64::max)
+    }
     let readings = || steps.iter().map(|step| &step.reading);
-    let levels = || readings().flat_map(|reading| &reading.levels);
-    let depth = LoadWords::of(steps).depth;
-    let named = [
-        (depth, readings().filter_map(|s| relative(s.penetration, s.errors.penetration)).reduce(f64::max)),
-        (
-            "peak pressure",
-            readings().filter_map(|s| relative(s.finite_peak()?, s.errors.max_pressure)).reduce(f64::max),
-        ),
-        ("load on one", levels().filter_map(|l| relative(l.load, l.errors.load)).reduce(f64::max)),
-        (
-            "contact radius",
-            levels().filter_map(|l| relative(l.contact_radius?, l.errors.contact_radius)).reduce(f64::max),
-        ),
-    ];
+    let is_given = steps.iter().any(|step| step.kind().is_given);
+    let whole = [&READING.penetration, &READING.max_pressure];
+    let whole = whole.map(|own| (own.named.of(is_given), most(own, readings())));
+    let of_level = [&LEVEL.load, &LEVEL.contact_radius];
+    let of_level = of_level.map(|own| (own.named.name, most(own, readings().flat_map(|reading| &reading.levels))));
     let texts: Vec<String> =
-        named.into_iter().filter_map(|(name, error)| Some(format!("{name} {:.1e}", error?))).collect();
+        whole.into_iter().chain(of_level).filter_map(|(name, error)| Some(format!("{name} {:.1e}", error?))).collect();
     (!texts.is_empty()).then(|| format!("estimated relative discretisation errors, at most: {}", texts.join(", ")))
 }
 
@@ -380,14 +344,12 @@ pub fn timing(timing: &Timing) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use percoat_case::units::Unit;
 
     #[test]
-    fn what_rounds_to_zero_has_no_sign_and_what_is_infinite_no_number() {
+    fn what_rounds_to_zero_has_no_sign() {
         assert_eq!([-1e-9, 0.0, -0.00006, 0.5].map(percent), ["0.00 %", "0.00 %", "-0.01 %", "50.00 %"]);
         let changes = [1.0 - 1e-9, 1.0, 1.00006, 0.5].map(|found| change("it", Some(found), Some(1.0)).unwrap());
         assert_eq!(changes, ["it by +0.00 %", "it by +0.00 %", "it by +0.01 %", "it by -50.00 %"]);
         assert_eq!(change("it", None, Some(1.0)), None);
-        assert_eq!([None, Some(0.5)].map(|x| finite(&Unit::None.prefixed(1.0), x, None)), ["singular", "0.50000"]);
     }
 }

@@ -1,9 +1,10 @@
 //! What hardness has pressed in, step by step.
 
-use super::{DETAILED, Table, in_unit};
-use crate::output::number::number;
-use percoat_case::units::Units;
-use percoat_core::reading::PlasticReading;
+use super::{DETAILED, Table};
+use crate::output::number::{in_unit, number};
+use percoat_case::units::{Prefixed, Units};
+use percoat_core::measured::Measured;
+use percoat_core::reading::{PLASTIC, PlasticReading, READING};
 use percoat_core::run::StepRecord;
 
 /// A sentence about what is pressed in, and the table of it, a row a step, of many steps the last; `None` without hardness. Where nothing
@@ -37,23 +38,25 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
     let is_composite = last.hardness_depth.is_some();
     let header = [
         load.headed(units.quantity().name()),
-        area.headed("area at the hardness"),
+        area.headed(PLASTIC.area.named.name),
         "of the contact".to_owned(),
-        length.headed("largest depth pressed in"),
-        length.headed("permanent depth"),
+        length.headed(PLASTIC.depth.named.name),
+        length.headed(PLASTIC.permanent_depth.named.name),
     ];
-    let header: Vec<String> = header.into_iter().chain(is_composite.then(|| pressure.headed("hardness"))).collect();
+    let header: Vec<String> =
+        header.into_iter().chain(is_composite.then(|| pressure.headed(PLASTIC.hardness.named.name))).collect();
     let row = |(step, own): &(&StepRecord, &PlasticReading)| {
         // Two areas, each read with its own error.
         let part = (own.area / step.reading.contact_area).clamp(0.0, 1.0);
+        let text = |unit: &Prefixed, own: Option<Measured>| own.map_or("–".to_owned(), |own| in_unit(unit, own));
         let row = [
-            in_unit(&load, step.reading.load(units.quantity()), step.reading.load_error(units.quantity())),
-            in_unit(&area, own.area, own.area_error),
+            text(&load, READING.load(units.quantity()).of(&step.reading)),
+            text(&area, PLASTIC.area.of(own)),
             if part.is_finite() { format!("{:.0} %", 100.0 * part) } else { "–".to_owned() },
-            in_unit(&length, own.depth, own.depth_error),
-            in_unit(&length, own.permanent_depth, own.permanent_depth_error),
+            text(&length, PLASTIC.depth.of(own)),
+            text(&length, PLASTIC.permanent_depth.of(own)),
         ];
-        row.into_iter().chain(is_composite.then(|| in_unit(&pressure, own.hardness, own.hardness_error))).collect()
+        row.into_iter().chain(is_composite.then(|| text(&pressure, PLASTIC.hardness.of(own)))).collect()
     };
     let (of, assumption) = match is_composite {
         false => (format!("hardness {hardness}"), "the hardness does not depend on the depth"),

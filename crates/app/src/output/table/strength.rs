@@ -1,11 +1,12 @@
 //! Tables of the utilisations of load steps, and of limit loads.
 
 use super::by_step::{Quantity, QuantityInStep, by_step, place};
-use super::{Table, Worded, in_unit};
-use crate::output::number::{number, with_error};
+use super::{Table, Worded};
+use crate::output::number::{in_unit, number, with_error};
 use percoat_case::units::{Prefixed, Unit, Units};
 use percoat_core::body::Bodies;
-use percoat_core::reading::{Criterion, Utilisation, Verdict};
+use percoat_core::measured::Measured;
+use percoat_core::reading::{Criterion, UTILISATION, Utilisation, Verdict};
 use percoat_core::run::{At, Limit, Limits, StepRecord};
 
 /// Table of the utilisations, one row a criterion, the one that governs the last step first; `None` without strengths. With a
@@ -16,13 +17,13 @@ pub fn utilisations(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units
     governing.sort_by(|a, b| b.value.total_cmp(&a.value));
     let row = |&Utilisation { criterion, .. }: &Utilisation| {
         let of = |step: &StepRecord| {
-            let &Utilisation { value, error, position, rival, .. } = step.utilisation(criterion)?;
-            Some(QuantityInStep { value, error, position, rival })
+            let own = step.utilisation(criterion)?;
+            Some(QuantityInStep { own: UTILISATION.value.of(own)?, position: own.position, rival: own.rival })
         };
         Quantity { name: criterion.to_string(), found: steps.iter().map(of).collect() }
     };
     let rows: Vec<Quantity> = governing.into_iter().map(row).collect();
-    let table = by_step("utilisation", &Unit::None, units, steps, &rows)?;
+    let table = by_step(UTILISATION.value.named.name, &Unit::None, units, steps, &rows)?;
     Some(Worded { words: in_words(steps, bodies, units)?, table })
 }
 
@@ -109,7 +110,7 @@ pub fn limits(limits: &Limits, units: &Units) -> Worded {
             At::Tip { position } => ("0".to_owned(), format!("{}, a tip", place(position))),
             At::Load { load, error, interval: [from, to], position } => {
                 let range = || format!("{} ({})", number(load_unit.shown(load)), range(&load_unit, [from, to]));
-                let shown = if limit.is_sharp() { in_unit(&load_unit, load, error) } else { range() };
+                let shown = if limit.is_sharp() { in_unit(&load_unit, Measured::new(load, error)) } else { range() };
                 (shown, place(position))
             }
             At::Below { load, position, .. } => (

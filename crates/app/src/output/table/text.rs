@@ -102,12 +102,6 @@ impl Table {
         parts.iter().map(|columns| self.part(columns).to_string()).collect::<Vec<_>>().join("\n\n")
     }
 
-    /// Without some of the columns of numbers; the first one names a row.
-    pub(super) fn without(&self, columns: &[usize]) -> Self {
-        let left: Vec<usize> = (0..self.head.len()).filter(|index| !columns.contains(index)).collect();
-        Self { keys: vec![0], ..self.part(&left) }
-    }
-
     /// A table of some of the columns, those of words first.
     fn part(&self, columns: &[usize]) -> Self {
         let pick = |row: &Vec<String>| columns.iter().map(|&index| row[index].clone()).collect();

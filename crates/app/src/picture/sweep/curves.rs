@@ -5,6 +5,7 @@ use super::numbers::Number;
 use crate::picture::labels::Labels;
 use crate::sweep::Row;
 use percoat_case::units::Units;
+use percoat_core::measured::Measured;
 use percoat_core::run::StepRecord;
 use percoat_draw::axis::Axis;
 use percoat_draw::chart::Chart;
@@ -55,8 +56,8 @@ impl Keys {
                 let curve = curves.entry(own).or_insert_with(begun);
                 // A step whose load differs between rows is labelled by its number.
                 curve.load.take_if(|own| Some(&*own) != load.as_ref());
-                let (y, error) = shown.measured(result).unwrap_or((f64::NAN, None));
-                curve.points.push(([x, y], error.unwrap_or(f64::NAN)));
+                let own = shown.measured(result).unwrap_or(Measured::exact(f64::NAN));
+                curve.points.push(([x, own.value], own.error.unwrap_or(f64::NAN)));
             }
         }
         let all = curves.len();

@@ -202,7 +202,7 @@ mod tests {
         let units = Units::unknown().named(Some("µm"), Some("GPa")).with_loads_in(LoadQuantity::Force);
         let numbers = numbers(&units, &rows);
         let names: Vec<&str> = numbers.iter().map(|own| own.quantity.text()).collect();
-        assert_eq!(names, ["peak pressure p", "penetration δ", "area of contact A"]);
+        assert_eq!(names, ["peak pressure p", "penetration δ", "contact area A"]);
         let (chart, _) = keys_of(&rows).unwrap().chart(&rows, &numbers[2], &units);
         let labels: Vec<String> = chart.curves.iter().map(|curve| curve.label.replace('\u{a0}', " ")).collect();
         assert_eq!(labels, ["P = 1 mN", "P = 5 mN"]);

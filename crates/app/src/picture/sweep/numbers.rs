@@ -1,9 +1,13 @@
 //! The numbers of a sweep's results that a picture shows.
 
 use crate::picture::labels::Labels;
-use crate::sweep::{Kind, LimitValue, Measured, Row, SCALARS, Scalar, SweepResult};
+use crate::sweep::{LimitValue, Row, SweepResult, stated};
 use percoat_case::units::Units;
-use percoat_core::reading::{Criterion, Verdict};
+use percoat_core::measured::Measured;
+use percoat_core::quantity::Kind;
+use percoat_core::reading::{Criterion, LIFE, READING, UTILISATION, Verdict};
+use percoat_core::run::OfStep;
+use percoat_core::stress::maxima::EXTREMES;
 use percoat_draw::label::Label;
 
 /// A number of a result.
@@ -12,10 +16,10 @@ pub struct Number {
     of: Of,
 }
 
-/// Quantity of a number.
+/// What a number is of.
 enum Of {
-    /// One of the main scalars of a load step.
-    Scalar(&'static Scalar),
+    /// One of the main quantities of a load step.
+    Step(&'static dyn OfStep),
     /// The largest utilisation of a load step.
     Utilisation,
     /// The first limit load, or that of a criterion.
@@ -34,21 +38,19 @@ pub enum Bound {
 }
 
 impl Number {
-    /// The one of [`SCALARS`] with this name.
-    fn scalar(quantity: impl Into<Label>, name: &str) -> Self {
-        let scalar = SCALARS.iter().find(|scalar| scalar.name == name).expect("the name of a scalar");
-        Self { quantity: quantity.into(), of: Of::Scalar(scalar) }
+    fn of_step(units: &Units, quantity: &'static dyn OfStep) -> Self {
+        Self { quantity: units.label(quantity.named()), of: Of::Step(quantity) }
     }
 
     /// Its value; `None` where the result does not have it, or it is infinite.
     pub fn value(&self, result: &SweepResult) -> Option<f64> {
-        self.measured(result).map(|(value, _)| value)
+        self.measured(result).map(|own| own.value)
     }
 
     /// Its value and error; `None` where the result does not have it, or it is infinite.
     pub fn measured(&self, result: &SweepResult) -> Option<Measured> {
         match self.of {
-            Of::Scalar(scalar) => (scalar.of)(result.step()?),
+            Of::Step(quantity) => stated(quantity, result.step()?),
             Of::Utilisation => result.largest_utilisation(),
             Of::Limit(of) => result.limit_value(of)?.measured(),
         }
@@ -56,7 +58,7 @@ impl Number {
 
     /// Whether it is a number of passes, which a power of the stresses spreads.
     pub fn is_passes(&self) -> bool {
-        matches!(self.of, Of::Scalar(scalar) if scalar.kind == Kind::Passes)
+        matches!(self.of, Of::Step(quantity) if quantity.named().kind == Kind::Passes)
     }
 
     /// Whether it is a limit load.
@@ -72,7 +74,7 @@ impl Number {
                 let governing = result.step().and_then(|step| step.governing.as_ref());
                 governing.is_some_and(|governing| governing.verdict == Verdict::Undecided)
             }
-            Of::Scalar(_) => false,
+            Of::Step(_) => false,
         }
     }
 
@@ -94,15 +96,16 @@ impl Number {
 /// The numbers that the rows have.
 pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
     let limit = |words: &str, of: Option<Criterion>| Number { quantity: units.load_of(words), of: Of::Limit(of) };
+    let of_step = |quantity: &'static dyn OfStep| Number::of_step(units, quantity);
     let mut all = vec![
         limit("first limit", None),
-        Number::scalar(units.pressure_of("peak pressure", "p"), "peak pressure"),
-        Number::scalar(units.length_of("penetration", "δ"), "penetration"),
-        Number::scalar("passes until the first damage", "passes to damage"),
-        Number::scalar("fraction in contact", "contact"),
-        Number::scalar(units.area_of("area of contact", "A"), "contact area"),
-        Number { quantity: "largest utilisation".into(), of: Of::Utilisation },
-        Number::scalar(units.pressure_of("largest shear stress", "τ₁"), "largest τ₁"),
+        of_step(&READING.max_pressure),
+        of_step(&READING.penetration),
+        of_step(&LIFE.passes),
+        of_step(&READING.contact_fraction),
+        of_step(&READING.contact_area),
+        Number { quantity: format!("largest {}", UTILISATION.value.named.name).into(), of: Of::Utilisation },
+        of_step(&EXTREMES.tau1),
     ];
     let criteria = SweepResult::criteria(rows.iter().flat_map(|row| &row.results));
     all.extend(criteria.into_iter().map(|own| limit(&own.to_string(), Some(own))));

@@ -48,7 +48,7 @@ fn high_pressure(case: &Case, index: usize, radius: f64) -> Option<String> {
     let is_hard = young * 10f64.powi(exponent(units.pressure())?) >= HARD;
     (is_hard && pressure > CRYSTAL * young).then(|| {
         format!(
-            "by Hertz the largest pressure under level {} is {}, {} of the least Young's modulus {}, and no crystal bears more than a \
+            "by Hertz the peak pressure under level {} is {}, {} of the least Young's modulus {}, and no crystal bears more than a \
              fifth: is {}?",
             index + 1,
             units.pressure().with_unit(pressure, number),
@@ -135,7 +135,7 @@ mod tests {
             (
                 &["levels.0.radius=20", "lattice.size=20"],
                 format!(
-                    "by Hertz the largest pressure under level 1 is 50.504 GPa, 0.24 of the least Young's modulus 210.00 GPa, and no \
+                    "by Hertz the peak pressure under level 1 is 50.504 GPa, 0.24 of the least Young's modulus 210.00 GPa, and no \
                      crystal bears more than a fifth: {ASKED}"
                 ),
             ),
