@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from percoat import _core, _html
 from percoat._case import CaseLike, Settings
+from percoat._quantities import QUANTITIES, unit_name
 from percoat._record import Record
 from percoat._warnings import NotConverged, warn
 
@@ -610,7 +611,7 @@ class Result:
         samples as their coordinates. On any other cell they are ``step`` and ``i``, ``j`` along a₁, a₂, with coordinates ``x``,
         ``y`` (i, j). In both, axes are those of :attr:`Step.pressure`, and ``mean_pressure`` and ``force`` are coordinates of
         the steps. ``data.pressure.isel(step=0).plot(x="x", y="y")`` draws both. An isolated contact has no
-        ``mean_pressure`` and no ``contact_fraction``.
+        ``mean_pressure`` and no ``contact_fraction``, but a ``contact_stiffness``.
 
         Examples
         --------
@@ -625,17 +626,19 @@ class Result:
         """
         import xarray
 
-        length = {"units": self.units.length} if self.units.length else {}
-        pressure = {"units": self.units.pressure} if self.units.pressure else {}
-        area = {"units": f"{self.units.length}²"} if length else {}
-        force = {"units": f"{self.units.pressure} {self.units.length}²"} if length and pressure else {}
-        scalars = {
-            "penetration": length, "contact_fraction": {}, "contact_area": area, "max_pressure": pressure,
-            "converged": {}, "residual": {},
-        }
-        loads = {"mean_pressure": pressure, "force": force}
-        if self._common.isolated:
-            del scalars["contact_fraction"], loads["mean_pressure"]
+        def attributes_of(kind: str) -> dict[str, str]:
+            unit = unit_name(kind, self.units.length, self.units.pressure)
+            return {"units": unit} if unit else {}
+
+        def applies(name: str) -> bool:
+            # Under a tip the peak pressure is infinite, and null.
+            return name == "max_pressure" or any(step._record.get(name) is not None for step in self.steps)
+
+        length, pressure = attributes_of("length"), attributes_of("pressure")
+        quantities = {name: kind for name, (kind, _) in QUANTITIES.items() if "." not in name and applies(name)}
+        scalars = {name: attributes_of(kind) for name, kind in quantities.items()}
+        loads = {name: scalars.pop(name) for name in ("mean_pressure", "force") if name in scalars}
+        scalars.update(converged={}, residual={})
         fields = {"pressure": pressure, "displacement": length, "gap": length}
         x, y = self.x, self.y
         rectangular = bool(np.all(x == x[:, :1]) and np.all(y == y[:1]))
@@ -645,7 +648,7 @@ class Result:
             for name, attributes in fields.items()
         }
         for name, attributes in scalars.items():
-            values = [step._record[name] for step in self.steps]
+            values = [step._record.get(name) for step in self.steps]
             data[name] = ("step", np.array([np.nan if value is None else value for value in values]), attributes)
         data["owner"] = ((i, j), self.owner)
         coordinates = {

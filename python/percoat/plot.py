@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from percoat import _core
 from percoat._identify import Identification
 from percoat._limit import criterion_name
+from percoat._quantities import QUANTITIES, unit_name
 from percoat._solve import COMPONENTS, STRAINS, Array, Plane, Result, Section, Step
 
 try:
@@ -53,14 +54,11 @@ LABELS = {
 
 KINDS = {
     **dict.fromkeys(COMPONENTS, "pressure"),
-    **dict.fromkeys((*STRAINS, "max_strain", "max_horizontal_strain", "max_vertical_compression"), "strain"),
-    **dict.fromkeys(("ux", "uy", "uz", "penetration", "additional_displacement"), "length"),
-    **dict.fromkeys(("contact_radius", "radius_min", "radius_max", "radius_inner", "radius_outer"), "length"),
-    **dict.fromkeys(("mean_pressure", "max_pressure", "value"), "pressure"),
-    "contact_area": "area",
-    **dict.fromkeys(("load", "force"), "force"),
+    **dict.fromkeys(STRAINS, "strain"),
+    **dict.fromkeys(("ux", "uy", "uz", "additional_displacement"), "length"),
+    "value": "pressure",
 }
-"""What a quantity is; ``value`` is that of a stress, and what is not here has no unit."""
+"""What a component of a field is, and a number that is no quantity; what is not here has no unit."""
 
 
 def pressure(
@@ -261,7 +259,8 @@ def curve(
     labels = []
     for *path, last in (x.split("."), y.split(".")):
         words = path[-1] if path and last == "value" else last
-        labels.append(_label(words.replace("_", " "), KINDS.get(words, KINDS.get(last)), result.units))
+        kind, _ = QUANTITIES.get(".".join([*path, last]), (KINDS.get(last), None))
+        labels.append(_label(words.replace("_", " "), kind, result.units))
     ax.set(xlabel=labels[0], ylabel=labels[1])
     if ax.get_xscale() == "linear":
         # Numbers such as 0.0475 stand side by side.
@@ -341,12 +340,13 @@ def _entry(entry: Any, list_: str, number: int) -> str:
 
 def _errors(result: Result, name: str, shape: tuple[int, ...]) -> Array:
     """Errors of what a dotted name stands for, NaN where none are known."""
-    *path, last = name.split(".")
-    # Of the value of a stress and of a utilisation they stand beside it, of all else under ``errors``.
-    beside = ["error"] if last in ("value", "utilisation") else ["errors", last]
+    _, error = QUANTITIES.get(name, (None, None))
+    if error is None:
+        return np.full(shape, np.nan)
     try:
-        return _numbers(result, ".".join([*path, *beside]))[0]
-    except (AttributeError, ValueError):
+        return _numbers(result, error)[0]
+    except AttributeError:
+        # A step whose quantity does not apply has no error of it.
         return np.full(shape, np.nan)
 
 
@@ -384,11 +384,8 @@ def _component(record: Union[Plane, Section], quantity: str) -> Array:
 
 
 def _unit(kind: Optional[str], units: Units) -> str:
-    """Name of the unit of a length, area, pressure or force; empty where it has none."""
-    length, pressure = ((units or {}).get(name) for name in ("length", "pressure"))
-    area = length and f"{length}²"
-    force = pressure and area and f"{pressure} {area}"
-    return {"length": length, "area": area, "pressure": pressure, "force": force}.get(kind or "") or ""
+    """Name of the unit of a kind of quantity; empty where it has none."""
+    return unit_name(kind, (units or {}).get("length"), (units or {}).get("pressure")) or ""
 
 
 def _label(words: str, kind: Optional[str], units: Units) -> str:

@@ -14,6 +14,7 @@ mod life;
 mod limit;
 mod materials;
 mod progress;
+mod quantities;
 mod record;
 mod row;
 mod save;
@@ -47,6 +48,8 @@ mod _core {
     use super::materials::materials;
     #[pymodule_export]
     use super::progress::Progress;
+    #[pymodule_export]
+    use super::quantities::quantities;
     #[pymodule_export]
     use super::row::Row;
     #[pymodule_export]

@@ -21,13 +21,14 @@
 //! stands to its left:
 //!
 //! ```text
-//! numeric → notation → lattice → load → kind → body → counterbody → friction → problem → spectral → stress → reading → identification
-//! → localized → run → life → comparison
+//! numeric → notation → measured → quantity → lattice → load → kind → body → counterbody → friction → problem → spectral → stress
+//! → reading → identification → localized → run → life → comparison
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
 //! - [`load`], [`kind`], [`friction`], [`problem`]: what is solved;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
+//! - [`measured`]: values with their errors; [`quantity`]: names, symbols and kinds of what is read off a step, declared once;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
 //! - [`identification`]: parameters of a stack from a measured indentation curve;
 //! - [`run`]: load paths, refinement, warnings; [`life`]: damage and wear pass after pass; [`comparison`]: both methods side by side.

@@ -22,7 +22,7 @@ impl Measured {
 
     /// The value where it is finite; `None` under a tip.
     pub fn finite(self) -> Option<Self> {
-        Some(self).filter(|own| own.value.is_finite())
+        Some(self).filter(|measured| measured.value.is_finite())
     }
 
     /// Value and error in another unit, `factor` times as large.
@@ -43,10 +43,10 @@ mod tests {
 
     #[test]
     fn a_tip_has_no_finite_value_and_zero_no_relative_error() {
-        let own = Measured::new(-4.0, Some(1.0));
+        let known = Measured::new(-4.0, Some(1.0));
         assert_eq!(
-            (own.finite(), own.relative(), own.times(3.0)),
-            (Some(own), Some(0.25), Measured::new(-12.0, Some(3.0)))
+            (known.finite(), known.relative(), known.times(3.0)),
+            (Some(known), Some(0.25), Measured::new(-12.0, Some(3.0)))
         );
         assert_eq!(Measured::exact(f64::INFINITY).finite(), None);
         assert_eq!([Measured::new(0.0, Some(1.0)), Measured::exact(2.0)].map(Measured::relative), [None; 2]);

@@ -44,6 +44,26 @@ pub enum Kind {
     Strain,
 }
 
+impl Kind {
+    /// Name of the kind.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pressure => "pressure",
+            Self::Force => "force",
+            Self::Length => "length",
+            Self::Area => "area",
+            Self::Volume => "volume",
+            Self::Energy => "energy",
+            Self::Stiffness => "force per length",
+            Self::PressurePerLength => "pressure per length",
+            Self::Fraction => "fraction",
+            Self::Passes => "passes",
+            Self::Utilisation => "utilisation",
+            Self::Strain => "strain",
+        }
+    }
+}
+
 /// Place of the error of a quantity in files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ErrorAt {
@@ -92,6 +112,17 @@ impl Named {
     #[must_use]
     pub const fn given(self, given: &'static str) -> Self {
         Self { given, ..self }
+    }
+
+    /// Keys of value and error in files, behind the keys that lead to the `record`; no key of an error that has none.
+    pub fn keys(&self, record: &str) -> (String, Option<String>) {
+        let key = format!("{record}{}", self.code);
+        match self.error {
+            ErrorAt::Under => (key, Some(format!("{record}errors.{}", self.code))),
+            ErrorAt::Beside(error) => (key, Some(format!("{record}{error}"))),
+            ErrorAt::InPeak => (format!("{key}.value"), Some(format!("{key}.error"))),
+            ErrorAt::Nowhere => (key, None),
+        }
     }
 
     /// The name in a contact, or where a pressure is given.
@@ -177,7 +208,7 @@ macro_rules! quantities {
             $field ($name) $crate::quantity::Quantity::new(
                 $crate::quantity::quantities!(@named $field $name $symbol $kind [$($code)?] $crate::quantity::ErrorAt::Under)
                     $(.short($short))? $(.given($given))?,
-                |own: &$record| $crate::quantity::Reads::measured(&own.$field, own.errors.$field),
+                |record: &$record| $crate::quantity::Reads::measured(&record.$field, record.errors.$field),
             );
         )?)*);
     };
@@ -236,9 +267,9 @@ macro_rules! quantities {
     (@place [$type:ty]) => { <$type as $crate::quantity::Reads>::ERROR };
     (@place [$type:ty] error $error:ident) => { $crate::quantity::ErrorAt::Beside(stringify!($error)) };
     (@place [$type:ty] by $of:expr) => { $crate::quantity::ErrorAt::Nowhere };
-    (@read [$record:ident $field:ident]) => { |own: &$record| $crate::quantity::Reads::measured(&own.$field, None) };
+    (@read [$record:ident $field:ident]) => { |record: &$record| $crate::quantity::Reads::measured(&record.$field, None) };
     (@read [$record:ident $field:ident] error $error:ident) => {
-        |own: &$record| $crate::quantity::Reads::measured(&own.$field, own.$error)
+        |record: &$record| $crate::quantity::Reads::measured(&record.$field, record.$error)
     };
     (@read [$record:ident $field:ident] by $of:expr) => { $of };
 }

@@ -12,9 +12,9 @@ use percoat::units::Units;
 pub fn of(step: &StepRecord, units: &Units) -> Vec<CaseNumber> {
     /// The number of a quantity; `None` where the record does not have it.
     fn number<R>(quantity: &Quantity<R>, record: &R, units: &Units) -> Option<CaseNumber> {
-        let own = quantity.of(record)?;
-        let (text, value) = (shown(&quantity.named, own, units), own.finite().map(|own| own.value));
-        Some(CaseNumber { name: quantity.named.name.to_owned(), text, value, error: own.error })
+        let found = quantity.of(record)?;
+        let (text, value) = (shown(&quantity.named, found, units), found.finite().map(|found| found.value));
+        Some(CaseNumber { name: quantity.named.name.to_owned(), text, value, error: found.error })
     }
     let reading = &step.reading;
     let radius = match &reading.levels[..] {

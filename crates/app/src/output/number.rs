@@ -34,27 +34,27 @@ pub fn with_error(x: f64, error: Option<f64>) -> String {
 }
 
 /// A value with its error, both in the unit of their column, which is not named; "singular" for an infinite one.
-pub fn in_unit(unit: &Prefixed, own: Measured) -> String {
-    if own.value.is_infinite() {
+pub fn in_unit(unit: &Prefixed, measured: Measured) -> String {
+    if measured.value.is_infinite() {
         return "singular".to_owned();
     }
-    with_error(unit.shown(own.value), own.error.map(|error| unit.shown(error)))
+    with_error(unit.shown(measured.value), measured.error.map(|error| unit.shown(error)))
 }
 
 /// A value with its error and its unit, "0.5 ± 0.1 µm"; "singular" for an infinite one.
-pub fn with_unit(unit: &Unit, own: Measured) -> String {
-    if own.value.is_infinite() {
-        return in_unit(&unit.prefixed(1.0), own);
+pub fn with_unit(unit: &Unit, measured: Measured) -> String {
+    if measured.value.is_infinite() {
+        return in_unit(&unit.prefixed(1.0), measured);
     }
-    let prefixed = unit.prefixed(own.value);
-    prefixed.behind(&in_unit(&prefixed, own))
+    let prefixed = unit.prefixed(measured.value);
+    prefixed.behind(&in_unit(&prefixed, measured))
 }
 
 /// A quantity with its error and its unit, a part in per cent.
-pub fn shown(named: &Named, own: Measured, units: &Units) -> String {
+pub fn shown(named: &Named, measured: Measured, units: &Units) -> String {
     match named.kind {
-        Kind::Fraction => percent_with_error(own),
-        kind => with_unit(&units.unit(kind), own),
+        Kind::Fraction => percent_with_error(measured),
+        kind => with_unit(&units.unit(kind), measured),
     }
 }
 
@@ -65,12 +65,12 @@ pub(super) fn percent(x: f64) -> String {
 }
 
 /// A part with its error in per cent: at most two decimals, fewer where the error is larger.
-pub fn percent_with_error(own: Measured) -> String {
-    match own.times(100.0) {
+pub fn percent_with_error(measured: Measured) -> String {
+    match measured.times(100.0) {
         Measured { value, error: Some(error) } if error > ROUNDING * value.abs() => {
             format!("{} %", with_error(value, Some(error.max(0.01))))
         }
-        _ => percent(own.value),
+        _ => percent(measured.value),
     }
 }
 

@@ -82,10 +82,13 @@ impl LoadPath<'_> {
     fn curve(&self, label: &str, colour: Ink, value: impl Fn(&StepRecord) -> Option<Measured>) -> Curve {
         let values: Vec<Option<Measured>> = self.steps.iter().map(value).collect();
         let load = |step: &StepRecord| step.reading.load(self.units.quantity());
-        let points =
-            self.steps.iter().zip(&values).map(|(step, own)| [load(step), own.map_or(f64::NAN, |own| own.value)]);
+        let points = self
+            .steps
+            .iter()
+            .zip(&values)
+            .map(|(step, found)| [load(step), found.map_or(f64::NAN, |found| found.value)]);
         let points: Vec<[f64; 2]> = points.collect();
-        let errors = values.iter().map(|own| own.and_then(|own| own.error).unwrap_or(f64::NAN)).collect();
+        let errors = values.iter().map(|found| found.and_then(|found| found.error).unwrap_or(f64::NAN)).collect();
         // Markers show the steps of short paths.
         let style = if points.len() <= MOST_MARKERS { Style::LineMarkers } else { Style::Line };
         Curve { label: label.to_owned(), points, errors, style, colour }
@@ -126,8 +129,8 @@ impl LoadPath<'_> {
     fn indentation(&self) -> Option<Chart> {
         let mut readings = self.steps.iter().filter_map(|step| step.plastic.as_ref());
         readings.any(PlasticReading::is_pressed_in).then(|| {
-            let curve = |own: &Quantity<PlasticReading>, colour: usize| {
-                self.curve(own.named.short, colour.into(), |step| own.finite(step.plastic.as_ref()?))
+            let curve = |quantity: &Quantity<PlasticReading>, colour: usize| {
+                self.curve(quantity.named.short, colour.into(), |step| quantity.finite(step.plastic.as_ref()?))
             };
             let curves = vec![curve(&PLASTIC.depth, 1), curve(&PLASTIC.permanent_depth, 2)];
             let label = self.units.length_of("pressed in for good", "u");
@@ -136,8 +139,7 @@ impl LoadPath<'_> {
     }
 
     fn shares(&self) -> Chart {
-        let share =
-            |level: &LevelReading| Some(level).filter(|own| own.load > 0.0).and_then(|own| LEVEL.load_share.of(own));
+        let share = |level: &LevelReading| if level.load > 0.0 { LEVEL.load_share.of(level) } else { None };
         let of = |level: usize| {
             let value = |step: &StepRecord| Some(share(&step.reading.levels[level - 1])?.times(100.0));
             self.curve(&format!("level {level}"), level.into(), value)

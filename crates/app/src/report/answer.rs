@@ -22,7 +22,7 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
 
 /// A quantity of a record with its error and unit; empty where the record does not have it.
 fn text<R>(quantity: &Quantity<R>, record: &R, units: &Units) -> String {
-    quantity.of(record).map_or(String::new(), |own| shown(&quantity.named, own, units))
+    quantity.of(record).map_or(String::new(), |found| shown(&quantity.named, found, units))
 }
 
 /// What a load does, in a sentence.
@@ -55,7 +55,7 @@ fn rows(step: &StepRecord, units: &Units) -> Vec<(&'static str, Markup)> {
     let (reading, is_given) = (&step.reading, step.kind().is_given);
     let words = Words::of(step.kind());
     let around = words.around;
-    let row = |own: &Quantity<Reading>| (own.named.of(is_given), numbers(&text(own, reading, units)));
+    let row = |quantity: &Quantity<Reading>| (quantity.named.of(is_given), numbers(&text(quantity, reading, units)));
     let mut rows = vec![
         row(READING.load(units.quantity())),
         row(&READING.penetration),
@@ -84,13 +84,13 @@ fn rows(step: &StepRecord, units: &Units) -> Vec<(&'static str, Markup)> {
         rows.push((LEVEL.load_share.named.name, shares));
     }
     if let Some(rough) = &step.rough {
-        let row = |own: &Quantity<RoughReading>| {
-            own.of(rough).map(|measured| (own.named.short, numbers(&shown(&own.named, measured, units))))
+        let row = |quantity: &Quantity<RoughReading>| {
+            quantity.of(rough).map(|found| (quantity.named.short, numbers(&shown(&quantity.named, found, units))))
         };
         rows.extend(row(&ROUGH.corrected_fraction));
         rows.push((around.spots, rough.spots.count.to_string().into()));
         rows.extend(row(&ROUGH.mean_gap));
-        let stiffness = ROUGH.stiffness.of(rough).map(|own| with_error(own.value, own.error));
+        let stiffness = ROUGH.stiffness.of(rough).map(|found| with_error(found.value, found.error));
         rows.extend(stiffness.map(|text| (around.stiffness, numbers(&text))));
     }
     let stiffness = STEP.contact_stiffness.of(step);

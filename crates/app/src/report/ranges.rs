@@ -60,8 +60,8 @@ pub(super) fn ranges(rows: &[Row], keys: &[SweptKey], units: &Units) -> Markup {
     });
     // The load is prescribed.
     let load = &READING.load(units.quantity()).named;
-    let others = shown_with(units.quantity()).filter(|own| own.named() != load);
-    let others = others.map(|own| quantity_range(rows, keys, own, units));
+    let others = shown_with(units.quantity()).filter(|quantity| quantity.named() != load);
+    let others = others.map(|quantity| quantity_range(rows, keys, quantity, units));
     let row = |ValueRange { name, ends: [least, most] }: ValueRange| vec![name, least.0, least.1, most.0, most.1];
     let all: Vec<Vec<String>> = limits.chain(others).flatten().map(row).collect();
     if all.is_empty() || rows.len() < 2 {
@@ -97,9 +97,9 @@ pub(super) fn are_limits(rows: &[Row]) -> bool {
 }
 
 /// The least and the largest of a quantity of load steps.
-fn quantity_range(rows: &[Row], keys: &[SweptKey], own: &'static dyn OfStep, units: &Units) -> Option<ValueRange> {
-    let Named { name, kind, .. } = *own.named();
-    range(rows, keys, name, |result| stated(own, result.step()?), (kind, units))
+fn quantity_range(rows: &[Row], keys: &[SweptKey], quantity: &'static dyn OfStep, units: &Units) -> Option<ValueRange> {
+    let Named { name, kind, .. } = *quantity.named();
+    range(rows, keys, name, |result| stated(quantity, result.step()?), (kind, units))
 }
 
 /// The least and the largest of the first limit, or of that of a criterion.
@@ -127,11 +127,11 @@ fn range(
     let most = found.iter().rev().max_by(|a, b| a.0.value.total_cmp(&b.0.value))?;
     // Both in one unit.
     let unit = units.unit(kind).prefixed(most.0.value);
-    let text = |own: Measured| match kind {
-        Kind::Fraction => percent_with_error(own),
-        _ => unit.behind(&in_unit(&unit, own)),
+    let text = |found: Measured| match kind {
+        Kind::Fraction => percent_with_error(found),
+        _ => unit.behind(&in_unit(&unit, found)),
     };
-    let end = |(own, row): &(Measured, &Row)| (text(*own), settings(keys, row));
+    let end = |(found, row): &(Measured, &Row)| (text(*found), settings(keys, row));
     Some(ValueRange { name: name.to_owned(), ends: [end(least), end(most)] })
 }
 

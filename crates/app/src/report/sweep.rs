@@ -162,12 +162,12 @@ fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey], quantity: LoadQuantity) ->
         add(name, Box::new(limit));
     }
     for quantity in shown_with(quantity).filter(|quantity| steps().any(|step| stated(*quantity, step).is_some())) {
-        add(quantity.named().name.to_owned(), Box::new(move |own| quantity_text(quantity, own)));
+        add(quantity.named().name.to_owned(), Box::new(move |shown| quantity_text(quantity, shown)));
     }
     let levels = steps().map(|step| step.reading.levels.len()).max().unwrap_or(0);
     for index in 0..levels {
-        let share = move |own: Shown<'_>| {
-            LEVEL.load_share.of(own.result?.step()?.reading.levels.get(index)?).map(percent_with_error)
+        let share = move |shown: Shown<'_>| {
+            LEVEL.load_share.of(shown.result?.step()?.reading.levels.get(index)?).map(percent_with_error)
         };
         add(format!("{} {}", LEVEL.load_share.named.short, index + 1), Box::new(share));
     }
@@ -175,8 +175,8 @@ fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey], quantity: LoadQuantity) ->
 }
 
 /// A quantity of a step with its error, in the unit of the case.
-fn quantity_text(quantity: &dyn OfStep, own: Shown<'_>) -> Option<String> {
-    let measured = stated(quantity, own.result?.step()?)?;
+fn quantity_text(quantity: &dyn OfStep, shown: Shown<'_>) -> Option<String> {
+    let measured = stated(quantity, shown.result?.step()?)?;
     let is_part = quantity.named().kind == Kind::Fraction;
     Some(if is_part { percent_with_error(measured) } else { with_error(measured.value, measured.error) })
 }

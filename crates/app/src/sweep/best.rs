@@ -41,15 +41,15 @@ struct Ends<'a> {
 }
 
 /// The results in the order of their weight: what fails, then what strains.
-fn merits(quantity: LoadQuantity) -> [Merit; 6] {
-    let known = |own: Measured| LimitValue::At(own.value, own.error);
-    let merit = |own: &'static dyn OfStep, more: bool| {
-        let of = move |result: &SweepResult| stated(own, result.step()?).map(known);
-        Merit { name: own.named().name.to_owned(), more, kind: own.named().kind, of: Box::new(of) }
+fn merits(load: LoadQuantity) -> [Merit; 6] {
+    let known = |found: Measured| LimitValue::At(found.value, found.error);
+    let merit = |quantity: &'static dyn OfStep, more: bool| {
+        let of = move |result: &SweepResult| stated(quantity, result.step()?).map(known);
+        Merit { name: quantity.named().name.to_owned(), more, kind: quantity.named().kind, of: Box::new(of) }
     };
-    let kind = READING.load(quantity).named.kind;
-    let first = format!("first limit, {}", quantity.name());
-    let largest = move |own: &SweepResult| own.largest_utilisation().map(known);
+    let kind = READING.load(load).named.kind;
+    let first = format!("first limit, {}", load.name());
+    let largest = move |result: &SweepResult| result.largest_utilisation().map(known);
     [
         Merit { name: first, more: true, kind, of: Box::new(first_limit) },
         merit(&LIFE.passes, true),

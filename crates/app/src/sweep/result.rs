@@ -66,7 +66,7 @@ pub fn shown_with(quantity: LoadQuantity) -> impl Iterator<Item = &'static dyn O
         LoadQuantity::MeanPressure => &READING.force,
         LoadQuantity::Force => &READING.mean_pressure,
     };
-    SHOWN.into_iter().filter(move |own| *own.named() != other.named)
+    SHOWN.into_iter().filter(move |shown| *shown.named() != other.named)
 }
 
 /// A quantity of a load step in a sweep; `None` where the step has none, or an infinite one, and of the area of contact where the step has
@@ -120,7 +120,7 @@ impl SweepResult {
 
     /// The largest utilisation of a load step and its error; `None` of one without strengths, and of limits.
     pub fn largest_utilisation(&self) -> Option<Measured> {
-        let finite = self.step()?.strength.iter().filter_map(|own| UTILISATION.value.finite(own));
+        let finite = self.step()?.strength.iter().filter_map(|taken| UTILISATION.value.finite(taken));
         finite.max_by(|a, b| a.value.total_cmp(&b.value))
     }
 
@@ -259,7 +259,7 @@ mod tests {
         let periodic = super::super::examples::step(2.0, None, 0.5);
         let isolated = super::super::examples::isolated(3.0, 2.0);
         let values = |step: &StepRecord, quantity: LoadQuantity| -> Vec<(&str, f64)> {
-            shown_with(quantity).filter_map(|own| Some((own.named().name, stated(own, step)?.value))).collect()
+            shown_with(quantity).filter_map(|shown| Some((shown.named().name, stated(shown, step)?.value))).collect()
         };
         let peak = ("peak pressure", 2.0);
         let own = [("force", 3.0), ("penetration", 2.0), ("contact area", 1.5), peak];

@@ -71,7 +71,7 @@ quantities! {
         /// Passes until the damage first reaches 1; infinite without a range.
         #[serde(deserialize_with = "serialised::infinite")]
         pub passes: f64 = Passes "passes to damage" "N"
-            by |own: &Life| Some(Measured::new(own.passes, own.error.map(|error| error * own.passes))),
+            by |life: &Life| Some(Measured::new(life.passes, life.error.map(|error| error * life.passes))),
         /// Estimated relative error of the passes by the grid, m times that of the range; `None` without a coarser grid, and where the passes
         /// are zero or infinite.
         pub error: Option<f64>,

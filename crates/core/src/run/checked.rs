@@ -38,11 +38,11 @@ impl StepRecord {
                 finite(name, due(value))?;
             }
         }
-        if let Some(own) = &self.plastic {
+        if let Some(plastic) = &self.plastic {
             PLASTIC
                 .each()
                 .into_iter()
-                .try_for_each(|quantity| positive(quantity, own, |code| format!("plastic.{code}")))?;
+                .try_for_each(|quantity| positive(quantity, plastic, |code| format!("plastic.{code}")))?;
         }
         if let Some(own) = &self.beneath {
             let numbers =
@@ -66,10 +66,10 @@ impl StepRecord {
             peak(&name("max_pressure"), level.max_pressure)?;
         }
         if let Some(stress) = &self.stress {
-            for own in [&stress.overall].into_iter().chain(&stress.materials).chain(&stress.faces) {
-                known(&EXTREMES.each(), own)?;
+            for extremes in [&stress.overall].into_iter().chain(&stress.materials).chain(&stress.faces) {
+                known(&EXTREMES.each(), extremes)?;
             }
-            stress.interfaces.iter().try_for_each(|own| known(&CARRIED.each(), own))?;
+            stress.interfaces.iter().try_for_each(|carried| known(&CARRIED.each(), carried))?;
         }
         for own in &self.strength {
             number(&format!("utilisation of {}", own.criterion), own.value)?;
@@ -132,7 +132,7 @@ fn known<R>(quantities: &[&Quantity<R>], record: &R) -> Result<(), String> {
 
 /// A number of a record that is not below zero, under the name made of its code.
 fn positive<R>(quantity: &Quantity<R>, record: &R, name: impl Fn(&str) -> String) -> Result<(), String> {
-    quantity.of(record).map_or(Ok(()), |own| at_least_zero(&name(quantity.named.code), own.value))
+    quantity.of(record).map_or(Ok(()), |found| at_least_zero(&name(quantity.named.code), found.value))
 }
 
 /// A number that may be infinite and is not below zero.

@@ -41,7 +41,7 @@ pub use earlier_run::{EarlierRun, LastLoad};
 pub use limit::{At, EVENTS, Limit, LimitStep, Limits, SearchEnd, first, rivals};
 pub use outcome::{AllAtHardness, BeyondFullContact, BeyondHardness, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
-pub use quantities::{OfStep, Part, of_step};
+pub use quantities::{OfStep, Part, declared, of_step};
 pub use record::{STEP, Sliding, StepQuantities, StepRecord};
 pub use recorder::Recorder;
 pub use sampling::Sampling;

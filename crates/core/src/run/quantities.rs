@@ -4,8 +4,8 @@ use super::StepRecord;
 use super::record::STEP;
 use crate::measured::Measured;
 use crate::quantity::{Named, Quantity};
-use crate::reading::{LIFE, Life, PLASTIC, PlasticReading, READING, ROUGH, Reading, RoughReading};
-use crate::stress::maxima::{EXTREMES, Extremes};
+use crate::reading::{LEVEL, LIFE, Life, PLASTIC, PlasticReading, READING, ROUGH, Reading, RoughReading, UTILISATION};
+use crate::stress::maxima::{CARRIED, EXTREMES, Extremes};
 
 /// A record of a load step that has one of a kind.
 pub trait Part<R> {
@@ -99,7 +99,7 @@ pub fn of_step() -> Vec<&'static dyn OfStep> {
     where
         StepRecord: Part<R>,
     {
-        all.into_iter().map(|own| own as &dyn OfStep)
+        all.into_iter().map(|quantity| quantity as &dyn OfStep)
     }
     each(READING.each())
         .chain(each(STEP.each()))
@@ -110,18 +110,33 @@ pub fn of_step() -> Vec<&'static dyn OfStep> {
         .collect()
 }
 
+/// Names of all quantities of a load step and of the records in its lists, each with the keys that lead to its record in files.
+pub fn declared() -> Vec<(&'static str, &'static Named)> {
+    fn each<R>(
+        path: &'static str,
+        all: Vec<&'static Quantity<R>>,
+    ) -> impl Iterator<Item = (&'static str, &'static Named)> {
+        all.into_iter().map(move |quantity| (path, &quantity.named))
+    }
+    let lists = each("levels.", LEVEL.each())
+        .chain(each("stress.materials.", EXTREMES.each()))
+        .chain(each("stress.faces.", EXTREMES.each()))
+        .chain(each("stress.interfaces.", CARRIED.each()))
+        .chain(each("strength.", UTILISATION.each()))
+        .chain(each("fatigue.lives.", LIFE.each()));
+    of_step().into_iter().map(|quantity| (quantity.path(), quantity.named())).chain(lists).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{Durability, Fatigue, HalfSpace, Material};
+    use crate::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Strength};
     use crate::counterbody::{Indenters, Level, Shape, Topography};
     use crate::lattice::{Cell, Lattice};
     use crate::load::Load;
     use crate::problem::Problem;
-    use crate::quantity::ErrorAt;
-    use crate::reading::{LEVEL, UTILISATION};
     use crate::run::{Run, Sampling, StressRequest};
-    use crate::stress::maxima::CARRIED;
+    use serde::Serialize;
     use serde_json::{Value, json};
     use std::collections::BTreeSet;
 
@@ -129,7 +144,10 @@ mod tests {
         let fatigue = Fatigue::new(0.1, 1e6, 8.0).unwrap();
         let durability = Durability { hardness: Some(0.1), fatigue: Some(fatigue), ..Durability::default() };
         let substrate = Material::from_young(1.0, 0.3).unwrap();
-        HalfSpace::new(vec![], substrate).with_substrate_durability(durability).unwrap()
+        let coating = Layer::new(Material::from_young(2.0, 0.3).unwrap(), 0.1, Interface::Bonded).unwrap();
+        let coating = coating.with_durability(durability, None).unwrap();
+        let strength = Strength { yielding: Some(0.5), ..Strength::default() };
+        HalfSpace::new(vec![coating], substrate).with_substrate_strength(strength).unwrap()
     }
 
     /// The last of two steps that press a ball into a window, and of two that press waves.
@@ -154,16 +172,19 @@ mod tests {
     }
 
     /// Compares what is declared of a quantity with the keys of its record: value and error stand where they are said to.
-    fn check(named: &Named, own: Measured, keys: &Value, path: &str) {
-        let value = at(keys, &format!("{path}{}", named.code));
-        let (value, error) = match named.error {
-            ErrorAt::Under => (value, Some(&at(keys, &format!("{path}errors"))[named.code])),
-            ErrorAt::Beside(key) => (value, Some(at(keys, &format!("{path}{key}")))),
-            ErrorAt::InPeak => (&value["value"], Some(&value["error"])),
-            ErrorAt::Nowhere => (value, None),
-        };
-        assert_eq!(value, &json!(own.value), "{named:?}");
-        assert!(error.is_none_or(|error| *error == json!(own.error)), "{named:?}: {error:?}");
+    fn check(named: &Named, measured: Measured, keys: &Value, path: &str) {
+        let (value, error) = named.keys(path);
+        assert_eq!(at(keys, &value), &json!(measured.value), "{named:?}");
+        let error = error.map(|error| at(keys, &error));
+        assert!(error.is_none_or(|error| *error == json!(measured.error)), "{named:?}: {error:?}");
+    }
+
+    /// Compares what is declared of the quantities of a record with its keys.
+    fn check_all<R: Serialize>(quantities: &[&Quantity<R>], record: &R) {
+        let keys = json!(record);
+        for quantity in quantities {
+            quantity.of(record).iter().for_each(|measured| check(&quantity.named, *measured, &keys, ""));
+        }
     }
 
     #[test]
@@ -172,30 +193,29 @@ mod tests {
         for step in steps() {
             assert!(step.converged());
             let keys = json!(step);
-            for own in of_step() {
-                let Some(measured) = own.of_step(&step) else { continue };
-                check(own.named(), measured, &keys, own.path());
-                seen.insert((own.path(), own.named().code));
+            for quantity in of_step() {
+                let Some(measured) = quantity.of_step(&step) else { continue };
+                check(quantity.named(), measured, &keys, quantity.path());
+                seen.insert((quantity.path(), quantity.named().code));
             }
-            for (level, keys) in step.reading.levels.iter().map(|level| (level, json!(level))) {
-                LEVEL
-                    .each()
-                    .iter()
-                    .for_each(|own| own.of(level).iter().for_each(|of| check(&own.named, *of, &keys, "")));
+            for level in &step.reading.levels {
+                check_all(&LEVEL.each(), level);
             }
-            for (own, keys) in step.stress.iter().flat_map(|stress| &stress.materials).map(|own| (own, json!(own))) {
-                EXTREMES.each().iter().for_each(|of| check(&of.named, of.of(own).unwrap(), &keys, ""));
+            if let Some(stress) = &step.stress {
+                stress.materials.iter().for_each(|extremes| check_all(&EXTREMES.each(), extremes));
+                stress.interfaces.iter().for_each(|carried| check_all(&CARRIED.each(), carried));
             }
+            step.strength.iter().for_each(|taken| check_all(&UTILISATION.each(), taken));
         }
-        let all: BTreeSet<_> = of_step().iter().map(|own| (own.path(), own.named().code)).collect();
+        let all: BTreeSet<_> = of_step().iter().map(|quantity| (quantity.path(), quantity.named().code)).collect();
         assert_eq!(seen, all);
     }
 
     #[test]
     fn a_name_is_of_one_quantity_of_a_step() {
-        let names: Vec<&str> = of_step().iter().map(|own| own.named().name).collect();
+        let names: Vec<&str> = of_step().iter().map(|quantity| quantity.named().name).collect();
         assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len(), "{names:?}");
-        let others = [CARRIED.each().len(), UTILISATION.each().len()];
-        assert_eq!(others, [2, 1]);
+        let keys: Vec<String> = declared().into_iter().map(|(path, named)| named.keys(path).0).collect();
+        assert_eq!(keys.iter().collect::<BTreeSet<_>>().len(), keys.len(), "{keys:?}");
     }
 }

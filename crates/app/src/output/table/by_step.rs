@@ -9,7 +9,7 @@ use percoat_core::run::StepRecord;
 /// Value and place of a quantity in a load step.
 #[derive(Clone, Copy)]
 pub(super) struct QuantityInStep {
-    pub own: Measured,
+    pub measured: Measured,
     /// Place x, y, z; lengths.
     pub position: [f64; 3],
     /// Another place where it may be largest within the errors.
@@ -38,11 +38,12 @@ pub(super) fn by_step(
     let loads = loads.map(|load| format!("{} = {}", units.quantity().symbol(), units.load().with_unit(load, number)));
     let place_of = if shown.len() > 1 { "place (x, y, z) in the last" } else { "place (x, y, z)" };
     let unit =
-        unit.suited(rows.iter().flat_map(|row| &row.found[shown.clone()]).flatten().map(|found| found.own.value));
+        unit.suited(rows.iter().flat_map(|row| &row.found[shown.clone()]).flatten().map(|found| found.measured.value));
     let length = units.length().suited(rows.iter().filter_map(|row| row.found[last]).flat_map(|found| found.position));
     let header: Vec<String> = [unit.headed(head)].into_iter().chain(loads).chain([length.headed(place_of)]).collect();
     let line = |row: &Quantity| {
-        let of = |found: &Option<QuantityInStep>| found.map_or("–".to_owned(), |found| in_unit(&unit, found.own));
+        let of =
+            |found: &Option<QuantityInStep>| found.map_or("–".to_owned(), |found| in_unit(&unit, found.measured));
         let values = row.found[shown.clone()].iter().map(of);
         let place = row.found[last].map_or("–".to_owned(), |found| places(&length, found));
         [row.name.clone()].into_iter().chain(values).chain([place]).collect()

@@ -16,7 +16,7 @@ pub fn lives(steps: &[StepRecord], units: &Units) -> Option<Worded> {
     let row = |part: FatiguePart| {
         let of = |step: &StepRecord| {
             let life = step.fatigue.as_ref()?.life(part)?;
-            Some(QuantityInStep { own: LIFE.passes.finite(life)?, position: life.position, rival: None })
+            Some(QuantityInStep { measured: LIFE.passes.finite(life)?, position: life.position, rival: None })
         };
         Quantity { name: part.to_string(), found: steps.iter().map(of).collect() }
     };

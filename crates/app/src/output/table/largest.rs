@@ -17,24 +17,24 @@ pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<Table> {
         let of = |step: &StepRecord| {
             let Peak { value, error, position, rival, .. } = peak(step.stress.as_ref()?)?;
             let rival = rival.map(|rival| rival.position);
-            Some(QuantityInStep { own: Measured::new(value, error), position, rival })
+            Some(QuantityInStep { measured: Measured::new(value, error), position, rival })
         };
         Quantity { name, found: steps.iter().map(of).collect() }
     };
     let material = |index: usize| {
-        let own = any.materials[index].tau1.material;
+        let material = any.materials[index].tau1.material;
         let stresses = EXTREMES.each().into_iter().filter(|quantity| quantity.named.kind == Kind::Pressure);
         let rows = stresses.enumerate().map(|(at, quantity)| {
             let peak = |stress: &StressReading| stress.materials.get(index)?.peaks().nth(at);
-            row(format!("{} in {own}", quantity.named.short), &peak)
+            row(format!("{} in {material}", quantity.named.short), &peak)
         });
         rows.collect::<Vec<_>>()
     };
     let interface = |index: usize| {
-        let own = any.interfaces[index].interface;
+        let interface = any.interfaces[index].interface;
         let rows = CARRIED.each().into_iter().enumerate().map(|(at, quantity)| {
             let peak = |stress: &StressReading| Some(stress.interfaces.get(index)?.peaks()[at]);
-            row(format!("{} on {own}", quantity.named.short), &peak)
+            row(format!("{} on {interface}", quantity.named.short), &peak)
         });
         rows.collect::<Vec<_>>()
     };

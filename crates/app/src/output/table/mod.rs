@@ -8,6 +8,7 @@ mod fatigue;
 mod hertz;
 mod largest;
 mod life;
+mod load_steps;
 mod plastic;
 mod strains;
 mod strength;
@@ -20,37 +21,27 @@ pub use fatigue::lives;
 pub use hertz::hertz;
 pub use largest::largest_stresses;
 pub use life::{events, headline, left};
+pub use load_steps::{DETAILED, steps};
 pub use plastic::plastic;
 pub use strains::largest_strains;
 pub use strength::{limits, utilisations};
 pub(super) use text::lines;
 pub use text::{Table, Worded};
 
-use super::number::{in_unit, number, percent, percent_with_error, shown, with_unit};
+use super::number::{number, percent, with_unit};
 use super::{LifeFile, Timing};
 use percoat_case::case::{Case, SurfaceSection};
 use percoat_case::units::Units;
-use percoat_case::words::LoadWords;
 use percoat_common::plain;
 use percoat_core::comparison::Comparison;
-use percoat_core::lattice::Surroundings;
 use percoat_core::numeric::search::largest;
-use percoat_core::quantity::{Kind, Named, Quantity};
-use percoat_core::reading::{LEVEL, LevelQuantities, LevelReading, READING, Reading};
+use percoat_core::quantity::{Named, Quantity};
+use percoat_core::reading::{LEVEL, READING};
 use percoat_core::run::{Limits, STEP, StepRecord};
 use percoat_core::spectral::Stop;
 
 /// Relative errors up to this are rounding.
 const NOTHING: f64 = 1e-12;
-
-/// Most load steps with a row for every level.
-pub const DETAILED: usize = 6;
-
-/// Table of the load steps: up to [`DETAILED`] with a row for every level, more with one row a step.
-pub fn steps(steps: &[StepRecord], units: &Units) -> Table {
-    let levels = steps.first().map_or(0, |step| step.reading.levels.len());
-    if steps.len() <= DETAILED && levels > 0 { detailed(steps, units) } else { compact(steps, levels, units) }
-}
 
 /// The text of `percoat solve`: tables of readings, largest stresses and utilisations, convergence and errors. `change`: relative
 /// change from the next coarser grid, where an accuracy was prescribed.
@@ -166,121 +157,6 @@ pub fn compared(case: &Case, comparison: &Comparison, width: usize) -> String {
     text + &stresses(comparison, &units).map_or(String::new(), |stresses| format!("{stresses}\n{mean}"))
 }
 
-/// A column of a table of records: its head, and its cell in the row of a record.
-struct Column<'a, R> {
-    head: String,
-    cell: Box<dyn Fn(&R) -> String + 'a>,
-}
-
-impl<'a, R: 'static> Column<'a, R> {
-    fn new(head: impl Into<String>, cell: impl Fn(&R) -> String + 'a) -> Self {
-        Self { head: head.into(), cell: Box::new(cell) }
-    }
-
-    /// The column of a quantity under a name, in the unit that suits `all` of its rows.
-    fn of(quantity: &'static Quantity<R>, name: &str, units: &Units, all: impl Iterator<Item = &'a R>) -> Self {
-        let unit =
-            units.unit(quantity.named.kind).suited(all.filter_map(|own| quantity.finite(own)).map(|own| own.value));
-        Self::new(unit.headed(name), move |own| match (quantity.of(own), quantity.named.kind) {
-            (None, _) => "–".to_owned(),
-            (Some(own), Kind::Fraction) => percent_with_error(own),
-            (Some(own), _) => in_unit(&unit, own),
-        })
-    }
-}
-
-/// The columns of a load step itself: load, penetration, and how far contact extends.
-fn leading<'a>(steps: &'a [StepRecord], units: &'a Units) -> Vec<Column<'a, Reading>> {
-    let is_given = steps.iter().any(|step| step.kind().is_given);
-    let of = |quantity: &'static Quantity<Reading>| {
-        Column::of(quantity, quantity.named.of(is_given), units, steps.iter().map(|step| &step.reading))
-    };
-    let extent = |reading: &Reading| {
-        let extent = reading.extent();
-        extent.of(reading).map_or("–".to_owned(), |own| shown(&extent.named, own, units))
-    };
-    vec![of(READING.load(units.quantity())), of(&READING.penetration), Column::new(LoadWords::of(steps).area, extent)]
-}
-
-fn detailed(steps: &[StepRecord], units: &Units) -> Table {
-    let readings = || steps.iter().map(|step| &step.reading);
-    let levels = || readings().flat_map(|reading| &reading.levels);
-    let of = |own: &'static Quantity<LevelReading>, name| Column::of(own, name, units, levels());
-    let several = readings().any(|reading| reading.levels.len() > 1);
-    // A single level has the whole load, and a single isolated indenter the force: no columns of level, load on one and share.
-    let has_force = |reading: &Reading| (reading.levels[0].load - reading.force).abs() <= NOTHING * reading.force;
-    let is_alone = |reading: &Reading| reading.surroundings() == Surroundings::FreeSpace && has_force(reading);
-    let mut columns: Vec<Column<'_, LevelReading>> = Vec::new();
-    if several {
-        columns.push(Column::new("level", |level: &LevelReading| level.level.to_string()));
-    }
-    if several || !readings().all(is_alone) {
-        columns.push(of(&LEVEL.load, LEVEL.load.named.name));
-    }
-    if several {
-        columns.push(of(&LEVEL.load_share, LEVEL.load_share.named.short));
-    }
-    columns.push(of(&LEVEL.max_pressure, LEVEL.max_pressure.named.name));
-    columns.push(contact_radius(levels(), units));
-    columns.push(of(&LEVEL.asymmetry, LEVEL.asymmetry.named.name));
-    let lead = leading(steps, units);
-    let mut rows = Vec::new();
-    for reading in readings() {
-        for (index, level) in reading.levels.iter().enumerate() {
-            let first = |column: &Column<'_, Reading>| if index == 0 { (column.cell)(reading) } else { String::new() };
-            rows.push(lead.iter().map(first).chain(columns.iter().map(|column| (column.cell)(level))).collect());
-        }
-    }
-    let heads: Vec<&String> = lead.iter().map(|own| &own.head).chain(columns.iter().map(|own| &own.head)).collect();
-    let table = Table::new(&heads, rows, 0);
-    if several { table.keyed(&[0, lead.len()]) } else { table }
-}
-
-/// The contact radius, both radii of a ring, or that contacts have merged.
-fn contact_radius<'a>(all: impl Iterator<Item = &'a LevelReading>, units: &Units) -> Column<'a, LevelReading> {
-    let LevelQuantities { contact_radius: radius, radius_inner, radius_outer, .. } = &LEVEL;
-    let Named { name, kind, .. } = radius.named;
-    let length = units.unit(kind).suited(all.filter_map(|level| radius.of(level)).map(|own| own.value));
-    Column::new(length.headed(name), move |level: &LevelReading| match radius.of(level) {
-        _ if level.load == 0.0 => "–".to_owned(),
-        Some(own) if level.ring => match radius_inner.of(level).zip(radius_outer.of(level)) {
-            Some((inner, outer)) => format!("ring {} to {}", in_unit(&length, inner), in_unit(&length, outer)),
-            None => format!("ring, area of {}", number(length.shown(own.value))),
-        },
-        Some(own) => in_unit(&length, own),
-        None => "merged".to_owned(),
-    })
-}
-
-fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
-    let readings = || steps.iter().map(|step| &step.reading);
-    let peaks = readings().filter_map(|reading| READING.max_pressure.finite(reading)).map(|own| own.value);
-    let pressure = units.pressure().suited(peaks);
-    let pressure = &pressure;
-    let mut columns = leading(steps, units);
-    let of_level = |quantity: &'static Quantity<LevelReading>, head: &str, level: usize| {
-        let head = if quantity.named.kind == Kind::Pressure { pressure.headed(head) } else { head.to_owned() };
-        Column::new(head, move |reading: &Reading| {
-            quantity.of(&reading.levels[level - 1]).map_or("–".to_owned(), |own| match quantity.named.kind {
-                Kind::Fraction => percent_with_error(own),
-                _ => in_unit(pressure, own),
-            })
-        })
-    };
-    // A single level has the whole load.
-    for quantity in [&LEVEL.max_pressure, &LEVEL.load_share].into_iter().take(if levels > 1 { 2 } else { 1 }) {
-        let named = |level: usize| format!("{} {level}", quantity.named.short);
-        columns.extend((1..=levels).map(|level| of_level(quantity, &named(level), level)));
-    }
-    if levels == 0 {
-        let whole = [&READING.max_pressure, &READING.elastic_energy];
-        columns.extend(whole.map(|own| Column::of(own, own.named.name, units, readings())));
-    }
-    let row = |reading: &Reading| columns.iter().map(|column| (column.cell)(reading)).collect();
-    let heads: Vec<&String> = columns.iter().map(|column| &column.head).collect();
-    Table::new(&heads, readings().map(row).collect(), 0)
-}
-
 /// "`name` by +1.25 %": the relative change of a quantity, from its value `without` layers or neighbours to the one `found`; `None`
 /// where one of them is missing.
 fn change(name: &str, found: Option<f64>, without: Option<f64>) -> Option<String> {
@@ -320,15 +196,16 @@ fn spots(steps: &[StepRecord]) -> Option<String> {
 pub fn largest_errors(steps: &[StepRecord]) -> Option<String> {
     // What is rounding is no error of the grid.
     fn most<'a, R: 'static>(quantity: &Quantity<R>, all: impl Iterator<Item = &'a R>) -> Option<f64> {
-        let errors = all.filter_map(|own| quantity.finite(own)?.relative());
+        let errors = all.filter_map(|record| quantity.finite(record)?.relative());
         errors.filter(|error| *error > NOTHING).reduce(f64::max)
     }
     let readings = || steps.iter().map(|step| &step.reading);
     let is_given = steps.iter().any(|step| step.kind().is_given);
     let whole = [&READING.penetration, &READING.max_pressure];
-    let whole = whole.map(|own| (own.named.of(is_given), most(own, readings())));
+    let whole = whole.map(|quantity| (quantity.named.of(is_given), most(quantity, readings())));
     let of_level = [&LEVEL.load, &LEVEL.contact_radius];
-    let of_level = of_level.map(|own| (own.named.name, most(own, readings().flat_map(|reading| &reading.levels))));
+    let of_level =
+        of_level.map(|quantity| (quantity.named.name, most(quantity, readings().flat_map(|reading| &reading.levels))));
     let texts: Vec<String> =
         whole.into_iter().chain(of_level).filter_map(|(name, error)| Some(format!("{name} {:.1e}", error?))).collect();
     (!texts.is_empty()).then(|| format!("estimated relative discretisation errors, at most: {}", texts.join(", ")))

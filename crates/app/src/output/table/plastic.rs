@@ -45,18 +45,19 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
     ];
     let header: Vec<String> =
         header.into_iter().chain(is_composite.then(|| pressure.headed(PLASTIC.hardness.named.name))).collect();
-    let row = |(step, own): &(&StepRecord, &PlasticReading)| {
+    let row = |(step, plastic): &(&StepRecord, &PlasticReading)| {
         // Two areas, each read with its own error.
-        let part = (own.area / step.reading.contact_area).clamp(0.0, 1.0);
-        let text = |unit: &Prefixed, own: Option<Measured>| own.map_or("–".to_owned(), |own| in_unit(unit, own));
+        let part = (plastic.area / step.reading.contact_area).clamp(0.0, 1.0);
+        let text =
+            |unit: &Prefixed, found: Option<Measured>| found.map_or("–".to_owned(), |found| in_unit(unit, found));
         let row = [
             text(&load, READING.load(units.quantity()).of(&step.reading)),
-            text(&area, PLASTIC.area.of(own)),
+            text(&area, PLASTIC.area.of(plastic)),
             if part.is_finite() { format!("{:.0} %", 100.0 * part) } else { "–".to_owned() },
-            text(&length, PLASTIC.depth.of(own)),
-            text(&length, PLASTIC.permanent_depth.of(own)),
+            text(&length, PLASTIC.depth.of(plastic)),
+            text(&length, PLASTIC.permanent_depth.of(plastic)),
         ];
-        row.into_iter().chain(is_composite.then(|| text(&pressure, PLASTIC.hardness.of(own)))).collect()
+        row.into_iter().chain(is_composite.then(|| text(&pressure, PLASTIC.hardness.of(plastic)))).collect()
     };
     let (of, assumption) = match is_composite {
         false => (format!("hardness {hardness}"), "the hardness does not depend on the depth"),

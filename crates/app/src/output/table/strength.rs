@@ -17,8 +17,12 @@ pub fn utilisations(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units
     governing.sort_by(|a, b| b.value.total_cmp(&a.value));
     let row = |&Utilisation { criterion, .. }: &Utilisation| {
         let of = |step: &StepRecord| {
-            let own = step.utilisation(criterion)?;
-            Some(QuantityInStep { own: UTILISATION.value.of(own)?, position: own.position, rival: own.rival })
+            let taken = step.utilisation(criterion)?;
+            Some(QuantityInStep {
+                measured: UTILISATION.value.of(taken)?,
+                position: taken.position,
+                rival: taken.rival,
+            })
         };
         Quantity { name: criterion.to_string(), found: steps.iter().map(of).collect() }
     };

@@ -56,8 +56,8 @@ impl Keys {
                 let curve = curves.entry(own).or_insert_with(begun);
                 // A step whose load differs between rows is labelled by its number.
                 curve.load.take_if(|own| Some(&*own) != load.as_ref());
-                let own = shown.measured(result).unwrap_or(Measured::exact(f64::NAN));
-                curve.points.push(([x, own.value], own.error.unwrap_or(f64::NAN)));
+                let found = shown.measured(result).unwrap_or(Measured::exact(f64::NAN));
+                curve.points.push(([x, found.value], found.error.unwrap_or(f64::NAN)));
             }
         }
         let all = curves.len();

@@ -44,7 +44,7 @@ impl Number {
 
     /// Its value; `None` where the result does not have it, or it is infinite.
     pub fn value(&self, result: &SweepResult) -> Option<f64> {
-        self.measured(result).map(|own| own.value)
+        self.measured(result).map(|found| found.value)
     }
 
     /// Its value and error; `None` where the result does not have it, or it is infinite.
