@@ -55,7 +55,7 @@ def test_datasets_have_dimensions_coordinates_and_units(sliding: percoat.Result)
     assert set(data.coords) == {"x", "y", "mean_pressure", "force"}
     assert data.mean_pressure.dims == ("step",) and data.mean_pressure.attrs["units"] == "GPa"
     assert data.force.dims == ("step",) and data.force.attrs["units"] == "GPa µm²"
-    scalars = ("penetration", "contact_fraction", "contact_area", "max_pressure", "residual", "converged")
+    scalars = ("penetration", "contact_fraction", "contact_area", "max_pressure", "elastic_energy", "residual", "converged")
     for name in ("mean_pressure", "force", *scalars):
         assert data[name].values.tolist() == [getattr(step, name) for step in sliding], name
     assert data.penetration.attrs["units"] == "µm" and data.max_pressure.attrs["units"] == "GPa"

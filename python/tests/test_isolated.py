@@ -56,6 +56,8 @@ def test_a_dataset_has_what_an_isolated_contact_has(ball: percoat.Result) -> Non
     assert set(data.coords) == {"x", "y", "force"} and "contact_fraction" not in data
     assert data.force.values.tolist() == [step.force for step in ball] and data.force.attrs["units"] == "GPa µm²"
     assert data.contact_area.values.tolist() == [step.contact_area for step in ball]
+    assert data.contact_stiffness.values.tolist() == [step.contact_stiffness for step in ball]
+    assert data.contact_stiffness.attrs["units"] == "GPa µm" and data.elastic_energy.attrs["units"] == "GPa µm³"
 
 
 def test_an_isolated_contact_is_drawn_once(ball: percoat.Result) -> None:

@@ -241,6 +241,15 @@ def test_a_curve_has_the_numbers_of_the_steps() -> None:
     assert np.isnan(gaps.lines[0].get_ydata()[0]) and np.isfinite(gaps.lines[0].get_ydata()[1:]).all()
 
 
+def test_a_curve_has_the_errors_that_stand_beside_its_numbers() -> None:
+    result = percoat.solve("ball-on-disc", set={"grid.points": 64})
+    ax = plot.curve(result, "force", "contact_stiffness")
+    assert ax.get_ylabel() == "contact stiffness (GPa µm)"
+    (bars,) = ax.containers[0][2]
+    for (low, high), step in zip((bar[:, 1] for bar in bars.get_segments()), result):
+        assert high - low == pytest.approx(2.0 * step.contact_stiffness_error, rel=1e-9)
+
+
 def test_a_curve_has_a_line_for_each_level(three_levels: percoat.Result) -> None:
     ax = plot.curve(three_levels, "mean_pressure", "levels.load", linestyle="--", color="black")
     assert [line.get_label() for line in ax.lines] == ["level 1", "level 2", "level 3"]
