@@ -45,7 +45,7 @@ impl Draft {
                 Ok(file) if is_locked(&file, &temporary) => {
                     return Ok(Self { path: path.to_owned(), temporary, writer: Some(BufWriter::new(file)) });
                 }
-                Err(error) if error.kind() != io::ErrorKind::AlreadyExists || number == TAKEN => {
+                Err(error) if error.kind() != io::ErrorKind::AlreadyExists || number >= TAKEN => {
                     return Err(OutputError::new(path, error));
                 }
                 _ => number += 1,
