@@ -155,6 +155,15 @@ pub(super) struct BoundLanes<S: Simd> {
     nearly: f64x8<S>,
 }
 
+/// Parts of the pressure of eight samples.
+#[derive(Clone, Copy)]
+pub(super) struct Parts<S: Simd> {
+    /// p where p < H, 0 elsewhere.
+    pub free: f64x8<S>,
+    /// 1 where p = H, 0 elsewhere.
+    pub full: f64x8<S>,
+}
+
 /// A step of eight samples that ends within the bounds.
 #[derive(Clone, Copy)]
 pub(super) struct Bounded<S: Simd> {
@@ -162,8 +171,8 @@ pub(super) struct Bounded<S: Simd> {
     pub end: f64x8<S>,
     /// The step that was taken, shortened where it ends at a bound.
     pub step: f64x8<S>,
-    /// Whether p = H at its end.
-    pub full: mask64x8<S>,
+    /// Parts of the pressure at its end.
+    pub parts: Parts<S>,
     /// −1 where it was shortened at a bound, 0 elsewhere. A full sample that stays full has no step.
     pub clipped: f64x8<S>,
 }
@@ -187,10 +196,17 @@ impl<S: Simd> BoundLanes<S> {
         pressure.max(self.zero)
     }
 
-    /// Where p = H.
+    /// Where p < H.
     #[inline(always)]
-    pub fn is_full(self, pressure: f64x8<S>) -> mask64x8<S> {
-        !pressure.simd_lt(self.most)
+    pub fn is_below(self, pressure: f64x8<S>) -> mask64x8<S> {
+        pressure.simd_lt(self.most)
+    }
+
+    /// Parts of the pressure.
+    #[inline(always)]
+    pub fn parts(self, pressure: f64x8<S>) -> Parts<S> {
+        let below = self.is_below(pressure);
+        Parts { free: below.select(pressure, self.zero), full: below.select(self.zero, self.one) }
     }
 
     /// Where p is H, or rounding alone keeps it from there.
@@ -205,10 +221,16 @@ impl<S: Simd> BoundLanes<S> {
         pressure.simd_gt(self.zero) & pressure.simd_lt(self.most)
     }
 
-    /// Where p is the least one, 0.
+    /// Where p is above the least one, p > 0.
     #[inline(always)]
-    pub fn is_empty(self, pressure: f64x8<S>) -> mask64x8<S> {
-        !pressure.simd_gt(self.zero)
+    pub fn is_pressed(self, pressure: f64x8<S>) -> mask64x8<S> {
+        pressure.simd_gt(self.zero)
+    }
+
+    /// 1 where p is the least one, 0 elsewhere.
+    #[inline(always)]
+    pub fn unpressed(self, pressure: f64x8<S>) -> f64x8<S> {
+        self.is_pressed(pressure).select(self.zero, self.one)
     }
 
     /// Pressures after a step d in units of `unit`, as the bounds let them end.
@@ -220,7 +242,9 @@ impl<S: Simd> BoundLanes<S> {
         let step = full.select((self.most - pressure) * (1.0 / unit), step);
         let clipped = short | (full & pressure.simd_lt(self.most));
         let clipped = clipped.select(-self.one, self.zero);
-        Bounded { end: full.select(self.most, self.raise(end)), step, full, clipped }
+        let end = full.select(self.most, self.raise(end));
+        let parts = Parts { free: full.select(self.zero, end), full: full.select(self.one, self.zero) };
+        Bounded { end, step, parts, clipped }
     }
 
     /// χ of the active set I = ({p > 0} ∪ {g < 0}) ∖ {p = H, g ≤ 0}, and the residual r = χ g, which is never exactly zero on it.
@@ -251,11 +275,11 @@ impl<S: Simd> BoundLanes<S> {
         gap.simd_gt(self.zero).select(pressure, pressure.min(self.most - pressure))
     }
 
-    /// Violation of samples that are `full` or not, as [`Bounds::violation`], and max(g, 0) where they are, else 0.
+    /// Violation of samples that are `below` H or not, as [`Bounds::violation`], and max(g, 0) where they are not, else 0.
     #[inline(always)]
-    pub fn violation(self, full: mask64x8<S>, gap: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
+    pub fn violation(self, below: mask64x8<S>, gap: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
         let open = gap.max(self.zero);
-        (full.select(open, (-gap).max(self.zero)), full.select(open, self.zero))
+        (below.select((-gap).max(self.zero), open), below.select(self.zero, open))
     }
 
     /// p(1 − p/H), the weight of a sample in δ: p without hardness, 0 where p = H.
@@ -281,17 +305,18 @@ mod tests {
         let (pressure, gap) = (f64::group(simd, p, 0, 0.0), splat(simd, g));
         let truth = |is: bool| f64::from(u8::from(is));
         let (active, residual) = lanes.on_active(pressure, gap);
-        let full = lanes.is_full(pressure);
-        let (violation, open) = lanes.violation(full, gap);
+        let Parts { free, full } = lanes.parts(pressure);
+        let (violation, open) = lanes.violation(lanes.is_below(pressure), gap);
         let found = [
             lanes.clamp(pressure),
             lanes.project(pressure),
             active,
             residual,
             lanes.away(pressure, gap),
-            lanes.count(full),
+            free,
+            full,
             lanes.count(lanes.is_free(pressure)),
-            lanes.count(lanes.is_empty(pressure)),
+            lanes.unpressed(pressure),
             violation,
             open,
         ]
@@ -304,6 +329,7 @@ mod tests {
                 truth(is_active),
                 if is_active { if g == 0.0 { f64::from(f32::MIN_POSITIVE) } else { g } } else { 0.0 },
                 bounds.away(p, g),
+                if is_full { 0.0 } else { p },
                 truth(is_full),
                 truth(bounds.is_free(p)),
                 truth(p <= 0.0),
@@ -334,8 +360,8 @@ mod tests {
         fn stepped<S: Simd>(simd: S, [p, d]: [&[f64; LANES]; 2]) -> [[f64; LANES]; 4] {
             let lanes = Bounds::up_to(2.0).lanes(simd);
             let [p, d] = [p, d].map(|values| f64::group(simd, values, 0, 0.0));
-            let Bounded { end, step, full, clipped } = lanes.stepped(p, d, 0.5);
-            [end, step, lanes.count(full), clipped].map(eight)
+            let Bounded { end, step, parts, clipped } = lanes.stepped(p, d, 0.5);
+            [end, step, parts.full, clipped].map(eight)
         }
         let p = [1.0, 1.0, 1.0, 0.0, 0.0, 2.0, 2.0, 2.0];
         let d = [1.0, -4.0, 4.0, -1.0, 1.0, 1.0, -1.0, -8.0];

@@ -152,9 +152,9 @@ fn deformed<S: Simd>(
         let pressure = f64::group(simd, p, at, 0.0);
         let (displacement, gap) = (f64::group(simd, w, at, 0.0), f64::group(simd, f, at, 0.0));
         let deformed = displacement + gap;
-        load.add(bounds.is_full(pressure), pressure, deformed);
+        load.add(bounds.parts(pressure), pressure, deformed);
         energy = ((pressure - uniform) * 0.5).mul_add(displacement, energy);
-        unpressed += bounds.count(bounds.is_empty(pressure));
+        unpressed += bounds.unpressed(pressure);
         f64::put(deformed, g, at);
     }
     // The padding beyond the end was counted as without pressure.

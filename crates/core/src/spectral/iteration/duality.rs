@@ -6,11 +6,11 @@
 //! **Gap of the energy.** What a pressure p under a gap g exceeds the least work by, ⟨p, g⟩ − min ⟨s, g⟩ over the set, as `certificate` has
 //! it. The share of a sample is Σ p g and, of what lies at a bound on the wrong side, H max(−g, 0) or H max(g, 0).
 
-use super::bounds::{BoundLanes, Bounds};
+use super::bounds::{BoundLanes, Bounds, Parts};
 use crate::numeric::lanes::{lowest, splat, total};
 use crate::numeric::rows::Totals;
 use crate::numeric::sums;
-use fearless_simd::{f64x8, mask64x8, prelude::*};
+use fearless_simd::{f64x8, prelude::*};
 
 /// Sum of a pressure below the largest one, and the number of samples at it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -162,12 +162,11 @@ impl<S: Simd> LoadLanes<S> {
         Self { bounds, free: zero, full: zero, work: zero, weight: zero, weighted: zero }
     }
 
-    /// Adds samples that are `full` or not.
+    /// Adds samples, the parts of whose pressure are given too.
     #[inline(always)]
-    pub fn add(&mut self, full: mask64x8<S>, pressure: f64x8<S>, gap: f64x8<S>) {
-        let free = self.bounds.unless(full, pressure);
+    pub fn add(&mut self, Parts { free, full }: Parts<S>, pressure: f64x8<S>, gap: f64x8<S>) {
         self.free += free;
-        self.full += self.bounds.count(full);
+        self.full += full;
         self.work = free.mul_add(gap, self.work);
         let weight = self.bounds.weight(pressure);
         self.weight += weight;
@@ -208,15 +207,15 @@ impl<S: Simd> GapLanes<S> {
     #[inline(always)]
     pub fn add(&mut self, pressure: f64x8<S>, gap: f64x8<S>) {
         let (bounds, far) = (self.bounds, self.far);
-        let full = bounds.is_full(pressure);
-        let (violation, open) = bounds.violation(full, gap);
-        self.work = bounds.unless(full, pressure).mul_add(gap, self.work);
+        let below = bounds.is_below(pressure);
+        let (violation, open) = bounds.violation(below, gap);
+        self.work = bounds.parts(pressure).free.mul_add(gap, self.work);
         self.complementarity = bounds.away(pressure, gap).mul_add(gap.abs(), self.complementarity);
         self.beyond += violation;
         self.open += open;
         self.least = self.least.min(gap);
-        self.below = self.below.min(full.select(far, gap));
-        self.outside = self.outside.min(bounds.is_empty(pressure).select(gap, far));
+        self.below = self.below.min(below.select(gap, far));
+        self.outside = self.outside.min(bounds.is_pressed(pressure).select(far, gap));
     }
 
     /// The sums work, complementarity, beyond and open, and the least values in all, below H and outside contact.

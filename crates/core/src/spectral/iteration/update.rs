@@ -176,11 +176,11 @@ fn advance_block<S: Simd>(
             let along = f32::group(simd, direction, at, 0.0) * factor;
             let along =
                 if shift == 0.0 { along } else { along + shifted(simd, f32::group(simd, residual, at, 0.0), shift) };
-            let Bounded { end, step: d, full, clipped } = bounds.stepped(pressure, rounded(simd, along), unit);
+            let Bounded { end, step: d, parts, clipped } = bounds.stepped(pressure, rounded(simd, along), unit);
             lowest_end = lowest_end.min(clipped);
             let g = f32::group(simd, gap, at, 0.0);
             slope = g.mul_add(d, slope);
-            load.add(full, end, f32::group(simd, image, at, 0.0).mul_add(splat(simd, factor), g));
+            load.add(parts, end, f32::group(simd, image, at, 0.0).mul_add(splat(simd, factor), g));
             Real::put(end, p, at);
             Real::put(d, step, at);
         }
@@ -358,7 +358,7 @@ fn load_and_work_of<S: Simd>(
     for at in (0..p.len()).step_by(LANES) {
         let pressure = f64::group(simd, p, at, 0.0);
         let g = f32::group(simd, changes, at, 0.0).mul_add(splat(simd, factor), f32::group(simd, gap, at, 0.0));
-        load.add(bounds.is_full(pressure), pressure, g);
+        load.add(bounds.parts(pressure), pressure, g);
     }
     Totals { sums: load.totals(), least: [] }
 }
