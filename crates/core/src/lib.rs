@@ -94,4 +94,6 @@ pub use spectral::{
     Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver, Step, Stop, Tangent, Wear,
     WearError, Worn,
 };
-pub use stress::{DepthPlane, SlidingPath, StressField, StressFields, StressState, SurfaceLine, VerticalSection};
+pub use stress::{
+    DepthPlane, SlidingPath, StressField, StressFields, StressState, SurfaceLine, Traction, VerticalSection,
+};

@@ -187,9 +187,9 @@ impl PathReading {
         if wanted.is_empty() {
             return Some(Self::default());
         }
-        let coarser = step.coarser().first().map(|contact| fields.of_other(contact));
-        let back = pass.back.map(|step| fields.of_other(step.finest()));
-        let coarser_back = pass.back.and_then(|step| step.coarser().first().map(|contact| fields.of_other(contact)));
+        let coarser = step.coarser().first().and_then(|contact| fields.of_other(contact));
+        let back = pass.back.and_then(|step| fields.of_other(step.finest()));
+        let coarser_back = pass.back.and_then(|step| fields.of_other(step.coarser().first()?));
         let (direction, radii) = (step.problem().direction(), contact_radii(step, reading));
         let (mut lives, mut utilisations, mut path, mut planes) = (Vec::new(), Vec::new(), None, Vec::new());
         for field in wanted {

@@ -14,7 +14,7 @@ pub(crate) fn utilisations_while(
     fields: &StressFields,
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Vec<Utilisation>> {
-    let coarser = step.coarser().first().map(|contact| fields.of_other(contact));
+    let coarser = step.coarser().first().and_then(|contact| fields.of_other(contact));
     let (bodies, radii) = (step.problem().bodies(), contact_radii(step, reading));
     let mut all = Vec::new();
     for field in fields.each() {

@@ -38,7 +38,7 @@ impl StressReading {
 
     /// Stress reading of a step; `None` when `goes_on`, called many times a second during the search, returns false.
     pub fn of_while(step: &Step, reading: &Reading, fields: &StressFields, goes_on: &dyn Fn() -> bool) -> Option<Self> {
-        let coarser = step.coarser().first().map(|contact| fields.of_other(contact));
+        let coarser = step.coarser().first().and_then(|contact| fields.of_other(contact));
         let (mut materials, mut faces, mut interfaces, mut surface_error) = (vec![], vec![], vec![], 0.0f64);
         for field in fields.each() {
             let coarser = coarser.as_ref().map(|coarser| coarser.on(field.half_space().side()));

@@ -10,7 +10,6 @@ use crate::reading::{
     Utilisation, stiffness, within_the_errors,
 };
 use crate::spectral::{Certificate, Report, Route, Step, Stop};
-use crate::stress::maxima::Extremes;
 use serde::{Deserialize, Serialize};
 
 quantities! {

@@ -15,7 +15,8 @@ use super::cubic::CubicInterpolation;
 use super::field::{REACH, StressField};
 use super::measure::{RunningMaxima, StressMeasure};
 use super::peak::Peak;
-use super::smoothed_surface::SmoothedSurface;
+use super::smoothed_shear::{ShearSamples, shear_parts};
+use super::smoothed_surface::{NearEdge, Sharp, SmoothedSurface};
 use super::tensor::StressState;
 use super::transform::Transform;
 use crate::body::Depth;
@@ -62,8 +63,7 @@ enum Location {
 struct EdgePoint {
     /// x, y; lengths.
     place: [f64; 2],
-    /// p̃ and its slopes.
-    near: [f64; 3],
+    near: NearEdge,
     /// Samples along the radius of the spot or of the open region beside it, whichever has fewer.
     resolution: f64,
     state: StressState,
@@ -71,9 +71,6 @@ struct EdgePoint {
 
 /// Samples near edges, row by row: their columns, and a value at each.
 type EdgeBand<T> = Vec<Vec<(usize, T)>>;
-
-/// σ_xx, σ_yy, σ_xy and p near an edge, sharpened, and the weight of the series itself beside them.
-type Sharp = ([f64; 4], f64);
 
 /// State at a point of the surface.
 #[derive(Debug, Clone, Copy)]
@@ -83,6 +80,7 @@ struct SurfacePoint {
     state: StressState,
     /// Pressure of the series smoothed near edges.
     smoothed_pressure: f64,
+    near: NearEdge,
 }
 
 /// Readings of the surface that the crests of all measures share.
@@ -96,6 +94,8 @@ struct SurfaceReading {
     samples: Vec<[f64; 2]>,
     /// Largest smoothed pressure.
     pressed: f64,
+    /// Largest tangential traction, a pressure.
+    rubbed: f64,
 }
 
 impl StressField {
@@ -148,7 +148,8 @@ impl StressField {
         let response = Arc::new(self.depth_response(Depth::SURFACE, REACH));
         let smoothed = SmoothedSurface::new(self, &response, 1.0);
         let (transform, mut buffer) = (Transform::new(self.series_grid().points()), Vec::new());
-        let (edges, band) = self.edges(&smoothed, &transform, &mut buffer);
+        let shear = ShearSamples::new(self, smoothed.shear.as_ref(), &transform);
+        let (edges, band) = self.edges(&smoothed, &shear, &transform, &mut buffer);
         let (edges, _) = self.along_edges(&smoothed, &transform, &mut buffer, edges, band);
         edges.into_iter().map(|edge| (edge.place, edge.state)).collect()
     }
@@ -157,10 +158,12 @@ impl StressField {
         let response = Arc::new(self.depth_response(Depth::SURFACE, REACH));
         let smoothed = SmoothedSurface::new(self, &response, 1.0);
         let (transform, mut buffer) = (Transform::new(self.series_grid().points()), Vec::new());
-        let (edges, band) = self.edges(&smoothed, &transform, &mut buffer);
+        let shear = ShearSamples::new(self, smoothed.shear.as_ref(), &transform);
+        let (edges, band) = self.edges(&smoothed, &shear, &transform, &mut buffer);
         let (edges, band) = self.along_edges(&smoothed, &transform, &mut buffer, edges, band);
-        let (samples, pressed) = self.highest_samples(&smoothed, &transform, buffer, &band, measures);
+        let (samples, pressed) = self.highest_samples((&smoothed, &shear), &transform, buffer, &band, measures);
         SurfaceReading {
+            rubbed: shear.largest().unwrap_or_else(|| smoothed.rubbed(pressed)),
             others: OTHER_WIDTHS.map(|scale| SmoothedSurface::new(self, &response, scale)),
             smoothed,
             edges,
@@ -177,18 +180,17 @@ impl StressField {
         highest: SurfacePoint,
         others: impl Iterator<Item = SurfacePoint>,
     ) -> Crest {
-        let SurfaceReading { smoothed, edges, pressed, .. } = surface;
+        let SurfaceReading { smoothed, edges, pressed, rubbed, .. } = surface;
         let value_of = |edge: &EdgePoint| measure.of(&edge.state);
-        let SurfacePoint { kind, place, state, smoothed_pressure } = highest;
+        let SurfacePoint { kind, place, state, smoothed_pressure, near } = highest;
         let value = measure.of(&state);
         // By how much the stress at an edge of few samples may exceed the largest one.
         let per_stress = measure.per_stress();
         let usual = if measure.is_tensile() { USUAL_TENSION * pressed * per_stress } else { 0.0 };
         let spread: f64 = others.map(|other| (measure.of(&other.state) - value).abs()).sum();
-        let unlike = if kind == Location::Edge { smoothed_pressure.abs() * smoothed.unlike * per_stress } else { 0.0 };
-        let [tx, ty] = self.traction();
-        let cusp = 2.0 * tx.hypot(ty) * pressed * per_stress;
-        let eta = self.edge_exponent().abs();
+        let unlike = if kind == Location::Edge { smoothed.unlike(smoothed_pressure, near) * per_stress } else { 0.0 };
+        let cusp = 2.0 * rubbed * per_stress;
+        let eta = self.form().edge_exponent().abs();
         let few = |edge: &EdgePoint| {
             let (own, n) = (value_of(edge), edge.resolution);
             let turned = EXPONENT_ERROR * eta * n.powf(eta - 0.5);
@@ -210,14 +212,14 @@ impl StressField {
         Crest::with_safety(peak, spread + unlike + few, scale)
     }
 
-    /// Points of edges beside the samples where contact ends, without their stresses; and the samples near edges, with p̃
-    /// and its slopes.
+    /// Points of edges beside the samples where contact ends, without their stresses; and the samples near edges.
     fn edges(
         &self,
         smoothed: &SmoothedSurface,
+        shear: &ShearSamples,
         transform: &Transform,
         buffer: &mut Vec<f64>,
-    ) -> (Vec<EdgePoint>, EdgeBand<[f64; 3]>) {
+    ) -> (Vec<EdgePoint>, EdgeBand<NearEdge>) {
         let (grid, regions) = (self.series_grid(), self.regions());
         let ([_, n2], cell, len) = (grid.points(), grid.cell(), grid.len());
         let mut fields = vec![0.0; 3 * len];
@@ -228,17 +230,21 @@ impl StressField {
         let found = (0..len).into_par_iter().filter(|&index| regions.touches(index)).filter_map(|index| {
             let open = grid.neighbours(index).filter(|&next| !regions.touches(next));
             let resolution = open.map(|next| regions.resolution(next)).reduce(f64::min)?.min(regions.resolution(index));
-            let (mut place, mut near, mut u) = (cell.point(grid.fractions(index)), near(index), 0.0);
+            let (mut place, mut pressure, mut u) = (cell.point(grid.fractions(index)), near(index), 0.0);
             for _ in 0..3 {
-                (place, u) = smoothed.moved(place, near);
+                (place, u) = smoothed.moved(place, pressure);
                 let between = CubicInterpolation::new(grid.points(), cell.fractions(place));
-                near = [0, 1, 2].map(|k| between.value(&fields[k * len..(k + 1) * len], n2));
+                pressure = [0, 1, 2].map(|k| between.value(&fields[k * len..(k + 1) * len], n2));
             }
+            let [shear, _] = shear.between(&CubicInterpolation::new(grid.points(), cell.fractions(place)), n2);
+            let near = NearEdge { pressure, shear };
             (u.abs() < 0.5).then_some(EdgePoint { place, near, resolution, state: StressState::default() })
         });
         let band = |i: usize| {
             let samples = (0..n2).map(|j| (j, near(i * n2 + j)));
-            samples.filter(|(_, near)| smoothed.sees_edge(*near)).collect()
+            let samples = samples.filter(|(_, near)| smoothed.sees_edge(*near));
+            let shear = |j: usize| shear.at(i * n2 + j)[0];
+            samples.map(|(j, pressure)| (j, NearEdge { pressure, shear: shear(j) })).collect()
         };
         (found.collect(), (0..grid.points()[0]).into_par_iter().map(band).collect())
     }
@@ -250,7 +256,7 @@ impl StressField {
         transform: &Transform,
         buffer: &mut Vec<f64>,
         mut edges: Vec<EdgePoint>,
-        band: EdgeBand<[f64; 3]>,
+        band: EdgeBand<NearEdge>,
     ) -> (Vec<EdgePoint>, EdgeBand<Sharp>) {
         let (points, cell) = (self.series_grid().points(), self.series_grid().cell());
         // Weights with which each row adds to the edges.
@@ -288,7 +294,7 @@ impl StressField {
     /// Position of the largest sample of each measure, lengths, and the largest smoothed pressure.
     fn highest_samples(
         &self,
-        smoothed: &SmoothedSurface,
+        (smoothed, shear): (&SmoothedSurface, &ShearSamples),
         transform: &Transform,
         buffer: Vec<f64>,
         band: &EdgeBand<Sharp>,
@@ -297,11 +303,14 @@ impl StressField {
         let found = RunningMaxima::new(measures);
         let [own_rows, own_columns] = self.own_samples();
         let rows = self.series.on_plane(transform, buffer, &smoothed.open).map(|i, row| {
-            let at = |j: usize| row.map(|component| component[j]);
-            let mut states: Vec<StressState> =
-                (0..row[0].len()).map(|j| smoothed.toward_open([0.0; 4], at(j), 1.0)).collect();
-            for &(j, (sharp, part)) in &band[i] {
-                states[j] = smoothed.toward_open(sharp, at(j), part);
+            let columns = row[0].len();
+            let state = |j: usize, sharp: Sharp| {
+                let [_, shear] = shear.at(i * columns + j);
+                smoothed.toward_open(sharp, row.map(|component| component[j]), shear)
+            };
+            let mut states: Vec<StressState> = (0..columns).map(|j| state(j, Sharp::AWAY)).collect();
+            for &(j, sharp) in &band[i] {
+                states[j] = state(j, sharp);
             }
             let own = if own_rows.contains(&i) { &states[own_columns.clone()] } else { &[] };
             let best = if own.is_empty() { Vec::new() } else { found.add(own.len(), |j| own[j]) };
@@ -324,21 +333,30 @@ impl StressField {
             let near = self.at(&edges, &smoothed.near);
             edges.iter_mut().zip(near).for_each(|(place, near)| *place = smoothed.moved(*place, near).0);
         }
-        let read =
-            |places: &[[f64; 2]]| self.at(places, &smoothed.near).into_iter().zip(self.at(places, &smoothed.edge));
-        let mut on_edges = edges.iter().zip(read(&edges)).map(|(&place, (near, edge))| SurfacePoint {
+        // Pressure and tangential fields near edges, stresses there, and the tangential fields away from them.
+        let read = |places: &[[f64; 2]]| {
+            let shear = smoothed.shear.as_ref().map(|shear| self.at(places, shear));
+            let near = self.at(places, &smoothed.near).into_iter().zip(self.at(places, &smoothed.edge)).enumerate();
+            near.map(move |(i, (pressure, edge))| {
+                let [shear, away] = shear_parts(shear.as_ref().map(|shear| shear[i]));
+                (NearEdge { pressure, shear }, edge, away)
+            })
+        };
+        let mut on_edges = edges.iter().zip(read(&edges)).map(|(&place, (near, edge, _))| SurfacePoint {
             kind: Location::Edge,
             place,
             state: smoothed.state_on_edge(near, edge),
             smoothed_pressure: edge[3],
+            near,
         });
         let series = self.at(&open, &smoothed.open);
         let mut in_open =
-            open.iter().zip(read(&open)).zip(series).map(|((&place, (near, edge)), series)| SurfacePoint {
+            open.iter().zip(read(&open)).zip(series).map(|((&place, (near, edge, away)), series)| SurfacePoint {
                 kind: Location::Open,
                 place,
-                state: smoothed.state(near, edge, series),
+                state: smoothed.toward_open(smoothed.sharp(near, edge), series, away),
                 smoothed_pressure: edge[3],
+                near,
             });
         let next = |(kind, _): &(Location, _)| match kind {
             Location::Open => in_open.next(),

@@ -1,8 +1,10 @@
-//! Stresses and displacements at one depth by the waves of the pressure and of the traction proportional to it.
+//! Stresses and displacements at one depth by the waves of a traction.
 
 use super::far_plane::FarPlane;
 use super::series::Response;
 use super::tensor::StressState;
+use super::traction::ShearForm;
+use super::traction_waves::TractionWave;
 use crate::body::{Amplitudes, Antiplane, Depth, InPlane, InteriorTable};
 use rustfft::num_complex::Complex64;
 
@@ -10,7 +12,7 @@ use rustfft::num_complex::Complex64;
 /// others are.
 const ODD: [bool; 9] = [false, false, false, false, true, true, true, true, false];
 
-/// Amplitudes at one depth of the shells whose waves reach it, and the state under the mean pressure.
+/// Amplitudes at one depth of the shells whose waves reach it, and the state under the mean traction.
 #[derive(Debug)]
 pub(super) struct DepthResponse {
     pub normal: Vec<Amplitudes>,
@@ -27,8 +29,8 @@ pub(super) struct DepthResponse {
 /// Amplitudes at one depth under the shear traction.
 #[derive(Debug)]
 pub(super) struct Tangential {
-    /// μ **e**: the traction on the body over the pressure.
-    traction: [f64; 2],
+    /// Traction on the body over the pressure; `None` where it has waves of its own.
+    ratio: Option<[f64; 2]>,
     /// Amplitudes under a traction along the wavevector, by shell.
     along: Vec<Amplitudes>,
     /// Amplitudes under a traction across the wavevector, by shell.
@@ -44,17 +46,17 @@ pub(super) struct StressComponents<'a>(pub &'a DepthResponse);
 pub(super) struct DisplacementComponents<'a>(pub &'a DepthResponse);
 
 impl DepthResponse {
-    /// Response at a depth of the shells with these `wavenumbers` to a pressure and the `traction` per unit of it, with the state
-    /// `mean` under the mean pressure.
+    /// Response at a depth of the shells with these `wavenumbers` to a pressure and a tangential traction of a form, with the state `mean`
+    /// under the mean traction.
     pub fn new(
         interiors: &InteriorTable,
         depth: Depth,
         wavenumbers: &[f64],
-        traction: Option<[f64; 2]>,
+        form: ShearForm,
         mean: StressState,
     ) -> Self {
-        let tangential = traction.map(|traction| Tangential {
-            traction,
+        let tangential = (form != ShearForm::None).then(|| Tangential {
+            ratio: form.ratio(),
             along: interiors.amplitudes(InPlane::Along, wavenumbers, depth),
             across: interiors.antiplane(wavenumbers, depth),
         });
@@ -73,15 +75,15 @@ impl DepthResponse {
         Self { is_deep, far, ..self }
     }
 
-    /// Largest difference of the amplitudes of a shell at the surface from those of a bare half-space with this ν, over the
-    /// pressure.
-    pub fn unlike(&self, shell: usize, poisson: f64) -> f64 {
-        let Some(at) = self.normal.get(shell) else { return 0.0 };
+    /// Largest difference of the amplitudes of a shell at the surface from those of a bare half-space with this ν: over the pressure,
+    /// with the traction that follows from it, and over a tangential traction with waves of its own.
+    pub fn unlike(&self, shell: usize, poisson: f64) -> [f64; 2] {
+        let Some(at) = self.normal.get(shell) else { return [0.0; 2] };
         let normal = (at.sqq + 1.0).abs().max((at.stt + 2.0 * poisson).abs());
-        let Some(Tangential { traction: [x, y], along, across }) = &self.tangential else { return normal };
+        let Some(Tangential { ratio, along, across }) = &self.tangential else { return [normal, 0.0] };
         let (along, across) = (along[shell], across[shell]);
         let tangential = (along.sqq + 2.0).abs().max((along.stt + 2.0 * poisson).abs()).max((across.sqt + 1.0).abs());
-        normal + x.hypot(*y) * tangential
+        ratio.map_or([normal, tangential], |[x, y]| [normal + x.hypot(y) * tangential, 0.0])
     }
 }
 
@@ -112,12 +114,20 @@ fn antiplane([nx, ny]: [f64; 2], amplitudes: &Antiplane) -> [f64; 9] {
 }
 
 impl Tangential {
-    /// Factors of the nine components of a wave along **n** under the traction; those even under a pressure are to be multiplied
+    /// Factors of the nine components of a wave along **n** under the traction `ratio` per unit of pressure; those even under a pressure
+    /// are to be multiplied by −i.
+    #[inline(always)]
+    fn factors(&self, [ex, ey]: [f64; 2], [nx, ny]: [f64; 2], shell: usize) -> [f64; 9] {
+        let (by_along, by_across) = (ex * nx + ey * ny, ey * nx - ex * ny);
+        let (along, across) = (in_plane([nx, ny], &self.along[shell]), antiplane([nx, ny], &self.across[shell]));
+        std::array::from_fn(|k| by_along * along[k] + by_across * across[k])
+    }
+
+    /// Components of a wave along **n** under a traction with the coefficients `[x, y]`; those even under a pressure are to be multiplied
     /// by −i.
     #[inline(always)]
-    fn factors(&self, [nx, ny]: [f64; 2], shell: usize) -> [f64; 9] {
-        let [ex, ey] = self.traction;
-        let (by_along, by_across) = (ex * nx + ey * ny, ey * nx - ex * ny);
+    fn waves(&self, [x, y]: [Complex64; 2], [nx, ny]: [f64; 2], shell: usize) -> [Complex64; 9] {
+        let (by_along, by_across) = (x * nx + y * ny, y * nx - x * ny);
         let (along, across) = (in_plane([nx, ny], &self.along[shell]), antiplane([nx, ny], &self.across[shell]));
         std::array::from_fn(|k| by_along * along[k] + by_across * across[k])
     }
@@ -129,16 +139,22 @@ impl Response<9> for DepthResponse {
     }
 
     #[inline(always)]
-    fn times(&self, [x, y]: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 9] {
-        let length = self.lengths[shell];
+    fn times(&self, [x, y]: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; 9] {
+        let (c, length) = (wave.pressure, self.lengths[shell]);
         let n = [x * length, y * length];
         // −ic.
-        let turned = Complex64::new(c.im, -c.re);
+        let turn = |c: Complex64| Complex64::new(c.im, -c.re);
+        let turned = turn(c);
         let normal = in_plane(n, &self.normal[shell]);
         let waves = std::array::from_fn(|k| normal[k] * if ODD[k] { turned } else { c });
         let Some(tangential) = &self.tangential else { return waves };
-        let tangential = tangential.factors(n, shell);
-        std::array::from_fn(|k| waves[k] + tangential[k] * if ODD[k] { c } else { turned })
+        if let Some(ratio) = tangential.ratio {
+            let factors = tangential.factors(ratio, n, shell);
+            return std::array::from_fn(|k| waves[k] + factors[k] * if ODD[k] { c } else { turned });
+        }
+        let Some(shear) = wave.shear else { return waves };
+        let shear = tangential.waves(shear, n, shell);
+        std::array::from_fn(|k| waves[k] + if ODD[k] { shear[k] } else { turn(shear[k]) })
     }
 
     fn mean(&self) -> [f64; 9] {
@@ -159,8 +175,8 @@ impl Response<6> for StressComponents<'_> {
     }
 
     #[inline(always)]
-    fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 6] {
-        let [stresses @ .., _, _, _] = self.0.times(q, shell, c);
+    fn times(&self, q: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; 6] {
+        let [stresses @ .., _, _, _] = self.0.times(q, shell, wave);
         stresses
     }
 
@@ -184,8 +200,8 @@ impl Response<3> for DisplacementComponents<'_> {
     }
 
     #[inline(always)]
-    fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 3] {
-        let [.., ux, uy, uz] = self.0.times(q, shell, c);
+    fn times(&self, q: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; 3] {
+        let [.., ux, uy, uz] = self.0.times(q, shell, wave);
         [ux, uy, uz]
     }
 

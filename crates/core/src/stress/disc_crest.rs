@@ -67,7 +67,7 @@ impl StressField {
         let smoothed = |scale: f64| SmoothedDiscs::new(self, &response, scale * width);
         let (own, others) = (smoothed(1.0), OTHER_WIDTHS.map(smoothed));
         let longer = self.series.waves.shells_up_to(1.0 / width).saturating_sub(1);
-        let unlike = response.unlike(longer, self.surface_poisson());
+        let [unlike, _] = response.unlike(longer, self.surface_poisson());
         let candidates = own.candidates(measures);
         measures
             .iter()

@@ -12,6 +12,7 @@ use super::field::StressField;
 use super::plane_search::SEARCH_REACH;
 use super::series::{PARALLEL_WAVES, Phases};
 use super::tensor::StressState;
+use super::traction::ShearForm;
 use crate::body::{Depth, InPlane};
 use crate::lattice::waves::WaveRow;
 use crate::numeric::lanes::{LANES, splat, total, vectorised};
@@ -55,11 +56,13 @@ struct DepthFunctions<'a> {
     /// Coefficients of the waves.
     coefficients: &'a [Complex64],
     /// Wavelengths over 2π.
-    lengths: Vec<f64>,
+    lengths: &'a [f64],
     /// F and its derivatives by qz under a pressure.
-    normal: Vec<[f64; 4]>,
-    /// F and its derivatives by qz under a traction along the wavevector, v and −v′ under one across it; empty without sliding.
-    tangential: Vec<([f64; 4], [f64; 2])>,
+    normal: &'a [[f64; 4]],
+    /// Tangential traction over the pressure.
+    ratio: [f64; 2],
+    /// F and its derivatives by qz under a traction along the wavevector, v and −v′ under one across it; empty without a traction.
+    tangential: &'a [([f64; 4], [f64; 2])],
 }
 
 impl StressField {
@@ -78,29 +81,27 @@ impl StressField {
         } else {
             Vec::new()
         };
-        let functions = DepthFunctions {
-            field: self,
-            poisson: self.poisson(depth.material),
-            coefficients: self.series.coefficients(self.is_deep(depth)),
-            lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(),
-            normal: interiors.functions(InPlane::Normal, wavenumbers, depth),
-            tangential,
-        };
+        let normal = interiors.functions(InPlane::Normal, wavenumbers, depth);
+        let lengths: Vec<f64> = wavenumbers.iter().map(|q| 1.0 / q).collect();
         let rows = waves.rows_within(wavenumbers.len());
         let [s, t] = self.series_grid().cell().fractions(place);
         let (along, across) = (Phases::along(&rows, [s]), Phases::across(&rows, [t]));
-        let of_row = |row: &WaveRow| {
-            let &[[re], [im]] = across.of(row);
-            if self.slides() {
-                vectorised!(simd => functions.row::<_, true>(simd, row, along.from(row), [re, im]))
-            } else {
-                vectorised!(simd => functions.row::<_, false>(simd, row, along.from(row), [re, im]))
-            }
+        let coefficients = self.series.coefficients(self.is_deep(depth));
+        let under = |coefficients, normal, tangential, ratio| {
+            let (field, poisson, lengths) = (self, self.poisson(depth.material), &lengths[..]);
+            let functions = DepthFunctions { field, poisson, coefficients, lengths, normal, ratio, tangential };
+            functions.of_rows(&rows, &along, &across)
         };
-        let count: usize = rows.iter().map(|row| row.len).sum();
-        // Rows are added in their order, whatever the threads, so that the sum does not depend on their number.
-        let sums: Vec<TaylorTerms> =
-            rows.par_iter().with_min_len(PARALLEL_WAVES * rows.len() / count.max(1)).map(of_row).collect();
+        let mut sums = match self.form() {
+            ShearForm::Coulomb { ratio, .. } => under(&coefficients.pressure, &normal, &tangential, ratio),
+            ShearForm::None | ShearForm::Fields => under(&coefficients.pressure, &normal, &[], [0.0; 2]),
+        };
+        if let Some([x, y]) = &coefficients.shear {
+            // Tractions along x and along y, without a pressure.
+            let none = vec![[0.0; 4]; normal.len()];
+            sums.extend(under(x, &none, &tangential, [1.0, 0.0]));
+            sums.extend(under(y, &none, &tangential, [0.0, 1.0]));
+        }
         let mut terms = [[0.0; STRESSES]; TERMS];
         for (to, from) in terms.iter_mut().flatten().zip(0..) {
             *to = sums.iter().map(|own| own[from / STRESSES][from % STRESSES]).sum();
@@ -167,6 +168,21 @@ impl StressField {
 }
 
 impl DepthFunctions<'_> {
+    /// Terms of the expansion by the waves of each row, at the point with these phases.
+    fn of_rows(&self, rows: &[WaveRow], along: &Phases<1>, across: &Phases<1>) -> Vec<TaylorTerms> {
+        let of_row = |row: &WaveRow| {
+            let &[[re], [im]] = across.of(row);
+            if self.tangential.is_empty() {
+                vectorised!(simd => self.row::<_, false>(simd, row, along.from(row), [re, im]))
+            } else {
+                vectorised!(simd => self.row::<_, true>(simd, row, along.from(row), [re, im]))
+            }
+        };
+        let count: usize = rows.iter().map(|row| row.len).sum();
+        // Rows are added in their order, whatever the threads, so that the sum does not depend on their number.
+        rows.par_iter().with_min_len(PARALLEL_WAVES * rows.len() / count.max(1)).map(of_row).collect()
+    }
+
     /// Terms of the expansion by the waves of a row; `along` are the phases of the point's fraction of a₁, one per wave, `across` that
     /// of its fraction of a₂.
     #[inline(always)]
@@ -246,7 +262,7 @@ impl DepthFunctions<'_> {
     /// xx, yy, zz, xy, xz, yz under the traction, or their derivatives in depth.
     #[inline(always)]
     fn sheared<S: Simd>(&self, simd: S, waves: &EightWaves<S>, order: usize) -> [f64x8<S>; STRESSES] {
-        let [ex, ey] = self.field.traction().map(|e| splat(simd, e));
+        let [ex, ey] = self.ratio.map(|e| splat(simd, e));
         let ([nx, ny], [nxx, nxy, nyy], [v, s]) = (waves.n, waves.nn, waves.across);
         let (by_along, by_across) = (ex * nx + ey * ny, ey * nx - ex * ny);
         let (two, minus, wavenumber) = (splat(simd, 2.0), splat(simd, -1.0), waves.wavenumber);

@@ -17,11 +17,12 @@ use super::depth_response::DepthResponse;
 use super::far_plane::{FarPlane, weighted};
 use super::far_tables::{COMPONENTS, FarTables, Interval, Part};
 use super::series::Response;
+use super::traction::Traction;
+use super::traction_waves::TractionWaves;
 use super::window_waves::window_waves;
 use crate::body::Depth;
-use crate::counterbody::LoadedDisc;
+use crate::lattice::Cell;
 use crate::lattice::waves::WaveRow;
-use crate::lattice::{Cell, Grid};
 use crate::numeric::chebyshev::{analysis, inside, polynomials};
 use crate::numeric::lanes::vectorised;
 use rayon::prelude::*;
@@ -31,26 +32,24 @@ use std::sync::{Arc, OnceLock};
 /// Values of the components at the nodes of a plane, or coefficients of their polynomials; along x, then y.
 type Nodes = Vec<[f64; COMPONENTS]>;
 
-/// The difference of the free and the periodic field under one pressure.
+/// The difference of the free and the periodic field under one traction.
 #[derive(Debug)]
 pub(super) struct FarField {
     tables: Arc<FarTables>,
     /// Corner of the cell of the series over half the window.
     corner: [f64; 2],
-    /// Transform of the pressure at the waves of each part, in the order of its waves, with weights.
-    coefficients: Vec<Vec<Complex64>>,
+    /// Transform of the traction at the waves of each part, with weights.
+    coefficients: Vec<TractionWaves>,
     /// Of each interval that has been read, coefficients of the polynomials by those in depth.
     segments: Vec<(Interval, OnceLock<Vec<Nodes>>)>,
 }
 
 impl FarField {
-    /// The difference in the window of the tables under a `pressure` on a grid in it, one value per sample, a₂ fastest.
-    ///
-    /// `discs` are those that the samples stand for, none of another pressure. `series` is the cell of the periodic field, of twice the window.
-    pub fn new(tables: Arc<FarTables>, grid: &Grid, pressure: &[f64], discs: &[LoadedDisc], series: Cell) -> Self {
+    /// The difference in the window of the tables under a traction on a grid in it. `series` is the cell of the periodic field, of twice
+    /// the window.
+    pub fn new(tables: Arc<FarTables>, traction: &Traction<'_>, series: Cell) -> Self {
         let corner = [0, 1].map(|axis| 2.0 * series.corner()[axis] / tables.window.vectors()[axis][axis]);
-        let coefficients: Vec<Vec<Complex64>> =
-            tables.parts.par_iter().map(|part| part.coefficients(grid, pressure, discs)).collect();
+        let coefficients = tables.parts.par_iter().map(|part| part.coefficients(traction)).collect();
         let segments = tables.segments.iter().map(|(interval, _)| (*interval, OnceLock::new())).collect();
         Self { tables, corner, coefficients, segments }
     }
@@ -114,18 +113,14 @@ impl FarField {
 }
 
 impl Part {
-    /// Coefficients c of the waves of discs, or else of a pressure, with their weights: p = Re Σ c e^{2πi(κ₁s + κ₂t)} by the fractions s, t of
-    /// the cell.
-    fn coefficients(&self, grid: &Grid, pressure: &[f64], discs: &[LoadedDisc]) -> Vec<Complex64> {
-        let mut all = window_waves(&self.waves, self.cell, grid, pressure, discs);
-        for (c, &shell) in all.iter_mut().zip(self.waves.shells()) {
-            *c *= self.weights[shell as usize];
-        }
-        all
+    /// Coefficients of the waves of a traction with their weights.
+    fn coefficients(&self, traction: &Traction<'_>) -> TractionWaves {
+        let shells = self.waves.shells();
+        window_waves(&self.waves, self.cell, traction).scaled(|number| self.weights[shells[number] as usize])
     }
 
     /// Coefficients of the polynomials over the window at the depth of a response, as many as the waves of the part need.
-    fn plane(&self, coefficients: &[Complex64], response: &DepthResponse) -> Nodes {
+    fn plane(&self, coefficients: &TractionWaves, response: &DepthResponse) -> Nodes {
         let values = self.values(coefficients, response);
         let [n1, n2] = self.counts;
         // Along y, row by row, then along x.
@@ -138,7 +133,7 @@ impl Part {
     }
 
     /// The components at the nodes of the window, at the depth of a response.
-    fn values(&self, coefficients: &[Complex64], response: &DepthResponse) -> Nodes {
+    fn values(&self, coefficients: &TractionWaves, response: &DepthResponse) -> Nodes {
         let mut values: Nodes = vec![[0.0; COMPONENTS]; self.counts[0] * self.counts[1]];
         let mut terms = Vec::new();
         for row in self.waves.rows_within(response.shells()) {
@@ -152,7 +147,7 @@ impl Part {
     fn add_row(
         &self,
         row: &WaveRow,
-        coefficients: &[Complex64],
+        coefficients: &TractionWaves,
         response: &DepthResponse,
         terms: &mut Vec<[f64; 2 * COMPONENTS]>,
         values: &mut Nodes,
@@ -164,7 +159,7 @@ impl Part {
         for k in 0..row.len {
             let number = row.start + k;
             let own: [Complex64; COMPONENTS] =
-                response.times(row.at(k, step), self.waves.shells()[number] as usize, coefficients[number]);
+                response.times(row.at(k, step), self.waves.shells()[number] as usize, coefficients.at(number));
             terms.push(std::array::from_fn(|c| if c < COMPONENTS { own[c].re } else { own[c - COMPONENTS].im }));
         }
         // Nodes are mirror images at the middle, where their phases are conjugate: sums by cosines and sines serve both.
@@ -227,6 +222,9 @@ fn in_depth(values: &[Nodes]) -> Vec<Nodes> {
 mod tests {
     use super::*;
     use crate::body::{HalfSpace, Interface, Layer, Material};
+    use crate::lattice::Grid;
+    use crate::stress::traction::ShearForm;
+    use ndarray::Array2;
 
     /// Of each cell, between the nodes and at the corners, under a pressure and a traction: what all of its waves add up to one by one.
     /// The first five are left out: alone they are not smooth enough over the window for its nodes, only together.
@@ -235,12 +233,14 @@ mod tests {
         let layer = Layer::new(Material::from_shear(5.0, 0.2).unwrap(), 0.05, Interface::Bonded).unwrap();
         let half_space = HalfSpace::new(vec![layer], Material::from_shear(1.0, 0.3).unwrap());
         let window = Cell::window([1.0, 2.0]).unwrap();
-        let grid = Grid::new(window, [8, 16]).unwrap();
-        let pressure: Vec<f64> = (0..128).map(|k| f64::from(k * k % 7)).collect();
-        let tables = FarTables::new(window, &half_space, Some([0.3, 0.1])).unwrap();
+        let grid = Arc::new(Grid::new(window, [8, 16]).unwrap());
+        let field = |k: usize| Array2::from_shape_fn([8, 16], |(i, j)| ((16 * i + j) * (16 * i + j + k) % 7) as f64);
+        let [pressure, x, y] = [0, 1, 2].map(field);
+        let traction = Traction::normal(&grid, pressure.view()).unwrap().with_fields([x.view(), y.view()]).unwrap();
+        let tables = FarTables::new(window, &half_space, ShearForm::Fields).unwrap();
         let mut counts = Vec::new();
         for (number, part) in tables.parts.iter().enumerate().skip(5) {
-            let coefficients = part.coefficients(&grid, &pressure, &[]);
+            let coefficients = part.coefficients(&traction);
             let response = tables.response(part, Depth { z: 0.3, material: 2 });
             let mut sums = tables.none();
             tables.add(part, &part.plane(&coefficients, &response), &mut sums);
@@ -252,7 +252,7 @@ mod tests {
                     for k in 0..row.len {
                         let (q, wave) = (row.at(k, part.waves.step()), row.start + k);
                         let shell = part.waves.shells()[wave] as usize;
-                        let terms: [Complex64; COMPONENTS] = response.times(q, shell, coefficients[wave]);
+                        let terms: [Complex64; COMPONENTS] = response.times(q, shell, coefficients.at(wave));
                         let phase =
                             Complex64::cis(q[0] * 0.5 * x + q[1] * y) * middle(row.first + k as i32, row.across);
                         for c in 0..COMPONENTS {
@@ -287,10 +287,12 @@ mod tests {
     /// Under a window of these sides, 1 and `side`.
     fn agrees_in_depth(half_space: &HalfSpace, side: f64) {
         let window = Cell::window([1.0, side]).unwrap();
-        let grid = Grid::new(window, [8, 8]).unwrap();
-        let pressure: Vec<f64> = (0..64).map(|k| f64::from(k * k % 7)).collect();
-        let tables = Arc::new(FarTables::new(window, half_space, Some([0.3, 0.1])).unwrap());
-        let field = FarField::new(tables, &grid, &pressure, &[], Cell::window([2.0, 2.0 * side]).unwrap());
+        let grid = Arc::new(Grid::new(window, [8, 8]).unwrap());
+        let pressure = Array2::from_shape_fn([8, 8], |(i, j)| ((8 * i + j) * (8 * i + j) % 7) as f64);
+        let traction = Traction::normal(&grid, pressure.view()).unwrap();
+        let form = ShearForm::Coulomb { ratio: [0.3, 0.1], edge_exponent: 0.0 };
+        let tables = Arc::new(FarTables::new(window, half_space, form).unwrap());
+        let field = FarField::new(tables, &traction, Cell::window([2.0, 2.0 * side]).unwrap());
         let depths = [0.0, 0.013, 0.05, 0.21, 0.55, 0.9, 3.1].map(|z| half_space.depths(z));
         for depth in depths.into_iter().flatten() {
             let exact = FarPlane { coefficients: field.below(depth), ..field.plane(depth) };

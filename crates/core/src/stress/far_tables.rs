@@ -5,6 +5,7 @@
 
 use super::depth_response::DepthResponse;
 use super::tensor::StressState;
+use super::traction::ShearForm;
 use crate::body::{Amplitudes, Antiplane};
 use crate::body::{Depth, HalfSpace, InteriorTable, REACH};
 use crate::lattice::waves::Waves;
@@ -97,7 +98,7 @@ pub(super) type Responses = Vec<Vec<DepthResponse>>;
 pub struct FarTables {
     pub(super) window: Cell,
     pub(super) half_space: HalfSpace,
-    traction: Option<[f64; 2]>,
+    form: ShearForm,
     /// Numbers of nodes along x and y.
     pub(super) counts: [usize; 2],
     pub(super) parts: Vec<Part>,
@@ -115,8 +116,8 @@ pub(super) struct Interval {
 }
 
 impl FarTables {
-    /// Tables for a window on a half-space, under pressures and the `traction` per unit of them.
-    pub fn new(window: Cell, half_space: &HalfSpace, traction: Option<[f64; 2]>) -> Result<Self, LatticeError> {
+    /// Tables for a window on a half-space, under pressures and tangential tractions of a form.
+    pub fn new(window: Cell, half_space: &HalfSpace, form: ShearForm) -> Result<Self, LatticeError> {
         let sides = sides(window);
         let shorter = sides[0].min(sides[1]);
         let limit = |number: usize| limit(shorter, number);
@@ -133,7 +134,7 @@ impl FarTables {
             };
             let weights = waves.wavenumbers().iter().map(weight).collect();
             let interiors =
-                InteriorTable::new(Arc::clone(half_space.response()), waves.wavenumbers(), traction.is_some());
+                InteriorTable::new(Arc::clone(half_space.response()), waves.wavenumbers(), form != ShearForm::None);
             let counts = part_counts(sides, number);
             let rows = waves.rows_within(waves.wavenumbers().len());
             let ranges: [Vec<Range<i32>>; 2] = [
@@ -149,7 +150,7 @@ impl FarTables {
         }
         let intervals = intervals(&half_space, sides).into_iter();
         let segments = intervals.map(|interval| (interval, OnceLock::new())).collect();
-        Ok(Self { window, half_space, traction, counts, parts, segments })
+        Ok(Self { window, half_space, form, counts, parts, segments })
     }
 
     /// The responses in an interval of depth, by its number, computed when it is first read.
@@ -195,16 +196,16 @@ impl FarTables {
         (0..CELLS).map(of_part).sum::<usize>() + depths * n1 * n2 * COMPONENTS * size_of::<f64>()
     }
 
-    /// Whether they are those of a window on a half-space under this traction.
-    pub fn are_of(&self, window: Cell, half_space: &HalfSpace, traction: Option<[f64; 2]>) -> bool {
-        self.window == window && self.traction == traction && self.half_space.response() == half_space.response()
+    /// Whether they are those of a window on a half-space under tangential tractions of a form.
+    pub fn are_of(&self, window: Cell, half_space: &HalfSpace, form: ShearForm) -> bool {
+        self.window == window && self.form == form && self.half_space.response() == half_space.response()
     }
 
     /// The response of a part at a depth, of the waves that reach it.
     pub(super) fn response(&self, part: &Part, depth: Depth) -> DepthResponse {
         let reached = part.waves.shells_up_to(REACH / depth.z.max(f64::MIN_POSITIVE));
         let wavenumbers = &part.waves.wavenumbers()[..reached];
-        DepthResponse::new(&part.interiors, depth, wavenumbers, self.traction, StressState::default())
+        DepthResponse::new(&part.interiors, depth, wavenumbers, self.form, StressState::default())
     }
 }
 
@@ -314,7 +315,7 @@ mod tests {
         for (sides, layers) in [([1.0; 2], layers(1, 0.3)), ([3.0, 1.0], layers(8, 0.01)), ([1.0, 6.0], layers(0, 1.0))]
         {
             let (window, half_space) = (Cell::window(sides).unwrap(), HalfSpace::new(layers, material(1.0)));
-            let tables = FarTables::new(window, &half_space, None).unwrap();
+            let tables = FarTables::new(window, &half_space, ShearForm::None).unwrap();
             let (held, stated) = (held(&tables), FarTables::bytes(window, &half_space, false));
             assert!(held <= stated && stated < 2 * held + 20_000_000, "{sides:?}: {held}, {stated}");
         }

@@ -11,12 +11,12 @@ use super::series::{Response, Series};
 use super::series_grid::spread;
 use super::tables::Tables;
 use super::tensor::StressState;
-use crate::body::{Bodies, Depth, HalfSpace, InteriorTable, MeanStress, Side};
-use crate::counterbody::{LoadedDisc, constant_axis};
+use super::traction::{ShearForm, Traction};
+use crate::body::{Bodies, Depth, HalfSpace, InteriorTable, MeanStress};
+use crate::counterbody::LoadedDisc;
 use crate::friction::Friction;
 use crate::lattice::{Cell, Grid, NotOnGrid, Surroundings};
 use crate::load::Load;
-use crate::numeric::sums;
 use crate::spectral::Contact;
 use ndarray::ArrayView2;
 use std::f64::consts::PI;
@@ -24,18 +24,6 @@ use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 pub(super) use crate::body::REACH;
-
-/// Facts about a surface beside its samples: traction, Dundurs' β of the materials that meet there, and whether the pressure is that of a
-/// contact.
-struct SurfaceTraction<'a> {
-    /// The discs of a given pressure; none of any other.
-    discs: &'a [LoadedDisc],
-    friction: Option<&'a Friction>,
-    beta: f64,
-    is_contact: bool,
-    /// The axis along which nothing changes, see [`LoadedBy::line`](crate::LoadedBy::line).
-    line: Option<usize>,
-}
 
 /// The stress field of one body in a load step.
 #[derive(Debug)]
@@ -47,7 +35,7 @@ pub struct StressField {
     series_grid: Arc<Grid>,
     /// What the free field of an isolated contact has beside the periodic one of the series.
     far: Option<FarField>,
-    /// The pressure in the window of an isolated contact; `None` in a periodic cell.
+    /// The traction in the window of an isolated contact; `None` in a periodic cell.
     pub(super) loaded: Option<Arc<LoadedWindow>>,
     /// Fields in the windows around that of an isolated contact, each made when it is asked for first.
     pub(super) around: [OnceLock<Option<Box<Self>>>; MOST_WINDOWS as usize],
@@ -68,34 +56,17 @@ pub struct StressField {
     discs: Vec<LoadedDisc>,
     /// Distance of neighbouring samples across lines along which nothing changes, a length; `None` where there are none.
     across_lines: Option<f64>,
-    /// μ **e** of a sliding counterbody; `None` without traction.
-    traction: Option<[f64; 2]>,
-    /// η of the exponents ½ ± η with which the pressure vanishes at edges.
-    edge_exponent: f64,
+    /// Form of the tangential traction.
+    form: ShearForm,
+    /// Means of q_x and q_y over the cell of the series, pressures, of a tangential traction that is a field of its own; else zero.
+    mean_shear: [f64; 2],
 }
 
 impl StressField {
     /// Stress field of the body under a solved contact.
     pub fn new(contact: &Contact, mean: MeanStress) -> Self {
-        Self::on_side(contact, Side::Body, mean, Arc::default())
-    }
-
-    /// Stress field of the body or of the elastic counterbody under a solved contact, which shares the `tables` of other fields.
-    pub(super) fn on_side(contact: &Contact, side: Side, mean: MeanStress, tables: Arc<Tables>) -> Self {
-        let (problem, bodies) = (contact.problem(), contact.problem().bodies());
-        let friction = problem.friction().map(|friction| match side {
-            Side::Body => *friction,
-            Side::Counterbody => friction.reversed(),
-        });
-        // Reversed as the traction is, so that trailing edges stay trailing edges.
-        let beta = match side {
-            Side::Body => bodies.dundurs_beta(),
-            Side::Counterbody => -bodies.dundurs_beta(),
-        };
-        let (is_contact, line) = (problem.counterbody().is_some(), problem.loaded_by().line());
-        let discs = discs_under(contact);
-        let surface = SurfaceTraction { discs: &discs, friction: friction.as_ref(), beta, is_contact, line };
-        Self::of_samples(contact.grid(), contact.pressures(), bodies.on(Some(side)), &surface, mean, tables)
+        let body = contact.problem().bodies().on(None);
+        Self::sharing(&Traction::sliding(contact), body, mean, Arc::default())
     }
 
     /// Stress field under any `pressure` on a `half_space`, axes along a₁ and a₂, and under the traction of `friction`. Of coupled friction
@@ -110,38 +81,46 @@ impl StressField {
         friction: Option<&Friction>,
         mean: MeanStress,
     ) -> Result<Self, NotOnGrid> {
-        grid.check(pressure.dim().into())?;
-        let samples: Vec<f64> = pressure.iter().copied().collect();
+        let traction = Traction::normal(grid, pressure)?;
         let beta = Bodies::from(half_space.clone()).dundurs_beta();
-        let line = constant_axis(pressure);
-        let surface = SurfaceTraction { discs: &[], friction, beta, is_contact: true, line };
-        Ok(Self::of_samples(grid, &samples, half_space, &surface, mean, Arc::default()))
+        let traction = match friction {
+            Some(friction) => traction.with_friction(friction, beta),
+            None => traction,
+        };
+        Ok(Self::of(&traction, half_space, mean))
     }
 
-    fn of_samples(
-        grid: &Arc<Grid>,
-        pressure: &[f64],
+    /// Stress field under any traction on a `half_space`.
+    pub fn of(traction: &Traction<'_>, half_space: &HalfSpace, mean: MeanStress) -> Self {
+        Self::sharing(traction, half_space, mean, Arc::default())
+    }
+
+    /// Stress field under a traction that shares the `tables` of other fields.
+    pub(super) fn sharing(
+        traction: &Traction<'_>,
         half_space: &HalfSpace,
-        &SurfaceTraction { discs, friction, beta, is_contact, line }: &SurfaceTraction<'_>,
         mean: MeanStress,
         tables: Arc<Tables>,
     ) -> Self {
-        let (series_grid, spread) = (tables.series_grid(grid), spread(grid, pressure));
-        let mut series = Series::new(&series_grid, &spread);
-        if !discs.is_empty() {
-            series = series.of_discs(&series_grid, discs);
-        }
-        let traction = friction.map(Friction::traction).filter(|traction| *traction != [0.0; 2]);
+        let (grid, form, discs, line) = (traction.grid(), traction.form(), traction.discs(), traction.line());
+        let series_grid = tables.series_grid(grid);
+        let spread = spread(grid, traction.pressure());
+        let (mut series, mean_shear) = Series::under(&series_grid, grid, traction, &spread);
         let (load, far, loaded) = match grid.cell().surroundings() {
             Surroundings::Periodic => (Load::MeanPressure(series.mean), None, None),
             Surroundings::FreeSpace => {
                 let load = Load::Force(series.mean * series_grid.cell().area());
                 // The free field has no mean.
                 series.mean = 0.0;
-                let far = tables.far(grid.cell(), half_space, traction);
-                let far = FarField::new(far, grid, pressure, discs, series_grid.cell());
-                (load, Some(far), Some(Arc::new(LoadedWindow::new(grid, pressure, half_space))))
+                let far = FarField::new(tables.far(grid.cell(), half_space, form), traction, series_grid.cell());
+                let loaded = Arc::new(LoadedWindow::new(traction.clone().into_owned(), half_space));
+                (load, Some(far), Some(loaded))
             }
+        };
+        let mean_traction = match (form.ratio(), &far) {
+            (Some(ratio), _) => ratio.map(|ratio| series.mean * ratio),
+            (None, Some(_)) => [0.0; 2],
+            (None, None) => mean_shear,
         };
         let regions = Regions::new(&series_grid, &spread, line);
         Self {
@@ -150,22 +129,25 @@ impl StressField {
             hole: None,
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
-            interiors: tables.interiors(&series_grid, half_space, traction.is_some()),
+            interiors: tables.interiors(&series_grid, half_space, form != ShearForm::None),
             far,
             tables,
-            mean: mean_states(half_space, (mean, across(grid, line)), series.mean, traction.unwrap_or_default()),
+            mean: mean_states(half_space, (mean, across(grid, line)), series.mean, mean_traction),
             mean_stress: mean,
             strains: false,
             load,
-            regions: if is_contact { regions } else { regions.without_edges(&series_grid, &spread, !discs.is_empty()) },
+            regions: match traction.is_of_contact() {
+                true => regions,
+                false => regions.without_edges(&series_grid, &spread, !discs.is_empty() && form != ShearForm::Fields),
+            },
             discs: discs.to_vec(),
             across_lines: line.map(|axis| {
                 let [x, y] = grid.steps()[axis];
                 grid.sample_area() / x.hypot(y)
             }),
             series_grid,
-            traction,
-            edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(beta)),
+            form,
+            mean_shear,
             series,
         }
     }
@@ -238,14 +220,26 @@ impl StressField {
         self.mean_stress
     }
 
-    /// μ **e** of a counterbody that slides: the traction on the surface over the pressure.
-    pub fn traction(&self) -> [f64; 2] {
-        self.traction.unwrap_or_default()
+    /// Tangential traction on the surface over the pressure: μ **e** of a counterbody that slides, zero without friction; `None` of
+    /// tangential tractions that do not follow from the pressure.
+    pub fn traction_over_pressure(&self) -> Option<[f64; 2]> {
+        self.form.ratio()
+    }
+
+    /// Form of the tangential traction.
+    pub(super) fn form(&self) -> ShearForm {
+        self.form
+    }
+
+    /// Means of q_x and q_y over the cell of the series, pressures, of tangential tractions that do not follow from the pressure; else
+    /// zero.
+    pub(super) fn mean_shear(&self) -> [f64; 2] {
+        self.mean_shear
     }
 
     /// Whether the surface has a shear traction.
     pub(super) fn slides(&self) -> bool {
-        self.traction.is_some()
+        self.form != ShearForm::None
     }
 
     /// Tables that it shares with other fields.
@@ -256,11 +250,6 @@ impl StressField {
     /// Amplitudes of the grid's waves in the half-space.
     pub(super) fn interiors(&self) -> &InteriorTable {
         &self.interiors
-    }
-
-    /// η of the exponents ½ ± η with which the pressure vanishes at edges, see [`Friction::edge_exponent`].
-    pub(super) fn edge_exponent(&self) -> f64 {
-        self.edge_exponent
     }
 
     /// Contact spots and the open regions between them.
@@ -328,14 +317,8 @@ impl StressField {
 
     /// Response at a depth of the waves with qz up to `reach`.
     pub(super) fn depth_response(&self, depth: Depth, reach: f64) -> DepthResponse {
-        DepthResponse::new(
-            &self.interiors,
-            depth,
-            self.wavenumbers_within(depth, reach),
-            self.traction,
-            self.mean(depth),
-        )
-        .in_field(self.is_deep(depth), self.far.as_ref().map(|far| far.plane(depth)))
+        DepthResponse::new(&self.interiors, depth, self.wavenumbers_within(depth, reach), self.form, self.mean(depth))
+            .in_field(self.is_deep(depth), self.far.as_ref().map(|far| far.plane(depth)))
     }
 
     /// State under the mean pressure at a depth.
@@ -373,17 +356,10 @@ impl fmt::Display for StressField {
         write!(
             f,
             "stress field of {} plane waves in {} shells, {} materials, {}",
-            self.series.coefficients(false).len(),
+            self.series.waves.shells().len(),
             self.series.waves.wavenumbers().len(),
             self.materials(),
             self.load
         )
     }
-}
-
-/// The discs of a given pressure under the load of a contact; none of any other pressure.
-fn discs_under(contact: &Contact) -> Vec<LoadedDisc> {
-    let Some(given) = contact.problem().given_pressure() else { return Vec::new() };
-    let factor = sums::mean(contact.pressures()) * contact.grid().cell().area() / given.force();
-    given.loaded_discs().iter().map(|disc| LoadedDisc { pressure: factor * disc.pressure, ..*disc }).collect()
 }

@@ -2,15 +2,16 @@
 
 use super::field::StressField;
 use super::tables::Tables;
-use crate::body::{MeanStress, Side};
+use super::traction::{ShearForm, Traction};
+use crate::body::{Bodies, MeanStress, Side};
 use crate::spectral::Contact;
 use std::fmt;
 use std::sync::Arc;
 
 /// The stress field of the body, and that of the counterbody where it is elastic.
 ///
-/// Each has its own z, from the common surface inward; x and y are those of the body. The counterbody bears the traction of
-/// friction in the opposite direction.
+/// Each has its own z, from the common surface inward; x and y are those of the body. The counterbody bears the tangential traction in
+/// the opposite direction.
 #[derive(Debug)]
 pub struct StressFields {
     body: StressField,
@@ -25,9 +26,7 @@ impl StressFields {
 
     /// Stress fields under a solved contact that share the `tables` of other fields of a run.
     pub(crate) fn with_tables(contact: &Contact, mean: MeanStress, tables: &Arc<Tables>) -> Self {
-        let of = |side: Side| StressField::on_side(contact, side, mean, Arc::clone(tables));
-        let counterbody = contact.problem().bodies().counterbody().map(|_| of(Side::Counterbody));
-        Self { body: of(Side::Body), counterbody }
+        Self::sharing(Traction::sliding(contact), contact.problem().bodies(), mean, tables)
     }
 
     /// The fields, of which the largest strains are searched beside the largest stresses where `strains` is set.
@@ -37,9 +36,26 @@ impl StressFields {
         Self { body: body.with_strains(strains), counterbody: counterbody.map(|own| own.with_strains(strains)) }
     }
 
-    /// The fields under another contact of the same run, or of this step on another grid.
-    pub(crate) fn of_other(&self, contact: &Contact) -> Self {
-        Self::with_tables(contact, self.body.mean_stress(), self.body.tables()).with_strains(self.body.strains)
+    /// Stress fields of both bodies under any traction on the first one.
+    pub fn under(traction: Traction<'_>, bodies: &Bodies, mean: MeanStress) -> Self {
+        Self::sharing(traction, bodies, mean, &Arc::default())
+    }
+
+    fn sharing(traction: Traction<'_>, bodies: &Bodies, mean: MeanStress, tables: &Arc<Tables>) -> Self {
+        let body = StressField::sharing(&traction, bodies.on(None), mean, Arc::clone(tables));
+        let counterbody = bodies
+            .counterbody()
+            .map(|counterbody| StressField::sharing(&traction.reversed(), counterbody, mean, Arc::clone(tables)));
+        Self { body, counterbody }
+    }
+
+    /// The fields under another contact of the same run, or of this step on another grid; `None` under tangential tractions that do not
+    /// follow from the pressure, which are known of their own contact alone.
+    pub(crate) fn of_other(&self, contact: &Contact) -> Option<Self> {
+        let follows = self.body.form() != ShearForm::Fields;
+        follows.then(|| {
+            Self::with_tables(contact, self.body.mean_stress(), self.body.tables()).with_strains(self.body.strains)
+        })
     }
 
     /// The field of the body.

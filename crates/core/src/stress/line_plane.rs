@@ -11,7 +11,8 @@ use super::field::{REACH, StressField};
 use super::series::Response;
 use super::series_grid::times;
 use super::sliding_path::{LinePoints, SlidingLines};
-use super::smoothed_surface::SmoothedSurface;
+use super::smoothed_shear::shear_parts;
+use super::smoothed_surface::{NearEdge, Sharp, SmoothedSurface};
 use super::tensor::StressState;
 use super::transform::Transform;
 use crate::body::Depth;
@@ -198,14 +199,21 @@ impl StressField {
             let samples = (0..columns).map(|j| (j, row.at(j)));
             samples.filter(|(_, near)| smoothed.sees_edge(*near)).collect::<Vec<(usize, [f64; 3])>>()
         });
+        // The tangential fields at all samples, near edges and away from them.
+        let shear = smoothed.shear.as_ref().map(|shear| {
+            let read = |_, row: &Row<'_, 4>| (0..columns).map(|j| row.at(j)).collect::<Vec<_>>();
+            self.line_rows(lines, points, shear, Vec::new(), read).0
+        });
+        let shear = |i: usize, j: usize| shear_parts(shear.as_ref().map(|rows| rows[i][j]));
         let (sharp, buffer) = self.line_rows(lines, points, &smoothed.edge, buffer, |i, row| {
-            near[i].iter().map(|&(j, near)| (j, smoothed.sharp(near, row.at(j)))).collect::<Vec<_>>()
+            let near = near[i].iter().map(|&(j, pressure)| (j, NearEdge { pressure, shear: shear(i, j)[0] }));
+            near.map(|(j, near)| (j, smoothed.sharp(near, row.at(j)))).collect::<Vec<_>>()
         });
         let (rows, _) = self.line_rows(lines, points, &smoothed.open, buffer, |i, row| {
-            let mut states: Vec<StressState> =
-                (0..columns).map(|j| smoothed.toward_open([0.0; 4], row.at(j), 1.0)).collect();
-            for &(j, (near, part)) in &sharp[i] {
-                states[j] = smoothed.toward_open(near, row.at(j), part);
+            let state = |j: usize, sharp: Sharp| smoothed.toward_open(sharp, row.at(j), shear(i, j)[1]);
+            let mut states: Vec<StressState> = (0..columns).map(|j| state(j, Sharp::AWAY)).collect();
+            for &(j, sharp) in &sharp[i] {
+                states[j] = state(j, sharp);
             }
             KeptRow::of(states.into_iter(), kept)
         });

@@ -1,15 +1,14 @@
-//! The pressure in the window of an isolated contact, and the windows around it in which its stresses are searched, each twice as wide as the
+//! The traction in the window of an isolated contact, and the windows around it in which its stresses are searched, each twice as wide as the
 //! one before: [`super::surroundings`].
 
 use super::far_tables::FarTables;
 use super::far_tables::sides;
+use super::traction::Traction;
 use crate::body::HalfSpace;
 use crate::body::InteriorTable;
 use crate::lattice::Cell;
-use crate::lattice::Grid;
 use crate::numeric::fourier::fast_points;
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// β: ½ erfc β = 1e-5 is left at both ends of the cut.
 const STEEPNESS: f64 = 3.0;
@@ -26,12 +25,10 @@ const CONTACT_REACH: f64 = 0.5;
 /// The shorter side of the window, times this, is deep.
 const DEEP: f64 = 4.0;
 
-/// The pressure on the grid of the window of an isolated contact.
+/// The traction on the grid of the window of an isolated contact.
 #[derive(Debug)]
 pub(super) struct LoadedWindow {
-    pub grid: Arc<Grid>,
-    /// One value per sample, a₂ fastest.
-    pub pressure: Vec<f64>,
+    pub traction: Traction<'static>,
     pub extent: Extent,
     /// Distance from the load from which on stresses only decay, a length.
     pub reach: f64,
@@ -49,15 +46,15 @@ pub(super) struct Extent {
 }
 
 impl LoadedWindow {
-    pub fn new(grid: &Arc<Grid>, pressure: &[f64], half_space: &HalfSpace) -> Self {
-        let mut half_size = [0.0f64; 2];
-        for (index, _) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
+    pub fn new(traction: Traction<'static>, half_space: &HalfSpace) -> Self {
+        let (grid, mut half_size) = (traction.grid(), [0.0f64; 2]);
+        for index in (0..grid.len()).filter(|&index| traction.is_loaded(index)) {
             let place = grid.cell().point(grid.fractions(index));
             half_size.iter_mut().zip(place).for_each(|(half, x)| *half = half.max(x.abs()));
         }
         let extent = Extent { sides: sides(grid.cell()), points: grid.points(), half_size };
         let reach = extent.reach(half_space);
-        Self { grid: Arc::clone(grid), pressure: pressure.to_vec(), extent, reach }
+        Self { traction, extent, reach }
     }
 }
 

@@ -13,8 +13,8 @@ pub(super) fn across(grid: &Grid, line: Option<usize>) -> [f64; 2] {
     })
 }
 
-/// State at the upper face of each material under the mean pressure p̄ and the mean `traction` μp̄ **e**, with the mean lateral stress of a
-/// choice and the unit vector across its lines, and the derivative of its displacement by depth. σ_xz = −μp̄ e_x and σ_yz = −μp̄ e_y at every depth; residual stresses are added.
+/// State at the upper face of each material under the mean pressure p̄ and the mean tangential `traction`, with the mean lateral stress of a
+/// choice and the unit vector across its lines, and the derivative of its displacement by depth. σ_xz = −q̄_x and σ_yz = −q̄_y at every depth; residual stresses are added.
 ///
 /// Displacements are measured from the mean plane of the deformed surface, or from a rigid base; those under a lateral mean strain are
 /// left out.
@@ -24,7 +24,7 @@ pub(super) fn mean_states(
     pressure: f64,
     traction: [f64; 2],
 ) -> Vec<(StressState, [f64; 3])> {
-    let shear = traction.map(|t| -pressure * t);
+    let shear = traction.map(|q| -q);
     let mut displacement = [0.0; 3];
     let mut states = Vec::new();
     let materials = half_space.materials().zip(mean.across_and_along(half_space)).zip(half_space.residual_stresses());

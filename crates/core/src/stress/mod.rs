@@ -8,9 +8,10 @@
 //! with the amplitudes of [`crate::body::Interior`]; the mean pressure adds the state of [`crate::MeanStress`]. At the
 //! depth z only waves with qz up to 41 count: shorter ones are lost in rounding.
 //!
-//! A counterbody that slides adds the stresses of its traction μp**e**, wave by wave: of the part μ**e**·**n** along **n** by
+//! A tangential traction **q** adds its own stresses, wave by wave: of the part **q**·**n** along **n** by
 //! the amplitudes of [`LayeredResponse::interior`](crate::body::LayeredResponse::interior), of the part across by those of
-//! [`Antiplane`](crate::body::Antiplane); its mean adds the shear σ_αz = −μe_α p̄ at every depth. The residual stress of a
+//! [`Antiplane`](crate::body::Antiplane); its mean adds the shear σ_αz = −q̄_α at every depth. A [`Traction`] says what **q** is: μp**e**
+//! of a counterbody that slides, with μ**e** times the waves of the pressure, or two fields with waves of their own. The residual stress of a
 //! layer adds to its σ_xx and σ_yy. Coupled friction changes the pressure's square root at the edge of contact into the powers
 //! ½ ± η, |η| ≤ atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)): readings at edges treat them as square roots, and state the error
 //! that the grids show.
@@ -61,6 +62,7 @@ mod series;
 mod series_grid;
 mod sliding_path;
 mod smoothed_edge;
+mod smoothed_shear;
 mod smoothed_surface;
 mod strain;
 mod strength_peaks;
@@ -68,6 +70,8 @@ mod surroundings;
 mod tables;
 mod tensor;
 mod trace;
+mod traction;
+mod traction_waves;
 mod transform;
 mod window_waves;
 
@@ -87,3 +91,4 @@ pub use strain::{Compliance, StrainState};
 pub(crate) use strength_peaks::StrengthPeaks;
 pub(crate) use tables::Tables;
 pub use tensor::StressState;
+pub use traction::Traction;

@@ -144,8 +144,7 @@ impl StressField {
         };
         let (response, found) = (self.depth_response(depth, PLANE_REACH), RunningMaxima::new(measures));
         let searched = SearchedColumns { count: columns, beside_hole: self.beside_hole(transform, start) };
-        if depth == Depth::SURFACE {
-            let traction = self.traction();
+        if let Some(traction) = self.traction_over_pressure().filter(|_| depth == Depth::SURFACE) {
             let surface = SurfaceStresses::new(&Arc::new(response), |_| 1.0);
             let fields = self.series.on_plane_from(start, transform, Vec::new(), &surface);
             return fields.map_first(rows, |i, row| {

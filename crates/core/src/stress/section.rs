@@ -5,7 +5,8 @@
 
 use super::constants::OPEN_WIDTH;
 use super::field::{REACH, StressField};
-use super::smoothed_surface::SmoothedSurface;
+use super::smoothed_shear::shear_parts;
+use super::smoothed_surface::{NearEdge, SmoothedSurface};
 use super::tensor::StressState;
 use super::trace::Trace;
 use crate::body::Depth;
@@ -176,6 +177,12 @@ impl<'a> LineField<'a> {
         let places = [line.span[0], line.step()];
         let near = self.trace.sums(&smoothed.near, places, line.points);
         let [edge, open] = [&smoothed.edge, &smoothed.open].map(|flat| self.trace.sums(flat, places, line.points));
-        near.into_iter().zip(edge).zip(open).map(|((near, edge), open)| smoothed.state(near, edge, open)).collect()
+        let shear = smoothed.shear.as_ref().map(|shear| self.trace.sums(shear, places, line.points));
+        let readings = near.into_iter().zip(edge).zip(open).enumerate();
+        let states = readings.map(|(i, ((pressure, edge), open))| {
+            let [near, away] = shear_parts(shear.as_ref().map(|shear| shear[i]));
+            smoothed.toward_open(smoothed.sharp(NearEdge { pressure, shear: near }, edge), open, away)
+        });
+        states.collect()
     }
 }

@@ -1,13 +1,15 @@
-//! The pressure as a sum of plane waves, and linear responses to it.
+//! The traction on a surface as a sum of plane waves, and linear responses to it.
 //!
-//! p(**x**) = p̄ + Re Σ c e^{i**q**·**x**} over the [`Waves`] of the grid. A component of stress or displacement at a depth is
-//! the same sum with c times a complex factor of **q**: a [`Response`]. It is summed over the points of a plane by transforms,
+//! p(**x**) = p̄ + Re Σ c e^{i**q**·**x**} over the [`Waves`] of the grid, and q_x and q_y alike where they do not
+//! follow from p. A component of stress or displacement at a depth is the same sum with c times a complex factor of **q**: a [`Response`]. It is summed over the points of a plane by transforms,
 //! and at single points term by term.
 
 use super::disc_waves::waves_of_discs;
 use super::far_plane::FarPlane;
+use super::series_grid::spread;
+use super::traction::Traction;
+use super::traction_waves::{TractionWave, TractionWaves};
 use super::transform::{FieldColumn, FieldColumns, Transform};
-use crate::counterbody::LoadedDisc;
 use crate::lattice::Grid;
 use crate::lattice::waves::{WaveRow, Waves};
 use crate::numeric::lanes::{LANES, vectorised};
@@ -16,13 +18,13 @@ use rustfft::num_complex::Complex64;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// K components of stress or displacement that depend linearly on the pressure.
+/// K components of stress or displacement that depend linearly on the traction.
 pub(super) trait Response<const K: usize>: Sync {
     /// Number of shells that contribute, from the longest waves on.
     fn shells(&self) -> usize;
-    /// Response to a wave with the wavevector **q** of a shell and the coefficient c: c times factors that are conjugate for −**q**.
-    fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; K];
-    /// Response to the mean pressure.
+    /// Response to a wave with the wavevector **q** of a shell: its coefficients times factors that are conjugate for −**q**.
+    fn times(&self, q: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; K];
+    /// Response to the mean traction.
     fn mean(&self) -> [f64; K];
     /// Whether the response lies as deep below the surface as the exact waves of discs are summed, see [`Series::coefficients`].
     fn is_deep(&self) -> bool {
@@ -34,16 +36,16 @@ pub(super) trait Response<const K: usize>: Sync {
     }
 }
 
-/// Plane waves of a periodic pressure.
+/// Plane waves of a periodic traction.
 #[derive(Debug)]
 pub(super) struct Series {
     /// Mean pressure p̄.
     pub mean: f64,
     pub waves: Arc<Waves>,
-    /// Coefficient c of each wave of the samples, a pressure.
-    sampled: Vec<Complex64>,
-    /// Coefficients of the discs themselves, whatever the samples see of them; `None` of another pressure.
-    exact: Option<Vec<Complex64>>,
+    /// Coefficients of each wave of the samples.
+    sampled: TractionWaves,
+    /// Coefficients with the pressure of the discs themselves, whatever the samples see of them; `None` of another pressure.
+    exact: Option<TractionWaves>,
 }
 
 /// Least number of waves per thread.
@@ -64,23 +66,34 @@ impl Series {
                 2.0 * columns[(n2 - k2) * n1 + (n1 - k1) % n1].conj()
             }
         });
-        Self { mean: columns[0].re, waves, sampled, exact: None }
+        Self { mean: columns[0].re, waves, sampled: TractionWaves { pressure: sampled, shear: None }, exact: None }
+    }
+
+    /// Waves of a traction on its `own_grid`, and the means of its fields q_x and q_y, zero where these follow from the pressure. `pressure`
+    /// has one value per sample of the `grid` of the series.
+    pub fn under(grid: &Grid, own_grid: &Grid, traction: &Traction<'_>, pressure: &[f64]) -> (Self, [f64; 2]) {
+        let (mut series, mut mean_shear) = (Self::new(grid, pressure), [0.0; 2]);
+        if let Some(fields) = traction.fields() {
+            let [x, y] = fields.map(|field| Self::new(grid, &spread(own_grid, field)));
+            mean_shear = [x.mean, y.mean];
+            series.sampled.shear = Some([x, y].map(|field| field.sampled.pressure));
+        }
+        let discs = traction.discs();
+        if !discs.is_empty() {
+            let pressure = waves_of_discs(&series.waves, grid.cell(), discs);
+            series.exact = Some(TractionWaves { pressure, shear: series.sampled.shear.clone() });
+        }
+        (series, mean_shear)
     }
 
     /// The series of waves with these coefficients, without a mean.
-    pub fn of_waves(waves: Arc<Waves>, coefficients: Vec<Complex64>) -> Self {
+    pub fn of_waves(waves: Arc<Waves>, coefficients: TractionWaves) -> Self {
         Self { mean: 0.0, waves, sampled: coefficients, exact: None }
     }
 
-    /// The series with the waves of the `discs` that the samples of its grid stand for.
-    #[must_use]
-    pub fn of_discs(self, grid: &Grid, discs: &[LoadedDisc]) -> Self {
-        Self { exact: Some(waves_of_discs(&self.waves, grid.cell(), discs)), ..self }
-    }
-
-    /// Coefficient c of each wave, a pressure. Near the surface, where waves beyond those of the grid count, they are those of the samples: means
+    /// Coefficients of each wave. Near the surface, where waves beyond those of the grid count, they are those of the samples: means
     /// over their cells, which ring less. Where the response `is_deep`, they are those of the discs, if there are any.
-    pub fn coefficients(&self, is_deep: bool) -> &[Complex64] {
+    pub fn coefficients(&self, is_deep: bool) -> &TractionWaves {
         self.exact.as_ref().filter(|_| is_deep).unwrap_or(&self.sampled)
     }
 
@@ -89,11 +102,16 @@ impl Series {
         &'a self,
         row: &'a WaveRow,
         is_deep: bool,
-    ) -> impl Iterator<Item = ([f64; 2], usize, Complex64)> + 'a {
+    ) -> impl Iterator<Item = ([f64; 2], usize, TractionWave)> + 'a {
         let range = row.start..row.start + row.len;
-        let pairs = self.waves.shells()[range.clone()].iter().zip(&self.coefficients(is_deep)[range]);
+        let TractionWaves { pressure, shear } = self.coefficients(is_deep);
+        let pairs = self.waves.shells()[range.clone()].iter().zip(&pressure[range.clone()]);
+        let shear = shear.as_ref().map(|fields| fields.each_ref().map(|field| &field[range.clone()]));
         let step = self.waves.step();
-        pairs.enumerate().map(move |(k, (&shell, &coefficient))| (row.at(k, step), shell as usize, coefficient))
+        pairs.enumerate().map(move |(k, (&shell, &pressure))| {
+            let wave = TractionWave { pressure, shear: shear.map(|[x, y]| [x[k], y[k]]) };
+            (row.at(k, step), shell as usize, wave)
+        })
     }
 
     /// Components at the points of the transform: exact there, however few they are, as aliased waves add up. For the `buffer`
@@ -151,10 +169,10 @@ impl Series {
                 let side = f64::from(sign);
                 let mut bin = (sign * row.first).rem_euclid(n1);
                 for (k, (q, shell, c)) in self.of(row, response.is_deep()).enumerate() {
-                    let mut c = 0.5 * c;
+                    let mut c = c * 0.5;
                     if is_moved {
                         let turns = f64::from(row.first + k as i32) * start[0] + f64::from(row.across) * start[1];
-                        c *= Complex64::cis(std::f64::consts::TAU * turns.fract());
+                        c = c * Complex64::cis(std::f64::consts::TAU * turns.fract());
                     }
                     let waves = response.times(q, shell, c);
                     column.add(bin as usize, waves.map(|wave| Complex64::new(wave.re, side * wave.im)));
@@ -194,7 +212,7 @@ impl Series {
                     for k in (first..row.len).step_by(n1 as usize) {
                         let number = row.start + k;
                         let turns = f64::from(row.first + k as i32) * start[0] + f64::from(row.across) * start[1];
-                        let c = 0.5 * coefficients[number] * Complex64::cis(std::f64::consts::TAU * turns.fract());
+                        let c = coefficients.at(number) * 0.5 * Complex64::cis(std::f64::consts::TAU * turns.fract());
                         let waves = response.times(row.at(k, step), self.waves.shells()[number] as usize, c);
                         let side = f64::from(sign);
                         column.add(bin, waves.map(|wave| Complex64::new(wave.re, side * wave.im)));

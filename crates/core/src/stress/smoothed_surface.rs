@@ -14,7 +14,8 @@
 //!
 //! a cusp of tension at the trailing edge, **e**·**n** = −1 (in a plane across the edge, the Hilbert transform of √d). Its
 //! smoothed form is replaced in the same way, with A from the pressure. Coupled friction has p = A dˢ, s = ½ − η **e**·**n** with the η of the materials that meet
-//! at the surface, and the cusp of [`super::smoothed_edge`] on both sides.
+//! at the surface, and the cusp of [`super::smoothed_edge`] on both sides. A tangential traction with [fields](super::Traction::with_fields)
+//! of its own is smoothed as the pressure is: where both end like √d, its A in the direction **e** takes the place of μA.
 //!
 //! Near an edge, the smoothing leaves e^{−W²/2} of the shortest waves of the grid, W = [`EDGE_WIDTH`], which carry the
 //! discretisation error. The steps of an edge on the grid excite longer waves too: the width near edges grows against the
@@ -27,7 +28,10 @@ use super::far_plane::FarPlane;
 use super::field::{REACH, StressField};
 use super::series::Response;
 use super::smoothed_edge::SmoothedEdge;
+use super::smoothed_shear::SmoothedShear;
 use super::tensor::StressState;
+use super::traction::ShearForm;
+use super::traction_waves::TractionWave;
 use crate::body::Depth;
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
@@ -44,16 +48,42 @@ pub(super) struct SmoothedSurface {
     pub edge: SurfaceStresses,
     /// Stresses and pressure with the width away from edges.
     pub open: SurfaceStresses,
+    /// Tangential traction with fields of its own, smoothed with both widths; `None` of one that follows from the pressure.
+    pub shear: Option<SmoothedShear>,
     /// Width of the Gaussian near edges, a length.
     width: f64,
     seen: Arc<SmoothedEdge>,
     /// ν of the surface material.
     poisson: f64,
-    /// μ **e**: the traction over the pressure.
-    traction: [f64; 2],
+    /// Tangential traction over the pressure, zero where it has fields of its own.
+    ratio: [f64; 2],
     /// Largest difference of the amplitudes at the wavenumber 1/width from those of a bare half-space of the surface material,
-    /// which has the singular part, over the pressure: small where the coating is thicker than the width.
-    pub unlike: f64,
+    /// which has the singular part, over the pressure and over tangential fields: small where the coating is thicker than the width.
+    unlike: [f64; 2],
+}
+
+/// Smoothed pressure p̃ near an edge with its slopes ∂p̃/∂x, ∂p̃/∂y, and the tangential traction smoothed alike, zero where it follows from
+/// the pressure.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NearEdge {
+    pub pressure: [f64; 3],
+    pub shear: [f64; 2],
+}
+
+/// Sharpened stresses at a point near an edge.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sharp {
+    /// σ_xx, σ_yy, σ_xy and p.
+    four: [f64; 4],
+    /// Tangential traction with fields of its own, else zero.
+    shear: [f64; 2],
+    /// Weight of the series away from edges beside them.
+    part: f64,
+}
+
+impl Sharp {
+    /// A point away from edges.
+    pub const AWAY: Self = Self { four: [0.0; 4], shear: [0.0; 2], part: 1.0 };
 }
 
 /// Response p̃, ∂p̃/∂x, ∂p̃/∂y of the pressure smoothed by a Gaussian.
@@ -94,8 +124,8 @@ impl Response<4> for SurfaceStresses {
     }
 
     #[inline(always)]
-    fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 4] {
-        let [xx, yy, zz, xy, ..] = Response::<9>::times(&*self.surface, q, shell, self.factors[shell] * c);
+    fn times(&self, q: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; 4] {
+        let [xx, yy, zz, xy, ..] = Response::<9>::times(&*self.surface, q, shell, wave * self.factors[shell]);
         [xx, yy, xy, -zz]
     }
 
@@ -120,9 +150,9 @@ impl Response<3> for SmoothedPressure {
     }
 
     #[inline(always)]
-    fn times(&self, [x, y]: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 3] {
+    fn times(&self, [x, y]: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; 3] {
         // The slope of c e^{iq·x} is iq times it.
-        let c = self.gaussian[shell] * c;
+        let c = self.gaussian[shell] * wave.pressure;
         let slope = Complex64::new(-c.im, c.re);
         [c, x * slope, y * slope]
     }
@@ -141,21 +171,24 @@ impl SmoothedSurface {
         let [width, open] = [EDGE_WIDTH * growth, OPEN_WIDTH].map(|c| scale * c / most);
         let waves = &field.series.waves;
         let wavenumbers = waves.wavenumbers();
-        let gaussian = wavenumbers.iter().map(|&q| (-0.5 * q * q * width * width).exp());
+        let gaussian = |q: f64| (-0.5 * q * q * width * width).exp();
+        let factors = wavenumbers.iter().map(|&q| [gaussian(q), fourth(q * open)]);
+        let factors = factors.take_while(|both| both.iter().any(|&left| left > NEGLIGIBLE));
         let poisson = field.surface_poisson();
         let longer = waves.shells_up_to(1.0 / width).saturating_sub(1);
         let unlike = surface.unlike(longer, poisson);
         Self {
             near: SmoothedPressure {
-                gaussian: gaussian.take_while(|&left| left > NEGLIGIBLE).collect(),
+                gaussian: wavenumbers.iter().map(|&q| gaussian(q)).take_while(|&left| left > NEGLIGIBLE).collect(),
                 mean: field.mean_pressure(),
             },
             edge: SurfaceStresses::new(surface, |q| fourth(q * width)),
             open: SurfaceStresses::new(surface, |q| fourth(q * open)),
+            shear: (field.form() == ShearForm::Fields).then(|| SmoothedShear::new(factors, field.mean_shear())),
             width,
-            seen: field.tables().edges(field.edge_exponent()),
+            seen: field.tables().edges(field.form().edge_exponent()),
             poisson,
-            traction: field.traction(),
+            ratio: field.form().ratio().unwrap_or_default(),
             unlike,
         }
     }
@@ -168,9 +201,9 @@ impl SmoothedSurface {
         (self.seen.distance(ratio, self.along(normal)), normal)
     }
 
-    /// Component of the normal of an edge along the sliding, −1 to 1; 0 without traction.
+    /// Component of the normal of an edge along the sliding, −1 to 1; 0 without friction.
     fn along(&self, [nx, ny]: [f64; 2]) -> f64 {
-        let [tx, ty] = self.traction;
+        let [tx, ty] = self.ratio;
         if self.slides() { (tx * nx + ty * ny) / tx.hypot(ty) } else { 0.0 }
     }
 
@@ -180,12 +213,17 @@ impl SmoothedSurface {
     }
 
     /// σ_xx, σ_yy, σ_xy near an edge at the distance `u`: of the smoothed ones in `four` the smoothed pressure `four[3]` is replaced by
-    /// the pressure `p`, and the smoothed cusp of the traction by the sharp one; `smoothed` is p̃.
-    fn sharpened(&self, four: [f64; 4], smoothed: f64, (u, p): (f64, f64), [nx, ny]: [f64; 2]) -> [f64; 3] {
-        let (nu, [tx, ty]) = (self.poisson, self.traction);
+    /// the pressure `p`, and the smoothed cusp of the traction by the sharp one.
+    fn sharpened(&self, four: [f64; 4], near: NearEdge, (u, p): (f64, f64), [nx, ny]: [f64; 2]) -> [f64; 3] {
+        // Of tangential fields the smoothed ones make the cusp, of friction μ e times the smoothed pressure.
+        let (nu, [tx, ty], smoothed) = match self.shear {
+            Some(_) => (self.poisson, near.shear, 1.0),
+            None => (self.poisson, self.ratio, near.pressure[0]),
+        };
         let (along, across) = (tx * nx + ty * ny, ty * nx - tx * ny);
         let change = four[3] - p;
-        let cusp = if self.slides() { smoothed * self.seen.cusp(u, self.along([nx, ny])) } else { 0.0 };
+        let has_cusp = self.slides() || self.shear.is_some();
+        let cusp = if has_cusp { smoothed * self.seen.cusp(u, self.along([nx, ny])) } else { 0.0 };
         // Coefficients of n n, t t and n t + t n, with t = (−n_y, n_x).
         let normal = change + 2.0 * along * cusp;
         let lateral = 2.0 * nu * change + 2.0 * nu * along * cusp;
@@ -198,36 +236,52 @@ impl SmoothedSurface {
     }
 
     fn slides(&self) -> bool {
-        self.traction != [0.0; 2]
+        self.ratio != [0.0; 2]
     }
 
-    /// State from the responses [`Self::near`], [`Self::edge`] and [`Self::open`] at a point, displacements left out.
-    pub fn state(&self, near: [f64; 3], edge: [f64; 4], open: [f64; 4]) -> StressState {
-        let (sharp, part) = self.sharp(near, edge);
-        self.toward_open(sharp, open, part)
+    /// State blended from sharpened stresses near an edge and σ_xx, σ_yy, σ_xy and p away from it, with the tangential fields `shear` as they
+    /// are smoothed there.
+    pub fn toward_open(&self, sharp: Sharp, open: [f64; 4], shear: [f64; 2]) -> StressState {
+        let part = sharp.part;
+        let four = std::array::from_fn(|k| (1.0 - part) * sharp.four[k] + part * open[k]);
+        let state = StressState::on_surface(four, self.ratio);
+        if self.shear.is_none() {
+            return state;
+        }
+        let [xz, yz] = [0, 1].map(|axis| -((1.0 - part) * sharp.shear[axis] + part * shear[axis]));
+        StressState { xz, yz, ..state }
     }
 
-    /// State blended from σ_xx, σ_yy, σ_xy and p near an edge and away from it; `part` is the weight of the latter.
-    pub fn toward_open(&self, near: [f64; 4], open: [f64; 4], part: f64) -> StressState {
-        let four = std::array::from_fn(|k| (1.0 - part) * near[k] + part * open[k]);
-        StressState::on_surface(four, self.traction)
-    }
-
-    /// Sharpened σ_xx, σ_yy, σ_xy and p near an edge, and the weight of the series away from edges beside them.
-    pub fn sharp(&self, near: [f64; 3], edge: [f64; 4]) -> ([f64; 4], f64) {
-        let (u, normal) = self.edge_seen(near);
-        let p = near[0] * self.seen.sharp(u, self.along(normal));
-        let [xx, yy, xy] = self.sharpened(edge, near[0], (u, p), normal);
+    /// Sharpened stresses near an edge.
+    pub fn sharp(&self, near: NearEdge, edge: [f64; 4]) -> Sharp {
+        let (u, normal) = self.edge_seen(near.pressure);
+        let sharp = self.seen.sharp(u, self.along(normal));
+        let p = near.pressure[0] * sharp;
+        let [xx, yy, xy] = self.sharpened(edge, near, (u, p), normal);
         // Rises smoothly from 0 to 1.
         let t = ((u.abs() - BLEND[0]) / (BLEND[1] - BLEND[0])).clamp(0.0, 1.0);
-        ([xx, yy, xy, p], t * t * (3.0 - 2.0 * t))
+        Sharp { four: [xx, yy, xy, p], shear: near.shear.map(|q| q * sharp), part: t * t * (3.0 - 2.0 * t) }
     }
 
     /// State outside the edge at a point on it, displacements left out.
-    pub fn state_on_edge(&self, near: [f64; 3], edge: [f64; 4]) -> StressState {
-        let (_, normal) = self.edge_seen(near);
-        let [xx, yy, xy] = self.sharpened(edge, near[0], (0.0, 0.0), normal);
-        StressState::on_surface([xx, yy, xy, 0.0], self.traction)
+    pub fn state_on_edge(&self, near: NearEdge, edge: [f64; 4]) -> StressState {
+        let (_, normal) = self.edge_seen(near.pressure);
+        let [xx, yy, xy] = self.sharpened(edge, near, (0.0, 0.0), normal);
+        StressState::on_surface([xx, yy, xy, 0.0], self.ratio)
+    }
+
+    /// Stress by which the waves near an edge differ from those of the surface material, a pressure, where the pressure smoothed as the
+    /// stresses are is `smoothed`.
+    pub fn unlike(&self, smoothed: f64, near: NearEdge) -> f64 {
+        let ([normal, tangential], [x, y]) = (self.unlike, near.shear);
+        let ratio = if near.pressure[0] > 0.0 { x.hypot(y) / near.pressure[0] } else { 0.0 };
+        smoothed.abs() * (normal + ratio * tangential)
+    }
+
+    /// Largest tangential traction of friction under a pressure, a pressure; zero of tangential fields.
+    pub fn rubbed(&self, pressure: f64) -> f64 {
+        let [x, y] = self.ratio;
+        x.hypot(y) * pressure
     }
 
     /// The point moved onto the edge beside it, lengths, and its distance from the edge before, in widths.

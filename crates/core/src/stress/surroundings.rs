@@ -24,7 +24,6 @@ use super::series::Series;
 use super::tensor::StressState;
 use super::window_waves::window_waves;
 use crate::lattice::{Cell, Grid};
-use crate::numeric::sums;
 use std::sync::Arc;
 
 /// Part of the largest pressure below which stresses on the border of a window, and measures deep under it, are not followed beyond it.
@@ -48,15 +47,13 @@ impl StressField {
         let [window, hole] = [number, number - 1].map(|number| Cell::window(loaded.extent.sides(number)));
         let (window, hole) = (window.expect("multiples of a window are windows"), hole.ok()?);
         let grid = Arc::new(Grid::new(window, points).expect("a window has samples"));
-        let (tables, traction) = (self.tables().around(), Some(self.traction()).filter(|_| self.slides()));
+        let tables = self.tables().around();
         let series_grid = tables.series_grid(&grid);
         let waves = Arc::clone(series_grid.waves());
-        let mut coefficients = window_waves(&waves, series_grid.cell(), &loaded.grid, &loaded.pressure, self.discs());
-        for (c, &shell) in coefficients.iter_mut().zip(waves.shells()) {
-            *c *= passed(waves.wavenumbers()[shell as usize] / most);
-        }
-        let far_tables = tables.far(window, self.half_space(), traction);
-        let far = FarField::new(far_tables, &loaded.grid, &loaded.pressure, self.discs(), series_grid.cell());
+        let coefficients = window_waves(&waves, series_grid.cell(), &loaded.traction)
+            .scaled(|number| passed(waves.wavenumbers()[waves.shells()[number] as usize] / most));
+        let far_tables = tables.far(window, self.half_space(), self.form());
+        let far = FarField::new(far_tables, &loaded.traction, series_grid.cell());
         Some(self.outside(hole, [grid, series_grid], Series::of_waves(waves, coefficients), far))
     }
 
@@ -73,8 +70,7 @@ impl StressField {
         let Some(loaded) = &self.loaded else { return Some(found) };
         found.at_rest = (1..=self.materials()).map(|material| self.at_rest(material)).collect();
         let (extent, reach) = (&loaded.extent, loaded.reach);
-        let largest = -sums::least(loaded.pressure.len(), |i| -loaded.pressure[i]);
-        let (strengths, faint) = (self.half_space().strengths().collect(), FAINT * largest);
+        let (strengths, faint) = (self.half_space().strengths().collect(), FAINT * loaded.traction.largest());
         found.following = Some(Following { strengths, faint, depth: extent.deep() });
         for number in 1..=MOST_WINDOWS {
             let wanted = match extent.margin(number - 1) < reach {

@@ -3,6 +3,7 @@
 use super::far_tables::FarTables;
 use super::series_grid::series_grid;
 use super::smoothed_edge::SmoothedEdge;
+use super::traction::ShearForm;
 use crate::body::{HalfSpace, InteriorTable, LayeredResponse};
 use crate::lattice::{Cell, Grid};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -90,12 +91,12 @@ impl Tables {
     }
 
     /// Tables of the free field around an isolated contact in a window.
-    pub(super) fn far(&self, window: Cell, half_space: &HalfSpace, traction: Option<[f64; 2]>) -> Arc<FarTables> {
+    pub(super) fn far(&self, window: Cell, half_space: &HalfSpace, form: ShearForm) -> Arc<FarTables> {
         let mut entries = self.far.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(own) = entries.iter().find(|own| own.are_of(window, half_space, traction)) {
+        if let Some(own) = entries.iter().find(|own| own.are_of(window, half_space, form)) {
             return Arc::clone(own);
         }
-        let own = FarTables::new(window, half_space, traction).expect("multiples of a window are windows");
+        let own = FarTables::new(window, half_space, form).expect("multiples of a window are windows");
         let own = Arc::new(own);
         keep(self.kept, &mut entries, Arc::clone(&own));
         own

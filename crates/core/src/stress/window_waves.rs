@@ -1,28 +1,29 @@
-//! Waves of a pressure in a window, as that of a wider cell around it.
+//! Waves of a traction in a window, as that of a wider cell around it.
 
 use super::disc_waves::waves_of_discs;
-use crate::counterbody::LoadedDisc;
+use super::traction::Traction;
+use super::traction_waves::TractionWaves;
 use crate::lattice::waves::Waves;
 use crate::lattice::{Cell, Grid};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 
-/// Coefficients c of the `waves` of a cell whose middle is that of the window: p = Re Σ c e^{2πi(κ₁s + κ₂t)} by the fractions s, t of
-/// the cell. The `pressure` has one value per sample of the `grid` of the window, a₂ fastest; the `discs` are those that the samples stand
-/// for, none of another pressure.
+/// Coefficients c of the `waves` of a cell whose middle is that of the window of a traction: p = Re Σ c e^{2πi(κ₁s + κ₂t)} by the
+/// fractions s, t of the cell, and q_x and q_y alike. Of discs the pressure has their own waves.
+pub(super) fn window_waves(waves: &Waves, cell: Cell, traction: &Traction<'_>) -> TractionWaves {
+    let of = |field: &[f64]| waves_of_samples(waves, cell, traction.grid(), field);
+    let pressure = match traction.discs() {
+        [] => of(traction.pressure()),
+        discs => waves_of_discs(waves, cell, discs),
+    };
+    TractionWaves { pressure, shear: traction.fields().map(|fields| fields.map(of)) }
+}
+
+/// Coefficients of the waves of a `field` with one value per sample of the `grid` of the window, a₂ fastest.
 ///
-/// By the exact sums over discs or samples: the spacings of the cell's own grid may be any.
-pub(super) fn window_waves(
-    waves: &Waves,
-    cell: Cell,
-    grid: &Grid,
-    pressure: &[f64],
-    discs: &[LoadedDisc],
-) -> Vec<Complex64> {
-    if !discs.is_empty() {
-        return waves_of_discs(waves, cell, discs);
-    }
+/// By the exact sums over the samples: the spacings of the cell's own grid may be any.
+fn waves_of_samples(waves: &Waves, cell: Cell, grid: &Grid, field: &[f64]) -> Vec<Complex64> {
     let [n1, n2] = grid.points();
     let fractions = |axis: usize, n: usize| -> Vec<f64> {
         let (corner, step) = (grid.cell().corner()[axis], grid.steps()[axis][axis]);
@@ -36,10 +37,10 @@ pub(super) fn window_waves(
     let last = rows.iter().map(|row| row.first + row.len as i32).max().unwrap_or(0);
     let phase = |k: i32, s: f64| Complex64::cis(-TAU * (f64::from(k) * s).fract());
     // Along y first: of each row of samples the sums for all κ₂.
-    let loaded: Vec<usize> = (0..n1).filter(|i| pressure[i * n2..][..n2].iter().any(|&p| p > 0.0)).collect();
+    let loaded: Vec<usize> = (0..n1).filter(|i| field[i * n2..][..n2].iter().any(|&p| p != 0.0)).collect();
     let of_row = |&i: &usize| {
         let mut sums = vec![Complex64::default(); most as usize + 1];
-        for (&p, &t) in pressure[i * n2..][..n2].iter().zip(&across).filter(|(p, _)| **p > 0.0) {
+        for (&p, &t) in field[i * n2..][..n2].iter().zip(&across).filter(|(p, _)| **p != 0.0) {
             let (step, mut term) = (phase(1, t), Complex64::from(p));
             for sum in &mut sums {
                 (sum.re, sum.im) = (sum.re + term.re, sum.im + term.im);
