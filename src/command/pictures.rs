@@ -2,12 +2,8 @@
 
 use super::ending::Failure;
 use clap::Args;
-use percoat_app::picture::{self, Snapshot};
+use percoat_app::picture::{self};
 use percoat_app::picture::{Canvas, Format};
-use percoat_case::case::Case;
-use percoat_core::VerticalSection;
-use percoat_core::localized::isolated;
-use percoat_core::run::StepRecord;
 use std::path::Path;
 
 /// Options of the commands that draw.

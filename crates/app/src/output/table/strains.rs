@@ -4,6 +4,7 @@ use super::Table;
 use super::by_step::{Quantity, QuantityInStep, by_step};
 use percoat_case::units::{Unit, Units};
 use percoat_core::body::MaterialId;
+use percoat_core::measured::Measured;
 use percoat_core::reading::StressReading;
 use percoat_core::run::StepRecord;
 use percoat_core::stress::Peak;
@@ -16,7 +17,8 @@ pub fn largest_strains(steps: &[StepRecord], units: &Units) -> Option<Table> {
     let row = |name: String, peak: &dyn Fn(&StressReading) -> Option<Peak>| {
         let of = |step: &StepRecord| {
             let Peak { value, error, position, rival, .. } = peak(step.stress.as_ref()?)?;
-            Some(QuantityInStep { value, error, position, rival: rival.map(|rival| rival.position) })
+            let rival = rival.map(|rival| rival.position);
+            Some(QuantityInStep { measured: Measured::new(value, error), position, rival })
         };
         Quantity { name, found: steps.iter().map(of).collect() }
     };
