@@ -61,6 +61,8 @@ mod solver;
 mod stated_errors;
 #[path = "library/stopping.rs"]
 mod stopping;
+#[path = "library/strains.rs"]
+mod strains;
 #[path = "library/stress.rs"]
 mod stress;
 #[path = "library/surface_stress.rs"]

@@ -45,8 +45,7 @@ pub fn strains_at(
     material: Option<i64>,
     listener: &Listener,
 ) -> Result<Array2<f64>, String> {
-    let compliance = |depth: Depth| compliance(field, depth);
-    read_at(field, points, material, listener, |state, depth| compliance(depth).strain(state).components())
+    read_at(field, points, material, listener, |state, depth| compliance(field, depth).strain(state).components())
 }
 
 /// The compliance of the material at a depth.

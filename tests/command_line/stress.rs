@@ -61,6 +61,47 @@ fn stresses_have_their_shapes_and_agree_with_each_other() {
     assert!(folder.names().contains("stress.0002.vts") && !folder.names().contains("stress.partial"));
 }
 
+/// Hooke's law on planes, on the section and at points of both materials; every other number and file is that of a run without strains.
+#[test]
+fn strains_stand_beside_the_stresses_and_change_nothing_else() {
+    let desk = Desk::new();
+    let (without, with) =
+        (desk.solve("without", &STRESS), desk.solve("with", &[&STRESS[..], &["--set", "stress.strain=true"]].concat()));
+    let (mut own, mut strained) =
+        (Archive::open(&without.0.join("stress.npz")), Archive::open(&with.0.join("stress.npz")));
+    let summary = with.summary();
+    let layer = &summary["case"]["layers"][0];
+    let [nu, lower] = [&layer["poisson"], &summary["case"]["substrate"]["poisson"]].map(|own| own.as_f64().unwrap());
+    let substrate = summary["case"]["substrate"]["young"].as_f64().unwrap();
+    let coating = layer["shear_ratio"].as_f64().unwrap() * substrate * (1.0 + nu) / (1.0 + lower);
+    let sides = ["planes", "section", "points"].map(|place| strained.array::<i32>(&format!("{place}_side")).values);
+    for (place, sides) in ["planes", "section", "points"].into_iter().zip(sides) {
+        let mut read = |name: &str| strained.field(&format!("{place}_{name}")).values;
+        let [xx, yy, zz, xz] = ["xx", "yy", "zz", "xz"].map(&mut read);
+        let [exx, eyy, ezz, exz, e1, e3, ev] = ["exx", "eyy", "ezz", "exz", "e1", "e3", "ev"].map(&mut read);
+        assert_eq!(xx, own.field(&format!("{place}_xx")).values, "{place}");
+        // Arrays are (steps, sides, …).
+        let count = xx.len() / 2 / sides.len();
+        for k in 0..xx.len() {
+            let (modulus, nu) = if sides[k / count % sides.len()] == 1 { (coating, nu) } else { (substrate, lower) };
+            let trace = xx[k] + yy[k] + zz[k];
+            let size = (xx[k].abs() + yy[k].abs() + zz[k].abs() + xz[k].abs()) / modulus;
+            let due = [((1.0 + nu) * xx[k] - nu * trace) / modulus, ((1.0 + nu) * zz[k] - nu * trace) / modulus];
+            assert!((exx[k] - due[0]).abs() < 1e-12 * size && (ezz[k] - due[1]).abs() < 1e-12 * size, "{place}, {k}");
+            assert!((exz[k] - (1.0 + nu) * xz[k] / modulus).abs() < 1e-12 * size, "{place}, {k}");
+            assert!((ev[k] - (exx[k] + eyy[k] + ezz[k])).abs() < 1e-12 * size, "{place}, {k}");
+            let most = exx[k].max(eyy[k]).max(ezz[k]);
+            assert!(e1[k] >= most - 1e-7 * size && e3[k] <= ezz[k].min(exx[k]) + 1e-7 * size, "{place}, {k}");
+        }
+    }
+    assert!(own.names().iter().all(|name| !name.ends_with("_exx") && !name.ends_with("_ev")), "{:?}", own.names());
+    assert_eq!(with.names(), without.names());
+    let curves = [&with, &without].map(|own| own.text("curve.csv"));
+    assert!(curves[0].contains("stress_materials_1_max_strain_value") && !curves[1].contains("strain"));
+    let [case, plain] = [&with, &without].map(|own| own.text("case.toml"));
+    assert!(case.replace("strain = true\n", "") == plain && case != plain, "{case}");
+}
+
 #[test]
 fn a_second_run_without_stresses_leaves_none() {
     let desk = Desk::new();

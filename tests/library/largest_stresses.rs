@@ -8,8 +8,8 @@ use common::{Random, one_level, paraboloid, solve};
 #[cfg(feature = "validate")]
 use common::{bare, largest_mises_of_a_sliding_sphere};
 use percoat::run::StressRequest;
-use percoat::stress::Peak;
 use percoat::stress::maxima::Extremes;
+use percoat::stress::{Compliance, Peak};
 use percoat::{
     Cell, Depth, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, MeanStress, Problem,
     Run, Sampling, Settings, Shape, Solver, Step, StressField, StressFields, StressReading, StressState,
@@ -22,7 +22,8 @@ fn square(sites: Vec<Vec<[f64; 2]>>) -> Lattice {
 
 fn largest(step: &Step) -> (StressReading, StressField) {
     let mean = MeanStress::default();
-    let stress = StressReading::of(step, &step.reading(), &StressFields::new(step.finest(), mean));
+    let fields = StressFields::new(step.finest(), mean).with_strains(true);
+    let stress = StressReading::of(step, &step.reading(), &fields);
     (stress, StressField::new(step.finest(), mean))
 }
 
@@ -101,20 +102,35 @@ fn random_case(random: &mut Random) -> (Problem, Load, String) {
 }
 
 type Read = fn(&Extremes) -> Peak;
-type Value = fn(&StressState) -> f64;
+type Value = fn(&StressState, Compliance) -> f64;
 
-/// τ₁, tension and von Mises.
-const READ: [(Read, Value); 3] =
-    [(|own| own.tau1, StressState::tau1), (|own| own.tension, StressState::s1), (|own| own.mises, StressState::mises)];
+/// Number of measures.
+const MEASURES: usize = 6;
+
+/// τ₁, tension and von Mises; largest principal strain, largest horizontal one, compression along z.
+const READ: [(Read, Value); MEASURES] = [
+    (|own| own.tau1, |state, _| state.tau1()),
+    (|own| own.tension, |state, _| state.s1()),
+    (|own| own.mises, |state, _| state.mises()),
+    (|own| own.strain.unwrap(), |state, compliance| compliance.strain(state).principal()[0]),
+    (|own| own.horizontal_strain.unwrap(), |state, compliance| compliance.strain(state).horizontal()),
+    (|own| own.compression.unwrap(), |state, compliance| -compliance.strain(state).zz),
+];
 
 /// The largest of points of a material from `top` on: a grid of points at depths dense near both faces, and random points
 /// around the best ones, nearer and nearer.
-fn dense(field: &StressField, material: usize, [top, bottom]: [f64; 2], random: &mut Random) -> [(f64, [f64; 3]); 3] {
-    let mut best = [(f64::NEG_INFINITY, [0.0; 3]); 3];
-    let note = |z: f64, places: &[[f64; 2]], best: &mut [(f64, [f64; 3]); 3]| {
+fn dense(
+    field: &StressField,
+    material: usize,
+    [top, bottom]: [f64; 2],
+    random: &mut Random,
+) -> [(f64, [f64; 3]); MEASURES] {
+    let mut best = [(f64::NEG_INFINITY, [0.0; 3]); MEASURES];
+    let compliance = Compliance::from(field.half_space().material(material));
+    let note = |z: f64, places: &[[f64; 2]], best: &mut [(f64, [f64; 3]); MEASURES]| {
         for (state, [x, y]) in field.points(Depth { z, material }, places).iter().zip(places) {
             for ((_, value), best) in READ.iter().zip(best.iter_mut()) {
-                let own = value(state);
+                let own = value(state, compliance);
                 if own > best.0 {
                     *best = (own, [*x, *y, z]);
                 }
@@ -127,7 +143,10 @@ fn dense(field: &StressField, material: usize, [top, bottom]: [f64; 2], random: 
         let t = 0.5 * (1.0 - (PI * f64::from(k) / 24.0).cos());
         note(top + t * (bottom - top), &places, &mut best);
     }
-    for number in 0..3 {
+    // The stacks that follow do not depend on how many measures there are.
+    let mut beside = Random(4035);
+    for number in 0..MEASURES {
+        let random = if number < 3 { &mut *random } else { &mut beside };
         let mut reach = [0.04, 0.08 * (bottom - top)];
         for _ in 0..14 {
             let [x, y, z] = best[number].1;
@@ -146,9 +165,9 @@ fn dense(field: &StressField, material: usize, [top, bottom]: [f64; 2], random: 
 
 /// Random stacks: the largest (dense − value)/error of each quantity. Above two spacings the series itself overshoots, and is
 /// left out.
-fn worst(seed: u64, count: usize, points: usize) -> [f64; 3] {
+fn worst(seed: u64, count: usize, points: usize) -> [f64; MEASURES] {
     let mut random = Random(seed);
-    let mut worst = [f64::NEG_INFINITY; 3];
+    let mut worst = [f64::NEG_INFINITY; MEASURES];
     let mut judged = 0;
     while judged < count {
         let (problem, load, words) = random_case(&mut random);

@@ -61,9 +61,10 @@ struct Stated {
     size: Option<f64>,
 }
 
-/// The largest stresses of each material and of the interface below it, over the largest τ₁ of that material.
+/// The largest stresses and strains of each material and the largest stresses of the interface below it, over the largest τ₁ of that
+/// material, and the strain τ₁/2G of it.
 fn stated_stresses(step: &Step, reading: &Reading) -> Vec<Stated> {
-    let fields = StressFields::new(step.finest(), MeanStress::default());
+    let fields = StressFields::new(step.finest(), MeanStress::default()).with_strains(true);
     let stress = StressReading::of(step, reading, &fields);
     let mut all = Vec::new();
     for (index, material) in stress.materials.iter().enumerate() {
@@ -78,6 +79,16 @@ fn stated_stresses(step: &Step, reading: &Reading) -> Vec<Stated> {
             note("interface's tension", interface.normal);
             note("interface's shear", interface.shear);
         }
+        let sheared = size / (2.0 * step.problem().half_space().material(index + 1).shear());
+        let strains = [
+            ("strain", material.strain),
+            ("horizontal strain", material.horizontal_strain),
+            ("compression", material.compression),
+        ];
+        all.extend(strains.map(|(name, peak)| {
+            let Peak { value, error, .. } = peak.expect("strains are asked for");
+            Stated { name, value: Some(value), error, size: Some(sheared) }
+        }));
     }
     all
 }
