@@ -163,7 +163,8 @@ fn nowhere_larger(step: &Step, words: &str) {
             let material = field.half_space().material(number);
             let (compliance, size) = (Compliance::from(material), step.reading().max_pressure / material.young());
             let own = stated.in_material(field.half_space().material_id(number)).unwrap();
-            let measures: [(Peak, fn(&StrainState) -> f64); 3] = [
+            type Measure = fn(&StrainState) -> f64;
+            let measures: [(Peak, Measure); 3] = [
                 (own.strain.unwrap(), |strain| strain.principal()[0]),
                 (own.horizontal_strain.unwrap(), StrainState::horizontal),
                 (own.compression.unwrap(), |strain| -strain.zz),

@@ -26,8 +26,11 @@ struct Merit {
     /// Whether more of it is better.
     more: bool,
     kind: Kind,
-    of: Box<dyn Fn(&SweepResult) -> Option<LimitValue>>,
+    of: Box<Weighed>,
 }
+
+/// The value of a merit in a result; `None` where it does not apply.
+type Weighed = dyn Fn(&SweepResult) -> Option<LimitValue>;
 
 /// A value of a merit with its row.
 type Ranked<'a> = (LimitValue, &'a Row);
