@@ -5,6 +5,7 @@ mod common;
 
 #[path = "library/cases_refused.rs"]
 mod cases_refused;
+#[cfg(feature = "cli")]
 #[path = "library/checked_states.rs"]
 mod checked_states;
 #[path = "library/detachments.rs"]
