@@ -1,4 +1,4 @@
-//! What the crates of percoat around its numerical core share: [plain text](plain), [units](unit) with their prefixes, and the
+//! What the crates of percoat around its numerical core share: [plain text](plain), [units](mod@unit) with their prefixes, and the
 //! memory, disk and threads of the [machine]. No physics, no files.
 
 pub mod machine;

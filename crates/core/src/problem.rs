@@ -17,8 +17,8 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Frictionless contact of a counterbody of this shape ([`Indenters`](crate::counterbody::Indenters) or a
-    /// [`Topography`](crate::counterbody::Topography)), or the load of a [`GivenPressure`](crate::counterbody::GivenPressure), on a [`HalfSpace`], rigid, or of [`Bodies`] of which both are elastic; in
+    /// Frictionless contact of a counterbody of this shape ([`Indenters`] or a
+    /// [`Topography`]), or the load of a [`GivenPressure`], on a [`HalfSpace`], rigid, or of [`Bodies`] of which both are elastic; in
     /// one unit of length.
     pub fn new(loaded_by: impl Into<LoadedBy>, bodies: impl Into<Bodies>) -> Self {
         Self { loaded_by: loaded_by.into(), bodies: bodies.into(), friction: None, composite: None }

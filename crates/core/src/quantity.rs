@@ -1,6 +1,6 @@
 //! Quantities of a load step, each declared once with its field: name, symbol, kind of unit and error.
 //!
-//! [`quantities!`] makes three things of the list of a record's fields: the record itself, its quantities as a static table, and where it
+//! The macro `quantities!` makes three things of the list of a record's fields: the record itself, its quantities as a static table, and where it
 //! keeps them in a record of their own, its errors. A field that is followed by `= Kind "name" "symbol"` is a quantity:
 //!
 //! | behind it | meaning |

@@ -1,7 +1,7 @@
 //! File operations in output folders. Files that are not percoat's are neither read, written nor removed.
 //!
 //! Only regular files are opened: links are not followed, and a pipe, a socket or a device is refused before it can block
-//! ([`open`]). A new file must not exist before ([`create`]); a finished file replaces a file or nothing, never a link or a
+//! ([`open`]). A new file must not exist before (`create`); a finished file replaces a file or nothing, never a link or a
 //! folder ([`replace`]). Only files and empty folders are removed, by their names. The parents of an output folder may be links.
 //!
 //! # Power cuts
