@@ -65,8 +65,10 @@ fn stresses_have_their_shapes_and_agree_with_each_other() {
 #[test]
 fn strains_stand_beside_the_stresses_and_change_nothing_else() {
     let desk = Desk::new();
-    let (without, with) =
-        (desk.solve("without", &STRESS), desk.solve("with", &[&STRESS[..], &["--set", "stress.strain=true"]].concat()));
+    let (without, with) = (
+        desk.solve("without", &STRESS),
+        desk.solve("with", &[&STRESS[..], &["--set", "stress.strain=true"][..]].concat()),
+    );
     let (mut own, mut strained) =
         (Archive::open(&without.0.join("stress.npz")), Archive::open(&with.0.join("stress.npz")));
     let summary = with.summary();
