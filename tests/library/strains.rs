@@ -188,7 +188,8 @@ fn nowhere_larger(step: &Step, words: &str) {
                     continue;
                 }
                 let there = of(&compliance.strain(&field.points(Depth { z, material: number }, &[[x, y]])[0]));
-                assert!((there - peak.value).abs() <= 1e-8 * size, "{words}, {number}: {there}, {peak:?}");
+                // The search leaves out waves of less than e⁻²⁵ of their pressure.
+                assert!((there - peak.value).abs() <= 1e-7 * size, "{words}, {number}: {there}, {peak:?}");
             }
         }
     }
