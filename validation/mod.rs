@@ -6,7 +6,7 @@
 //! Markdown, and the differences from another report.
 //!
 //! ```
-//! let study = percoat::validation::find("kernel").expect("a study");
+//! let study = percoat_validation::find("kernel").expect("a study");
 //! let outcome = (study.run)().expect("the study runs");
 //! assert!(outcome.checks.iter().all(|check| check.holds()));
 //! ```

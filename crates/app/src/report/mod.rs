@@ -9,7 +9,7 @@
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let folder = tempfile::tempdir()?;
-//! let error = percoat::report::page(folder.path()).unwrap_err();
+//! let error = percoat_app::report::page(folder.path()).unwrap_err();
 //! assert!(error.to_string().contains("holds no finished result"));
 //! # Ok(())
 //! # }

@@ -9,7 +9,7 @@
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
 //!
 //! ```
-//! use percoat::case::{Case, embedded};
+//! use percoat_case::case::{Case, embedded};
 //! let source = embedded::source(embedded::DEFAULT).expect("the default case is embedded");
 //! let case = Case::read(&source, &["load.mean_pressure=0.01".to_owned()]).expect("a valid case");
 //! assert_eq!(case.load.values(), [0.01]);

@@ -4,8 +4,8 @@
 //! of a study reads numbers, `()` records nothing. The result is an [`Outcome`]. A recorder may give an [`EarlierRun`] to resume.
 //!
 //! ```
-//! use percoat::run::{Run, Sampling};
-//! # use percoat::*;
+//! use percoat_core::run::{Run, Sampling};
+//! # use percoat_core::*;
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let levels = vec![Level::new(Shape::Paraboloid { radius: 0.8 }, 0.0)?];
 //! # let indenters = Indenters::new(Lattice::hexagonal(1.0, 1)?, levels)?;

@@ -51,7 +51,7 @@ mod tests {
     fn peak(material: usize, value: f64, z: f64) -> Peak {
         Peak {
             value,
-            error: Some(1e-6),
+            error: Some(1e-7),
             position: [0.0, 0.0, z],
             material: MaterialId::numbered(material),
             direction: [1.0, 0.0, 0.0],
@@ -82,10 +82,10 @@ mod tests {
         assert_eq!(
             rows,
             [
-                "strain in material 1: 120.0 ± 1.0",
-                "horizontal strain at the bottom of material 1: 100.5 ± 1.0",
-                "strain in material 2: 90.0 ± 1.0",
-                "compression on top of material 2: 251.6 ± 1.0",
+                "strain in material 1: 120.0 ± 0.1",
+                "horizontal strain at the bottom of material 1: 100.5 ± 0.1",
+                "strain in material 2: 90.0 ± 0.1",
+                "compression on top of material 2: 251.6 ± 0.1",
             ]
         );
         assert_eq!(table.head[0], "largest strain (µε)");

@@ -63,7 +63,7 @@ impl Run {
     /// Searches the limit loads of all criteria.
     ///
     /// ```
-    /// use percoat::*;
+    /// use percoat_core::*;
     ///
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// // Spheres that slide on steel with a hard coating, in GPa and µm.
