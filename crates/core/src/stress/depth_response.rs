@@ -4,7 +4,7 @@ use super::far_plane::FarPlane;
 use super::series::Response;
 use super::tensor::StressState;
 use super::traction::ShearForm;
-use super::traction_waves::TractionWave;
+use super::traction_waves::Wave;
 use crate::body::{Amplitudes, Antiplane, Depth, InPlane, InteriorTable};
 use rustfft::num_complex::Complex64;
 
@@ -29,8 +29,10 @@ pub(super) struct DepthResponse {
 /// Amplitudes at one depth under the shear traction.
 #[derive(Debug)]
 pub(super) struct Tangential {
-    /// Traction on the body over the pressure; `None` where it has waves of its own.
-    ratio: Option<[f64; 2]>,
+    /// Traction on the body over the pressure; zero where it has waves of its own.
+    ratio: [f64; 2],
+    /// Whether the traction has waves of its own.
+    is_field: bool,
     /// Amplitudes under a traction along the wavevector, by shell.
     along: Vec<Amplitudes>,
     /// Amplitudes under a traction across the wavevector, by shell.
@@ -56,7 +58,8 @@ impl DepthResponse {
         mean: StressState,
     ) -> Self {
         let tangential = (form != ShearForm::None).then(|| Tangential {
-            ratio: form.ratio(),
+            ratio: form.ratio().unwrap_or_default(),
+            is_field: form.ratio().is_none(),
             along: interiors.amplitudes(InPlane::Along, wavenumbers, depth),
             across: interiors.antiplane(wavenumbers, depth),
         });
@@ -80,10 +83,12 @@ impl DepthResponse {
     pub fn unlike(&self, shell: usize, poisson: f64) -> [f64; 2] {
         let Some(at) = self.normal.get(shell) else { return [0.0; 2] };
         let normal = (at.sqq + 1.0).abs().max((at.stt + 2.0 * poisson).abs());
-        let Some(Tangential { ratio, along, across }) = &self.tangential else { return [normal, 0.0] };
+        let Some(Tangential { ratio: [x, y], is_field, along, across }) = &self.tangential else {
+            return [normal, 0.0];
+        };
         let (along, across) = (along[shell], across[shell]);
         let tangential = (along.sqq + 2.0).abs().max((along.stt + 2.0 * poisson).abs()).max((across.sqt + 1.0).abs());
-        ratio.map_or([normal, tangential], |[x, y]| [normal + x.hypot(y) * tangential, 0.0])
+        if *is_field { [normal, tangential] } else { [normal + x.hypot(*y) * tangential, 0.0] }
     }
 }
 
@@ -114,10 +119,11 @@ fn antiplane([nx, ny]: [f64; 2], amplitudes: &Antiplane) -> [f64; 9] {
 }
 
 impl Tangential {
-    /// Factors of the nine components of a wave along **n** under the traction `ratio` per unit of pressure; those even under a pressure
-    /// are to be multiplied by −i.
+    /// Factors of the nine components of a wave along **n** under the traction that follows from the pressure; those even under a
+    /// pressure are to be multiplied by −i.
     #[inline(always)]
-    fn factors(&self, [ex, ey]: [f64; 2], [nx, ny]: [f64; 2], shell: usize) -> [f64; 9] {
+    fn factors(&self, [nx, ny]: [f64; 2], shell: usize) -> [f64; 9] {
+        let [ex, ey] = self.ratio;
         let (by_along, by_across) = (ex * nx + ey * ny, ey * nx - ex * ny);
         let (along, across) = (in_plane([nx, ny], &self.along[shell]), antiplane([nx, ny], &self.across[shell]));
         std::array::from_fn(|k| by_along * along[k] + by_across * across[k])
@@ -139,8 +145,8 @@ impl Response<9> for DepthResponse {
     }
 
     #[inline(always)]
-    fn times(&self, [x, y]: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; 9] {
-        let (c, length) = (wave.pressure, self.lengths[shell]);
+    fn times<W: Wave>(&self, [x, y]: [f64; 2], shell: usize, wave: W) -> [Complex64; 9] {
+        let (c, length) = (wave.pressure(), self.lengths[shell]);
         let n = [x * length, y * length];
         // −ic.
         let turn = |c: Complex64| Complex64::new(c.im, -c.re);
@@ -148,12 +154,11 @@ impl Response<9> for DepthResponse {
         let normal = in_plane(n, &self.normal[shell]);
         let waves = std::array::from_fn(|k| normal[k] * if ODD[k] { turned } else { c });
         let Some(tangential) = &self.tangential else { return waves };
-        if let Some(ratio) = tangential.ratio {
-            let factors = tangential.factors(ratio, n, shell);
+        if !W::HAS_SHEAR {
+            let factors = tangential.factors(n, shell);
             return std::array::from_fn(|k| waves[k] + factors[k] * if ODD[k] { c } else { turned });
         }
-        let Some(shear) = wave.shear else { return waves };
-        let shear = tangential.waves(shear, n, shell);
+        let shear = tangential.waves(wave.shear(), n, shell);
         std::array::from_fn(|k| waves[k] + if ODD[k] { shear[k] } else { turn(shear[k]) })
     }
 
@@ -175,7 +180,7 @@ impl Response<6> for StressComponents<'_> {
     }
 
     #[inline(always)]
-    fn times(&self, q: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; 6] {
+    fn times<W: Wave>(&self, q: [f64; 2], shell: usize, wave: W) -> [Complex64; 6] {
         let [stresses @ .., _, _, _] = self.0.times(q, shell, wave);
         stresses
     }
@@ -200,7 +205,7 @@ impl Response<3> for DisplacementComponents<'_> {
     }
 
     #[inline(always)]
-    fn times(&self, q: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; 3] {
+    fn times<W: Wave>(&self, q: [f64; 2], shell: usize, wave: W) -> [Complex64; 3] {
         let [.., ux, uy, uz] = self.0.times(q, shell, wave);
         [ux, uy, uz]
     }

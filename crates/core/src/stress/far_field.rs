@@ -18,7 +18,7 @@ use super::far_plane::{FarPlane, weighted};
 use super::far_tables::{COMPONENTS, FarTables, Interval, Part};
 use super::series::Response;
 use super::traction::Traction;
-use super::traction_waves::TractionWaves;
+use super::traction_waves::{TractionWave, TractionWaves, Wave};
 use super::window_waves::window_waves;
 use crate::body::Depth;
 use crate::lattice::Cell;
@@ -137,14 +137,19 @@ impl Part {
         let mut values: Nodes = vec![[0.0; COMPONENTS]; self.counts[0] * self.counts[1]];
         let mut terms = Vec::new();
         for row in self.waves.rows_within(response.shells()) {
-            vectorised!(_simd => self.add_row(&row, coefficients, response, &mut terms, &mut values));
+            match coefficients.shear {
+                None => {
+                    vectorised!(_simd => self.add_row::<Complex64>(&row, coefficients, response, &mut terms, &mut values))
+                }
+                Some(_) => self.add_row::<TractionWave>(&row, coefficients, response, &mut terms, &mut values),
+            }
         }
         values
     }
 
     /// Adds the waves of a row at the nodes; `terms` is a buffer of their components, real parts before imaginary ones.
     #[inline(always)]
-    fn add_row(
+    fn add_row<W: Wave>(
         &self,
         row: &WaveRow,
         coefficients: &TractionWaves,
@@ -159,7 +164,7 @@ impl Part {
         for k in 0..row.len {
             let number = row.start + k;
             let own: [Complex64; COMPONENTS] =
-                response.times(row.at(k, step), self.waves.shells()[number] as usize, coefficients.at(number));
+                response.times(row.at(k, step), self.waves.shells()[number] as usize, coefficients.at::<W>(number));
             terms.push(std::array::from_fn(|c| if c < COMPONENTS { own[c].re } else { own[c - COMPONENTS].im }));
         }
         // Nodes are mirror images at the middle, where their phases are conjugate: sums by cosines and sines serve both.
@@ -252,7 +257,8 @@ mod tests {
                     for k in 0..row.len {
                         let (q, wave) = (row.at(k, part.waves.step()), row.start + k);
                         let shell = part.waves.shells()[wave] as usize;
-                        let terms: [Complex64; COMPONENTS] = response.times(q, shell, coefficients.at(wave));
+                        let terms: [Complex64; COMPONENTS] =
+                            response.times(q, shell, coefficients.at::<TractionWave>(wave));
                         let phase =
                             Complex64::cis(q[0] * 0.5 * x + q[1] * y) * middle(row.first + k as i32, row.across);
                         for c in 0..COMPONENTS {

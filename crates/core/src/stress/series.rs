@@ -8,7 +8,7 @@ use super::disc_waves::waves_of_discs;
 use super::far_plane::FarPlane;
 use super::series_grid::spread;
 use super::traction::Traction;
-use super::traction_waves::{TractionWave, TractionWaves};
+use super::traction_waves::{TractionWave, TractionWaves, Wave};
 use super::transform::{FieldColumn, FieldColumns, Transform};
 use crate::lattice::Grid;
 use crate::lattice::waves::{WaveRow, Waves};
@@ -23,7 +23,7 @@ pub(super) trait Response<const K: usize>: Sync {
     /// Number of shells that contribute, from the longest waves on.
     fn shells(&self) -> usize;
     /// Response to a wave with the wavevector **q** of a shell: its coefficients times factors that are conjugate for −**q**.
-    fn times(&self, q: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; K];
+    fn times<W: Wave>(&self, q: [f64; 2], shell: usize, wave: W) -> [Complex64; K];
     /// Response to the mean traction.
     fn mean(&self) -> [f64; K];
     /// Whether the response lies as deep below the surface as the exact waves of discs are summed, see [`Series::coefficients`].
@@ -98,18 +98,18 @@ impl Series {
     }
 
     /// Wavevector, shell and coefficient of the waves of a row, see [`Self::coefficients`].
-    pub fn of<'a>(
+    pub fn of<'a, W: Wave + 'a>(
         &'a self,
         row: &'a WaveRow,
         is_deep: bool,
-    ) -> impl Iterator<Item = ([f64; 2], usize, TractionWave)> + 'a {
+    ) -> impl Iterator<Item = ([f64; 2], usize, W)> + 'a {
         let range = row.start..row.start + row.len;
         let TractionWaves { pressure, shear } = self.coefficients(is_deep);
         let pairs = self.waves.shells()[range.clone()].iter().zip(&pressure[range.clone()]);
         let shear = shear.as_ref().map(|fields| fields.each_ref().map(|field| &field[range.clone()]));
         let step = self.waves.step();
         pairs.enumerate().map(move |(k, (&shell, &pressure))| {
-            let wave = TractionWave { pressure, shear: shear.map(|[x, y]| [x[k], y[k]]) };
+            let wave = W::new(pressure, || shear.map_or_else(Default::default, |[x, y]| [x[k], y[k]]));
             (row.at(k, step), shell as usize, wave)
         })
     }
@@ -160,31 +160,47 @@ impl Series {
             &placed[first..end]
         };
         let occupied = |columns: Range<usize>| columns.start == 0 || !of(columns).is_empty();
-        let is_moved = start != [0.0; 2];
+        let has_shear = self.coefficients(response.is_deep()).shear.is_some();
         transform.columns(buffer, occupied, |k2, column: &mut FieldColumn<'_, K>| {
             if k2 == 0 {
                 column.add(0, mean.map(Complex64::from));
             }
             for &(_, sign, row) in of(k2..k2 + 1) {
-                let side = f64::from(sign);
-                let mut bin = (sign * row.first).rem_euclid(n1);
-                for (k, (q, shell, c)) in self.of(row, response.is_deep()).enumerate() {
-                    let mut c = c * 0.5;
-                    if is_moved {
-                        let turns = f64::from(row.first + k as i32) * start[0] + f64::from(row.across) * start[1];
-                        c = c * Complex64::cis(std::f64::consts::TAU * turns.fract());
-                    }
-                    let waves = response.times(q, shell, c);
-                    column.add(bin as usize, waves.map(|wave| Complex64::new(wave.re, side * wave.im)));
-                    bin += sign;
-                    if bin == n1 {
-                        bin = 0;
-                    } else if bin < 0 {
-                        bin = n1 - 1;
-                    }
+                match has_shear {
+                    false => self.add_row::<Complex64, K, R>((row, sign), n1, start, column, response),
+                    true => self.add_row::<TractionWave, K, R>((row, sign), n1, start, column, response),
                 }
             }
         })
+    }
+
+    /// Adds the waves of a row, or with the sign −1 their conjugates, to their bins of a column of `n1`.
+    #[inline(always)]
+    fn add_row<W: Wave, const K: usize, R: Response<K>>(
+        &self,
+        (row, sign): (&WaveRow, i32),
+        n1: i32,
+        start: [f64; 2],
+        column: &mut FieldColumn<'_, K>,
+        response: &R,
+    ) {
+        let (side, is_moved) = (f64::from(sign), start != [0.0; 2]);
+        let mut bin = (sign * row.first).rem_euclid(n1);
+        for (k, (q, shell, c)) in self.of::<W>(row, response.is_deep()).enumerate() {
+            let mut c = c * 0.5;
+            if is_moved {
+                let turns = f64::from(row.first + k as i32) * start[0] + f64::from(row.across) * start[1];
+                c = c * Complex64::cis(std::f64::consts::TAU * turns.fract());
+            }
+            let waves = response.times(q, shell, c);
+            column.add(bin as usize, waves.map(|wave| Complex64::new(wave.re, side * wave.im)));
+            bin += sign;
+            if bin == n1 {
+                bin = 0;
+            } else if bin < 0 {
+                bin = n1 - 1;
+            }
+        }
     }
 
     /// As [`Self::of_waves_from`] with the axes of the transform exchanged: its rows follow one another along a₂, its columns along a₁.
@@ -212,8 +228,12 @@ impl Series {
                     for k in (first..row.len).step_by(n1 as usize) {
                         let number = row.start + k;
                         let turns = f64::from(row.first + k as i32) * start[0] + f64::from(row.across) * start[1];
-                        let c = coefficients.at(number) * 0.5 * Complex64::cis(std::f64::consts::TAU * turns.fract());
-                        let waves = response.times(row.at(k, step), self.waves.shells()[number] as usize, c);
+                        let turned = Complex64::cis(std::f64::consts::TAU * turns.fract());
+                        let (q, shell) = (row.at(k, step), self.waves.shells()[number] as usize);
+                        let waves = match coefficients.shear {
+                            None => response.times(q, shell, coefficients.at::<Complex64>(number) * 0.5 * turned),
+                            Some(_) => response.times(q, shell, coefficients.at::<TractionWave>(number) * 0.5 * turned),
+                        };
                         let side = f64::from(sign);
                         column.add(bin, waves.map(|wave| Complex64::new(wave.re, side * wave.im)));
                     }
@@ -247,7 +267,13 @@ impl Series {
     ) -> [[f64; K]; P] {
         let along = Phases::along(rows, places.map(|[s, _]| s));
         let across = Phases::across(rows, places.map(|[_, t]| t));
-        let of_row = |row: &WaveRow| vectorised!(_simd => self.row(row, along.from(row), across.of(row), response));
+        let has_shear = self.coefficients(response.is_deep()).shear.is_some();
+        let of_row = |row: &WaveRow| match has_shear {
+            false => {
+                vectorised!(_simd => self.row::<Complex64, K, P, R>(row, along.from(row), across.of(row), response))
+            }
+            true => self.row::<TractionWave, K, P, R>(row, along.from(row), across.of(row), response),
+        };
         let waves: usize = rows.iter().map(|row| row.len).sum();
         // Rows are added in their order, whatever the threads.
         let sums: Vec<[[f64; P]; K]> =
@@ -258,7 +284,7 @@ impl Series {
 
     /// Sums over the waves of a row at some points, by their phases.
     #[inline(always)]
-    fn row<const K: usize, const P: usize, R: Response<K>>(
+    fn row<W: Wave, const K: usize, const P: usize, R: Response<K>>(
         &self,
         row: &WaveRow,
         along: &[[[f64; P]; 2]],
@@ -266,7 +292,7 @@ impl Series {
         response: &R,
     ) -> [[f64; P]; K] {
         let mut sums = [[0.0; P]; K];
-        for ((q, shell, c), [along_re, along_im]) in self.of(row, response.is_deep()).zip(along) {
+        for ((q, shell, c), [along_re, along_im]) in self.of::<W>(row, response.is_deep()).zip(along) {
             let waves = response.times(q, shell, c);
             for p in 0..P {
                 let re = along_re[p] * across_re[p] - along_im[p] * across_im[p];

@@ -3,7 +3,7 @@
 use super::cubic::CubicInterpolation;
 use super::field::StressField;
 use super::series::Response;
-use super::traction_waves::TractionWave;
+use super::traction_waves::Wave;
 use super::transform::Transform;
 use crate::numeric::search::largest;
 use rustfft::num_complex::Complex64;
@@ -29,8 +29,8 @@ impl Response<4> for SmoothedShear {
     }
 
     #[inline(always)]
-    fn times(&self, _: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; 4] {
-        let ([near, open], [x, y]) = (self.factors[shell], wave.shear.unwrap_or_default());
+    fn times<W: Wave>(&self, _: [f64; 2], shell: usize, wave: W) -> [Complex64; 4] {
+        let ([near, open], [x, y]) = (self.factors[shell], wave.shear());
         [near * x, near * y, open * x, open * y]
     }
 

@@ -31,7 +31,7 @@ use super::smoothed_edge::SmoothedEdge;
 use super::smoothed_shear::SmoothedShear;
 use super::tensor::StressState;
 use super::traction::ShearForm;
-use super::traction_waves::TractionWave;
+use super::traction_waves::Wave;
 use crate::body::Depth;
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
@@ -124,7 +124,7 @@ impl Response<4> for SurfaceStresses {
     }
 
     #[inline(always)]
-    fn times(&self, q: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; 4] {
+    fn times<W: Wave>(&self, q: [f64; 2], shell: usize, wave: W) -> [Complex64; 4] {
         let [xx, yy, zz, xy, ..] = Response::<9>::times(&*self.surface, q, shell, wave * self.factors[shell]);
         [xx, yy, xy, -zz]
     }
@@ -150,9 +150,9 @@ impl Response<3> for SmoothedPressure {
     }
 
     #[inline(always)]
-    fn times(&self, [x, y]: [f64; 2], shell: usize, wave: TractionWave) -> [Complex64; 3] {
+    fn times<W: Wave>(&self, [x, y]: [f64; 2], shell: usize, wave: W) -> [Complex64; 3] {
         // The slope of c e^{iq·x} is iq times it.
-        let c = self.gaussian[shell] * wave.pressure;
+        let c = self.gaussian[shell] * wave.pressure();
         let slope = Complex64::new(-c.im, c.re);
         [c, x * slope, y * slope]
     }

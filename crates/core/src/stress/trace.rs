@@ -5,6 +5,7 @@
 //! multiple m₁κ₁ + m₂κ₂ of one wavenumber: they are first collapsed onto a few N multiples, −κ being the conjugate of κ.
 
 use super::series::{Phases, Response, Series};
+use super::traction_waves::{TractionWave, Wave};
 use crate::lattice::waves::WaveRow;
 use crate::numeric::fourier::Nonuniform;
 use rustfft::num_complex::Complex64;
@@ -35,6 +36,18 @@ impl<'a> Trace<'a> {
     pub fn sums<const K: usize, R: Response<K>>(
         &self,
         response: &R,
+        equally_spaced: [f64; 2],
+        points: usize,
+    ) -> Vec<[f64; K]> {
+        match self.series.coefficients(response.is_deep()).shear {
+            None => self.sums_of::<Complex64, K, R>(response, equally_spaced, points),
+            Some(_) => self.sums_of::<TractionWave, K, R>(response, equally_spaced, points),
+        }
+    }
+
+    fn sums_of<W: Wave, const K: usize, R: Response<K>>(
+        &self,
+        response: &R,
         [first, step]: [f64; 2],
         points: usize,
     ) -> Vec<[f64; K]> {
@@ -50,7 +63,7 @@ impl<'a> Trace<'a> {
                 let most = ends.map(i32::abs).max().unwrap_or(0) as usize;
                 let mut sums = vec![[Complex64::default(); K]; most + 1];
                 for row in &rows {
-                    for (k, term) in self.terms(row, &along, &across, response).enumerate() {
+                    for (k, term) in self.terms::<W, K, R>(row, &along, &across, response).enumerate() {
                         let multiple = multiple(row, k);
                         let side = f64::from(multiple.signum() | 1);
                         for (sum, term) in sums[multiple.unsigned_abs() as usize].iter_mut().zip(term) {
@@ -65,7 +78,7 @@ impl<'a> Trace<'a> {
                 let [s, t] = self.unit.map(|fraction| step * fraction);
                 for row in &rows {
                     let turns = |k: usize| f64::from(row.first + k as i32) * s + f64::from(row.across) * t;
-                    let terms = self.terms(row, &along, &across, response);
+                    let terms = self.terms::<W, K, R>(row, &along, &across, response);
                     waves.add(terms.enumerate().map(|(k, term)| (turns(k), term)));
                 }
             }
@@ -83,7 +96,7 @@ impl<'a> Trace<'a> {
     }
 
     /// Terms of the waves of a row at a point, by the phases of its fractions of a₁ and a₂.
-    fn terms<'b, const K: usize, R: Response<K>>(
+    fn terms<'b, W: Wave + 'b, const K: usize, R: Response<K>>(
         &'b self,
         row: &'b WaveRow,
         along: &'b Phases<1>,
@@ -93,7 +106,7 @@ impl<'a> Trace<'a> {
         let &[[re], [im]] = across.of(row);
         let across = Complex64::new(re, im);
         self.series
-            .of(row, response.is_deep())
+            .of::<W>(row, response.is_deep())
             .zip(along.from(row))
             .map(move |((q, shell, c), [[re], [im]])| response.times(q, shell, c * (across * Complex64::new(*re, *im))))
     }
