@@ -1,6 +1,6 @@
 //! What the page shows.
 
-use percoat::output::table::{Table, Worded};
+use percoat_app::output::table::{Table, Worded};
 use serde::Serialize;
 
 /// A solved case.

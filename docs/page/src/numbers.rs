@@ -1,12 +1,12 @@
 //! The numbers of a step that are shown first.
 
 use crate::answer::CaseNumber;
-use percoat::output::shown;
-use percoat::quantity::Quantity;
-use percoat::reading::{LEVEL, READING};
-use percoat::run::{STEP, StepRecord};
-use percoat::stress::maxima::EXTREMES;
-use percoat::units::Units;
+use percoat_app::output::shown;
+use percoat_case::units::Units;
+use percoat_core::quantity::Quantity;
+use percoat_core::reading::{LEVEL, READING};
+use percoat_core::run::{STEP, StepRecord};
+use percoat_core::stress::maxima::EXTREMES;
 
 /// Penetration, contact, peak pressure, largest stresses and contact stiffness of a step.
 pub fn of(step: &StepRecord, units: &Units) -> Vec<CaseNumber> {
