@@ -5,15 +5,15 @@ use crate::errors::refused;
 use crate::interior;
 use crate::record::to_python;
 use crate::value::value;
-use crate::work;
-use ndarray::ArrayView2;
+use crate::work::{self, Listener};
+use ndarray::{Array2, ArrayView2};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use percoat::case::resources::Job;
 use percoat::output::{read_checkpoint, write_checkpoint};
 use percoat::reading::StressReading;
 use percoat::run::StressRequest;
 use percoat::spectral::Checkpoint;
-use percoat::{HalfSpace, Solver, StressFields, case};
+use percoat::{HalfSpace, Solver, StressField, StressFields, case};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::io::Cursor;
@@ -42,7 +42,7 @@ impl From<Kept> for Step {
 impl Kept {
     /// The stress fields under the contact.
     fn fields(&self) -> StressFields {
-        let strains = self.case.stress.as_ref().is_some_and(|own| own.strain);
+        let strains = self.case.stress.as_ref().is_some_and(|stress| stress.strain);
         StressFields::new(self.step.finest(), self.case.mean_stress()).with_strains(strains)
     }
 
@@ -64,6 +64,27 @@ type Plane<'py> = (Bound<'py, PyArray3<f64>>, usize, Option<&'static str>);
 
 /// Of a section s, x, y of its points and z of its rows; the materials of the rows; the components (12, rows, points), or 22 with its strains.
 type Cross<'py> = ([Bound<'py, PyArray1<f64>>; 4], Bound<'py, PyArray1<i32>>, Bound<'py, PyArray3<f64>>);
+
+/// Reader of six components at points of a field.
+type AtPoints = fn(&StressField, ArrayView2<'_, f64>, Option<i64>, &Listener) -> Result<Array2<f64>, String>;
+
+impl Step {
+    /// Six components (n, 6) at points (n, 3) of a body, as `read` has them.
+    fn at_points<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'py, f64>,
+        material: Option<i64>,
+        body: &str,
+        read: AtPoints,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let side = self.0.half_space(body).map_err(refused)?.side();
+        let (kept, points) = (Arc::clone(&self.0), points.as_array().to_owned());
+        let found =
+            work::run(py, None, None, move |listener| read(kept.fields().on(side), points.view(), material, listener))?;
+        Ok(found.map_err(refused)?.into_pyarray(py))
+    }
+}
 
 #[pymethods]
 impl Step {
@@ -94,12 +115,7 @@ impl Step {
         material: Option<i64>,
         body: &str,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let side = self.0.half_space(body).map_err(refused)?.side();
-        let (kept, points) = (Arc::clone(&self.0), points.as_array().to_owned());
-        let states = work::run(py, None, None, move |listener| {
-            interior::at(kept.fields().on(side), points.view(), material, listener)
-        })?;
-        Ok(states.map_err(refused)?.into_pyarray(py))
+        self.at_points(py, points, material, body, interior::at)
     }
 
     /// Strains (n, 6) at points (n, 3); on an interface in the material of this number, from 1.
@@ -111,12 +127,7 @@ impl Step {
         material: Option<i64>,
         body: &str,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let side = self.0.half_space(body).map_err(refused)?.side();
-        let (kept, points) = (Arc::clone(&self.0), points.as_array().to_owned());
-        let strains = work::run(py, None, None, move |listener| {
-            interior::strains_at(kept.fields().on(side), points.view(), material, listener)
-        })?;
-        Ok(strains.map_err(refused)?.into_pyarray(py))
+        self.at_points(py, points, material, body, interior::strains_at)
     }
 
     /// Twelve components on a plane (12, n₁, n₂), at the samples of the contact without `points`, or 22 with its strains; the number of

@@ -27,7 +27,9 @@ pub fn outcome_tables(case: &Bound<'_, Case>, summary: &Bound<'_, PyAny>) -> PyR
     let (steps, units) = (&summary.steps, own.units());
     let mut tables = vec![solved(steps, &units)];
     tables.extend(table::largest_stresses(steps, &units).map(|own| shown("Largest stresses and their places", own)));
-    tables.extend(table::largest_strains(steps, &units).map(|own| shown("Largest strains and their places", own)));
+    tables.extend(
+        table::largest_strains(steps, &units).map(|strains| shown("Largest strains and their places", strains)),
+    );
     tables.extend(table::utilisations(steps, Some(own.problem().bodies()), &units).map(worded));
     tables.extend(table::lives(steps, &units).map(worded));
     Ok(tables)

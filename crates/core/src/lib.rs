@@ -26,7 +26,7 @@
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
-//! - [`load`], [`kind`], [`friction`], [`problem`]: what is solved;
+//! - [`load`], [`kind`], [`friction`], [`problem`]: loads, friction, bodies and counterbody of a problem;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`measured`]: values with their errors; [`quantity`]: names, symbols and kinds of what is read off a step, declared once;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;

@@ -258,7 +258,7 @@ mod tests {
         }
     }
 
-    /// What such a command gathers can be had again by the same command; a run, a sweep and a life have solved something.
+    /// Commands without resume gather files that the same command makes again; a run, a sweep and a life keep what they have solved.
     #[test]
     fn a_killed_command_without_resume_leaves_nothing_once_the_same_command_is_run_again() {
         for writer in Writer::all() {

@@ -1,5 +1,5 @@
-//! `stress.npz`: stresses and displacements on planes, on a vertical section and at points, for every load step, and strains where they
-//! are asked for; and a VTK file of the volume for each.
+//! `stress.npz`: stresses and displacements on planes, on a vertical section and at points, for every load step, with their
+//! strains under `stress.strain = true`; and a VTK file of the volume for each load step.
 
 use super::clock::{Clock, Phase};
 use super::layout::{STRESS, archive};

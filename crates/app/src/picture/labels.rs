@@ -38,7 +38,7 @@ impl Labels for Units {
         let Named { name, symbol, kind, .. } = *named;
         let unknown = match kind {
             Kind::Fraction | Kind::Passes | Kind::Utilisation => return name.into(),
-            // Always known.
+            // The unit of a strain is known in every case.
             Kind::Strain => "",
             Kind::Pressure => "unit\u{a0}of\u{a0}E",
             Kind::Force => "unit\u{a0}of\u{a0}force",

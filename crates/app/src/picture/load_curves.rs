@@ -165,7 +165,8 @@ impl LoadPath<'_> {
             let axis = if is_positive { self.axis(label) } else { Axis::linear(label) };
             self.chart(quantity.named.short, axis, (0..materials).map(of).collect())
         };
-        let is_there = |quantity: &&Quantity<Extremes>| any.materials.iter().any(|own| quantity.of(own).is_some());
+        let is_there =
+            |quantity: &&Quantity<Extremes>| any.materials.iter().any(|extremes| quantity.of(extremes).is_some());
         EXTREMES.each().into_iter().filter(is_there).map(chart).collect()
     }
 

@@ -25,7 +25,7 @@ fn text<R>(quantity: &Quantity<R>, record: &R, units: &Units) -> String {
     quantity.of(record).map_or(String::new(), |found| shown(&quantity.named, found, units))
 }
 
-/// What a load does, in a sentence.
+/// Sentence on the penetration, the contact and the peak pressure of a load step.
 fn sentence(step: &StepRecord, units: &Units) -> String {
     let reading = &step.reading;
     if !reading.touches() {

@@ -80,7 +80,8 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         let pressed = pressed.map(|pressed| table(caption, &pressed)).unwrap_or_default();
         sections.push(section("hardness", "Hardness", vec![tag("p", upper(&words)), pressed]));
     }
-    let strains = tables::largest_strains(steps, &units).map(|own| table("Largest strains and their places", &own));
+    let strains =
+        tables::largest_strains(steps, &units).map(|strains| table("Largest strains and their places", &strains));
     if let Some(largest) = tables::largest_stresses(steps, &units) {
         sections.push(section(
             "stresses",

@@ -78,8 +78,8 @@ impl HalfSpace {
         &self.response
     }
 
-    /// Response of the same layers and interfaces with other `moduli`, which are asked for by number and material from 1 at the surface
-    /// down: complex ones for a load e^{iωt} on viscoelastic materials.
+    /// Response of the same layers and interfaces with other `moduli`: a function of the number of a material, from 1 at the
+    /// surface down, and of the material itself. Complex moduli stand for a load e^{iωt} on viscoelastic materials.
     pub fn response_of<N: Number>(&self, moduli: impl FnMut(usize, Material) -> Moduli<N>) -> LayeredResponse<N> {
         LayeredResponse::new(&self.layers, self.substrate, moduli)
     }

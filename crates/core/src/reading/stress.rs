@@ -155,12 +155,12 @@ fn overall(materials: &[Extremes]) -> Extremes {
         |peak: fn(&Extremes) -> Peak| highest(materials.iter().map(peak).collect()).expect("a body has materials");
     let strain = |peak: fn(&Extremes) -> Option<Peak>| highest(materials.iter().filter_map(peak).collect());
     Extremes {
-        tau1: largest(|own| own.tau1),
-        tension: largest(|own| own.tension),
-        mises: largest(|own| own.mises),
-        strain: strain(|own| own.strain),
-        horizontal_strain: strain(|own| own.horizontal_strain),
-        compression: strain(|own| own.compression),
+        tau1: largest(|peaks| peaks.tau1),
+        tension: largest(|peaks| peaks.tension),
+        mises: largest(|peaks| peaks.mises),
+        strain: strain(|peaks| peaks.strain),
+        horizontal_strain: strain(|peaks| peaks.horizontal_strain),
+        compression: strain(|peaks| peaks.compression),
     }
 }
 

@@ -171,7 +171,7 @@ mod tests {
         path.split('.').fold(keys, |keys, key| &keys[key])
     }
 
-    /// Compares what is declared of a quantity with the keys of its record: value and error stand where they are said to.
+    /// Asserts that value and error of a quantity stand in JSON under the keys that its declaration names.
     fn check(named: &Named, measured: Measured, keys: &Value, path: &str) {
         let (value, error) = named.keys(path);
         assert_eq!(at(keys, &value), &json!(measured.value), "{named:?}");
@@ -179,7 +179,7 @@ mod tests {
         assert!(error.is_none_or(|error| *error == json!(measured.error)), "{named:?}: {error:?}");
     }
 
-    /// Compares what is declared of the quantities of a record with its keys.
+    /// Asserts that every quantity of a record stands in its JSON under the declared keys.
     fn check_all<R: Serialize>(quantities: &[&Quantity<R>], record: &R) {
         let keys = json!(record);
         for quantity in quantities {

@@ -33,7 +33,7 @@ impl StressFields {
     #[must_use]
     pub fn with_strains(self, strains: bool) -> Self {
         let Self { body, counterbody } = self;
-        Self { body: body.with_strains(strains), counterbody: counterbody.map(|own| own.with_strains(strains)) }
+        Self { body: body.with_strains(strains), counterbody: counterbody.map(|field| field.with_strains(strains)) }
     }
 
     /// Stress fields of both bodies under any traction on the first one.

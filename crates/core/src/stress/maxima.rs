@@ -1,6 +1,6 @@
 //! Largest stresses of coating and substrate: principal shear stress τ₁, tension σ₁ and von Mises stress in each material and
-//! on each of its faces, tension and shear on each interface. Where they are asked for, the largest strains in each material and on
-//! each of its faces too.
+//! on each of its faces, tension and shear on each interface. With [`StressFields::with_strains`](super::StressFields::with_strains)
+//! also the largest strains in each material and on each of its faces.
 //!
 //! Maxima are searched plane by plane and refined; on the surface itself, where the series converges slowly, the largest
 //! values are those of the [`Crest`]s.
@@ -116,9 +116,9 @@ impl Maxima {
                 tau1,
                 tension,
                 mises,
-                strain: strain(|own| matches!(own, StressMeasure::Strain(_))),
-                horizontal_strain: strain(|own| matches!(own, StressMeasure::HorizontalStrain(_))),
-                compression: strain(|own| matches!(own, StressMeasure::Compression(_))),
+                strain: strain(|measure| matches!(measure, StressMeasure::Strain(_))),
+                horizontal_strain: strain(|measure| matches!(measure, StressMeasure::HorizontalStrain(_))),
+                compression: strain(|measure| matches!(measure, StressMeasure::Compression(_))),
             }
         };
         let everywhere = found.everywhere();

@@ -24,7 +24,7 @@ fn gathered(folder: &Path, writer: Writer, names: &[&str], content: &str) -> Run
     run
 }
 
-/// What [`gathered`] gathers.
+/// Names and contents of the files of a command, as [`gathered`] reads them.
 fn expected(names: &[&str], content: &str) -> BTreeMap<String, String> {
     names.iter().map(|&name| (name.to_owned(), format!("{name}: {content}"))).collect()
 }

@@ -4,7 +4,9 @@ use super::{DETAILED, Table};
 use crate::output::number::{in_unit, number};
 use percoat_case::units::{Prefixed, Unit, Units};
 use percoat_core::measured::Measured;
+use percoat_core::reading::StressReading;
 use percoat_core::run::StepRecord;
+use percoat_core::stress::Peak;
 
 /// Value and place of a quantity in a load step.
 #[derive(Clone, Copy)]
@@ -21,6 +23,18 @@ pub(super) struct Quantity {
     pub name: String,
     /// The quantity in each step; `None` where a step does not have it.
     pub found: Vec<Option<QuantityInStep>>,
+}
+
+impl Quantity {
+    /// A largest value of each step, with its place.
+    pub(super) fn of_peaks(name: String, steps: &[StepRecord], peak: impl Fn(&StressReading) -> Option<Peak>) -> Self {
+        let found = |step: &StepRecord| {
+            let Peak { value, error, position, rival, .. } = peak(step.stress.as_ref()?)?;
+            let rival = rival.map(|rival| rival.position);
+            Some(QuantityInStep { measured: Measured::new(value, error), position, rival })
+        };
+        Self { name, found: steps.iter().map(found).collect() }
+    }
 }
 
 /// Table of quantities of one unit: a few steps side by side, or the last of many; places are those in the last step. `None` where

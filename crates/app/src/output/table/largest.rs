@@ -1,9 +1,8 @@
 //! The largest stresses of the load steps, by material and interface.
 
 use super::Table;
-use super::by_step::{Quantity, QuantityInStep, by_step};
+use super::by_step::{Quantity, by_step};
 use percoat_case::units::Units;
-use percoat_core::measured::Measured;
 use percoat_core::quantity::Kind;
 use percoat_core::reading::StressReading;
 use percoat_core::run::StepRecord;
@@ -13,14 +12,7 @@ use percoat_core::stress::maxima::{CARRIED, EXTREMES};
 /// Table of the largest stresses, one row a quantity; `None` where no step has stresses.
 pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<Table> {
     let any = steps.iter().find_map(|step| step.stress.as_ref())?;
-    let row = |name: String, peak: &dyn Fn(&StressReading) -> Option<Peak>| {
-        let of = |step: &StepRecord| {
-            let Peak { value, error, position, rival, .. } = peak(step.stress.as_ref()?)?;
-            let rival = rival.map(|rival| rival.position);
-            Some(QuantityInStep { measured: Measured::new(value, error), position, rival })
-        };
-        Quantity { name, found: steps.iter().map(of).collect() }
-    };
+    let row = |name: String, peak: &dyn Fn(&StressReading) -> Option<Peak>| Quantity::of_peaks(name, steps, peak);
     let material = |index: usize| {
         let material = any.materials[index].tau1.material;
         let stresses = EXTREMES.each().into_iter().filter(|quantity| quantity.named.kind == Kind::Pressure);

@@ -136,7 +136,7 @@ pub fn life(case: &Case, file: &LifeFile, width: usize) -> String {
     text
 }
 
-/// That loads were solved in larger windows than that of the case, and how large these are; `None` where none was.
+/// Sentence on the size of windows larger than that of the case, in which loads were solved; `None` without any.
 pub fn wider_windows(found: &Limits, units: &Units) -> Option<String> {
     let [width, height] = found.window?;
     let unit = units.length().suited([width, height]);
@@ -194,7 +194,7 @@ fn spots(steps: &[StepRecord]) -> Option<String> {
 
 /// The largest estimated discretisation errors of all steps, in a line; `None` where there are none.
 pub fn largest_errors(steps: &[StepRecord]) -> Option<String> {
-    // What is rounding is no error of the grid.
+    // Relative errors of rounding are no errors of the grid.
     fn most<'a, R: 'static>(quantity: &Quantity<R>, all: impl Iterator<Item = &'a R>) -> Option<f64> {
         let errors = all.filter_map(|record| quantity.finite(record)?.relative());
         errors.filter(|error| *error > NOTHING).reduce(f64::max)

@@ -1,10 +1,9 @@
 //! The largest strains of the load steps: of each material, and on the faces by which layers are designed.
 
 use super::Table;
-use super::by_step::{Quantity, QuantityInStep, by_step};
+use super::by_step::{Quantity, by_step};
 use percoat_case::units::{Unit, Units};
 use percoat_core::body::MaterialId;
-use percoat_core::measured::Measured;
 use percoat_core::reading::StressReading;
 use percoat_core::run::StepRecord;
 use percoat_core::stress::Peak;
@@ -13,24 +12,20 @@ use percoat_core::stress::maxima::Extremes;
 /// Table of the largest strains: the largest principal one of each material, the largest horizontal one at the bottom of each layer, by
 /// which it cracks, and the compression on top of each material below the surface, by which it settles. `None` where no step has strains.
 pub fn largest_strains(steps: &[StepRecord], units: &Units) -> Option<Table> {
-    let any = steps.iter().find_map(|step| step.stress.as_ref().filter(|own| own.overall.strain.is_some()))?;
-    let row = |name: String, peak: &dyn Fn(&StressReading) -> Option<Peak>| {
-        let of = |step: &StepRecord| {
-            let Peak { value, error, position, rival, .. } = peak(step.stress.as_ref()?)?;
-            let rival = rival.map(|rival| rival.position);
-            Some(QuantityInStep { measured: Measured::new(value, error), position, rival })
-        };
-        Quantity { name, found: steps.iter().map(of).collect() }
-    };
-    let of_material = |own: &Extremes| {
-        let own = own.tau1.material;
-        let [top, bottom] = [0, 1].map(|number| face(any, own, number));
-        let inside = row(format!("strain in {own}"), &|stress| stress.in_material(own)?.strain);
+    let any = steps.iter().find_map(|step| step.stress.as_ref().filter(|stress| stress.overall.strain.is_some()))?;
+    let row = |name: String, peak: &dyn Fn(&StressReading) -> Option<Peak>| Quantity::of_peaks(name, steps, peak);
+    let of_material = |extremes: &Extremes| {
+        let material = extremes.tau1.material;
+        let [top, bottom] = [0, 1].map(|number| face(any, material, number));
+        let inside = row(format!("strain in {material}"), &|stress| stress.in_material(material)?.strain);
         let on_top = top.filter(|face| face.tau1.position[2] > 0.0);
-        let on_top =
-            on_top.map(|_| row(format!("compression on top of {own}"), &|stress| face(stress, own, 0)?.compression));
+        let on_top = on_top.map(|_| {
+            row(format!("compression on top of {material}"), &|stress| face(stress, material, 0)?.compression)
+        });
         let below = bottom.map(|_| {
-            row(format!("horizontal strain at the bottom of {own}"), &|stress| face(stress, own, 1)?.horizontal_strain)
+            row(format!("horizontal strain at the bottom of {material}"), &|stress| {
+                face(stress, material, 1)?.horizontal_strain
+            })
         });
         [Some(inside), on_top, below].into_iter().flatten()
     };
@@ -40,7 +35,7 @@ pub fn largest_strains(steps: &[StepRecord], units: &Units) -> Option<Table> {
 
 /// The largest values on a face of a material: the upper one is number 0, the lower one, of a layer, number 1.
 fn face(stress: &StressReading, material: MaterialId, number: usize) -> Option<&Extremes> {
-    stress.faces.iter().filter(|own| own.tau1.material == material).nth(number)
+    stress.faces.iter().filter(|face| face.tau1.material == material).nth(number)
 }
 
 #[cfg(test)]
@@ -61,7 +56,8 @@ mod tests {
 
     /// Stresses of 1, and strains of these microstrain: principal, horizontal, compression.
     fn extremes(material: usize, z: f64, strains: [f64; 3]) -> Extremes {
-        let [strain, horizontal_strain, compression] = strains.map(|own| Some(peak(material, 1e-6 * own, z)));
+        let [strain, horizontal_strain, compression] =
+            strains.map(|microstrain| Some(peak(material, 1e-6 * microstrain, z)));
         let stress = peak(material, 1.0, z);
         Extremes { tau1: stress, tension: stress, mises: stress, strain, horizontal_strain, compression }
     }

@@ -16,7 +16,7 @@ pub struct Number {
     of: Of,
 }
 
-/// What a number is of.
+/// Source of a number of a combination.
 enum Of {
     /// One of the main quantities of a load step.
     Step(&'static dyn OfStep),
