@@ -56,7 +56,7 @@
 pub use percoat_core::*;
 
 #[cfg(feature = "cli")]
-pub use percoat_app::{output, picture, report, sweep};
+pub use percoat_app::{output, picture, report, sweep, task};
 #[cfg(feature = "cli")]
 pub use percoat_case::{case, measurements, units, words};
 #[cfg(feature = "cli")]

@@ -104,7 +104,7 @@ impl Case {
 
     /// Memory of this machine for a job, or the refusal of a job that needs more.
     pub fn allow(&self, job: Job) -> PyResult<Capacity> {
-        let room = Capacity { disk: u64::MAX, ..Capacity::on_this_machine(Path::new(".")) };
+        let room = work::room();
         refusal(&self.own, room, job).map_or(Ok(room), |why| Err(refused(why)))
     }
 

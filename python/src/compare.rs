@@ -5,25 +5,23 @@ use crate::errors::refused;
 use crate::progress::Progress;
 use crate::record::to_python;
 use crate::tables::{Shown, compared as tables_of};
-use crate::work;
-use percoat::Sampling;
-use percoat::case::plausibility;
-use percoat::case::resources::{Job, needs};
-use percoat::output::{ComparisonFile, table};
-use percoat::run::{Recorder, RefinementEnd, Run};
+use crate::work::{self, Stopped};
+use percoat::output::table;
+use percoat::run::Recorder;
+use percoat::task::Compare;
 use pyo3::prelude::*;
-use std::convert::Infallible;
 use std::ops::ControlFlow;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The recorder of a refinement: keeps no step, and says by this function which grids memory holds.
-struct Fits<F>(F);
+/// The recorder of a refinement: keeps no step, and ends where the caller stops it.
+struct Stopping<'a>(&'a AtomicBool);
 
-impl<F: Fn([usize; 2]) -> bool + Send> Recorder for Fits<F> {
-    type Error = Infallible;
+impl Recorder for Stopping<'_> {
+    type Error = Stopped;
 
-    fn fits(&self, points: [usize; 2]) -> bool {
-        self.0(points)
+    fn iteration(&mut self, _progress: percoat::Progress) -> Result<(), Stopped> {
+        if self.0.load(Ordering::Relaxed) { Err(Stopped) } else { Ok(()) }
     }
 }
 
@@ -41,25 +39,12 @@ pub fn compare<'py>(
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Compared<'py>> {
-    let job = Job::Compare { pictures: false };
     let own = Arc::clone(&case.get().own);
-    let task = own.comparison();
-    task.check().map_err(refused)?;
-    let room = case.get().allow(job)?;
     let compared = work::run(py, threads, progress, move |listener| {
-        let run = Run { loads: vec![task.load], stress: None, ..own.run() };
-        run.check().map_err(|error| error.told())?;
-        let (points, end) = match own.grid {
-            Sampling::Points(points) => (points, RefinementEnd::Reached),
-            Sampling::Accuracy(_) => {
-                let mut fits = Fits(|points| needs(&own, points, job).fit(room));
-                let refined = run.solve(&mut fits).map_err(|error| error.told())?;
-                (refined.points, refined.end.unwrap_or(RefinementEnd::Reached))
-            }
-        };
-        let [n1, n2] = points;
-        let comparison = task.compare(points, &mut |what| {
-            let (unit, points, phase) = ("part", Some((n1, n2)), what.to_owned());
+        let task = Compare::new(&own, work::room(), false).map_err(|error| error.to_string())?;
+        let stop = Arc::clone(listener.stop());
+        let compared = task.compare(&mut Stopping(&stop), &mut |[n1, n2], stage| {
+            let (unit, points, phase) = ("part", Some((n1, n2)), stage.to_owned());
             listener.tell(true, |seconds| Progress {
                 unit,
                 done: 0,
@@ -72,15 +57,11 @@ pub fn compare<'py>(
             });
             if listener.stops() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let comparison = comparison.map_err(|error| error.to_string())?;
-        let (text, tables) = (table::compared(&own, &comparison, width), tables_of(&comparison, &own.units()));
-        let mut warnings = [comparison.warnings(), plausibility::of_case(&own)].concat();
-        if end != RefinementEnd::Reached {
-            warnings.push(format!("grid.accuracy is not reached: {end}"));
-        }
-        let converged = comparison.converged() && end == RefinementEnd::Reached;
-        let file = ComparisonFile::new(&comparison, &own, own.load.values().len());
-        Ok::<_, String>((file, text, tables, warnings, converged))
+        let compared = compared.map_err(|error| error.told())?;
+        let comparison = &compared.comparison;
+        let (text, tables) = (table::compared(&own, comparison, width), tables_of(comparison, &own.units()));
+        let (file, converged) = (compared.file(), compared.converged());
+        Ok::<_, String>((file, text, tables, compared.warnings, converged))
     })?;
     let (file, text, tables, warnings, converged) = compared.map_err(refused)?;
     Ok((to_python(py, &file)?, text, tables, warnings, converged))

@@ -6,10 +6,10 @@ use crate::progress::Progress;
 use crate::record::to_python;
 use crate::work;
 use numpy::{PyArray1, PyReadonlyArray1, ToPyArray};
-use percoat::case::resources::Job;
-use percoat::case::{IdentificationTask, known_instrument, plausibility};
-use percoat::identification::{IdentificationError, Measurement};
-use percoat::output::{self, IdentificationFile, identified};
+use percoat::case::{Document, IdentificationTask, known_instrument};
+use percoat::identification::Measurement;
+use percoat::output::{self, identified};
+use percoat::task::Identify;
 use percoat::{measurements, plain};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -40,12 +40,12 @@ pub fn identify<'py>(
     let (free, known) = asked;
     let known = known_instrument(&known).map_err(|error| refused(format!("known: {error}")))?;
     let (source, _) = case::source(case.as_any())?;
-    case.get().allow(Job::Identify { pictures: false })?;
     let found = work::run(py, threads, progress, move |listener| {
-        let told = |error: IdentificationError<_>| error.to_string();
-        let task = IdentificationTask::new(&source, &[], &own, &free).map_err(|error| format!("free: {error}"))?;
-        let task = task.with_instrument(known);
-        let (found, best) = task
+        let document = Document::new(&source, &[]).map_err(|error| error.to_string())?;
+        let task = IdentificationTask::new(&document, &own, &free).map_err(|error| format!("free: {error}"))?;
+        let task = Identify::new(&own, task.with_instrument(known), work::room(), false);
+        let result = task
+            .map_err(|error| error.to_string())?
             .find(&measured, &mut |trial| {
                 let phase = output::trial(&own, trial);
                 listener.tell(true, |seconds| Progress {
@@ -60,10 +60,9 @@ pub fn identify<'py>(
                 });
                 if listener.stops() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             })
-            .map_err(told)?;
-        let text = identified(&found, &best, width);
-        let warnings = [output::doubts(&measured, &found, &best), plausibility::of_case(&best)].concat();
-        Ok::<_, String>((IdentificationFile::new(&found, &best, &warnings), text, warnings, found))
+            .map_err(|error| error.to_string())?;
+        let (file, text) = (result.file(), identified(&result.found, &result.best, width));
+        Ok::<_, String>((file, text, result.warnings, result.found))
     })?;
     let (file, text, warnings, found) = found.map_err(refused)?;
     let arrays = PyDict::new(py);

@@ -5,8 +5,8 @@ use crate::errors::refused;
 use crate::progress::Progress;
 use crate::record::{from_python, to_python};
 use crate::work::{self, Listener};
-use percoat::case::resources::{Job, needs};
 use percoat::output::{LifeFile, number, table};
+use percoat::task::FollowLife;
 use pyo3::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -20,26 +20,21 @@ pub fn life<'py>(
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyAny>, bool)> {
-    let job = Job::Life { pictures: false };
-    let room = case.get().allow(job)?;
     let own = Arc::clone(&case.get().own);
     let found = work::run(py, threads, progress, move |listener| {
-        let task = own.life_task()?;
-        task.check().map_err(|error| error.to_string())?;
+        let task = FollowLife::new(&own, work::room(), false).map_err(|error| error.to_string())?;
         tell(listener, 0, None, "damage of the first pass".to_owned());
         let stop = Arc::clone(listener.stop());
         let goes_on = || !stop.load(Ordering::Relaxed);
-        let fits = |points: [usize; 2]| needs(&own, points, job).fit(room);
-        let begun = task.beginning(&fits, &goes_on).map_err(|error| error.to_string())?;
-        let mut state = task.unworn(&begun);
-        while state.end.is_none() {
-            state = task.advance(state, &begun, &goes_on).map_err(|error| error.to_string())?;
+        let followed = task.follow(None, &goes_on, &mut |state, begun| {
             let [n1, n2] = begun.step.grid().points();
             let phase = format!("{} passes, {} events", number(state.passes), state.events.len());
             tell(listener, state.solved, Some((n1, n2)), phase);
-            listener.check()?;
-        }
-        Ok::<_, String>((LifeFile::new(&own, &task, &begun, &state), state.converged(&begun)))
+            listener.check()
+        });
+        let followed = followed.map_err(|error| error.to_string())?;
+        let converged = followed.converged();
+        Ok::<_, String>((followed.file, converged))
     })?;
     let (life, converged) = found.map_err(refused)?;
     Ok((to_python(py, &life)?, converged))

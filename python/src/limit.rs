@@ -5,9 +5,8 @@ use crate::errors::refused;
 use crate::record::{from_python, to_python};
 use crate::solve::Keeping;
 use crate::work;
-use percoat::case::plausibility;
-use percoat::case::resources::Job;
 use percoat::output::{LimitFile, table};
+use percoat::task::FindLimits;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -20,15 +19,12 @@ pub fn limit<'py>(
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyAny>, bool)> {
-    let job = Job::Limit { pictures: false };
-    let room = case.get().allow(job)?;
     let own = Arc::clone(&case.get().own);
     let found = work::run(py, threads, progress, move |listener| {
-        let run = own.run();
-        let mut keeping = Keeping::new(&own, job, room, listener, ("load", 0));
-        let limits = run.limits(&mut keeping).map_err(|error| error.told())?;
-        let warnings = [limits.warnings.clone(), plausibility::of_case(&own)].concat();
-        Ok::<_, String>((LimitFile::new(&limits, &own, &warnings), limits.converged()))
+        let task = FindLimits::new(&own, work::room(), false).map_err(|error| error.to_string())?;
+        let mut keeping = Keeping::new(&own, false, listener, ("load", 0));
+        let found = task.find(&mut keeping).map_err(|error| error.told())?;
+        Ok::<_, String>((found.file(), found.limits.converged()))
     })?;
     let (limits, converged) = found.map_err(refused)?;
     Ok((to_python(py, &limits)?, converged))

@@ -9,21 +9,21 @@ use crate::work::{self, Listener, Stopped};
 use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use percoat::Progress;
-use percoat::case::resources::{Job, needs};
-use percoat::case::{self, plausibility};
-use percoat::machine::Capacity;
+use percoat::case;
+use percoat::case::resources::Job;
 use percoat::output::{Clock, Phase, Summary, number, table};
 use percoat::run::{Recorder, StepRecord};
 use percoat::spectral::Checkpoint;
+use percoat::task::{Solve, Solved};
 use percoat::{Load, Solver, StressFields, Surface};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// The recorder of a run that reports its progress and, for `percoat.solve`, keeps every step.
+/// The recorder of a task that reports its progress and, for `percoat.solve`, keeps every step.
 pub struct Keeping<'a> {
     case: &'a Arc<case::Case>,
-    job: Job,
-    room: Capacity,
+    /// Whether steps are kept with their fields.
+    keeps: bool,
     listener: &'a mut Listener,
     clock: Clock,
     /// Name of a step in the progress, and the number of all, 0 where it is not known.
@@ -37,16 +37,15 @@ pub struct Keeping<'a> {
 }
 
 impl<'a> Keeping<'a> {
-    /// The recorder of a job that has not begun; steps are kept with their fields for [`Job::Keep`].
+    /// The recorder of a task that has not begun, and whether it keeps the steps with their fields.
     pub fn new(
         case: &'a Arc<case::Case>,
-        job: Job,
-        room: Capacity,
+        keeps: bool,
         listener: &'a mut Listener,
         (unit, of): (&'static str, usize),
     ) -> Self {
         let (clock, points, done, surface, checkpoint, steps) = (Clock::start(), [0; 2], 0, None, None, Vec::new());
-        Self { case, job, room, listener, clock, unit, of, points, done, surface, checkpoint, steps }
+        Self { case, keeps, listener, clock, unit, of, points, done, surface, checkpoint, steps }
     }
 
     fn tell(&mut self, new: bool, phase: impl FnOnce() -> String, iterated: Option<Progress>) {
@@ -67,10 +66,6 @@ impl<'a> Keeping<'a> {
 
 impl Recorder for Keeping<'_> {
     type Error = Stopped;
-
-    fn fits(&self, points: [usize; 2]) -> bool {
-        needs(self.case, points, self.job).fit(self.room)
-    }
 
     fn begin(&mut self, solver: &Solver) -> Result<(), Stopped> {
         // Steps on a coarser grid are not part of the result.
@@ -96,7 +91,7 @@ impl Recorder for Keeping<'_> {
     }
 
     fn solved(&mut self, checkpoint: &Checkpoint) -> Result<(), Stopped> {
-        self.checkpoint = (self.job == Job::Keep).then(|| checkpoint.clone());
+        self.checkpoint = self.keeps.then(|| checkpoint.clone());
         self.searching()
     }
 
@@ -140,14 +135,11 @@ pub fn solve<'py>(
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyAny>, bool, Places<'py>, Vec<Step>)> {
-    let room = case.get().allow(Job::Keep)?;
     let own = Arc::clone(&case.get().own);
     let solved = work::run(py, threads, progress, move |listener| {
-        let run = own.run();
-        run.check().map_err(|error| error.told())?;
-        let mut keeping = Keeping::new(&own, Job::Keep, room, listener, ("step", run.loads.len()));
-        let outcome = run.solve(&mut keeping).map_err(|error| error.told())?;
-        let warnings = [outcome.warnings.clone(), plausibility::of_case(&own)].concat();
+        let task = Solve::new(&own, work::room(), Job::Keep).map_err(|error| error.to_string())?;
+        let mut keeping = Keeping::new(&own, true, listener, ("step", task.run.loads.len()));
+        let Solved { outcome, warnings } = task.solve(&mut keeping).map_err(|error| error.told())?;
         let summary = Summary::new(&own, &warnings, outcome.change, &outcome.steps, keeping.clock.timing());
         let surface = keeping.surface.take().expect("a run begins a grid before its steps");
         Ok::<_, String>((summary, outcome.is_accurate(), places(&surface), keeping.steps))

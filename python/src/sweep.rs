@@ -6,9 +6,9 @@ use crate::progress::Progress;
 use crate::record::to_python;
 use crate::row::Row;
 use crate::value::{text, value};
-use crate::work;
+use crate::work::{self, room};
 use percoat::case::Source;
-use percoat::machine::{Capacity, available_memory};
+use percoat::machine::available_memory;
 use percoat::sweep::{self, Axis, Combination, Combinations, Description, Group, Study, Task};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -171,11 +171,6 @@ const VALUE: &str = "value";
 
 fn lost() -> PyErr {
     refused("what was pickled of a sweep is not whole")
-}
-
-/// Memory of this machine; a sweep from Python writes nothing.
-fn room() -> Capacity {
-    Capacity { disk: u64::MAX, memory: available_memory() }
 }
 
 impl Sweep {

@@ -7,7 +7,7 @@
 use crate::errors::refused;
 use crate::progress::Progress;
 use crate::row::Row;
-use percoat::machine::Threads;
+use percoat::machine::{Capacity, Threads, available_memory};
 use percoat::output::OutputError;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -97,6 +97,11 @@ impl Listener {
     pub fn row(&self, row: Row) {
         self.tell.iter().for_each(|tell| tell(Message::Row(row.clone())));
     }
+}
+
+/// Memory of this machine for work that writes nothing.
+pub fn room() -> Capacity {
+    Capacity { disk: u64::MAX, memory: available_memory() }
 }
 
 /// The result of the work on this number of threads, without one on all cores; `progress` receives reports, and rows of a sweep.

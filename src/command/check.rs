@@ -7,6 +7,7 @@ use super::terminal::{self, tell};
 use percoat_app::output::Check;
 use percoat_case::case::feasibility::Allowed;
 use percoat_case::case::resources::Job;
+use percoat_common::machine::Capacity;
 use percoat_common::plain;
 use std::io::Write;
 use std::path::Path;
@@ -14,8 +15,8 @@ use std::path::Path;
 pub fn run(path: &Path, output: Option<&Path>, set: &[String]) -> Result<Ending, Failure> {
     let (case, name) = read_case(Some(path), set)?;
     let job = Job::Solve { pictures: true, fields: true };
-    let Allowed { room, .. } =
-        Allowed::new(&case, &default_folder(&name).unwrap_or_else(|_| "out".into()), job).map_err(Failure::Refused)?;
+    let room = Capacity::on_this_machine(&default_folder(&name).unwrap_or_else(|_| "out".into()));
+    Allowed::within(&case, room, job).map_err(Failure::Refused)?;
     let check = Check::of(&case, &name, room).map_err(Failure::refused)?;
     let mut out = terminal::out();
     write!(out, "{check}")?;

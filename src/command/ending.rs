@@ -4,6 +4,7 @@
 use super::terminal::{self, tell};
 use percoat_app::output::{FolderError, OutputError};
 use percoat_app::sweep::StudyError;
+use percoat_app::task::Refused;
 use percoat_case::case::{CaseError, NoCase};
 use percoat_common::plain;
 use percoat_core::run::RunError;
@@ -90,6 +91,12 @@ impl<E: std::error::Error + Into<Failure> + 'static> From<RunError<E>> for Failu
             RunError::Recorder(error) => error.into(),
             refused => Self::refused(refused),
         }
+    }
+}
+
+impl From<Refused> for Failure {
+    fn from(refused: Refused) -> Self {
+        Self::refused(refused)
     }
 }
 

@@ -10,13 +10,11 @@ use super::progress::Progress;
 use super::results::Results;
 use super::terminal::{self, tell};
 use clap::Args;
-use percoat_app::output::{self, CannotGoOn, LifeFile, Plan, Writer, number, table, write_damage};
+use percoat_app::output::{self, CannotGoOn, OutputError, Plan, Writer, number, table, write_damage};
 use percoat_app::picture::{self, Snapshot};
-use percoat_case::case::Case;
-use percoat_case::case::feasibility::Allowed;
-use percoat_case::case::resources::Job;
-use percoat_core::life::{Beginning, LifeState, LifeTask};
-use percoat_core::run::Recorder;
+use percoat_app::task::{FollowError, FollowLife, Followed};
+use percoat_common::machine::Capacity;
+use percoat_core::life::LifeState;
 use std::path::Path;
 use std::time::Instant;
 
@@ -35,30 +33,32 @@ pub fn run(case: Option<&Path>, set: &[String], options: &LifeOptions, common: &
     let (started, pictures) = (Instant::now(), &common.pictures);
     let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), set)?;
     let folder = output_folder(common, &name)?;
-    let task = case.life_task().map_err(Failure::refused)?;
-    let allowed = Allowed::new(&case, &folder, Job::Life { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
-    task.check().map_err(Failure::refused)?;
+    let task = FollowLife::new(&case, Capacity::on_this_machine(&folder), pictures.wanted())?;
     let plan = Plan { resumes: options.resume, ..plan(Writer::Life, &files(), pictures) };
     let mut results = Results::claim(folder, plan, common.saying())?;
     let fingerprint = output::fingerprint(&case, "life");
     let saved = earlier(&mut results, &fingerprint)?;
     let progress = Progress::new("", 0, 0, common);
-    progress.tell(format_args!("{}", task.problem));
+    progress.tell(format_args!("{}", task.task.problem));
     progress.say("damage of the first pass");
-    let begun = task.beginning(&|points| allowed.fits(points), &|| true).map_err(Failure::refused)?;
-    // Where an accuracy is prescribed the grid depends on the memory that is free.
-    if saved.as_ref().is_some_and(|saved| saved.points != begun.step.grid().points()) {
-        return Err(Failure::refused(CannotGoOn::Foreign(results.staging())));
-    }
-    let state = followed(&task, &begun, saved, &results, &fingerprint, &progress)?;
+    let followed = task.follow(saved, &|| true, &mut |state, _| -> Result<(), OutputError> {
+        save(state, &results, &fingerprint)?;
+        let events = state.events.len();
+        progress.say(format!("{} passes, {events} events, {} loads solved", number(state.passes), state.solved));
+        Ok(())
+    });
+    let followed = followed.map_err(|error| match error {
+        FollowError::Recorder(error) => Failure::Output(error),
+        FollowError::OtherGrid => Failure::refused(CannotGoOn::Foreign(results.staging())),
+        refused => Failure::refused(refused),
+    })?;
     progress.say("drawing pictures");
-    let file = LifeFile::new(&case, &task, &begun, &state);
-    let followed = Followed { case: &case, task: &task, begun: &begun, state: &state, file: &file };
     results.write_all(&files(), &followed, pictures)?;
     progress.finish();
+    let Followed { state, file, .. } = &followed;
     let line = || format!("{} loads solved; {:.2} s", state.solved.max(1), started.elapsed().as_secs_f64());
-    results.finish("life.json", || table::life(&case, &file, terminal::width()), line, &file.warnings)?;
-    Ok(Ending::of(state.converged(&begun)))
+    results.finish("life.json", || table::life(&case, file, terminal::width()), line, &file.warnings)?;
+    Ok(Ending::of(followed.converged()))
 }
 
 /// The state of an interrupted life into the folder with which this one goes on. One of another life is an error, and a damaged one is
@@ -82,36 +82,12 @@ fn earlier(results: &mut Results, fingerprint: &str) -> Result<Option<LifeState>
     }
 }
 
-/// The last state of a life that begins anew or goes on after one that was `saved`; every state is saved.
-fn followed(
-    task: &LifeTask,
-    begun: &Beginning,
-    saved: Option<LifeState>,
-    results: &Results,
-    fingerprint: &str,
-    progress: &Progress,
-) -> Result<LifeState, Failure> {
-    let mut state = saved.unwrap_or_else(|| task.unworn(begun));
-    while state.end.is_none() {
-        state = task.advance(state, begun, &|| true).map_err(Failure::refused)?;
-        {
-            let mut saved = interruption::hold();
-            output::save_state(&results.staging(), fingerprint, &state)?;
-            *saved = Saved::Passes { passes: state.passes, folder: results.staging() };
-        }
-        let events = state.events.len();
-        progress.say(format!("{} passes, {events} events, {} loads solved", number(state.passes), state.solved));
-    }
-    Ok(state)
-}
-
-/// A life that was followed to its end.
-struct Followed<'a> {
-    case: &'a Case,
-    task: &'a LifeTask,
-    begun: &'a Beginning,
-    state: &'a LifeState,
-    file: &'a LifeFile,
+/// Saves a state, from which an interrupted life goes on.
+fn save(state: &LifeState, results: &Results, fingerprint: &str) -> Result<(), OutputError> {
+    let mut saved = interruption::hold();
+    output::save_state(&results.staging(), fingerprint, state)?;
+    *saved = Saved::Passes { passes: state.passes, folder: results.staging() };
+    Ok(())
 }
 
 /// The files of a life.
@@ -120,9 +96,9 @@ fn files<'a>() -> [Declared<Followed<'a>>; 6] {
         Text("life.json", |life| Some(life.file.to_json())),
         Text("life.csv", |life| Some(life.file.course())),
         Text("case.toml", |life| Some(life.case.to_toml())),
-        File("damage.npz", |life, path| write_damage(path, life.task, life.begun)),
+        File("damage.npz", |life, path| write_damage(path, life.task, &life.begun)),
         Picture("damage", |life| {
-            let (begun, fatigue) = (life.begun, life.begun.record.fatigue.as_ref()?);
+            let (begun, fatigue) = (&life.begun, life.begun.record.fatigue.as_ref()?);
             let snapshot = Snapshot::new(&life.case.title, begun.step.clone(), begun.record.reading.clone());
             picture::damage(&snapshot.with_units(life.case.units()), fatigue, &begun.planes)
         }),

@@ -8,13 +8,12 @@ use super::options::Common;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
-use percoat_app::output::{LimitFile, Writer, number, summary, table, with_error};
+use percoat_app::output::{Writer, number, summary, table, with_error};
 use percoat_app::picture::{self, Canvas, Snapshot};
-use percoat_case::case::feasibility::Allowed;
-use percoat_case::case::resources::Job;
-use percoat_case::case::{Case, plausibility};
+use percoat_app::task::{FindLimits, Limited};
+use percoat_common::machine::Capacity;
 use percoat_core::load::LoadQuantity;
-use percoat_core::run::{EVENTS, LimitStep, Limits, Recorder, Run, StepRecord};
+use percoat_core::run::{EVENTS, LimitStep, Recorder, StepRecord};
 use percoat_core::{Solver, Step, StressFields};
 use std::convert::Infallible;
 use std::path::Path;
@@ -24,19 +23,14 @@ use std::time::Instant;
 const DEFAULT: &str = "dlc-on-steel";
 
 /// Shows the progress of the search.
-struct Searching<'a> {
-    allowed: Allowed<'a>,
+struct Searching {
     /// The quantity in which loads are stated.
     quantity: LoadQuantity,
     progress: Progress,
 }
 
-impl Recorder for Searching<'_> {
+impl Recorder for Searching {
     type Error = Infallible;
-
-    fn fits(&self, points: [usize; 2]) -> bool {
-        self.allowed.fits(points)
-    }
 
     fn begin(&mut self, solver: &Solver) -> Result<(), Infallible> {
         self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
@@ -62,53 +56,40 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
     let (started, pictures) = (Instant::now(), &common.pictures);
     let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), set)?;
     let folder = output_folder(common, &name)?;
-    let run = case.run();
-    let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
-    run.check_limits()?;
+    let task = FindLimits::new(&case, Capacity::on_this_machine(&folder), pictures.wanted())?;
     let results = Results::claim(folder, plan(Writer::Limit, &files(), pictures), common.saying())?;
-    let quantity = case.units().quantity();
-    let mut searching = Searching { allowed, quantity, progress: Progress::new("", 0, 0, common) };
-    let limits = run.limits(&mut searching)?;
+    let mut searching = Searching { quantity: case.units().quantity(), progress: Progress::new("", 0, 0, common) };
+    let found = task.find(&mut searching)?;
     searching.progress.finish();
-    let warnings = [limits.warnings.clone(), plausibility::of_case(&case)].concat();
-    results.write_all(&files(), &Found { case: &case, run: &run, limits: &limits, warnings: &warnings }, pictures)?;
+    results.write_all(&files(), &found, pictures)?;
+    let Limited { limits, warnings, .. } = &found;
     let line = || format!("{} loads solved; {:.2} s", limits.steps.len(), started.elapsed().as_secs_f64());
-    results.finish("limit.json", || table::limited(&case, &limits, terminal::width()), line, &warnings)?;
+    results.finish("limit.json", || table::limited(&case, limits, terminal::width()), line, warnings)?;
     Ok(Ending::of(limits.converged()))
 }
 
-/// The limits of a case.
-struct Found<'a> {
-    case: &'a Case,
-    run: &'a Run,
-    limits: &'a Limits,
-    warnings: &'a [String],
-}
-
 /// The files of the limits; the sections are in the order in which the limits are reached.
-fn files<'a>() -> [Declared<Found<'a>>; 3 + EVENTS] {
+fn files<'a>() -> [Declared<Limited<'a>>; 3 + EVENTS] {
     [
-        Text("limit.json", |found| Some(LimitFile::new(found.limits, found.case, found.warnings).to_json())),
+        Text("limit.json", |found| Some(found.file().to_json())),
         Text("limit.csv", |found| (!found.limits.steps.is_empty()).then(|| summary::curve(&found.limits.steps))),
         Picture("limit", |found| {
-            let Found { case, limits, .. } = found;
+            let Limited { case, limits, .. } = found;
             picture::utilisations(&case.title, case.problem(), &case.units(), limits)
         }),
-        Picture("limit-section", |found| found.section(0)),
-        Picture("limit-section-2", |found| found.section(1)),
-        Picture("limit-section-3", |found| found.section(2)),
-        Picture("limit-section-4", |found| found.section(3)),
+        Picture("limit-section", |found| section(found, 0)),
+        Picture("limit-section-2", |found| section(found, 1)),
+        Picture("limit-section-3", |found| section(found, 2)),
+        Picture("limit-section-4", |found| section(found, 3)),
     ]
 }
 
-impl Found<'_> {
-    /// The stresses through the place that fails as the `number`-th, from 0.
-    fn section(&self, number: usize) -> Option<Canvas> {
-        let event = self.limits.shown.get(number)?;
-        let sections = event.sections(self.run)?;
-        let LimitStep { limit, record, step } = event.clone();
-        let snapshot = Snapshot::new(&self.case.title, step, record.reading).with_strength(record.strength);
-        let snapshot = snapshot.at_limit_of(limit.criterion).with_units(self.case.units());
-        Some(picture::section(&snapshot, &sections))
-    }
+/// The stresses through the place that fails as the `number`-th, from 0.
+fn section(Limited { case, limits, .. }: &Limited<'_>, number: usize) -> Option<Canvas> {
+    let event = limits.shown.get(number)?;
+    let sections = event.sections(&case.run())?;
+    let LimitStep { limit, record, step } = event.clone();
+    let snapshot = Snapshot::new(&case.title, step, record.reading).with_strength(record.strength);
+    let snapshot = snapshot.at_limit_of(limit.criterion).with_units(case.units());
+    Some(picture::section(&snapshot, &sections))
 }

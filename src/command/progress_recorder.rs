@@ -51,10 +51,6 @@ impl Recorder for ProgressRecorder<'_> {
         self.recording.solved(checkpoint)
     }
 
-    fn fits(&self, points: [usize; 2]) -> bool {
-        self.recording.fits(points)
-    }
-
     fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
         self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
         // The handler of signals waits until the steps of a coarser grid have moved aside.

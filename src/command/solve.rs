@@ -8,7 +8,7 @@ use super::options::Common;
 use super::progress::Progress;
 use super::progress_recorder::ProgressRecorder;
 use super::results::Results;
-use super::solved::{Solved, of_case};
+use super::solved::{Pictured, of_case};
 use super::terminal::{self, tell};
 use clap::Args;
 use percoat_app::output::{
@@ -16,9 +16,9 @@ use percoat_app::output::{
     write_scalars,
 };
 use percoat_app::picture::Snapshot;
-use percoat_case::case::feasibility::Allowed;
+use percoat_app::task::{Solve, Solved};
+use percoat_case::case::Case;
 use percoat_case::case::resources::Job;
-use percoat_case::case::{Case, plausibility};
 use percoat_common::machine::Capacity;
 use percoat_common::plain;
 use percoat_core::run::{EarlierRun, Outcome, Run, Sampling, StepRecord};
@@ -42,21 +42,20 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
     let (clock, pictures) = (Clock::start(), &common.pictures);
     let (case, name) = read_case(case, set)?;
     let folder = output_folder(common, &name)?;
-    let (run, fields) = (case.run(), !options.no_fields);
-    let steps = run.loads.len();
+    let fields = !options.no_fields;
     // An earlier run that has solved its first load and finished no step leaves nothing to set aside; a run of the same case
     // takes over that load.
     let resumes = options.resume || output::has_solved_alone(&folder);
     let (room, job) = (room(&folder, resumes), Job::Solve { pictures: pictures.wanted(), fields });
-    let allowed = Allowed::within(&case, room, job).map_err(Failure::Refused)?;
-    run.check()?;
+    let task = Solve::new(&case, room, job)?;
+    let (run, steps) = (&task.run, task.run.loads.len());
     let drawn = of_case(&case, steps);
     let mut plan = Plan { resumes, ..solved_plan(&case, steps, fields) };
     plan.names.extend(names(&drawn, pictures));
     let mut results = Results::claim(folder, plan, common.saying())?;
     let fingerprint = output::fingerprint(&case, if fields { "fields" } else { "scalars" });
     let was_begun = results.claim.resumes();
-    let earlier = earlier(&mut results, &fingerprint, &run, options.resume)?;
+    let earlier = earlier(&mut results, &fingerprint, run, options.resume)?;
     if options.resume
         && !was_begun
         && let Some((ending, summary)) = finished(&case, &results.folder, steps, fields)
@@ -73,13 +72,11 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
     if let Some(earlier) = &earlier {
         *interruption::hold() = Saved::Steps { done: done(earlier), of: steps, folder: results.staging() };
     }
-    let recording = Recording::new(&results.claim, &run, case.to_toml(), clock).within(allowed);
-    let recording = recording.resumable(fingerprint, earlier);
+    let recording = Recording::new(&results.claim, run, case.to_toml(), clock).resumable(fingerprint, earlier);
     let recording = if fields { recording } else { recording.without_fields() };
-    let mut recording = ProgressRecorder::new(recording, &results, &run, common);
-    let outcome = run.solve(&mut recording)?;
+    let mut recording = ProgressRecorder::new(recording, &results, run, common);
+    let Solved { outcome, warnings } = task.solve(&mut recording)?;
     let (sections, mut clock) = recording.finish()?;
-    let warnings = [outcome.warnings.clone(), plausibility::of_case(&case)].concat();
     draw(&results, &case, &outcome, sections, (&drawn, common))?;
     let timing = clock.timing();
     write_scalars(&results.staging(), &case, &outcome, &warnings, timing)?;
@@ -108,14 +105,14 @@ fn draw(
     case: &Case,
     outcome: &Outcome,
     sections: Vec<VerticalSection>,
-    (pictures, common): (&[Declared<Solved>], &Common),
+    (pictures, common): (&[Declared<Pictured>], &Common),
 ) -> Result<(), Failure> {
     if let (Some(last), Some(record), true) = (&outcome.last, outcome.steps.last(), common.pictures.wanted()) {
         let snapshot = Snapshot::new(&case.title, last.clone(), record.reading.clone());
         let snapshot = snapshot.with_strength(record.strength.clone()).with_units(case.units());
         let progress = Progress::new("", 0, 0, common);
         progress.say("drawing pictures");
-        let solved = Solved { last: snapshot, sections, steps: outcome.steps.clone() };
+        let solved = Pictured { last: snapshot, sections, steps: outcome.steps.clone() };
         let write = |picture: &Declared<_>| picture.write(&solved, &results.staging(), &common.pictures);
         pictures.par_iter().try_for_each(write)?;
         progress.finish();

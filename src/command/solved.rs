@@ -9,13 +9,13 @@ use percoat_core::run::StepRecord;
 
 /// The last step of a solved case with the sections of its stresses, if there are any, and all steps.
 #[derive(Debug)]
-pub struct Solved {
+pub struct Pictured {
     pub last: Snapshot,
     pub sections: Vec<VerticalSection>,
     pub steps: Vec<StepRecord>,
 }
 
-impl Solved {
+impl Pictured {
     fn touches(&self) -> bool {
         self.last.reading.touches()
     }
@@ -40,17 +40,17 @@ impl Solved {
 }
 
 /// The pictures of a case with so many load steps.
-pub fn of_case(case: &Case, steps: usize) -> Vec<Declared<Solved>> {
+pub fn of_case(case: &Case, steps: usize) -> Vec<Declared<Pictured>> {
     let is_cut = case.stress.as_ref().is_some_and(|stress| stress.section.is_some());
     let is_indented = case.problem().bodies().hardness().is_some();
-    let pictures: [(bool, Declared<Solved>); 7] = [
+    let pictures: [(bool, Declared<Pictured>); 7] = [
         (true, Picture("pressure", |solved| solved.touches().then(|| picture::pressure(&solved.last)))),
-        (true, Picture("contact", Solved::contact)),
-        (true, Picture("profiles", Solved::profiles)),
+        (true, Picture("contact", Pictured::contact)),
+        (true, Picture("profiles", Pictured::profiles)),
         (is_indented, Picture("indentation", |solved| picture::indentation(&solved.last))),
         (is_cut, Picture("section", |solved| Some(picture::section(&solved.last, solved.cut()?)))),
         (is_cut, Picture("lines", |solved| Some(picture::lines(&solved.last, solved.cut()?)))),
-        (steps > 1, Picture("curve", Solved::curve)),
+        (steps > 1, Picture("curve", Pictured::curve)),
     ];
     pictures.into_iter().filter_map(|(is_drawn, picture)| is_drawn.then_some(picture)).collect()
 }

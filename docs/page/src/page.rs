@@ -6,7 +6,7 @@ use crate::request::Request;
 use percoat_app::output::summary;
 use percoat_app::output::table::{self, Assumptions};
 use percoat_app::picture::{self, Canvas, Format, Snapshot};
-use percoat_case::case::feasibility::Allowed;
+use percoat_app::task::{FindLimits, Limited, Solve, Solved};
 use percoat_case::case::resources::Job;
 use percoat_case::case::{Case, Source, library, plausibility};
 use percoat_common::machine::Capacity;
@@ -76,10 +76,9 @@ impl Page {
             self.kept = None;
         }
         let case = read(case)?;
-        let (run, room) = (case.run(), Capacity::on_this_machine(Path::new("")));
-        let cut = run.stress.as_ref().and_then(|stress| stress.cut.clone());
+        let task = Solve::new(&case, room(), Job::Keep).map_err(|error| error.to_string())?;
+        let cut = task.run.stress.as_ref().and_then(|stress| stress.cut.clone());
         let cut = pictures.and_then(|coarse| Some((cut?, coarse)));
-        let allowed = Allowed::within(&case, room, Job::Keep)?;
         // Those of the surface, of the step that was last begun: its stresses do not change them.
         let mut of_surface = Vec::new();
         let mut known = |step: &Step, record: &StepRecord| {
@@ -91,13 +90,13 @@ impl Page {
             answer.pictures = of_surface.clone();
             begun(answer);
         };
-        let mut recording = Recording { allowed, cut, sections: Vec::new(), known: &mut known };
-        let outcome = run.solve(&mut recording).map_err(|error| error.to_string())?;
+        let mut recording = Recording { cut, sections: Vec::new(), known: &mut known };
+        let Solved { outcome, warnings } = task.solve(&mut recording).map_err(|error| error.to_string())?;
         let sections = recording.sections;
         let record = outcome.steps.last().ok_or("a case has a load at least")?;
         let mut answer = of_steps(&case, &outcome.steps);
         answer.converged = outcome.converged();
-        answer.warnings = [outcome.warnings.clone(), answer.warnings].concat();
+        answer.warnings = warnings;
         if let (true, Some(last)) = (pictures.is_some(), outcome.last) {
             let kept = Kept::new(&case, last, record.clone(), sections);
             let of_surface = if of_surface.is_empty() { kept.pictures(&Kept::SURFACE) } else { of_surface };
@@ -135,8 +134,8 @@ fn of_steps(case: &Case, steps: &[StepRecord]) -> Answer {
 /// The loads at which the criteria of a case are reached.
 fn limit(case: Value) -> Result<Answer, String> {
     let case = read(case)?;
-    let mut allowed = Allowed::within(&case, Capacity::on_this_machine(Path::new("")), Job::Keep)?;
-    let limits = case.run().limits(&mut allowed).map_err(|error| error.to_string())?;
+    let task = FindLimits::new(&case, room(), false).map_err(|error| error.to_string())?;
+    let Limited { limits, warnings, .. } = task.find(&mut ()).map_err(|error| error.to_string())?;
     let (verdict, table) = TableText::worded("limits", table::limits(&limits, &case.units()));
     Ok(Answer {
         case: case.to_toml(),
@@ -146,10 +145,15 @@ fn limit(case: Value) -> Result<Answer, String> {
         tables: vec![table],
         without_strength: None,
         assumptions: assumptions(&case),
-        warnings: [limits.warnings.clone(), plausibility::of_case(&case)].concat(),
+        warnings,
         pictures: Vec::new(),
         step: None,
     })
+}
+
+/// Memory of the browser.
+fn room() -> Capacity {
+    Capacity::on_this_machine(Path::new(""))
 }
 
 /// The case of an object in JSON.
@@ -165,7 +169,6 @@ fn assumptions(case: &Case) -> Vec<String> {
 
 /// Keeps the sections of the last step.
 struct Recording<'a> {
-    allowed: Allowed<'a>,
     /// The section, and whether it is coarse.
     cut: Option<(Cut, bool)>,
     sections: Vec<VerticalSection>,
@@ -185,10 +188,6 @@ fn thinned(line: SurfaceLine, depths: &[Depth]) -> (SurfaceLine, Vec<Depth>) {
 
 impl Recorder for Recording<'_> {
     type Error = Infallible;
-
-    fn fits(&self, points: [usize; 2]) -> bool {
-        self.allowed.fits(points)
-    }
 
     fn stresses(&mut self, step: &Step, record: &StepRecord) {
         (self.known)(step, record);

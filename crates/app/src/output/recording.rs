@@ -8,7 +8,6 @@ use super::steps_log::StepsLog;
 use super::stress::StressArchive;
 use super::{Files, OutputError, RunFolder, disk, write_text};
 use percoat_case::case::Case;
-use percoat_case::case::feasibility::Allowed;
 use percoat_core::load::Load;
 use percoat_core::run::{EarlierRun, Recorder, Run, StepRecord, StressRequest};
 use percoat_core::spectral::{Checkpoint, Solver, Step};
@@ -42,8 +41,6 @@ pub struct Recording<'a> {
     loads: usize,
     /// Whether fields are kept.
     fields: bool,
-    /// Ends a refinement before a grid that does not fit; `None`: every grid is solved.
-    allowed: Option<Allowed<'a>>,
     clock: Clock,
     /// When the present load began, by the clock.
     load_began: f64,
@@ -81,7 +78,6 @@ impl<'a> Recording<'a> {
             stress: run.stress.clone(),
             loads: run.loads.len(),
             fields: true,
-            allowed: None,
             clock,
             checkpoints: None,
             earlier: None,
@@ -103,11 +99,6 @@ impl<'a> Recording<'a> {
     /// Without `contact.npz`, `stress.npz` and volumes: scalars, and the section of the last step for its picture.
     pub fn without_fields(self) -> Self {
         Self { fields: false, ..self }
-    }
-
-    /// With an end of the refinement before a grid for which memory or disk do not suffice.
-    pub fn within(self, allowed: Allowed<'a>) -> Self {
-        Self { allowed: Some(allowed), ..self }
     }
 
     /// The files of the steps on the grid of a solver, after those that an interrupted run has finished.
@@ -157,10 +148,6 @@ const BEGUN: &str = "a run begins a grid before its steps";
 
 impl Recorder for Recording<'_> {
     type Error = OutputError;
-
-    fn fits(&self, points: [usize; 2]) -> bool {
-        self.allowed.is_none_or(|allowed| allowed.fits(points))
-    }
 
     fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
         self.clock.turn(Phase::Output);

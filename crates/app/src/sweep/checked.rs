@@ -5,9 +5,9 @@ use super::memory::of_results;
 use super::study::{Planned, Study, StudyError};
 use super::task::Task;
 use crate::output::{self, solved_plan};
-use percoat_case::case::feasibility::Allowed;
+use crate::task::{FindLimits, Solve};
 use percoat_case::case::resources::needs;
-use percoat_case::case::{Case, Source};
+use percoat_case::case::{Case, Document, Source};
 use percoat_common::machine::{Capacity, bytes};
 use percoat_core::run::Sampling;
 use std::sync::Arc;
@@ -89,7 +89,8 @@ impl<'a> Study<'a> {
         memory: u64,
     ) -> Result<Checked<'a>, StudyError> {
         let (stop, planned) = (Arc::default(), Vec::new());
-        let mut study = Self { source, fixed, combinations, task, room, keeps_fields: false, stop, planned };
+        let document = Document::new(source, fixed)?;
+        let mut study = Self { document, combinations, task, room, keeps_fields: false, stop, planned };
         study.has_room_for(study.foreseen(), memory)?;
         let (mut refusal, mut results) = (None, 0);
         for combination in &combinations.all {
@@ -153,13 +154,11 @@ impl<'a> Study<'a> {
 
     /// Refuses a case that cannot be solved.
     fn check(&self, case: &Case) -> Result<(), StudyError> {
-        let run = case.run();
         let possible = match self.task {
-            Task::Solve => run.check(),
-            Task::Limit => run.check_limits(),
+            Task::Solve => Solve::new(case, self.room, self.job()).map(drop),
+            Task::Limit => FindLimits::new(case, self.room, false).map(drop),
         };
-        possible.map_err(|error| StudyError::Refused(error.to_string()))?;
-        Allowed::within(case, self.room, self.job()).map(drop).map_err(StudyError::Refused)
+        possible.map_err(|refused| StudyError::Refused(refused.to_string()))
     }
 }
 
@@ -204,8 +203,7 @@ mod tests {
             let combinations = product(axes);
             assert!(combinations.kinds(KINDS).is_some_and(|kinds| kinds.len() <= 4), "{axes:?}");
             let unplanned = Study {
-                source: &source,
-                fixed: &fixed,
+                document: Document::new(&source, &fixed).unwrap(),
                 combinations: &combinations,
                 task: Task::Solve,
                 room,

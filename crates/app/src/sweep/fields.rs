@@ -2,8 +2,8 @@
 
 use super::row::Ended;
 use crate::output::{Clock, FolderError, OutputError, Recording, RunFolder, release, solved_plan, write_scalars};
-use percoat_case::case::feasibility::Allowed;
-use percoat_case::case::{Case, plausibility};
+use crate::task::{Solve, Solved};
+use percoat_case::case::Case;
 use percoat_core::run::{Recorder, RunError};
 use percoat_core::spectral::Progress;
 use std::path::Path;
@@ -12,7 +12,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Writes nothing, and ends the run of a combination when `stop` is true.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scalars<'a> {
-    pub(super) allowed: Allowed<'a>,
     pub(super) stop: &'a AtomicBool,
 }
 
@@ -23,10 +22,6 @@ pub(super) struct Stopped;
 
 impl Recorder for Scalars<'_> {
     type Error = Stopped;
-
-    fn fits(&self, points: [usize; 2]) -> bool {
-        self.allowed.fits(points)
-    }
 
     fn iteration(&mut self, _progress: Progress) -> Result<(), Stopped> {
         self.searching()
@@ -39,24 +34,23 @@ impl Recorder for Scalars<'_> {
 
 /// Solves a case into `folder`, as `percoat solve --no-pictures` does. What cannot be solved is a failed combination, what cannot be written
 /// ends the sweep.
-pub(super) fn keep(case: &Case, folder: &Path, allowed: Allowed) -> Result<Ended, OutputError> {
-    let (clock, run) = (Clock::start(), case.run());
-    let claim = match RunFolder::claim(folder, solved_plan(case, run.loads.len(), true)) {
+pub(super) fn keep(case: &Case, task: &Solve, folder: &Path) -> Result<Ended, OutputError> {
+    let clock = Clock::start();
+    let claim = match RunFolder::claim(folder, solved_plan(case, task.run.loads.len(), true)) {
         Ok(claim) => claim,
         Err(FolderError::Output(error)) => return Err(error),
         Err(refused) => return Ok(Ended::failed(refused.to_string())),
     };
-    let mut recording = Recording::new(&claim, &run, case.to_toml(), clock).within(allowed);
-    let outcome = match run.solve(&mut recording) {
-        Ok(outcome) => outcome,
+    let mut recording = Recording::new(&claim, &task.run, case.to_toml(), clock);
+    let Solved { outcome, warnings } = match task.solve(&mut recording) {
+        Ok(solved) => solved,
         Err(RunError::Recorder(error)) => return Err(error),
         Err(error) => return Ok(Ended::failed(error.told())),
     };
     let (_, mut clock) = recording.finish()?;
-    let warnings = [outcome.warnings.clone(), plausibility::of_case(case)].concat();
     write_scalars(&claim.staging(), case, &outcome, &warnings, clock.timing())?;
     claim.publish()?;
     // Its files are part of the sweep's result.
     let files = release(folder)?;
-    Ok(Ended::solved(&outcome, case).leaving(files))
+    Ok(Ended::solved(Solved { outcome, warnings }).leaving(files))
 }

@@ -4,8 +4,8 @@ use super::combinations::column;
 use super::result::SweepResult;
 use crate::output::Files;
 use crate::output::columns::Cells;
-use percoat_case::case::{Case, plausibility};
-use percoat_core::run::{Limits, Outcome, StepRecord};
+use crate::task::{Limited, Solved};
+use percoat_core::run::StepRecord;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -73,21 +73,21 @@ impl Ended {
         Self { status: Status::Failed, reason, warnings: Vec::new(), results: Vec::new(), files }
     }
 
-    pub(super) fn solved(outcome: &Outcome, case: &Case) -> Self {
+    pub(super) fn solved(Solved { outcome, warnings }: Solved) -> Self {
         let stopped = outcome.steps.iter().find(|step| !step.converged()).map(|step| step.stop.to_string());
         let inaccurate =
             || outcome.end.filter(|_| !outcome.is_accurate()).map(|end| format!("accuracy not reached: {end}"));
         let reason = stopped.or_else(inaccurate);
         // The time differs from run to run.
-        let results = outcome.steps.iter().map(|step| StepRecord { seconds: None, ..step.clone() });
+        let results = outcome.steps.into_iter().map(|step| StepRecord { seconds: None, ..step });
         let results = results.map(|step| SweepResult::Step(Box::new(step)));
-        Self::with(reason, [&outcome.warnings[..], &plausibility::of_case(case)].concat(), results.collect())
+        Self::with(reason, warnings, results.collect())
     }
 
-    pub(super) fn limited(limits: &Limits, case: &Case) -> Self {
+    pub(super) fn limited(Limited { limits, warnings, .. }: Limited) -> Self {
         let reason = (!limits.converged()).then(|| "a load or the accuracy did not converge".to_owned());
-        let results = vec![SweepResult::Limits(limits.limits.clone())];
-        Self::with(reason, [&limits.warnings[..], &plausibility::of_case(case)].concat(), results)
+        let results = vec![SweepResult::Limits(limits.limits)];
+        Self::with(reason, warnings, results)
     }
 
     fn with(reason: Option<String>, warnings: Vec<String>, results: Vec<SweepResult>) -> Self {

@@ -6,9 +6,9 @@ use super::row::{Ended, Row};
 use super::task::Task;
 use super::workers;
 use crate::output::{COMBINATIONS, OutputError};
-use percoat_case::case::feasibility::Allowed;
+use crate::task::{FindLimits, Refused, Solve};
 use percoat_case::case::resources::Job;
-use percoat_case::case::{Case, CaseError, Source};
+use percoat_case::case::{Case, CaseError, Document};
 use percoat_common::machine::Capacity;
 use std::collections::HashSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -31,9 +31,8 @@ pub enum StudyError {
 /// A sweep whose combinations are read and checked.
 #[derive(Debug)]
 pub struct Study<'a> {
-    pub(super) source: &'a Source,
-    /// Settings of all combinations, `KEY=VALUE`.
-    pub(super) fixed: &'a [String],
+    /// The case, with the settings of all combinations.
+    pub(super) document: Document<'a>,
     pub(super) combinations: &'a Combinations,
     pub(super) task: Task,
     pub(super) room: Capacity,
@@ -111,7 +110,7 @@ impl<'a> Study<'a> {
     }
 
     pub(super) fn case(&self, combination: &Combination) -> Result<Case, CaseError> {
-        Case::read(self.source, &[self.fixed, &self.combinations.settings(combination)].concat())
+        self.document.changed(&self.combinations.settings(combination))
     }
 
     pub(super) fn job(&self) -> Job {
@@ -152,20 +151,19 @@ impl<'a> Study<'a> {
                 Err(error) => return Ok(Ended::failed(error.message())),
             },
         };
-        let allowed = match Allowed::within(case, room, self.job()) {
-            Ok(allowed) => allowed,
-            Err(why) => return Ok(Ended::failed(why)),
-        };
-        let mut scalars = Scalars { allowed, stop: &self.stop };
-        Ok(match (self.task, self.keeps_fields) {
-            (Task::Solve, true) => keep(case, &folder.join(folder_of(planned.combination.number)), allowed)?,
-            (Task::Solve, false) => match case.run().solve(&mut scalars) {
-                Ok(outcome) => Ended::solved(&outcome, case),
-                Err(error) => Ended::failed(error.told()),
+        let (mut scalars, refused) =
+            (Scalars { stop: &self.stop }, |refused: Refused| Ended::failed(refused.to_string()));
+        Ok(match self.task {
+            Task::Solve => match Solve::new(case, room, self.job()) {
+                Ok(task) if self.keeps_fields => {
+                    keep(case, &task, &folder.join(folder_of(planned.combination.number)))?
+                }
+                Ok(task) => task.solve(&mut scalars).map_or_else(|error| Ended::failed(error.told()), Ended::solved),
+                Err(why) => refused(why),
             },
-            (Task::Limit, _) => match case.run().limits(&mut scalars) {
-                Ok(limits) => Ended::limited(&limits, case),
-                Err(error) => Ended::failed(error.told()),
+            Task::Limit => match FindLimits::new(case, room, false) {
+                Ok(task) => task.find(&mut scalars).map_or_else(|error| Ended::failed(error.told()), Ended::limited),
+                Err(why) => refused(why),
             },
         })
     }

@@ -1,7 +1,7 @@
 //! Numbers of a case from a measured indentation curve: which are free, how they are searched for, and the case with the values found.
 
 use super::model::CASE;
-use super::{Case, CaseError, Source};
+use super::{Case, CaseError, Document};
 use percoat_common::plain;
 use percoat_core::identification::{
     Identification, IdentificationError, Instrument, Listener, Measurement, Model, Parameter, Quantity,
@@ -83,8 +83,7 @@ pub fn known_instrument(texts: &[String]) -> Result<Instrument, NotKnown> {
 /// The task of `percoat identify`: free numbers of a case, from a measured curve.
 #[derive(Debug)]
 pub struct IdentificationTask<'a> {
-    source: &'a Source,
-    set: &'a [String],
+    document: &'a Document<'a>,
     case: &'a Case,
     parameters: Vec<Parameter>,
     /// Numbers that are taken as known, and by which what is found is differentiated.
@@ -94,12 +93,12 @@ pub struct IdentificationTask<'a> {
 }
 
 impl<'a> IdentificationTask<'a> {
-    /// The task for the numbers at these keys, and for `offset` and `frame_compliance`. The case is that of the source with the
-    /// overrides `set`; its numbers are the starts.
+    /// The task for the numbers at these keys, and for `offset` and `frame_compliance`. The case is that of the document; the numbers in
+    /// it are the starts.
     ///
     /// # Errors
     /// [`NotFree`] for names that are none of a number of the case above 0, for one that is there twice, and without any.
-    pub fn new(source: &'a Source, set: &'a [String], case: &'a Case, free: &[String]) -> Result<Self, NotFree> {
+    pub fn new(document: &'a Document<'a>, case: &'a Case, free: &[String]) -> Result<Self, NotFree> {
         if free.is_empty() {
             return Err(NotFree::Nothing);
         }
@@ -131,7 +130,7 @@ impl<'a> IdentificationTask<'a> {
             fixed.push(Parameter { name: name.to_owned(), quantity, start: 0.0 });
         }
         fixed.retain(|own| parameters.iter().all(|free| free.name != own.name));
-        Ok(Self { source, set, case, parameters, fixed, instrument: Instrument::default() })
+        Ok(Self { document, case, parameters, fixed, instrument: Instrument::default() })
     }
 
     /// The task for an instrument that is known to add this; where it is free as well, the search starts from it.
@@ -178,7 +177,7 @@ impl<'a> IdentificationTask<'a> {
         let of_case = |(own, _): &(&Parameter, &f64)| matches!(own.quantity, Quantity::Positive | Quantity::Bounded(_));
         let free = self.parameters.iter().chain(&self.fixed).zip(values).filter(of_case);
         let settings: Vec<String> = free.map(|(own, value)| format!("{}={value:e}", own.name)).collect();
-        Case::read(self.source, &[self.set, &settings].concat())
+        self.document.changed(&settings)
     }
 }
 
@@ -218,8 +217,9 @@ mod tests {
 
     fn quantity(case: &str, key: &str) -> Result<Quantity, NotFree> {
         let source = embedded::source(case).unwrap();
-        let own = Case::read(&source, &[]).unwrap();
-        IdentificationTask::new(&source, &[], &own, &[key.to_owned()]).map(|own| own.parameters[0].quantity)
+        let document = Document::new(&source, &[]).unwrap();
+        let case = document.case().unwrap();
+        IdentificationTask::new(&document, &case, &[key.to_owned()]).map(|task| task.parameters[0].quantity)
     }
 
     #[test]
@@ -244,10 +244,11 @@ mod tests {
     #[test]
     fn something_is_to_be_found_and_nothing_twice() {
         let source = embedded::source("fig2").unwrap();
-        let case = Case::read(&source, &[]).unwrap();
+        let document = Document::new(&source, &[]).unwrap();
+        let case = document.case().unwrap();
         let refused = |free: &[&str]| {
             let free: Vec<String> = free.iter().map(|&name| name.to_owned()).collect();
-            IdentificationTask::new(&source, &[], &case, &free).map(drop)
+            IdentificationTask::new(&document, &case, &free).map(drop)
         };
         assert_eq!(refused(&[]), Err(NotFree::Nothing));
         assert_eq!(refused(&["offset", " offset"]), Err(NotFree::Twice("offset".to_owned())));

@@ -5,7 +5,7 @@
 //!
 //! One file a section: lattice, levels, surface, layers (with the substrate, `durability`, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
 //! friction, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
-//! makes of them the texts of `percoat explain` and the schema; `identification` lets numbers be free; `materials` is the library. A document is parsed to a tree (`node`), changed by `overrides`,
+//! makes of them the texts of `percoat explain` and the schema; `identification` lets numbers be free; `materials` is the library. A [`Document`] is parsed to a tree (`node`) once, changed by `overrides`,
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
 //!
 //! ```
@@ -17,6 +17,7 @@
 
 mod composite_hardness;
 mod counterbody;
+mod document;
 mod durability;
 mod elastic_counterbody;
 pub mod embedded;
@@ -60,6 +61,7 @@ mod value;
 mod writer;
 
 pub use composite_hardness::CompositeHardnessSection;
+pub use document::Document;
 pub use durability::{EnduranceSection, FatigueSection};
 pub use elastic_counterbody::CounterbodySection;
 pub use error::CaseError;

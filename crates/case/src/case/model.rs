@@ -16,7 +16,7 @@ use super::life::LIFE;
 use super::load::{self, LOAD};
 use super::localized::LOCALIZED;
 use super::materials;
-use super::overrides;
+use super::node::Table;
 use super::reader::TableAt;
 use super::section::{KeyValue, ReadTable, section};
 use super::solver::SOLVER;
@@ -26,8 +26,9 @@ use super::surface::SURFACE;
 use super::units::UNITS;
 use super::writer::written;
 use super::{
-    CompositeHardnessSection, CounterbodySection, FrictionSection, LatticeSection, LayerSection, LevelSection,
-    LifeSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection, UnitsSection,
+    CompositeHardnessSection, CounterbodySection, Document, FrictionSection, LatticeSection, LayerSection,
+    LevelSection, LifeSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection,
+    UnitsSection,
 };
 use crate::units::Units;
 use percoat_core::body::{Bodies, HalfSpace, MeanStress};
@@ -115,7 +116,7 @@ impl Case {
     /// # Errors
     /// [`CaseError`] for the first fault found: TOML, unknown, missing or misspelt keys, types, ranges.
     pub fn read(source: &Source, overrides: &[String]) -> Result<Self, CaseError> {
-        source.read(overrides, |source| read(source, overrides))
+        Document::new(source, overrides)?.case()
     }
 
     /// The case as TOML, complete with its defaults; it reads back equal.
@@ -235,11 +236,8 @@ impl Case {
     }
 }
 
-fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
-    let mut root = source.tree(&CASE)?;
-    for (number, text) in (1 + source.set.len()..).zip(overrides) {
-        overrides::apply(text, number, &mut root, &CASE)?;
-    }
+/// The case of a tree, which is that of a source with what is set in it.
+pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
     materials::fill(&mut root, &CASE, source)?;
     let end = source.text.trim_end().len();
     let root = TableAt::root(&root, &CASE, Span::new(0, end..end));

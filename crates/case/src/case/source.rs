@@ -96,11 +96,21 @@ impl Source {
         overrides: &[String],
         read: impl Fn(&Self) -> Result<T, Refusal>,
     ) -> Result<T, CaseError> {
-        read(self).map_err(|refusal| match self.as_text() {
+        read(self).map_err(|refusal| self.error_of(refusal, overrides, read))
+    }
+
+    /// The error of a refusal by `read`, with the text in which it stands.
+    pub(super) fn error_of<T>(
+        &self,
+        refusal: Refusal,
+        overrides: &[String],
+        read: impl Fn(&Self) -> Result<T, Refusal>,
+    ) -> CaseError {
+        match self.as_text() {
             // Values have no lines to show: the text of them is made, and refused in turn, where they are.
             Some(text) => text.error(overrides, read(&text).err().unwrap_or(refusal)),
             None => self.error(overrides, refusal),
-        })
+        }
     }
 
     /// A case of values as text; `None` of one that is text.
