@@ -35,13 +35,13 @@ pub(super) fn far_states(around: &[&StressField], depth: Depth, line: &[[f64; 2]
     let (Some(&first), Some(&last)) = (line.first(), line.last()) else { return Vec::new() };
     let middle = [0, 1].map(|axis| 0.5 * (first[axis] + last[axis]));
     let (count, last_number) = (WINDOWS as i32 * PER_OCTAVE, (line.len() - 1) as f64);
-    let responses: Vec<DepthResponse> = around.iter().map(|own| own.depth_response(depth, SEARCH_REACH)).collect();
+    let responses: Vec<DepthResponse> = around.iter().map(|field| field.depth_response(depth, SEARCH_REACH)).collect();
     let far = |k: i32| {
         let times = 2f64.powf(f64::from(k) / f64::from(PER_OCTAVE));
         let part = f64::from(k) / f64::from(count + 1);
         [(first, -part), (last, last_number + part)].map(|(end, position)| {
             let place = [0, 1].map(|axis| middle[axis] + times * (end[axis] - middle[axis]));
-            let number = around.iter().position(|own| own.grid().cell().contains(place))?;
+            let number = around.iter().position(|field| field.grid().cell().contains(place))?;
             let state = around[number].stresses_at(&responses[number], &[place])[0];
             Some((position, place, state))
         })
@@ -63,7 +63,7 @@ impl FollowedLine {
     pub fn new(within: (LineStresses, Vec<f64>), far: &[FarState], kept: Kept) -> Option<Self> {
         let (mut stresses, mut places) = within.clone();
         let start = stresses.places.len();
-        let border = [far.iter().position(|own| own.0 < 0.0)?, far.iter().position(|own| own.0 > 0.0)?];
+        let border = [far.iter().position(|state| state.0 < 0.0)?, far.iter().position(|state| state.0 > 0.0)?];
         for &(position, place, state) in far {
             stresses.push(place, state, kept);
             places.push(position);

@@ -23,10 +23,10 @@ pub(super) fn longest_chord<const D: usize>(points: &[[f64; D]]) -> Chord {
     let middle: [f64; D] = std::array::from_fn(|k| {
         let ends = points
             .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], own| [low.min(own[k]), high.max(own[k])]);
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], point| [low.min(point[k]), high.max(point[k])]);
         0.5 * (ends[0] + ends[1])
     });
-    let mut ordered: Vec<(f64, usize)> = points.iter().map(|own| distance(own, &middle)).zip(0..).collect();
+    let mut ordered: Vec<(f64, usize)> = points.iter().map(|point| distance(point, &middle)).zip(0..).collect();
     if ordered.iter().any(|(d, _)| !d.is_finite()) {
         return Chord { ends: [0; 2], length: f64::NAN };
     }
@@ -41,7 +41,7 @@ pub(super) fn longest_chord<const D: usize>(points: &[[f64; D]]) -> Chord {
     };
     // A first guess leaves few pairs.
     let first = ordered[0].1;
-    if let Some((other, _)) = first_largest(points.iter().map(|own| distance(own, &points[first]))) {
+    if let Some((other, _)) = first_largest(points.iter().map(|point| distance(point, &points[first]))) {
         compare(first, other);
     }
     for (k, &(d, i)) in ordered.iter().enumerate() {

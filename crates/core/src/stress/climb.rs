@@ -150,15 +150,15 @@ fn highest(expansion: &Expansion, within: TrustRegion, value: f64, measure: Stre
 /// Top of the paraboloid through the points, in steps from the middle, at most one along each axis; axis by axis where the
 /// paraboloid has no top.
 fn top(levels: &[(f64, NinePoints)], is_centred: bool) -> [f64; 3] {
-    let own = &levels[0].1;
-    let (gx, gy) = (0.5 * (own[2] - own[1]), 0.5 * (own[4] - own[3]));
-    let (xx, yy) = (own[1] + own[2] - 2.0 * own[0], own[3] + own[4] - 2.0 * own[0]);
-    let xy = 0.25 * (own[5] + own[8] - own[6] - own[7]);
+    let middle = &levels[0].1;
+    let (gx, gy) = (0.5 * (middle[2] - middle[1]), 0.5 * (middle[4] - middle[3]));
+    let (xx, yy) = (middle[1] + middle[2] - 2.0 * middle[0], middle[3] + middle[4] - 2.0 * middle[0]);
+    let xy = 0.25 * (middle[5] + middle[8] - middle[6] - middle[7]);
     let (mut gz, mut zz, mut xz, mut yz) = (0.0, -1.0, 0.0, 0.0);
     if is_centred {
         let (up, down) = (&levels[1].1, &levels[2].1);
         gz = 0.5 * (down[0] - up[0]);
-        zz = up[0] + down[0] - 2.0 * own[0];
+        zz = up[0] + down[0] - 2.0 * middle[0];
         xz = 0.25 * (down[2] - down[1] - up[2] + up[1]);
         yz = 0.25 * (down[4] - down[3] - up[4] + up[3]);
     }
@@ -208,10 +208,10 @@ mod tests {
             2.0 - x * x - 2.0 * y * y - 1.5 * z * z + 0.6 * x * z - 0.4 * y * z + 0.3 * x * y
         };
         let level = |z: f64| {
-            let own = |k: usize| {
+            let of_point = |k: usize| {
                 if k == 0 { value(0.0, 0.0, z) } else { value(NEIGHBOURS[k - 1][0], NEIGHBOURS[k - 1][1], z) }
             };
-            (z, std::array::from_fn(own))
+            (z, std::array::from_fn(of_point))
         };
         let found = top(&[level(0.0), level(-1.0), level(1.0)], true);
         assert!(found.iter().zip([0.3, -0.2, 0.1]).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");

@@ -132,8 +132,8 @@ impl Contender {
 /// The largest contender of a measure with its error; without error where any contender has none. Positions within the
 /// distance `apart` count as one.
 pub(super) fn stated(contenders: &Contenders, measure: StressMeasure, apart: f64) -> Option<Peak> {
-    let own = contenders.iter().filter(|(of, _)| *of == measure);
-    let peaks: Vec<Peak> = own.map(|(_, contender)| contender.peak).collect();
+    let of_measure = contenders.iter().filter(|(of, _)| *of == measure);
+    let peaks: Vec<Peak> = of_measure.map(|(_, contender)| contender.peak).collect();
     Peak::highest(&peaks, apart)
 }
 
@@ -145,16 +145,16 @@ impl Peak {
         if peaks.iter().any(|peak| peak.value.is_finite() && peak.error.is_none()) {
             return Some(Self { error: None, rival: None, ..best });
         }
-        let Some(own) = best.error.filter(|_| best.value.is_finite()) else { return Some(best) };
+        let Some(error) = best.error.filter(|_| best.value.is_finite()) else { return Some(best) };
         // A value that is not a number may be arbitrarily large.
         let top_of = |top: f64| if top.is_nan() { f64::INFINITY } else { top };
         let errors = peaks.iter().filter_map(|peak| Some((peak, top_of(peak.value + peak.error?))));
-        let top = errors.clone().map(|(_, top)| top).fold(best.value + own, f64::max);
-        let least = best.value - own;
+        let top = errors.clone().map(|(_, top)| top).fold(best.value + error, f64::max);
+        let least = best.value - error;
         let others = errors.filter(|(peak, top)| *top > least && !peak.is_beside(&best, apart));
         let others = others.map(|(peak, _)| peak.rival_itself());
         let rival = others.chain(best.rival).reduce(|a, b| if b.top() > a.top() { b } else { a });
-        let beyond = if best.value + own < top { top - best.value } else { own };
+        let beyond = if best.value + error < top { top - best.value } else { error };
         // Value plus error is no less than the top, whatever the rounding.
         let error = if best.value + beyond < top { beyond.next_up() } else { beyond };
         Some(Self { error: Some(error), rival, ..best })
@@ -163,8 +163,8 @@ impl Peak {
     /// This value as a rival, or its own rival where that may be larger.
     fn rival_itself(&self) -> Rival {
         let Self { value, position, material, .. } = *self;
-        let own = Rival { value, error: self.error.unwrap_or(f64::INFINITY), position, material };
-        self.rival.filter(|rival| rival.top() >= own.top() * (1.0 - 1e-9)).unwrap_or(own)
+        let itself = Rival { value, error: self.error.unwrap_or(f64::INFINITY), position, material };
+        self.rival.filter(|rival| rival.top() >= itself.top() * (1.0 - 1e-9)).unwrap_or(itself)
     }
 
     fn is_beside(&self, other: &Self, apart: f64) -> bool {

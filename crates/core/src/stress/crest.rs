@@ -113,7 +113,7 @@ impl StressField {
             .zip(&surface.samples)
             .map(|(&measure, &sample)| {
                 let number = |place: (Location, [f64; 2])| {
-                    places.iter().position(|own| *own == place).unwrap_or_else(|| {
+                    places.iter().position(|known| *known == place).unwrap_or_else(|| {
                         places.push(place);
                         places.len() - 1
                     })
@@ -122,14 +122,14 @@ impl StressField {
             })
             .collect();
         let read = |smoothed: &SmoothedSurface| self.read_places(smoothed, &places);
-        let (own, others) = (read(&surface.smoothed), surface.others.each_ref().map(read));
+        let (points, others) = (read(&surface.smoothed), surface.others.each_ref().map(read));
         let of = |(&measure, numbers): (&StressMeasure, &Vec<usize>)| {
             let highest = |all: &[SurfacePoint]| {
-                let own = numbers.iter().map(|&number| all[number]);
-                own.max_by(|a, b| measure.of(&a.state).total_cmp(&measure.of(&b.state)))
+                let candidates = numbers.iter().map(|&number| all[number]);
+                candidates.max_by(|a, b| measure.of(&a.state).total_cmp(&measure.of(&b.state)))
             };
             let others = others.iter().filter_map(|other| highest(other));
-            highest(&own).map(|highest| (measure, self.crest_of(&surface, measure, highest, others)))
+            highest(&points).map(|highest| (measure, self.crest_of(&surface, measure, highest, others)))
         };
         measures.iter().zip(&finalists).filter_map(of).collect()
     }
@@ -192,9 +192,9 @@ impl StressField {
         let cusp = 2.0 * rubbed * per_stress;
         let eta = self.form().edge_exponent().abs();
         let few = |edge: &EdgePoint| {
-            let (own, n) = (value_of(edge), edge.resolution);
+            let (at_edge, n) = (value_of(edge), edge.resolution);
             let turned = EXPONENT_ERROR * eta * n.powf(eta - 0.5);
-            own + EDGE_ERROR / (n * n) * usual.max(own.abs()) + (CUSP_ERROR / n + turned) * cusp - value
+            at_edge + EDGE_ERROR / (n * n) * usual.max(at_edge.abs()) + (CUSP_ERROR / n + turned) * cusp - value
         };
         let few = largest(edges.iter().map(few));
         let direction = state.s1_direction();
@@ -279,11 +279,11 @@ impl StressField {
         *buffer = columns.into_buffer();
         let mut sums = vec![[0.0; 4]; edges.len()];
         let (mut sharp, mut rows) = (Vec::with_capacity(read.len()), beside.iter());
-        for (own, parts) in read {
+        for (sharpened, parts) in read {
             for (&(number, _), part) in rows.next().into_iter().flatten().zip(parts) {
                 sums[number].iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
             }
-            sharp.push(own);
+            sharp.push(sharpened);
         }
         for (edge, sum) in edges.iter_mut().zip(sums) {
             edge.state = smoothed.state_on_edge(edge.near, sum);
@@ -312,8 +312,8 @@ impl StressField {
             for &(j, sharp) in &band[i] {
                 states[j] = state(j, sharp);
             }
-            let own = if own_rows.contains(&i) { &states[own_columns.clone()] } else { &[] };
-            let best = if own.is_empty() { Vec::new() } else { found.add(own.len(), |j| own[j]) };
+            let inside = if own_rows.contains(&i) { &states[own_columns.clone()] } else { &[] };
+            let best = if inside.is_empty() { Vec::new() } else { found.add(inside.len(), |j| inside[j]) };
             (best, largest(row[3].iter().copied()))
         });
         let place = |measure: usize| {
@@ -327,7 +327,7 @@ impl StressField {
 
     /// States at points of the surface, by the exact sums; points at edges are moved onto the edge first.
     fn read_places(&self, smoothed: &SmoothedSurface, places: &[(Location, [f64; 2])]) -> Vec<SurfacePoint> {
-        let of = |kind: Location| places.iter().filter(move |(own, _)| *own == kind).map(|(_, place)| *place);
+        let of = |kind: Location| places.iter().filter(move |(location, _)| *location == kind).map(|(_, place)| *place);
         let (open, mut edges): (Vec<_>, Vec<_>) = (of(Location::Open).collect(), of(Location::Edge).collect());
         for _ in 0..2 {
             let near = self.at(&edges, &smoothed.near);

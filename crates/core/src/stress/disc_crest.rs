@@ -65,14 +65,14 @@ impl StressField {
         }
         let response = Arc::new(self.depth_response(Depth::SURFACE, REACH));
         let smoothed = |scale: f64| SmoothedDiscs::new(self, &response, scale * width);
-        let (own, others) = (smoothed(1.0), OTHER_WIDTHS.map(smoothed));
+        let (discs, others) = (smoothed(1.0), OTHER_WIDTHS.map(smoothed));
         let longer = self.series.waves.shells_up_to(1.0 / width).saturating_sub(1);
         let [unlike, _] = response.unlike(longer, self.surface_poisson());
-        let candidates = own.candidates(measures);
+        let candidates = discs.candidates(measures);
         measures
             .iter()
             .zip(candidates)
-            .map(|(&measure, points)| (measure, self.disc_crest(measure, &points, unlike, (&own, &others))))
+            .map(|(&measure, points)| (measure, self.disc_crest(measure, &points, unlike, (&discs, &others))))
             .collect()
     }
 
@@ -82,13 +82,13 @@ impl StressField {
         measure: StressMeasure,
         points: &[Point],
         unlike: f64,
-        (own, others): (&SmoothedDiscs<'_>, &[SmoothedDiscs<'_>]),
+        (discs, others): (&SmoothedDiscs<'_>, &[SmoothedDiscs<'_>]),
     ) -> Crest {
         let highest = |smoothed: &SmoothedDiscs<'_>| {
             let states = smoothed.states(points).into_iter().zip(points);
             states.reduce(|a, b| if measure.of(&b.0) > measure.of(&a.0) { b } else { a }).expect("there are points")
         };
-        let (state, point) = highest(own);
+        let (state, point) = highest(discs);
         let value = measure.of(&state);
         let pressed = self.discs().iter().map(|disc| disc.pressure).fold(0.0, f64::max);
         let per_stress = measure.per_stress();
@@ -192,7 +192,7 @@ impl<'a> SmoothedDiscs<'a> {
             let kink = (1.0 - 2.0 * nu) * disc.pressure / disc.radius * excess;
             // In the middle of a small disc the mean over all directions.
             let [nxx, nyy, nxy] =
-                if r > 0.0 { [x * x, y * y, x * y].map(|own| own / (r * r)) } else { [0.5, 0.5, 0.0] };
+                if r > 0.0 { [x * x, y * y, x * y].map(|product| product / (r * r)) } else { [0.5, 0.5, 0.0] };
             xx += jump * (nxx + 2.0 * nu * nyy) + kink * (nxx - nyy);
             yy += jump * (nyy + 2.0 * nu * nxx) + kink * (nyy - nxx);
             xy += nxy * ((1.0 - 2.0 * nu) * jump + 2.0 * kink);

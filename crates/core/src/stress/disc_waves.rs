@@ -17,8 +17,8 @@ pub(super) fn waves_of_discs(waves: &Waves, cell: Cell, discs: &[LoadedDisc]) ->
     radii.dedup();
     let of_radius: Vec<Vec<Complex64>> = radii.par_iter().map(|&radius| of_equal(waves, cell, discs, radius)).collect();
     let mut sums = vec![Complex64::default(); waves.shells().len()];
-    for own in of_radius {
-        sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+    for coefficients in of_radius {
+        sums.iter_mut().zip(coefficients).for_each(|(sum, coefficient)| *sum += coefficient);
     }
     sums
 }
@@ -30,7 +30,7 @@ fn of_equal(waves: &Waves, cell: Cell, discs: &[LoadedDisc], radius: f64) -> Vec
     let end = rows.iter().map(|row| row.first + row.len as i32).max().unwrap_or(first);
     let most = rows.iter().map(|row| row.across + 1).max().unwrap_or(0);
     let phase = |k: i32, s: f64| Complex64::cis(-TAU * (f64::from(k) * s).fract());
-    let own: Vec<(f64, Vec<Complex64>, Vec<Complex64>)> = discs
+    let phases: Vec<(f64, Vec<Complex64>, Vec<Complex64>)> = discs
         .iter()
         .filter(|disc| disc.radius == radius)
         .map(|disc| {
@@ -39,7 +39,10 @@ fn of_equal(waves: &Waves, cell: Cell, discs: &[LoadedDisc], radius: f64) -> Vec
         })
         .collect();
     let mut all = waves.coefficients(|[k1, k2]| {
-        own.iter().map(|(p, along, across)| *p * along[(k1 - first) as usize] * across[k2 as usize]).sum::<Complex64>()
+        phases
+            .iter()
+            .map(|(p, along, across)| *p * along[(k1 - first) as usize] * across[k2 as usize])
+            .sum::<Complex64>()
     });
     // A wave and its conjugate share one coefficient: twice the transform over the area of the cell.
     let profile = |&q: &f64| 4.0 * PI * radius * libm::j1(q * radius) / (q * cell.area());

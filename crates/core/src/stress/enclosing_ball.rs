@@ -24,27 +24,28 @@ impl<const D: usize> Ball<D> {
         let mut support = vec![points[0]];
         let mut ball = Self { centre: points[0], radius: 0.0 };
         loop {
-            let farthest = first_largest(points.iter().map(|own| distance(own, &ball.centre)));
+            let farthest = first_largest(points.iter().map(|point| distance(point, &ball.centre)));
             let Some((next, away)) = farthest.filter(|(_, away)| away.is_finite()) else { return ball };
             if away <= ball.radius * (1.0 + ROUNDING) || support.contains(&points[next]) {
                 return ball;
             }
-            let Some((larger, own)) = Self::of_support(&support, points[next]) else { return ball };
+            let Some((larger, chosen)) = Self::of_support(&support, points[next]) else { return ball };
             // Rounding alone ends the growth otherwise.
             if larger.radius <= ball.radius {
                 return ball;
             }
-            (ball, support) = (larger, own);
+            (ball, support) = (larger, chosen);
         }
     }
 
     /// The smallest ball around a `support` and a point outside its ball, which is on the new one, and the new support.
     fn of_support(support: &[[f64; D]], point: [f64; D]) -> Option<(Self, Vec<[f64; D]>)> {
         let parts = (0..1usize << support.len()).filter_map(|part| {
-            let chosen = support.iter().enumerate().filter(|(k, _)| part >> k & 1 == 1).map(|(_, own)| *own);
+            let chosen = support.iter().enumerate().filter(|(k, _)| part >> k & 1 == 1).map(|(_, member)| *member);
             let chosen: Vec<[f64; D]> = [point].into_iter().chain(chosen).collect();
             let ball = Self::through(&chosen)?;
-            let encloses = support.iter().all(|own| distance(own, &ball.centre) <= ball.radius * (1.0 + ROUNDING));
+            let encloses =
+                support.iter().all(|member| distance(member, &ball.centre) <= ball.radius * (1.0 + ROUNDING));
             encloses.then_some((ball, chosen))
         });
         parts.min_by(|a, b| a.0.radius.total_cmp(&b.0.radius))
@@ -53,10 +54,11 @@ impl<const D: usize> Ball<D> {
     /// The smallest ball with some points on its surface; `None` where they do not determine it.
     fn through(points: &[[f64; D]]) -> Option<Self> {
         let first = points[0];
-        let edges: Vec<[f64; D]> = points[1..].iter().map(|own| std::array::from_fn(|k| own[k] - first[k])).collect();
+        let edges: Vec<[f64; D]> =
+            points[1..].iter().map(|point| std::array::from_fn(|k| point[k] - first[k])).collect();
         let product = |a: &[f64; D], b: &[f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let rows = edges.iter().map(|a| edges.iter().map(|b| 2.0 * product(a, b)).collect()).collect();
-        let weights = linear::solve(rows, edges.iter().map(|own| product(own, own)).collect())?;
+        let weights = linear::solve(rows, edges.iter().map(|edge| product(edge, edge)).collect())?;
         let centre = std::array::from_fn(|k| {
             first[k] + edges.iter().zip(&weights).map(|(edge, weight)| weight * edge[k]).sum::<f64>()
         });
@@ -74,12 +76,12 @@ mod tests {
         let mut all: Vec<Vec<usize>> = vec![vec![]];
         let mut found: Option<Ball<3>> = None;
         for _ in 0..4 {
-            let longer = all.iter().flat_map(|own| {
-                (own.last().map_or(0, |last| last + 1)..n).map(move |next| [&own[..], &[next]].concat())
+            let longer = all.iter().flat_map(|subset| {
+                (subset.last().map_or(0, |last| last + 1)..n).map(move |next| [&subset[..], &[next]].concat())
             });
             all = longer.collect();
-            for own in &all {
-                let chosen: Vec<[f64; 3]> = own.iter().map(|&k| points[k]).collect();
+            for subset in &all {
+                let chosen: Vec<[f64; 3]> = subset.iter().map(|&k| points[k]).collect();
                 let Some(ball) = Ball::through(&chosen) else { continue };
                 let encloses = points.iter().all(|p| distance(p, &ball.centre) <= ball.radius * (1.0 + 1e-10));
                 if encloses && found.is_none_or(|found| ball.radius < found.radius) {

@@ -76,7 +76,7 @@ impl StressField {
         let interiors = self.interiors();
         let tangential = if self.slides() {
             let across = interiors.antiplane(wavenumbers, depth);
-            let across = across.iter().map(|own| [-own.sqt, -own.stz]);
+            let across = across.iter().map(|shear| [-shear.sqt, -shear.stz]);
             interiors.functions(InPlane::Along, wavenumbers, depth).into_iter().zip(across).collect()
         } else {
             Vec::new()
@@ -104,7 +104,7 @@ impl StressField {
         }
         let mut terms = [[0.0; STRESSES]; TERMS];
         for (to, from) in terms.iter_mut().flatten().zip(0..) {
-            *to = sums.iter().map(|own| own[from / STRESSES][from % STRESSES]).sum();
+            *to = sums.iter().map(|sum| sum[from / STRESSES][from % STRESSES]).sum();
         }
         let mean = self.mean(depth).components();
         terms[0].iter_mut().zip(mean).for_each(|(term, mean)| *term += mean);
@@ -128,7 +128,7 @@ impl StressField {
             stresses
         };
         let combined = |parts: &[(f64, [f64; STRESSES])]| -> [f64; STRESSES] {
-            std::array::from_fn(|k| parts.iter().map(|(weight, own)| weight * own[k]).sum())
+            std::array::from_fn(|k| parts.iter().map(|(weight, stresses)| weight * stresses[k]).sum())
         };
         let (one, two) = (0.5 / step, 1.0 / (step * step));
         let (one_deep, two_deep, mixed_deep) = (0.5 / rise, 0.5 / (rise * rise), 0.25 / (step * rise));
@@ -227,14 +227,14 @@ impl DepthFunctions<'_> {
         let shells = &self.field.series.waves.shells()[row.start..row.start + row.len];
         let coefficients = &self.coefficients[row.start..row.start + row.len];
         // Lanes beyond the row's end have no coefficient.
-        let mut own = [[0.0; LANES]; 7];
+        let mut quantities = [[0.0; LANES]; 7];
         let (mut f, mut g, mut v) = ([[0.0; LANES]; 4], [[0.0; LANES]; 4], [[0.0; LANES]; 2]);
         for lane in 0..LANES.min(row.len - first) {
             let number = first + lane;
             let (shell, c, [[re], [im]]) = (shells[number] as usize, coefficients[number], along[number]);
             let [x, y] = row.at(number, step);
             let all = [c.re, c.im, re, im, x, y, self.lengths[shell]];
-            put(&mut own, lane, &all);
+            put(&mut quantities, lane, &all);
             put(&mut f, lane, &self.normal[shell]);
             if SLIDES {
                 let (along, across) = &self.tangential[shell];
@@ -242,7 +242,7 @@ impl DepthFunctions<'_> {
                 put(&mut v, lane, across);
             }
         }
-        let [c_re, c_im, re, im, x, y, length] = loaded(simd, &own);
+        let [c_re, c_im, re, im, x, y, length] = loaded(simd, &quantities);
         let (across_re, across_im) = (splat(simd, across[0]), splat(simd, across[1]));
         let (re, im) = (re * across_re - im * across_im, re * across_im + im * across_re);
         let (nx, ny) = (x * length, y * length);
@@ -268,7 +268,7 @@ impl DepthFunctions<'_> {
         let (two, minus, wavenumber) = (splat(simd, 2.0), splat(simd, -1.0), waves.wavenumber);
         // Under a shear traction σ_zz, σ_qq and σ_tt have the other sign.
         let [zz, qz, qq, tt] = waves.stresses(&waves.along, order);
-        let own = waves.cartesian([zz * minus, qz, qq * minus, tt * minus]);
+        let along = waves.cartesian([zz * minus, qz, qq * minus, tt * minus]);
         let (stz, sqt) = match order {
             0 => (s * minus, v * minus),
             1 => (v * wavenumber, s * wavenumber),
@@ -278,7 +278,7 @@ impl DepthFunctions<'_> {
         let across = [shear * minus, shear, splat(simd, 0.0), (nxx - nyy) * sqt, ny * minus * stz, nx * stz];
         let mut odd = [splat(simd, 0.0); STRESSES];
         for k in 0..STRESSES {
-            odd[k] = by_along * own[k] + by_across * across[k];
+            odd[k] = by_along * along[k] + by_across * across[k];
         }
         odd
     }
@@ -296,9 +296,9 @@ fn loaded<S: Simd, const N: usize>(simd: S, all: &[[f64; LANES]; N]) -> [f64x8<S
 
 /// Stores N quantities of one wave in its lane.
 #[inline(always)]
-fn put<const N: usize>(all: &mut [[f64; LANES]; N], lane: usize, own: &[f64; N]) {
+fn put<const N: usize>(all: &mut [[f64; LANES]; N], lane: usize, quantities: &[f64; N]) {
     for k in 0..N {
-        all[k][lane] = own[k];
+        all[k][lane] = quantities[k];
     }
 }
 
@@ -326,9 +326,9 @@ mod tests {
             for (z, material) in [(0.1, 1), (0.31, 2)] {
                 let (depth, place) = (Depth { z, material }, [0.31, 0.17]);
                 let expansion = field.expanded(depth, place);
-                let own = field.points(depth, &[place])[0].components();
+                let direct = field.points(depth, &[place])[0].components();
                 let middle = expansion.state().components();
-                assert!((0..6).all(|k| (own[k] - middle[k]).abs() < 1e-11), "{own:?}, {middle:?}");
+                assert!((0..6).all(|k| (direct[k] - middle[k]).abs() < 1e-11), "{direct:?}, {middle:?}");
                 let error = |by: f64| {
                     let [x, y, dz] = [0.6 * by, -0.8 * by, 0.5 * by];
                     let beside = Depth { z: z + dz, material };

@@ -94,8 +94,8 @@ impl FarField {
         known.get_or_init(|| {
             let mut sums = vec![tables.none(); interval.nodes];
             for ((part, coefficients), responses) in tables.parts.iter().zip(&self.coefficients).zip(responses) {
-                let planes: Vec<Nodes> = responses.iter().map(|own| part.plane(coefficients, own)).collect();
-                sums.iter_mut().zip(in_depth(&planes)).for_each(|(sums, own)| tables.add(part, &own, sums));
+                let planes: Vec<Nodes> = responses.iter().map(|response| part.plane(coefficients, response)).collect();
+                sums.iter_mut().zip(in_depth(&planes)).for_each(|(sums, nodes)| tables.add(part, &nodes, sums));
             }
             sums
         })
@@ -163,28 +163,30 @@ impl Part {
         terms.clear();
         for k in 0..row.len {
             let number = row.start + k;
-            let own: [Complex64; COMPONENTS] =
+            let components: [Complex64; COMPONENTS] =
                 response.times(row.at(k, step), self.waves.shells()[number] as usize, coefficients.at::<W>(number));
-            terms.push(std::array::from_fn(|c| if c < COMPONENTS { own[c].re } else { own[c - COMPONENTS].im }));
+            terms.push(std::array::from_fn(|c| {
+                if c < COMPONENTS { components[c].re } else { components[c - COMPONENTS].im }
+            }));
         }
         // Nodes are mirror images at the middle, where their phases are conjugate: sums by cosines and sines serve both.
         for i in 0..n1.div_ceil(2) {
             let [by_cosines, by_sines] = along.from(i, row.first).map(|phases| weighted(phases.iter().copied(), terms));
             for j in 0..n2 {
                 let [c, s] = across.from(j, row.across).map(|phases| phases[0]);
-                let own = &mut values[i * n2 + j];
+                let value = &mut values[i * n2 + j];
                 for k in 0..COMPONENTS {
                     let (re, im) = (by_cosines[k] - by_sines[k + COMPONENTS], by_cosines[k + COMPONENTS] + by_sines[k]);
-                    own[k] += c * re - s * im;
+                    value[k] += c * re - s * im;
                 }
                 let mirrored = n1 - 1 - i;
                 if mirrored == i {
                     continue;
                 }
-                let own = &mut values[mirrored * n2 + j];
+                let value = &mut values[mirrored * n2 + j];
                 for k in 0..COMPONENTS {
                     let (re, im) = (by_cosines[k] + by_sines[k + COMPONENTS], by_cosines[k + COMPONENTS] - by_sines[k]);
-                    own[k] += c * re - s * im;
+                    value[k] += c * re - s * im;
                 }
             }
         }
@@ -198,10 +200,10 @@ impl FarTables {
     }
 
     /// Adds coefficients of a part to those of all: of the polynomials of lower degree that it has.
-    fn add(&self, part: &Part, own: &Nodes, sums: &mut Nodes) {
-        for (sums, own) in sums.chunks_exact_mut(self.counts[1]).zip(own.chunks_exact(part.counts[1])) {
-            for (sum, own) in sums.iter_mut().flatten().zip(own.iter().flatten()) {
-                *sum += own;
+    fn add(&self, part: &Part, coefficients: &Nodes, sums: &mut Nodes) {
+        for (sums, row) in sums.chunks_exact_mut(self.counts[1]).zip(coefficients.chunks_exact(part.counts[1])) {
+            for (sum, coefficient) in sums.iter_mut().flatten().zip(row.iter().flatten()) {
+                *sum += coefficient;
             }
         }
     }
@@ -210,9 +212,9 @@ impl FarTables {
 /// The sum of all components of several `parts`, with weights.
 fn combined(weights: impl Iterator<Item = f64>, parts: &[Nodes]) -> Nodes {
     let mut sums = vec![[0.0; COMPONENTS]; parts.first().map_or(0, Vec::len)];
-    for (weight, own) in weights.zip(parts) {
-        for (sum, own) in sums.iter_mut().flatten().zip(own.iter().flatten()) {
-            *sum += weight * own;
+    for (weight, part) in weights.zip(parts) {
+        for (sum, value) in sums.iter_mut().flatten().zip(part.iter().flatten()) {
+            *sum += weight * value;
         }
     }
     sums
@@ -251,7 +253,7 @@ mod tests {
             tables.add(part, &part.plane(&coefficients, &response), &mut sums);
             let plane = FarPlane { counts: tables.counts, coefficients: sums, corner: [-2.0; 2] };
             for [x, y] in [[0.0, 0.0], [0.37, -0.61], [1.0, 1.0], [-1.0, 0.93]] {
-                let own = plane.at([x, y].map(|place| 0.25 * (place + 2.0)));
+                let found = plane.at([x, y].map(|place| 0.25 * (place + 2.0)));
                 let (mut exact, mut size) = ([0.0; COMPONENTS], [0.0; COMPONENTS]);
                 for row in part.waves.rows_within(response.shells()) {
                     for k in 0..row.len {
@@ -268,7 +270,7 @@ mod tests {
                     }
                 }
                 let largest = size.iter().copied().fold(0.0, f64::max);
-                let worst = (0..COMPONENTS).map(|c| (own[c] - exact[c]).abs()).fold(0.0, f64::max);
+                let worst = (0..COMPONENTS).map(|c| (found[c] - exact[c]).abs()).fold(0.0, f64::max);
                 assert!(worst <= 2e-9 * largest, "cell {number}, {x}, {y}: {worst:e} of {largest:e}");
             }
             counts.push(part.counts);
@@ -304,10 +306,10 @@ mod tests {
             let exact = FarPlane { coefficients: field.below(depth), ..field.plane(depth) };
             let plane = field.plane(depth);
             for place in [[0.5, 0.5], [0.3, 0.61], [0.26, 0.74]] {
-                let (own, exact) = (plane.at(place), exact.at(place));
+                let (found, exact) = (plane.at(place), exact.at(place));
                 for kind in [0..6, 6..COMPONENTS] {
                     let largest = exact[kind.clone()].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-                    let worst = kind.map(|c| (own[c] - exact[c]).abs()).fold(0.0, f64::max);
+                    let worst = kind.map(|c| (found[c] - exact[c]).abs()).fold(0.0, f64::max);
                     // An interval as long as it is deep: its images leave 0.25^N of the difference at N nodes, 8 at most.
                     assert!(worst <= 0.25f64.powi(8) * largest, "{depth:?}, {place:?}: {worst:e} of {largest:e}");
                 }

@@ -23,7 +23,7 @@ pub(super) struct FarPlane<const K: usize> {
 impl<const K: usize> FarPlane<K> {
     /// Components picked and combined by a function of all of them, which must be linear.
     pub fn map<const L: usize>(&self, of: impl Fn([f64; K]) -> [f64; L]) -> FarPlane<L> {
-        let coefficients = self.coefficients.iter().map(|&own| of(own)).collect();
+        let coefficients = self.coefficients.iter().map(|&components| of(components)).collect();
         FarPlane { counts: self.counts, coefficients, corner: self.corner }
     }
 
@@ -44,8 +44,8 @@ impl<const K: usize> FarPlane<K> {
         let mut sums = vec![[0.0; K]; self.counts[1]];
         let rows = self.coefficients.chunks_exact(self.counts[1]);
         for (weight, row) in polynomials(self.inside(0, s)).zip(rows) {
-            for (sum, own) in sums.iter_mut().flatten().zip(row.iter().flatten()) {
-                *sum += weight * own;
+            for (sum, coefficient) in sums.iter_mut().flatten().zip(row.iter().flatten()) {
+                *sum += weight * coefficient;
             }
         }
         sums
@@ -103,9 +103,9 @@ impl<const K: usize> FarPlane<K> {
 #[inline(always)]
 pub(super) fn weighted<const K: usize>(weights: impl Iterator<Item = f64>, terms: &[[f64; K]]) -> [f64; K] {
     let mut sums = [0.0; K];
-    for (weight, own) in weights.zip(terms) {
+    for (weight, term) in weights.zip(terms) {
         for k in 0..K {
-            sums[k] += weight * own[k];
+            sums[k] += weight * term[k];
         }
     }
     sums
@@ -158,10 +158,10 @@ mod tests {
                         continue;
                     }
                     met += 1;
-                    let (own, exact) = (line.at(s), plane.at(place));
+                    let (found, exact) = (line.at(s), plane.at(place));
                     assert!(
-                        own.iter().zip(&exact).all(|(a, b)| (a - b).abs() < rounding),
-                        "{unit:?} {s}: {own:?}, {exact:?}"
+                        found.iter().zip(&exact).all(|(a, b)| (a - b).abs() < rounding),
+                        "{unit:?} {s}: {found:?}, {exact:?}"
                     );
                 }
                 assert!(met > 20, "{unit:?}");

@@ -68,8 +68,8 @@ pub(super) struct NodePhases {
 impl NodePhases {
     /// Phases of the waves of some ranges of κ.
     fn new(ranges: &[Range<i32>], nodes: impl Iterator<Item = f64>) -> Self {
-        let first = ranges.iter().map(|own| own.start).min().unwrap_or(0);
-        let last = ranges.iter().map(|own| own.end).max().unwrap_or(0);
+        let first = ranges.iter().map(|range| range.start).min().unwrap_or(0);
+        let last = ranges.iter().map(|range| range.end).max().unwrap_or(0);
         let at = |s: f64| {
             let phase = |k: i32| (TAU * (f64::from(k) * s).fract()).sin_cos();
             let (sines, cosines) = (first..last).map(phase).unzip();
@@ -124,9 +124,9 @@ impl FarTables {
         let (half_space, counts) = (half_space.clone(), counts(sides));
         let mut parts = Vec::new();
         for number in 0..CELLS {
-            let (own, points) = part(sides, number);
-            let own = Cell::window(own)?;
-            let waves = Arc::clone(Grid::new(own, points)?.waves());
+            let (cell_sides, points) = part(sides, number);
+            let cell = Cell::window(cell_sides)?;
+            let waves = Arc::clone(Grid::new(cell, points)?.waves());
             let weight = |&q: &f64| match number {
                 0 => -cut(q / limit(0)),
                 _ if number + 1 == CELLS => cut(q / limit(number - 1)),
@@ -142,11 +142,11 @@ impl FarTables {
                 rows.iter().map(|row| row.across..row.across + 1).collect(),
             ];
             let phases = [0, 1].map(|axis| {
-                let part_of_cell = sides[axis] / own.vectors()[axis][axis];
+                let part_of_cell = sides[axis] / cell.vectors()[axis][axis];
                 let fraction = |x| 0.5 * x * part_of_cell + 0.5;
                 NodePhases::new(&ranges[axis], nodes(counts[axis]).into_iter().map(fraction))
             });
-            parts.push(Part { cell: own, waves, weights, counts, phases, interiors });
+            parts.push(Part { cell, waves, weights, counts, phases, interiors });
         }
         let intervals = intervals(&half_space, sides).into_iter();
         let segments = intervals.map(|interval| (interval, OnceLock::new())).collect();
@@ -183,7 +183,7 @@ impl FarTables {
             let shells = waves / together + n1 + n2;
             let interiors = InteriorTable::bytes(half_space, slides, |_| shells);
             let highest = highest(sides[0].min(sides[1]), number);
-            let depths: usize = intervals.iter().map(|own| own.nodes_of(highest)).sum();
+            let depths: usize = intervals.iter().map(|interval| interval.nodes_of(highest)).sum();
             let [along, across] = part_counts(sides, number);
             let phases = NodePhases::bytes(n1 + 1, along) + NodePhases::bytes(n2 / 2 + 1, across);
             phases
@@ -192,7 +192,7 @@ impl FarTables {
                 + interiors
         };
         let [n1, n2] = counts(sides);
-        let depths: usize = intervals.iter().map(|own| own.nodes).sum();
+        let depths: usize = intervals.iter().map(|interval| interval.nodes).sum();
         (0..CELLS).map(of_part).sum::<usize>() + depths * n1 * n2 * COMPONENTS * size_of::<f64>()
     }
 
@@ -224,9 +224,9 @@ fn limit(shorter: f64, number: usize) -> f64 {
 
 /// Sides of the cell of a number around a window of these sides, and the points of a grid that holds its waves up to twice the limit.
 fn part(sides: [f64; 2], number: usize) -> ([f64; 2], [usize; 2]) {
-    let own = sides.map(|side| side * 2f64.powi(1 + number as i32));
+    let cell_sides = sides.map(|side| side * 2f64.powi(1 + number as i32));
     let most = highest(sides[0].min(sides[1]), number);
-    (own, own.map(|side| 2 * (most * side / TAU).ceil() as usize + 2))
+    (cell_sides, cell_sides.map(|side| 2 * (most * side / TAU).ceil() as usize + 2))
 }
 
 /// The highest wavenumber of the cell of a number around a window with this `shorter` side, twice the limit, 1/length.
@@ -301,8 +301,8 @@ mod tests {
     /// Bytes of what a table holds, counted.
     fn held(tables: &FarTables) -> usize {
         let responses = (0..tables.segments.len()).flat_map(|number| tables.responses(number).iter().flatten());
-        let amplitudes: usize = responses.map(|own| own.normal.len()).sum();
-        let phases = tables.parts.iter().flat_map(|part| &part.phases).flat_map(|own| own.values.iter().flatten());
+        let amplitudes: usize = responses.map(|response| response.normal.len()).sum();
+        let phases = tables.parts.iter().flat_map(|part| &part.phases).flat_map(|axis| axis.values.iter().flatten());
         let phases: usize = phases.map(Vec::len).sum();
         amplitudes * (size_of::<Amplitudes>() + size_of::<f64>()) + phases * size_of::<f64>()
     }
@@ -339,8 +339,9 @@ mod tests {
             let all = intervals(&half_space, [1.0; 2]);
             for number in 1..=count {
                 let (top, bottom) = half_space.faces(number);
-                let own: Vec<[f64; 2]> = all.iter().filter(|own| own.material == number).map(|own| own.ends).collect();
-                assert!(own[0][0] == top && own[own.len() - 1][1] == bottom, "{number}: {own:?}");
+                let ends: Vec<[f64; 2]> =
+                    all.iter().filter(|interval| interval.material == number).map(|interval| interval.ends).collect();
+                assert!(ends[0][0] == top && ends[ends.len() - 1][1] == bottom, "{number}: {ends:?}");
             }
             assert!(all.len() <= count + 14, "{count}, {h}: {}", all.len());
         }
@@ -351,8 +352,8 @@ mod tests {
         let material = Material::from_shear(1.0, 0.3).unwrap();
         let layer = |h: f64| Layer::new(material, h, Interface::Bonded).unwrap();
         let half_space = HalfSpace::new(vec![layer(1e-4), layer(0.02), layer(0.4)], material);
-        let nodes: Vec<usize> = intervals(&half_space, [1.0, 2.0]).iter().map(|own| own.nodes).collect();
+        let nodes: Vec<usize> = intervals(&half_space, [1.0, 2.0]).iter().map(|interval| interval.nodes).collect();
         // The last interval is cut off where the table ends.
-        assert!(nodes[..4] == [2, 4, 8, 8] && nodes.iter().all(|own| (2..=DOWN).contains(own)), "{nodes:?}");
+        assert!(nodes[..4] == [2, 4, 8, 8] && nodes.iter().all(|count| (2..=DOWN).contains(count)), "{nodes:?}");
     }
 }

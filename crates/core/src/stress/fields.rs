@@ -82,6 +82,6 @@ impl StressFields {
 impl fmt::Display for StressFields {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.body)?;
-        self.counterbody.iter().try_for_each(|own| write!(f, "\ncounterbody: {own}"))
+        self.counterbody.iter().try_for_each(|field| write!(f, "\ncounterbody: {field}"))
     }
 }

@@ -35,12 +35,12 @@ impl ContenderLists {
 
     /// Adds the contenders for the same maxima elsewhere.
     fn extend(&mut self, others: &Self) {
-        let pairs = |own: &mut Vec<Contenders>, others: &[Contenders]| {
-            own.iter_mut().zip(others).for_each(|(own, other)| own.extend(other));
+        let pairs = |lists: &mut Vec<Contenders>, others: &[Contenders]| {
+            lists.iter_mut().zip(others).for_each(|(list, other)| list.extend(other));
         };
         pairs(&mut self.materials, &others.materials);
         pairs(&mut self.faces, &others.faces);
-        self.interfaces.iter_mut().zip(&others.interfaces).for_each(|((_, own), (_, other))| own.extend(other));
+        self.interfaces.iter_mut().zip(&others.interfaces).for_each(|((_, list), (_, other))| list.extend(other));
     }
 }
 
@@ -61,8 +61,8 @@ impl Following {
         let strength = self.strengths.get(peak.material.number - 1);
         match measure {
             StressMeasure::Delamination(_) => true,
-            StressMeasure::Tension => strength.is_some_and(|own| own.tensile.is_some()),
-            StressMeasure::Mises => strength.is_some_and(|own| own.yielding.is_some()),
+            StressMeasure::Tension => strength.is_some_and(|strength| strength.tensile.is_some()),
+            StressMeasure::Mises => strength.is_some_and(|strength| strength.yielding.is_some()),
             StressMeasure::Tau1 | StressMeasure::Opening | StressMeasure::Shear => false,
             StressMeasure::Strain(_) | StressMeasure::HorizontalStrain(_) | StressMeasure::Compression(_) => false,
         }
@@ -70,11 +70,11 @@ impl Following {
 
     /// Whether a larger value of a measure is looked for outside of the window on whose `border` stresses have the largest size, a pressure,
     /// where it is not faint: from a value that is no larger than that at rest, or lies on the border, unless it is faint and deep and no strength is judged by it.
-    fn goes_on(&self, own: &Contender, measure: StressMeasure, [rest, border]: [f64; 2]) -> bool {
-        let Peak { value, position: [_, _, z], .. } = own.peak;
+    fn goes_on(&self, contender: &Contender, measure: StressMeasure, [rest, border]: [f64; 2]) -> bool {
+        let Peak { value, position: [_, _, z], .. } = contender.peak;
         let is_followed =
-            || value >= self.faint * measure.per_stress() || z <= self.depth || self.is_judged(own.peak, measure);
-        border > self.faint && (value <= rest || own.is_still_on(border) && is_followed())
+            || value >= self.faint * measure.per_stress() || z <= self.depth || self.is_judged(contender.peak, measure);
+        border > self.faint && (value <= rest || contender.is_still_on(border) && is_followed())
     }
 }
 
@@ -120,9 +120,13 @@ impl FoundStresses {
     fn beyond(&self, contenders: &Contenders, peak: Peak, measure: StressMeasure) -> Option<f64> {
         let rest = self.at_rest.get(peak.material.number - 1)?;
         let (at_rest, border) = (measure.of(rest), border(contenders, measure)?);
-        let is_own = |own: &Contender| own.peak.position == peak.position && own.peak.value == peak.value;
-        let is_on_border =
-            || contenders.iter().any(|(of, own)| *of == measure && is_own(own) && own.is_still_on(border));
+        let is_at_peak =
+            |contender: &Contender| contender.peak.position == peak.position && contender.peak.value == peak.value;
+        let is_on_border = || {
+            contenders
+                .iter()
+                .any(|(of, contender)| *of == measure && is_at_peak(contender) && contender.is_still_on(border))
+        };
         (peak.value <= at_rest || is_on_border()).then(|| at_rest + measure.rise(rest, border))
     }
 
@@ -137,16 +141,17 @@ impl FoundStresses {
     pub fn may_be_larger_outside(&self) -> Vec<[bool; 2]> {
         let (everywhere, Some(following)) = (self.everywhere(), &self.following) else { return Vec::new() };
         let is_there = |contenders: &Contenders| {
-            contenders.iter().any(|(measure, own)| {
+            contenders.iter().any(|(measure, contender)| {
                 let rest =
-                    self.at_rest.get(own.peak.material.number - 1).map_or(f64::INFINITY, |rest| measure.of(rest));
+                    self.at_rest.get(contender.peak.material.number - 1).map_or(f64::INFINITY, |rest| measure.of(rest));
                 let border = border(contenders, *measure).unwrap_or(0.0);
                 let is_largest =
-                    || contenders.iter().all(|(of, other)| of != measure || other.peak.value <= own.peak.value);
-                following.goes_on(own, *measure, [rest, border]) && is_largest()
+                    || contenders.iter().all(|(of, other)| of != measure || other.peak.value <= contender.peak.value);
+                following.goes_on(contender, *measure, [rest, border]) && is_largest()
             })
         };
-        let of_interface = |number: usize| everywhere.interfaces.get(number).is_some_and(|(_, own)| is_there(own));
+        let of_interface =
+            |number: usize| everywhere.interfaces.get(number).is_some_and(|(_, contenders)| is_there(contenders));
         let materials = everywhere.materials.iter().enumerate();
         materials.map(|(number, contenders)| [is_there(contenders), of_interface(number)]).collect()
     }

@@ -67,13 +67,13 @@ impl PlaneAround {
 
     /// Adds the samples of the line at y that lie before the first one of a line and behind its last one, which is that of the window within
     /// the `hole`.
-    pub fn lengthen(&self, own: &mut LineStresses, y: f64, hole: Cell) {
+    pub fn lengthen(&self, line: &mut LineStresses, y: f64, hole: Cell) {
         let axis = self.plane.advance();
-        let Some(middle) = own.places.get(own.places.len() / 2).map(|&place| self.cell.fractions(place)[axis]) else {
+        let Some(middle) = line.places.get(line.places.len() / 2).map(|&place| self.cell.fractions(place)[axis]) else {
             return;
         };
         let [mut before, mut behind] = [LineStresses::default(), LineStresses::default()];
-        let after = self.lines.partition_point(|(own, _)| *own <= y);
+        let after = self.lines.partition_point(|(at, _)| *at <= y);
         let first = after.saturating_sub(2).min(self.lines.len().saturating_sub(4));
         let beside = self.lines.get(first..first + 4).unwrap_or_default();
         let weight =
@@ -88,6 +88,6 @@ impl PlaneAround {
             let side = if self.cell.fractions(place)[axis] < middle { &mut before } else { &mut behind };
             side.append(sample);
         }
-        own.lengthen(before, behind);
+        line.lengthen(before, behind);
     }
 }

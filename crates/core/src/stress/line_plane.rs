@@ -87,12 +87,12 @@ type FarRow<'a, const K: usize> = (&'a FarPlane<K>, Vec<[f64; K]>, [f64; 2]);
 
 impl<const K: usize> Row<'_, K> {
     fn at(&self, column: usize) -> [f64; K] {
-        let own = self.waves.map(|wave| wave[column]);
-        let Some((plane, line, [first, step])) = &self.far else { return own };
+        let waves = self.waves.map(|wave| wave[column]);
+        let Some((plane, line, [first, step])) = &self.far else { return waves };
         let turn = first + column as f64 * step;
         // The far field is read in the window, which lies in the first three quarters of a period from its first column on.
         let far = plane.on(line, if turn >= first + 0.75 { turn - 1.0 } else { turn });
-        std::array::from_fn(|k| own[k] + far[k])
+        std::array::from_fn(|k| waves[k] + far[k])
     }
 }
 
@@ -223,9 +223,12 @@ impl StressField {
 
 /// The sum of values of some lines, each with a weight; `None` where they are not kept.
 fn sum<const K: usize>(weights: &[(f64, usize)], value: impl Fn(usize) -> Option<[f64; K]>) -> Option<[f64; K]> {
-    let add = |sum: [f64; K], (weight, own): (f64, [f64; K])| std::array::from_fn(|k| sum[k] + weight * own[k]);
-    let own = weights.iter().map(|&(weight, line)| Some((weight, value(line)?)));
-    own.collect::<Option<Vec<_>>>().filter(|own| !own.is_empty()).map(|own| own.into_iter().fold([0.0; K], add))
+    let add = |sum: [f64; K], (weight, values): (f64, [f64; K])| std::array::from_fn(|k| sum[k] + weight * values[k]);
+    let terms = weights.iter().map(|&(weight, line)| Some((weight, value(line)?)));
+    terms
+        .collect::<Option<Vec<_>>>()
+        .filter(|terms| !terms.is_empty())
+        .map(|terms| terms.into_iter().fold([0.0; K], add))
 }
 
 /// Columns, from the first on, that reach into the window of an isolated contact: half of them where they are not shifted.
@@ -235,20 +238,20 @@ fn used_columns(lines: &SlidingLines, LinePoints { columns, .. }: LinePoints, ti
 
 impl KeptRow {
     fn of(states: impl Iterator<Item = StressState>, kept: Kept) -> Self {
-        let mut own = Self::default();
+        let mut row = Self::default();
         for state in states {
             if kept.tau1 {
-                own.tau1.push(state.tau1());
+                row.tau1.push(state.tau1());
             }
             if kept.shear {
-                own.shear.push([state.xz, state.yz]);
+                row.shear.push([state.xz, state.yz]);
             }
             if kept.stress {
                 let [stresses @ .., _, _, _] = state.components();
-                own.stress.push(stresses);
+                row.stress.push(stresses);
             }
         }
-        own
+        row
     }
 }
 
@@ -305,12 +308,12 @@ impl LinePlane {
     pub fn combined(&self, cell: Cell, row: usize, weights: &[(f64, usize)]) -> Option<LineStresses> {
         let (mut place, kept) = ([0.0; 2], self.rows.get(row)?);
         for &(weight, line) in weights {
-            let own = self.place(cell, [row, line])?;
-            place = [0, 1].map(|k| place[k] + weight * own[k]);
+            let sample = self.place(cell, [row, line])?;
+            place = [0, 1].map(|k| place[k] + weight * sample[k]);
         }
         Some(LineStresses {
             places: vec![place],
-            tau1: sum(weights, |line| kept.tau1.get(line).map(|own| [*own])).map(|[own]| own).into_iter().collect(),
+            tau1: sum(weights, |line| kept.tau1.get(line).map(|tau1| [*tau1])).map(|[tau1]| tau1).into_iter().collect(),
             shear: sum(weights, |line| kept.shear.get(line).copied()).into_iter().collect(),
             stress: sum(weights, |line| kept.stress.get(line).copied())
                 .map(StressState::from_stresses)
@@ -346,14 +349,14 @@ impl LinePlane {
 
     /// Stresses along a line; empty where none of it lies in the window of an isolated contact.
     pub fn line(&self, cell: Cell, line: usize) -> LineStresses {
-        let mut own = LineStresses::default();
+        let mut stresses = LineStresses::default();
         for sample @ [row, column] in self.lines.samples(line, self.points) {
             let (Some(place), Some(kept)) = (self.place(cell, sample), self.rows.get(row)) else { continue };
-            own.places.push(place);
-            own.tau1.extend(kept.tau1.get(column));
-            own.shear.extend(kept.shear.get(column));
-            own.stress.extend(kept.stress.get(column).map(|own| StressState::from_stresses(*own)));
+            stresses.places.push(place);
+            stresses.tau1.extend(kept.tau1.get(column));
+            stresses.shear.extend(kept.shear.get(column));
+            stresses.stress.extend(kept.stress.get(column).map(|stress| StressState::from_stresses(*stress)));
         }
-        own
+        stresses
     }
 }

@@ -140,10 +140,10 @@ impl Maxima {
     /// contact has no edge.
     pub fn surface_error(&self) -> f64 {
         let surface = self.found.contenders.faces.first().into_iter().flatten();
-        let own = surface
+        let tension = surface
             .filter(|(of, _)| *of == StressMeasure::Tension)
-            .find_map(|(_, own)| Some((own.crest?, own.peak.error)));
-        own.map_or(0.0, |(crest, error)| error.map_or_else(|| crest.error(None), |error| error / crest.scale))
+            .find_map(|(_, contender)| Some((contender.crest?, contender.peak.error)));
+        tension.map_or(0.0, |(crest, error)| error.map_or_else(|| crest.error(None), |error| error / crest.scale))
     }
 
     /// The maxima with their estimated errors.

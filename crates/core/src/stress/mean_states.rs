@@ -29,7 +29,7 @@ pub(super) fn mean_states(
     let mut states = Vec::new();
     let materials = half_space.materials().zip(mean.across_and_along(half_space)).zip(half_space.residual_stresses());
     for (index, ((material, lateral), residual)) in materials.enumerate() {
-        let [across, along] = lateral.map(|own| pressure * own);
+        let [across, along] = lateral.map(|ratio| pressure * ratio);
         let closing = (-pressure - material.poisson() * (across + along)) / material.young();
         let slope = [shear[0] / material.shear(), shear[1] / material.shear(), closing];
         let (xx, yy) = (nx * nx * across + ny * ny * along + residual, ny * ny * across + nx * nx * along + residual);

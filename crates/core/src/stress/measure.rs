@@ -56,7 +56,7 @@ impl Sought {
         };
         let of_strain =
             if self == (Self::All { strains: true }) { &StressMeasure::of_strain(compliance)[..] } else { &[] };
-        MATERIAL_MEASURES.iter().filter(|own| is_sought(own)).chain(of_strain).copied().collect()
+        MATERIAL_MEASURES.iter().filter(|measure| is_sought(measure)).chain(of_strain).copied().collect()
     }
 
     /// Further measures on an interface of this strength.
@@ -170,8 +170,8 @@ impl<'a> RunningMaxima<'a> {
                 bounds[k * count + j] = measure.bound(&state, mean, root);
             }
         }
-        let own = self.measures.iter().zip(&self.largest).zip(bounds.chunks_exact(count));
-        own.map(|((measure, found), bounds)| {
+        let rows = self.measures.iter().zip(&self.largest).zip(bounds.chunks_exact(count));
+        rows.map(|((measure, found), bounds)| {
             let (promising, bound) = first_largest(bounds.iter().copied()).unwrap_or((0, f64::NEG_INFINITY));
             let known = from_ordered(found.load(Ordering::Relaxed));
             if bound < known - ROUNDING_MARGIN * known.abs() {
@@ -219,7 +219,7 @@ mod tests {
     fn every_measure() -> Vec<StressMeasure> {
         let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0), friction: 0.3 };
         let materials = [(210.0, 0.3), (2.0, 0.5)].map(|(young, nu)| Material::from_young(young, nu).unwrap());
-        let of_strain = materials.into_iter().flat_map(|own| StressMeasure::of_strain(own.into()));
+        let of_strain = materials.into_iter().flat_map(|material| StressMeasure::of_strain(material.into()));
         MATERIAL_MEASURES.into_iter().chain(of_strain).chain(StressMeasure::of_interface(strength)).collect()
     }
 
@@ -249,9 +249,9 @@ mod tests {
     fn strains_are_those_of_the_tensor_and_no_added_stresses_raise_a_measure_by_more() {
         let of_size_one = |k: usize| {
             let added = state(3 * k + 1).components();
-            StressState::from_components(added.map(|own| own / state(3 * k + 1).size()))
+            StressState::from_components(added.map(|component| component / state(3 * k + 1).size()))
         };
-        for measure in every_measure().into_iter().filter(|own| !own.is_delamination()) {
+        for measure in every_measure().into_iter().filter(|measure| !measure.is_delamination()) {
             let mut largest = 0.0f64;
             for (k, by) in (0..200).map(|k| (k, 0.01 * (1 + k % 7) as f64)) {
                 let (base, added) = (state(k), of_size_one(k));
@@ -264,7 +264,8 @@ mod tests {
         }
         let material = Material::from_young(210.0, 0.3).unwrap();
         let strain = Compliance::from(material).strain(&state(3));
-        let [first, horizontal, compression] = StressMeasure::of_strain(material.into()).map(|own| own.of(&state(3)));
+        let [first, horizontal, compression] =
+            StressMeasure::of_strain(material.into()).map(|measure| measure.of(&state(3)));
         assert!((first - strain.principal()[0]).abs() < 1e-14 && (horizontal - strain.horizontal()).abs() < 1e-14);
         assert!((compression + strain.zz).abs() < 1e-14);
     }
@@ -280,10 +281,10 @@ mod tests {
         };
         let [first, horizontal, compression] = StressMeasure::of_strain(material.into());
         let rest = StressState::default();
-        for (measure, own) in [(first, along([0.6, 0.0, 0.8])), (horizontal, along([0.6, 0.8, 0.0]))] {
-            assert!((measure.of(&own) / measure.rise(&rest, own.size()) - 1.0).abs() < 1e-12);
+        for (measure, stress) in [(first, along([0.6, 0.0, 0.8])), (horizontal, along([0.6, 0.8, 0.0]))] {
+            assert!((measure.of(&stress) / measure.rise(&rest, stress.size()) - 1.0).abs() < 1e-12);
         }
-        let pressed = StressState::from_components(along([0.0, 0.0, 1.0]).components().map(|own| -own));
+        let pressed = StressState::from_components(along([0.0, 0.0, 1.0]).components().map(|component| -component));
         assert!((compression.of(&pressed) / compression.rise(&rest, pressed.size()) - 1.0).abs() < 1e-12);
     }
 
@@ -292,7 +293,7 @@ mod tests {
         let numbers = [f64::NEG_INFINITY, -3.0, -1e-300, -0.0, 0.0, 1e-300, 2.5, f64::INFINITY];
         let whole = numbers.map(ordered);
         assert!(0 < whole[0] && whole.windows(2).all(|pair| pair[0] < pair[1]));
-        assert!(numbers.iter().zip(whole).all(|(own, number)| from_ordered(number).to_bits() == own.to_bits()));
+        assert!(numbers.iter().zip(whole).all(|(number, whole)| from_ordered(whole).to_bits() == number.to_bits()));
         assert_eq!(from_ordered(0), f64::NEG_INFINITY);
     }
 }

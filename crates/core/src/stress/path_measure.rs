@@ -82,8 +82,8 @@ impl PathMeasure {
     pub fn rise(self, by: f64) -> f64 {
         match self {
             Self::Range(_) | Self::ShearRange(_) => by,
-            Self::Crossland(own) => own.crossland(by, by),
-            Self::DangVan(own) => own.dang_van(by, by),
+            Self::Crossland(endurance) => endurance.crossland(by, by),
+            Self::DangVan(endurance) => endurance.dang_van(by, by),
         }
     }
 
@@ -92,8 +92,8 @@ impl PathMeasure {
         match self {
             Self::Range(exponent) => line.range(exponent),
             Self::ShearRange(exponent) => line.shear_range(exponent),
-            Self::Crossland(own) => line.crossland(own),
-            Self::DangVan(own) => line.dang_van(own),
+            Self::Crossland(endurance) => line.crossland(endurance),
+            Self::DangVan(endurance) => line.dang_van(endurance),
         }
     }
 }
@@ -115,9 +115,9 @@ fn hydrostatic(state: &StressState) -> f64 {
 }
 
 /// By how much the top of the parabola through three values exceeds the middle one, none of the others being higher, and its place.
-fn top([before, own, after]: [f64; 3]) -> (f64, f64) {
-    let (slope, curvature) = (0.5 * (after - before), 2.0 * own - before - after);
-    if before <= own && after <= own && curvature > 0.0 {
+fn top([before, middle, after]: [f64; 3]) -> (f64, f64) {
+    let (slope, curvature) = (0.5 * (after - before), 2.0 * middle - before - after);
+    if before <= middle && after <= middle && curvature > 0.0 {
         (0.5 * slope * slope / curvature, slope / curvature)
     } else {
         (0.0, 0.0)
@@ -136,10 +136,10 @@ impl LinePath<'_> {
         if !(self.is_smooth || is_outside) || k >= self.ordered || run < 3 {
             return None;
         }
-        let (from, own) = (k / run * run, k % run);
+        let (from, index) = (k / run * run, k % run);
         let is_at_seam = || self.stresses.seams.iter().any(|&seam| k == seam || k + 1 == seam);
-        let is_border = self.path == SlidingPath::FromFarAway && (own == 0 || own + 1 == run || is_at_seam());
-        (!is_border).then(|| [from + (own + run - 1) % run, from + (own + 1) % run])
+        let is_border = self.path == SlidingPath::FromFarAway && (index == 0 || index + 1 == run || is_at_seam());
+        (!is_border).then(|| [from + (index + run - 1) % run, from + (index + 1) % run])
     }
 
     /// Samples before and behind one, along the line and, where all of a plane is one path, across it.
@@ -155,8 +155,8 @@ impl LinePath<'_> {
         let place = self.stresses.places[k];
         let (mut rise, mut moved) = (0.0, place);
         for [before, after] in self.beside(k) {
-            let (own, offset) = top([value(before), value(k), value(after)]);
-            rise += own;
+            let (excess, offset) = top([value(before), value(k), value(after)]);
+            rise += excess;
             // A neighbour across the border of the cell is left out: places there jump.
             let next = if offset < 0.0 { before } else { after };
             let [x, y] = [0, 1].map(|axis| self.stresses.places[next][axis] - place[axis]);
@@ -181,11 +181,11 @@ impl LinePath<'_> {
 
     /// Numbers of the samples of a line, by its number, in the order in which they are met, those on edges of contact among them.
     fn met(&self, run: usize) -> Vec<usize> {
-        let own = run * self.run..((run + 1) * self.run).min(self.ordered);
-        let is_within = |position: f64| (position as usize) >= own.start && (position as usize) < own.end;
+        let samples = run * self.run..((run + 1) * self.run).min(self.ordered);
+        let is_within = |position: f64| (position as usize) >= samples.start && (position as usize) < samples.end;
         let mut edges: Vec<(f64, usize)> = self.edges.iter().copied().zip(self.ordered..).collect();
         edges.retain(|(position, _)| is_within(*position));
-        let mut all: Vec<(f64, usize)> = own.map(|k| (k as f64, k)).chain(edges).collect();
+        let mut all: Vec<(f64, usize)> = samples.map(|k| (k as f64, k)).chain(edges).collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         all.into_iter().map(|(_, k)| k).collect()
     }
@@ -194,10 +194,10 @@ impl LinePath<'_> {
     /// before them where the path comes from there.
     fn sequence(&self, run: usize, rest: f64, least: f64, value: &impl Fn(&Self, usize) -> f64) -> Vec<f64> {
         let turned = |k: usize| {
-            let own = value(self, k);
-            let Some([before, after]) = self.along(k) else { return own };
-            let three = [value(self, before), own, value(self, after)];
-            (own + top(three).0 - top(three.map(|x| -x)).0).max(least)
+            let middle = value(self, k);
+            let Some([before, after]) = self.along(k) else { return middle };
+            let three = [value(self, before), middle, value(self, after)];
+            (middle + top(three).0 - top(three.map(|x| -x)).0).max(least)
         };
         let rest = self.comes_from_rest().then_some(rest);
         rest.into_iter().chain(self.met(run).into_iter().map(turned)).collect()
@@ -249,7 +249,7 @@ impl LinePath<'_> {
         }
         let (high, low) = (self.largest(|k| tau1[k]), self.largest(|k| -tau1[k]));
         let [most, least] = [high.value, (-low.value).max(0.0)];
-        let Equivalent { range, gain } = self.counted(exponent, [rest, 0.0], &|own, k| own.stresses.tau1[k]);
+        let Equivalent { range, gain } = self.counted(exponent, [rest, 0.0], &|path, k| path.stresses.tau1[k]);
         if !self.comes_from_rest() {
             return LineValue { value: range, gain, ..high };
         }
@@ -276,8 +276,8 @@ impl LinePath<'_> {
 
     /// Place of that end of a chord at which a value is larger.
     fn place_of_end(&self, ends: [usize; 2], value: impl Fn(usize) -> f64) -> [f64; 2] {
-        let own = ends.into_iter().filter(|&k| k < self.stresses.places.len());
-        let larger = own.reduce(|a, b| if value(b) > value(a) { b } else { a });
+        let samples = ends.into_iter().filter(|&k| k < self.stresses.places.len());
+        let larger = samples.reduce(|a, b| if value(b) > value(a) { b } else { a });
         self.stresses.places[larger.unwrap_or(0)]
     }
 
@@ -291,7 +291,7 @@ impl LinePath<'_> {
         let points: Vec<[f64; 2]> = shear.iter().copied().chain(rest).collect();
         let Chord { ends, .. } = longest_chord(&points);
         let place = self.place_of_end(ends, size);
-        let back = self.back.map_or(&[][..], |own| &own.stresses.shear);
+        let back = self.back.map_or(&[][..], |path| &path.stresses.shear);
         let all: Vec<[f64; 2]> = points.iter().chain(back).copied().collect();
         let Chord { ends: [from, to], length } = longest_chord(&all);
         if !(length > 0.0 && length.is_finite()) {
@@ -300,7 +300,8 @@ impl LinePath<'_> {
         let angle = (all[to][1] - all[from][1]).atan2(all[to][0] - all[from][0]);
         let toward = |angle: f64| {
             let (sine, cosine) = angle.sin_cos();
-            let part = move |own: &Self, k: usize| own.stresses.shear[k][0] * cosine + own.stresses.shear[k][1] * sine;
+            let part =
+                move |path: &Self, k: usize| path.stresses.shear[k][0] * cosine + path.stresses.shear[k][1] * sine;
             self.counted(exponent, [0.0, f64::NEG_INFINITY], &part)
         };
         // There and back the join lies elsewhere in the opposite direction.
@@ -361,7 +362,7 @@ impl LinePath<'_> {
     fn dang_van(&self, endurance: Endurance) -> LineValue {
         let (stress, at_rest) = (&self.stresses.stress, hydrostatic(&self.rest));
         let shear_about =
-            |centre: &[f64; 5], own: &[f64; 5]| of_deviator(std::array::from_fn(|k| own[k] - centre[k])).tau1();
+            |centre: &[f64; 5], point: &[f64; 5]| of_deviator(std::array::from_fn(|k| point[k] - centre[k])).tau1();
         if !self.is_swept {
             let rest = deviator(&self.rest);
             return self.largest(|k| {
@@ -372,18 +373,18 @@ impl LinePath<'_> {
         let points = self.deviators();
         let Ball { centre, .. } = Ball::around(&points);
         let value = |k: usize| endurance.dang_van(shear_about(&centre, &points[k]), hydrostatic(&stress[k]));
-        let own = self.largest(value);
+        let largest = self.largest(value);
         if !self.comes_from_rest() {
-            return own;
+            return largest;
         }
         let rest = deviator(&self.rest);
         let of_rest = endurance.dang_van(shear_about(&centre, &rest), at_rest);
-        let most = own.value.max(of_rest);
+        let most = largest.value.max(of_rest);
         let beyond = match self.may_rise_beyond(most, value, of_rest) {
             true => self.at_border(|k| (hydrostatic(&stress[k]) - at_rest).abs().max(distance(&points[k], &rest))),
             false => 0.0,
         };
-        LineValue { value: most, beyond, ..own }
+        LineValue { value: most, beyond, ..largest }
     }
 }
 
@@ -392,8 +393,8 @@ fn most_damaging(first: f64, turn: f64, toward: impl Fn(f64) -> Equivalent) -> E
     let mut apart = PI / DIRECTIONS as f64;
     let mut best = (first, toward(first));
     let longer = |best: (f64, Equivalent), angle: f64| {
-        let own = toward(angle);
-        if own.range > best.1.range { (angle, own) } else { best }
+        let cycle = toward(angle);
+        if cycle.range > best.1.range { (angle, cycle) } else { best }
     };
     for k in 1..(turn / apart).round() as usize {
         best = longer(best, first + apart * k as f64);
@@ -414,7 +415,7 @@ mod tests {
         let stresses = LineStresses {
             places: (0..states.len()).map(|k| [k as f64, 0.0]).collect(),
             tau1: states.iter().map(StressState::tau1).collect(),
-            shear: states.iter().map(|own| [own.xz, own.yz]).collect(),
+            shear: states.iter().map(|state| [state.xz, state.yz]).collect(),
             stress: states.to_vec(),
             ..LineStresses::default()
         };
@@ -439,8 +440,8 @@ mod tests {
     #[test]
     fn proportional_paths_have_the_utilisations_of_their_amplitude() {
         let (torsion, bending) = (0.29, 0.45);
-        let own = Endurance::new(torsion, bending).unwrap();
-        let [crossland, dang_van] = [PathMeasure::Crossland(own), PathMeasure::DangVan(own)];
+        let endurance = Endurance::new(torsion, bending).unwrap();
+        let [crossland, dang_van] = [PathMeasure::Crossland(endurance), PathMeasure::DangVan(endurance)];
         let twisted = cycle(|_, cosine| StressState { xz: torsion * cosine, ..StressState::default() });
         let bent = cycle(|_, cosine| StressState { xx: bending * cosine, ..StressState::default() });
         // Where two principal stresses are equal τ₁ has the root of rounding.
@@ -452,9 +453,9 @@ mod tests {
         }
         let pulsating = cycle(|_, cosine| StressState { xx: 0.5 * bending * (1.0 + cosine), ..StressState::default() });
         let half = 0.5 * bending;
-        let known = own.crossland(half / 3f64.sqrt(), bending / 3.0);
+        let known = endurance.crossland(half / 3f64.sqrt(), bending / 3.0);
         assert!((along(crossland, &pulsating, CLOSED, true) - known).abs() < 1e-13);
-        let known = own.dang_van(0.5 * half, bending / 3.0);
+        let known = endurance.dang_van(0.5 * half, bending / 3.0);
         assert!((along(dang_van, &pulsating, CLOSED, true) - known).abs() < within(dang_van));
         // Loading and unloading is the same cycle.
         for measure in [crossland, dang_van] {
@@ -467,7 +468,7 @@ mod tests {
     /// ball that of the circle, and the shear stress about the middle τ at every moment.
     #[test]
     fn on_a_circle_of_deviators_the_amplitude_is_its_radius() {
-        let own = Endurance::new(1.0, 1.6).unwrap();
+        let endurance = Endurance::new(1.0, 1.6).unwrap();
         let states = cycle(|sine, cosine| StressState {
             xz: 0.7 * cosine + 5.0,
             yz: 0.7 * sine,
@@ -475,8 +476,9 @@ mod tests {
             ..StressState::default()
         });
         let pressed = -1.0 / 3.0;
-        let known = [own.crossland(0.7, pressed), own.dang_van(0.7, pressed), 1.4];
-        let measures = [PathMeasure::Crossland(own), PathMeasure::DangVan(own), PathMeasure::ShearRange(6.0)];
+        let known = [endurance.crossland(0.7, pressed), endurance.dang_van(0.7, pressed), 1.4];
+        let measures =
+            [PathMeasure::Crossland(endurance), PathMeasure::DangVan(endurance), PathMeasure::ShearRange(6.0)];
         for (measure, known) in measures.into_iter().zip(known) {
             let found = along(measure, &states, CLOSED, true);
             assert!((found - known).abs() < 1e-12, "{measure:?}: {found}, {known}");
@@ -518,7 +520,7 @@ mod tests {
         let of = |states: &[StressState]| LineStresses {
             places: (0..states.len()).map(|k| [k as f64, 0.0]).collect(),
             tau1: states.iter().map(StressState::tau1).collect(),
-            shear: states.iter().map(|own| [own.xz, own.yz]).collect(),
+            shear: states.iter().map(|state| [state.xz, state.yz]).collect(),
             ..LineStresses::default()
         };
         let wave =
@@ -527,9 +529,9 @@ mod tests {
         let back = path_of(&back, CLOSED, true);
         let measure = PathMeasure::ShearRange(4.0);
         for times in [1.0, 5.0] {
-            let own = LinePath { times, back: Some(&back), ..path_of(&there, CLOSED, true) };
+            let path = LinePath { times, back: Some(&back), ..path_of(&there, CLOSED, true) };
             let known = 4f64.powi(4) + 2.0 * times * 3f64.powi(4);
-            let found = measure.along(&own).value;
+            let found = measure.along(&path).value;
             // Where the ways join the last samples are a step h before the extremes: 1.5 (1 − cos h) less of a range, twice.
             let step = TAU / 96.0;
             assert!((found / known.powf(0.25) - 1.0).abs() < 0.75 * step * step, "{found}");
@@ -537,22 +539,22 @@ mod tests {
         let mut states = wave(1.0);
         states.push(StressState { yz: 3.0, ..StressState::default() });
         let stresses = of(&states);
-        let own = LinePath { ordered: 96, run: 96, edges: vec![0.5], ..path_of(&stresses, CLOSED, true) };
-        assert!((measure.along(&own).value - 4.0).abs() < 1e-12, "an edge at the maximum makes it higher");
-        let own = LinePath { edges: vec![48.5], ..own };
+        let path = LinePath { ordered: 96, run: 96, edges: vec![0.5], ..path_of(&stresses, CLOSED, true) };
+        assert!((measure.along(&path).value - 4.0).abs() < 1e-12, "an edge at the maximum makes it higher");
+        let path = LinePath { edges: vec![48.5], ..path };
         // Behind it the shear goes on from the sample behind the minimum.
         let low = 0.5 + 1.5 * (TAU * 49.0 / 96.0).cos();
         let known = (4f64.powi(4) + (2.0 - low).powi(4)).powf(0.25);
-        assert!((measure.along(&own).value / known - 1.0).abs() < 1e-12, "at the minimum it is a cycle of itself");
+        assert!((measure.along(&path).value / known - 1.0).abs() < 1e-12, "at the minimum it is a cycle of itself");
     }
 
     #[test]
     fn a_deviator_is_read_back_from_its_coordinates() {
         let state = StressState { xx: 1.0, yy: -2.0, zz: 4.0, xy: 0.3, xz: -0.7, yz: 1.1, ..StressState::default() };
-        let own = deviator(&state);
-        let size: f64 = own.iter().map(|x| x * x).sum();
+        let coordinates = deviator(&state);
+        let size: f64 = coordinates.iter().map(|x| x * x).sum();
         assert!((size - state.invariants().1).abs() < 1e-13);
-        let back = of_deviator(own);
+        let back = of_deviator(coordinates);
         assert!((back.xx - (state.xx - 1.0)).abs() < 1e-14 && (back.zz - 3.0).abs() < 1e-14 && back.yz == 1.1);
     }
 }

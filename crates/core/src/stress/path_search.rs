@@ -192,24 +192,24 @@ impl StressField {
         let (mut materials, mut interfaces, mut planes) = (Vec::new(), Vec::new(), Vec::new());
         for (number, durability) in (1..).zip(self.half_space().durabilities()) {
             let measures = measures(durability, sought);
-            let (peaks, own) = self.in_material(number, &measures, &search)?;
+            let (peaks, searched) = self.in_material(number, &measures, &search)?;
             let of = |wanted: fn(&PathMeasure) -> bool| {
-                measures.iter().zip(&peaks).find(|(own, _)| wanted(own)).map(|(_, peak)| *peak)
+                measures.iter().zip(&peaks).find(|(measure, _)| wanted(measure)).map(|(_, peak)| *peak)
             };
             materials.push(MaterialPeaks {
-                range: of(|own| matches!(own, PathMeasure::Range(_))),
-                crossland: of(|own| matches!(own, PathMeasure::Crossland(_))),
-                dang_van: of(|own| matches!(own, PathMeasure::DangVan(_))),
+                range: of(|measure| matches!(measure, PathMeasure::Range(_))),
+                crossland: of(|measure| matches!(measure, PathMeasure::Crossland(_))),
+                dang_van: of(|measure| matches!(measure, PathMeasure::DangVan(_))),
             });
-            let ranges = |own: SearchedLines| {
-                let values = own.values.iter().zip(&own.y).map(|(line, &y)| [y, line[0].value]);
-                RangePlane { depth: own.depth, lines: values.collect(), period: lines.period_across() }
+            let ranges = |plane: SearchedLines| {
+                let values = plane.values.iter().zip(&plane.y).map(|(line, &y)| [y, line[0].value]);
+                RangePlane { depth: plane.depth, lines: values.collect(), period: lines.period_across() }
             };
             if let Some(law) = durability.fatigue.filter(|_| sought.fatigue) {
-                let own = own.into_iter().map(ranges).collect();
+                let known = searched.into_iter().map(ranges).collect();
                 let measure = [PathMeasure::Range(law.exponent())];
                 let read = |depth: Depth| goes_on().then(|| ranges(self.own_lines(depth, &measure, &search)));
-                planes.extend(if sought.map { completed(own, law.exponent(), &read)? } else { own });
+                planes.extend(if sought.map { completed(known, law.exponent(), &read)? } else { known });
             }
             if let Some(layer) = self.half_space().layers().get(number - 1) {
                 let fatigue = transmitted(layer).filter(|_| sought.fatigue);
@@ -293,16 +293,21 @@ impl StressField {
         let back = back.map(|back| (back, back.numbered_lines(depth, search, kept)));
         let along = |number: usize| -> Vec<LineValue> {
             let (stresses, edges) = all.stresses(self, number, lines, kept);
-            let own = self.line_path((&all.plane, depth), &stresses, edges, (lines, times));
+            let path = self.line_path((&all.plane, depth), &stresses, edges, (lines, times));
             let of_back = back.as_ref().map(|(field, all)| (*field, all, all.stresses(field, number, lines, kept)));
             let back = of_back.as_ref().map(|(field, all, (stresses, edges))| {
                 field.line_path((&all.plane, depth), stresses, edges.clone(), (lines, times))
             });
-            let own = LinePath { back: back.as_ref(), ..own };
-            measures.iter().map(|measure| measure.along(&own)).collect()
+            let path = LinePath { back: back.as_ref(), ..path };
+            measures.iter().map(|measure| measure.along(&path)).collect()
         };
         let values = (0..all.lines.len()).into_par_iter().map(along).collect();
-        SearchedLines { depth, y: all.lines.iter().map(|own| own.0).collect(), values, is_smooth: all.plane.is_smooth }
+        SearchedLines {
+            depth,
+            y: all.lines.iter().map(|line| line.0).collect(),
+            values,
+            is_smooth: all.plane.is_smooth,
+        }
     }
 
     /// The path of the stresses along a line of a plane, those on edges of contact behind the others.
@@ -348,21 +353,21 @@ impl StressField {
             };
             // Of equally near lines the first one.
             let nearest = all.iter_mut().min_by(|a, b| away(a.0).total_cmp(&away(b.0)));
-            nearest.into_iter().for_each(|(_, _, own)| own.push((place, state)));
+            nearest.into_iter().for_each(|(_, _, on_edges)| on_edges.push((place, state)));
         }
         NumberedLines { plane, lines: all, around: self.planes_around(search.direction, depth, kept) }
     }
 
     /// The largest value of a measure, by its number, on a plane.
     fn best(&self, plane: &SearchedLines, measure: usize, search: &PathSearch<'_>) -> Best {
-        let most = first_largest(plane.values.iter().map(|own| own[measure].value)).map_or(0, |(line, _)| line);
+        let most = first_largest(plane.values.iter().map(|values| values[measure].value)).map_or(0, |(line, _)| line);
         self.between_lines(plane, measure, most, search)
     }
 
     /// The largest value of a measure beside a line that has the largest one of its neighbours.
     fn between_lines(&self, plane: &SearchedLines, measure: usize, line: usize, search: &PathSearch<'_>) -> Best {
         let n = plane.y.len();
-        let Some(own) = plane.values.get(line).map(|own| own[measure]) else {
+        let Some(middle) = plane.values.get(line).map(|values| values[measure]) else {
             return Best { value: 0.0, depth: plane.depth, place: [0.0; 2], y: 0.0, beyond: 0.0, gain: 1.0 };
         };
         let is_closed = search.lines.is_closed();
@@ -371,22 +376,22 @@ impl StressField {
         } else {
             [f64::NEG_INFINITY; 2]
         };
-        let (rise, offset) = vertex([-1.0, 0.0, 1.0], [beside[0], own.value, beside[1]])
-            .map_or((0.0, 0.0), |(t, value)| (value - own.value, t));
+        let (rise, offset) = vertex([-1.0, 0.0, 1.0], [beside[0], middle.value, beside[1]])
+            .map_or((0.0, 0.0), |(t, value)| (value - middle.value, t));
         let step = search
             .lines
             .period_across()
             .map_or_else(|| plane.y.get(1).map_or(0.0, |y| y - plane.y[0]), |period| period / n as f64);
         let moved = offset * step;
         let [ex, ey] = search.direction;
-        let place = [own.place[0] - moved * ey, own.place[1] + moved * ex];
+        let place = [middle.place[0] - moved * ey, middle.place[1] + moved * ex];
         Best {
-            value: own.value + rise.max(0.0),
+            value: middle.value + rise.max(0.0),
             depth: plane.depth,
             place,
             y: plane.y[line] + moved,
-            beyond: own.beyond,
-            gain: own.gain,
+            beyond: middle.beyond,
+            gain: middle.gain,
         }
     }
 
@@ -397,16 +402,16 @@ impl StressField {
         let shallow = known.iter().filter(is_shallow).copied();
         let mut all: Vec<Best> = shallow.reduce(|a, b| if b.value > a.value { b } else { a }).into_iter().collect();
         let mut deep: Vec<Best> = known.iter().filter(|best| !is_shallow(best)).copied().collect();
-        let most = deep.iter().map(|own| own.value).fold(f64::NEG_INFINITY, f64::max);
+        let most = deep.iter().map(|best| best.value).fold(f64::NEG_INFINITY, f64::max);
         let starts: Vec<f64> = (0..deep.len())
             .filter(|&i| {
                 let beside = [i.checked_sub(1), Some(i + 1)].into_iter().flatten().filter_map(|j| deep.get(j));
                 let value = deep[i].value;
-                let drop = beside.clone().map(|own| value - own.value).fold(0.0, f64::max);
+                let drop = beside.clone().map(|neighbour| value - neighbour.value).fold(0.0, f64::max);
                 let is_near = value + RISE_BETWEEN_PLANES * drop + MISSED_BY_SAMPLES * most.abs() >= most;
                 // Of equal depths the first one.
                 let is_first = i.checked_sub(1).is_none_or(|before| deep[before].value < value);
-                is_near && is_first && beside.into_iter().all(|own| own.value <= value)
+                is_near && is_first && beside.into_iter().all(|neighbour| neighbour.value <= value)
             })
             .map(|i| deep[i].depth.z)
             .collect();
@@ -428,7 +433,7 @@ impl StressField {
         measure: PathMeasure,
         search: &PathSearch<'_>,
     ) -> Option<Best> {
-        let mut at = known.iter().position(|own| own.depth.z == start).unwrap_or(0);
+        let mut at = known.iter().position(|peak| peak.depth.z == start).unwrap_or(0);
         for _ in 0..MAX_PLANES {
             let middle = at.clamp(1, known.len().saturating_sub(2).max(1));
             let Some(three) = known.get(middle - 1..middle + 2) else { break };
@@ -446,7 +451,7 @@ impl StressField {
             }
             let depth = Depth { z: next, material: known[at].depth.material };
             let best = self.best(&self.own_lines(depth, &[measure], search), 0, search);
-            let place = known.partition_point(|own| own.depth.z < next);
+            let place = known.partition_point(|peak| peak.depth.z < next);
             known.insert(place, best);
             at = match best.value > known[if place <= at { at + 1 } else { at }].value {
                 true => place,
@@ -476,11 +481,11 @@ impl StressField {
                 far_states(&field.far_fields(), best.depth, &stresses.places[..stresses.places.len() - edges.len()]);
             Some((all.plane, FollowedLine::new((stresses, edges), &far, kept)?))
         };
-        let (own, back) = (follow(self)?, search.pass.back.and_then(|back| Some((back, follow(back)?))));
+        let (line, back) = (follow(self)?, search.pass.back.and_then(|back| Some((back, follow(back)?))));
         let value = |is_far: bool| {
             let back = back.as_ref().map(|(field, line)| field.followed_path(line, best.depth, is_far, search));
-            let own = self.followed_path(&own, best.depth, is_far, search);
-            measure.along(&LinePath { back: back.as_ref(), ..own })
+            let path = self.followed_path(&line, best.depth, is_far, search);
+            measure.along(&LinePath { back: back.as_ref(), ..path })
         };
         let [within, far] = [false, true].map(value);
         Some((far.value - within.value, far.beyond))
@@ -526,8 +531,8 @@ impl StressField {
 
     /// The largest value of the only measure of a plane beside a line at y.
     fn beside(&self, plane: &SearchedLines, y: f64, search: &PathSearch<'_>) -> f64 {
-        let away = |own: &f64| {
-            let away = own - y;
+        let away = |line_y: &f64| {
+            let away = line_y - y;
             search.lines.period_across().map_or(away, |period| away - period * (away / period).round()).abs()
         };
         let n = plane.y.len();
@@ -549,9 +554,9 @@ impl Kept {
     fn of(measures: &[PathMeasure], finely: bool) -> Self {
         let has = |wanted: fn(&PathMeasure) -> bool| measures.iter().any(wanted);
         Self {
-            tau1: has(|own| matches!(own, PathMeasure::Range(_))),
-            shear: has(|own| matches!(own, PathMeasure::ShearRange(_))),
-            stress: has(|own| matches!(own, PathMeasure::Crossland(_) | PathMeasure::DangVan(_))),
+            tau1: has(|measure| matches!(measure, PathMeasure::Range(_))),
+            shear: has(|measure| matches!(measure, PathMeasure::ShearRange(_))),
+            stress: has(|measure| matches!(measure, PathMeasure::Crossland(_) | PathMeasure::DangVan(_))),
             finely,
         }
     }
@@ -607,7 +612,7 @@ fn measures(durability: Durability, sought: PathSought) -> Vec<PathMeasure> {
     let limits = durability
         .endurance
         .filter(|_| sought.endurance)
-        .map(|own| [PathMeasure::Crossland(own), PathMeasure::DangVan(own)]);
+        .map(|endurance| [PathMeasure::Crossland(endurance), PathMeasure::DangVan(endurance)]);
     range.into_iter().chain(limits.into_iter().flatten()).collect()
 }
 

@@ -45,7 +45,7 @@ impl Cycles {
     /// The one cycle that does their damage by a law of the exponent m; a range of 0 without any.
     pub fn equivalent(&self, exponent: f64) -> Equivalent {
         let largest = |most: f64, range: f64| if most.is_nan() || range <= most { most } else { range };
-        let most = self.ranges.iter().fold(0.0, |most, own| largest(most, own[0]));
+        let most = self.ranges.iter().fold(0.0, |most, cycle| largest(most, cycle[0]));
         if !(most > 0.0 && most.is_finite()) {
             return Equivalent { range: most, gain: 1.0 };
         }
@@ -87,9 +87,9 @@ mod tests {
     use super::*;
 
     fn ranges(values: &[f64]) -> Vec<f64> {
-        let mut own = Cycles::default();
-        own.count(values, 1.0);
-        let mut ranges: Vec<f64> = own.ranges.iter().map(|own| own[0]).collect();
+        let mut cycles = Cycles::default();
+        cycles.count(values, 1.0);
+        let mut ranges: Vec<f64> = cycles.ranges.iter().map(|cycle| cycle[0]).collect();
         ranges.sort_by(f64::total_cmp);
         ranges
     }
@@ -108,25 +108,27 @@ mod tests {
                 .collect();
             let (back, down) =
                 (turned.iter().rev().copied().collect::<Vec<_>>(), turned.iter().map(|x| -x).collect::<Vec<_>>());
-            for own in [turned, between, back, down] {
-                assert_eq!(ranges(&own).iter().map(|x| (1e9 * x).round()).collect::<Vec<_>>(), [3e9, 4e9, 7e9, 9e9]);
+            for values in [turned, between, back, down] {
+                assert_eq!(ranges(&values).iter().map(|x| (1e9 * x).round()).collect::<Vec<_>>(), [3e9, 4e9, 7e9, 9e9]);
             }
         }
     }
 
     #[test]
     fn the_equivalent_cycle_does_the_damage_of_all() {
-        let mut own = Cycles::default();
-        assert_eq!(own.equivalent(4.0), Equivalent { range: 0.0, gain: 1.0 });
-        own.count(&[1.0; 7], 1.0);
-        assert_eq!(own.equivalent(4.0).range, 0.0);
-        own.count(&[0.0, 0.1, 0.5, 0.2], 1.0);
-        assert_eq!(own.equivalent(8.0), Equivalent { range: 0.5, gain: 1.0 });
-        own.count(&[0.0, 0.5, 0.1], 15.0);
-        assert!((own.equivalent(4.0).range - 1.0).abs() < 1e-15 && (own.equivalent(4.0).gain - 2.0).abs() < 1e-14);
-        own.count(&[0.0, 2.0, 1.0, 2.0], 1.0);
-        assert!((own.equivalent(2.0).range - (4.0f64 + 4.0 + 1.0).sqrt()).abs() < 1e-14);
-        own.count(&[0.0, f64::INFINITY], 1.0);
-        assert_eq!(own.equivalent(2.0).range, f64::INFINITY);
+        let mut cycles = Cycles::default();
+        assert_eq!(cycles.equivalent(4.0), Equivalent { range: 0.0, gain: 1.0 });
+        cycles.count(&[1.0; 7], 1.0);
+        assert_eq!(cycles.equivalent(4.0).range, 0.0);
+        cycles.count(&[0.0, 0.1, 0.5, 0.2], 1.0);
+        assert_eq!(cycles.equivalent(8.0), Equivalent { range: 0.5, gain: 1.0 });
+        cycles.count(&[0.0, 0.5, 0.1], 15.0);
+        assert!(
+            (cycles.equivalent(4.0).range - 1.0).abs() < 1e-15 && (cycles.equivalent(4.0).gain - 2.0).abs() < 1e-14
+        );
+        cycles.count(&[0.0, 2.0, 1.0, 2.0], 1.0);
+        assert!((cycles.equivalent(2.0).range - (4.0f64 + 4.0 + 1.0).sqrt()).abs() < 1e-14);
+        cycles.count(&[0.0, f64::INFINITY], 1.0);
+        assert_eq!(cycles.equivalent(2.0).range, f64::INFINITY);
     }
 }

@@ -23,13 +23,13 @@ pub(super) fn completed(
     exponent: f64,
     read: &dyn Fn(Depth) -> Option<RangePlane>,
 ) -> Option<Vec<RangePlane>> {
-    let mut open: Vec<(f64, u32)> = planes.iter().skip(1).rev().map(|own| (own.depth.z, 0)).collect();
+    let mut open: Vec<(f64, u32)> = planes.iter().skip(1).rev().map(|plane| (plane.depth.z, 0)).collect();
     while let Some((lower, halved)) = open.pop() {
-        let below = planes.partition_point(|own| own.depth.z < lower);
+        let below = planes.partition_point(|plane| plane.depth.z < lower);
         let most = planes.iter().map(largest).fold(0.0, f64::max);
         let damage = |plane: &RangePlane| (largest(plane) / most).powf(exponent);
         let ends = [&planes[below - 1], &planes[below]];
-        if halved == HALVED || !ends.iter().any(|own| damage(own) > NEGLIGIBLE) {
+        if halved == HALVED || !ends.iter().any(|end| damage(end) > NEGLIGIBLE) {
             continue;
         }
         let z = 0.5 * (ends[0].depth.z + ends[1].depth.z);
@@ -55,12 +55,12 @@ fn largest(plane: &RangePlane) -> f64 {
 /// Ranges on the lines of a plane by the six planes about it, of which `below` is the next one.
 fn foreseen<'a>(planes: &'a [RangePlane], below: usize, plane: &'a RangePlane) -> impl Iterator<Item = f64> + 'a {
     let (from, to) = (below.saturating_sub(3), (below + 3).min(planes.len()));
-    let depths: Vec<f64> = planes[from..to].iter().map(|own| own.depth.z).collect();
+    let depths: Vec<f64> = planes[from..to].iter().map(|node| node.depth.z).collect();
     let after = below - from;
     let apart = depths[after] - depths[after - 1];
     let part = (plane.depth.z - depths[after - 1]) / apart;
     plane.y().map(move |y| {
-        let ranges: Vec<f64> = planes[from..to].iter().map(|own| own.at(y)).collect();
+        let ranges: Vec<f64> = planes[from..to].iter().map(|node| node.at(y)).collect();
         let slopes = slopes(&depths, &ranges);
         between([after - 1, after].map(|end| [ranges[end], slopes[end]]), apart, part)
     })
@@ -96,9 +96,9 @@ mod tests {
             let damage = |range: f64| (range / 0.310_021).powf(exponent);
             let off = (1..1000).map(|k| {
                 let z = 3e-3 * f64::from(k);
-                let below = planes.partition_point(|own| own.depth.z < z);
-                let own = foreseen(&planes, below, &plane(z, 0.0)).next().unwrap();
-                (damage(own) - damage(tau(z))).abs()
+                let below = planes.partition_point(|plane| plane.depth.z < z);
+                let range = foreseen(&planes, below, &plane(z, 0.0)).next().unwrap();
+                (damage(range) - damage(tau(z))).abs()
             });
             let off = off.fold(0.0, f64::max);
             assert!(off < MISSED / 4.0, "{exponent}: {off}");

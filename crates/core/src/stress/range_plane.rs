@@ -32,13 +32,13 @@ impl RangePlane {
             _ if n == 1 => return *of_first,
             Some(period) => {
                 let y = first + (y - first).rem_euclid(period);
-                let before = self.lines.partition_point(|[own, _]| *own <= y) as isize - 2;
+                let before = self.lines.partition_point(|[place, _]| *place <= y) as isize - 2;
                 (y, before..before + 4)
             }
             None if y <= *first => return *of_first,
             None if y >= *last => return *of_last,
             None => {
-                let after = self.lines.partition_point(|[own, _]| *own <= y);
+                let after = self.lines.partition_point(|[place, _]| *place <= y);
                 let from = after.saturating_sub(2).min(n.saturating_sub(4));
                 (y, from as isize..(from + 4).min(n) as isize)
             }
@@ -68,18 +68,18 @@ impl RangePlane {
 
 /// The polynomial through some points at y, not below 0; the value of the nearest one where a range is infinite.
 fn through(points: &[[f64; 2]], y: f64) -> f64 {
-    if let Some([_, own]) = points.iter().find(|[place, _]| *place == y) {
-        return *own;
+    if let Some([_, range]) = points.iter().find(|[place, _]| *place == y) {
+        return *range;
     }
     if points.iter().any(|[_, range]| !range.is_finite()) {
         let nearest = points.iter().min_by(|a, b| (a[0] - y).abs().total_cmp(&(b[0] - y).abs()));
         return nearest.map_or(0.0, |[_, range]| *range);
     }
-    let weight = |own: f64| {
-        let others = points.iter().map(|[other, _]| *other).filter(|other| *other != own);
-        others.map(|other| (y - other) / (own - other)).product::<f64>()
+    let weight = |node: f64| {
+        let others = points.iter().map(|[other, _]| *other).filter(|other| *other != node);
+        others.map(|other| (y - other) / (node - other)).product::<f64>()
     };
-    points.iter().map(|[own, range]| range * weight(*own)).sum::<f64>().max(0.0)
+    points.iter().map(|[place, range]| range * weight(*place)).sum::<f64>().max(0.0)
 }
 
 /// Planes on the lines of the one that has most of them, at most 512: waves fade with depth, so that deeper planes need fewer.
@@ -135,11 +135,11 @@ mod tests {
         };
         for period in [None, Some(1.0)] {
             let common = on_common_lines(vec![of(5, period), of(20, period), of(1, period)]);
-            assert!(common.iter().all(|own| own.y().eq(of(20, period).y())));
+            assert!(common.iter().all(|plane| plane.y().eq(of(20, period).y())));
             assert_eq!(common[1], of(20, period));
             assert_eq!(common[0].lines[8][1], common[1].lines[8][1]);
             let many = on_common_lines(vec![of(3000, period), of(7, period)]);
-            assert!(many.iter().all(|own| own.lines.len() == MOST));
+            assert!(many.iter().all(|plane| plane.lines.len() == MOST));
             assert!(many[0].lines.iter().all(|[y, range]| (range - y * (1.0 - y)).abs() < 1e-6));
         }
     }

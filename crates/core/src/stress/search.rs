@@ -49,7 +49,7 @@ impl SearchedPlane {
 }
 
 fn of_measure<T>(all: &[(StressMeasure, T)], measure: StressMeasure) -> Option<&(StressMeasure, T)> {
-    all.iter().find(|(own, _)| *own == measure)
+    all.iter().find(|(of, _)| *of == measure)
 }
 
 impl StressField {
@@ -124,20 +124,20 @@ impl StressField {
         let plane = |index: usize| {
             let is_interface = index + 1 == depths.len();
             let tractions = tractions.iter().filter(|_| is_interface);
-            let own: Vec<StressMeasure> = measures.iter().chain(tractions).copied().collect();
+            let wanted: Vec<StressMeasure> = measures.iter().chain(tractions).copied().collect();
             let depth = Depth { z: depths[index], material };
             let is_face = depth.z == self.half_space().faces(material).0 || strength.is_some() && is_interface;
             let crests = if depth == Depth::SURFACE { crests } else { &[] };
-            goes_on().then(|| self.search_plane(depth, radii[0], &own, is_face, crests))
+            goes_on().then(|| self.search_plane(depth, radii[0], &wanted, is_face, crests))
         };
         let planes: Vec<SearchedPlane> = (0..depths.len()).map(plane).collect::<Option<_>>()?;
         let is_overall = |contender: &&(StressMeasure, Contender)| !contender.0.is_of_interface();
-        let mut own: Contenders =
+        let mut contenders: Contenders =
             planes.iter().flat_map(|plane| plane.on_face.iter().filter(is_overall)).copied().collect();
         let mut inside: Contenders = Vec::new();
         for &measure in measures {
-            let own = self.inside(&planes, &depths, measure, goes_on)?;
-            inside.extend(own.into_iter().map(|inside| (measure, inside)));
+            let found = self.inside(&planes, &depths, measure, goes_on)?;
+            inside.extend(found.into_iter().map(|inside| (measure, inside)));
         }
         // A search from inside that ends on a face, higher than the values along the face, contends on the face too.
         let faces = planes.iter().zip(&depths).filter(|(plane, _)| !plane.on_face.is_empty());
@@ -148,14 +148,14 @@ impl StressField {
             let along = plane.on_face.iter().filter(is_overall);
             along.chain(inside.iter().filter(is_there)).copied().collect::<Contenders>()
         }));
-        own.extend(inside);
+        contenders.extend(inside);
         let border = planes.iter().map(|plane| plane.samples.border).fold(0.0, f64::max);
-        own.iter_mut().for_each(|(_, own)| *own = own.in_window(self.grid().cell(), border));
-        all.materials.push(own);
+        contenders.iter_mut().for_each(|(_, contender)| *contender = contender.in_window(self.grid().cell(), border));
+        all.materials.push(contenders);
         if strength.is_some() {
             let lower = planes.last().map(|plane| plane.on_face.clone()).unwrap_or_default();
             let interface = self.half_space().interface_id(material);
-            all.interfaces.push((interface, lower.into_iter().filter(|own| !is_overall(&own)).collect()));
+            all.interfaces.push((interface, lower.into_iter().filter(|contender| !is_overall(&contender)).collect()));
         }
         Some(())
     }
@@ -231,8 +231,9 @@ impl StressField {
                     && (z - position[2]).abs() <= 10.0 * EQUAL_BY_SYMMETRY * z
             };
             let of_face = planes.iter().flat_map(|plane| &plane.on_face).filter(|(of, _)| *of == measure);
-            let of_face = of_face.filter(|(_, own)| (own.peak.position[2] - z).abs() <= 1e-9 * z);
-            let is_known = is_on_face && of_face.map(|(_, own)| own.peak.value).any(|value| value >= climbed.value);
+            let of_face = of_face.filter(|(_, contender)| (contender.peak.position[2] - z).abs() <= 1e-9 * z);
+            let is_known =
+                is_on_face && of_face.map(|(_, contender)| contender.peak.value).any(|value| value >= climbed.value);
             if !is_known && !all.iter().any(same) {
                 all.push(self.contender(&climbed, state));
             } else if let Some(lower) = all.iter_mut().find(|other| same(other) && other.peak.value < climbed.value) {
@@ -245,7 +246,7 @@ impl StressField {
     /// Whether the candidates of two planes lie beside the same local maximum, judged by the distance of their samples.
     fn are_beside(&self, one: &Candidate, other: &Candidate) -> bool {
         let cell = self.series_grid().cell();
-        let [s, t] = [one, other].map(|own| cell.fractions(own.place));
+        let [s, t] = [one, other].map(|candidate| cell.fractions(candidate.place));
         let [x, y] = cell.reduced().nearest([s[0] - t[0], s[1] - t[1]]);
         x.hypot(y) <= 4.0 * one.step.max(other.step)
     }
@@ -321,7 +322,7 @@ impl StressField {
     /// √(Σσᵢⱼ²) of a state without its mean and residual stresses, a pressure.
     pub(super) fn size_of_waves(&self, depth: Depth, state: &StressState) -> f64 {
         let mean = self.mean(depth);
-        let own = StressState {
+        let waves = StressState {
             xx: state.xx - mean.xx,
             yy: state.yy - mean.yy,
             zz: state.zz - mean.zz,
@@ -330,6 +331,6 @@ impl StressField {
             yz: state.yz - mean.yz,
             ..*state
         };
-        own.size()
+        waves.size()
     }
 }

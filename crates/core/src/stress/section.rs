@@ -96,7 +96,7 @@ impl StressField {
         let highest = rows.first().filter(|_| depths[0] == Depth::SURFACE).and_then(|surface| below.highest(surface));
         let places = line.places();
         let holding =
-            |row: Vec<StressState>| row.into_iter().zip(&places).map(|(own, &at)| self.where_it_holds(at, own));
+            |row: Vec<StressState>| row.into_iter().zip(&places).map(|(state, &at)| self.where_it_holds(at, state));
         let states = field([depths.len(), line.points], rows.into_iter().flat_map(holding).collect());
         VerticalSection { line: *line, depths: depths.to_vec(), states, highest }
     }
@@ -133,7 +133,9 @@ impl<'a> LineField<'a> {
             Some((surface, below)) if between(depth) => {
                 let part = depth.z / shallow;
                 let pairs = surface.iter().zip(below).zip(self.row(&self.line, *depth));
-                pairs.map(|((a, b), own)| StressState { displacement: own.displacement, ..a.toward(b, part) }).collect()
+                pairs
+                    .map(|((a, b), state)| StressState { displacement: state.displacement, ..a.toward(b, part) })
+                    .collect()
             }
             _ => self.row(&self.line, *depth),
         };
@@ -146,10 +148,10 @@ impl<'a> LineField<'a> {
         let line = self.line;
         let cell = self.field.grid().cell();
         let highest = |states: &[StressState], line: SurfaceLine| {
-            let own = |(state, place): (&StressState, [f64; 2])| {
+            let normal_stress = |(state, place): (&StressState, [f64; 2])| {
                 if cell.contains(place) { state.along(line.direction) } else { f64::NEG_INFINITY }
             };
-            let (best, stress) = first_largest(states.iter().zip(line.places()).map(own))?;
+            let (best, stress) = first_largest(states.iter().zip(line.places()).map(normal_stress))?;
             Some([line.distances()[best], stress])
         };
         let [s, stress] = highest(surface, line)?;

@@ -252,8 +252,8 @@ impl Series {
             |places: &[[f64; 2]]| self.lanes::<K, LANES, R>(&rows, std::array::from_fn(|p| places[p]), response);
         let mut all: Vec<[f64; K]> = together.flat_map(lanes).chain(rest).collect();
         if let Some(far) = response.far() {
-            for (own, &place) in all.iter_mut().zip(places) {
-                own.iter_mut().zip(far.at(place)).for_each(|(own, far)| *own += far);
+            for (sum, &place) in all.iter_mut().zip(places) {
+                sum.iter_mut().zip(far.at(place)).for_each(|(component, far)| *component += far);
             }
         }
         all

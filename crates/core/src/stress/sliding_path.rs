@@ -156,11 +156,11 @@ impl SlidingLines {
     /// Rows and columns of the samples of a line, from one end to the other, all of the cell.
     pub fn samples(&self, line: usize, points: LinePoints) -> Vec<[usize; 2]> {
         let LinePoints { rows, columns } = points;
-        let own = match self.path {
+        let lines = match self.path {
             SlidingPath::WholePlane => 0..columns / self.turns,
             _ => line..line + 1,
         };
-        let turns = own.flat_map(|line| (0..self.turns).map(move |turn| (line, turn)));
+        let turns = lines.flat_map(|line| (0..self.turns).map(move |turn| (line, turn)));
         turns.flat_map(|turn| (0..rows).map(move |row| [row, self.column(turn, columns)])).collect()
     }
 
@@ -177,8 +177,8 @@ impl SlidingLines {
         // Of a tiny negative number the remainder is rounded to 1.
         let u = Some(parts[self.advance].rem_euclid(1.0)).filter(|u| *u < 1.0).unwrap_or(0.0);
         let column = (parts[1 - self.advance] - self.shift(u)) * columns as f64;
-        let away = |own: usize| {
-            let away = (column - own as f64) / columns as f64;
+        let away = |of_turn: usize| {
+            let away = (column - of_turn as f64) / columns as f64;
             (away - away.round()).abs()
         };
         let lines = if self.path == SlidingPath::WholePlane { 0..columns / self.turns } else { line..line + 1 };
@@ -198,8 +198,8 @@ impl SlidingLines {
     /// it.
     pub fn fractions(&self, u: f64, v: f64) -> [f64; 2] {
         let v = if self.path == SlidingPath::FromFarAway && v >= 2.0 * BEHIND { v - 2.0 } else { v };
-        let own = [u, v + self.shift(u)];
-        [own[self.advance], own[1 - self.advance]]
+        let parts = [u, v + self.shift(u)];
+        [parts[self.advance], parts[1 - self.advance]]
     }
 }
 
@@ -251,23 +251,23 @@ mod tests {
             cells.iter().flat_map(|cell| [[1, 0], [0, 1], [1, 1], [-1, 2], [3, 2]].map(|m| (*cell, m)))
         {
             let direction = cell.vector(multiples.map(f64::from));
-            let own = lines(cell, direction);
-            assert_eq!(own.path, SlidingPath::LatticeVector(multiples));
-            let points = LinePoints { rows: 6, columns: own.columns(12, |n| n) };
+            let sliding = lines(cell, direction);
+            assert_eq!(sliding.path, SlidingPath::LatticeVector(multiples));
+            let points = LinePoints { rows: 6, columns: sliding.columns(12, |n| n) };
             let mut met = vec![0; points.rows * points.columns];
-            let (count, reduced) = (own.count(points), cell.reduced());
+            let (count, reduced) = (sliding.count(points), cell.reduced());
             for line in 0..count {
-                let samples = own.samples(line, points);
+                let samples = sliding.samples(line, points);
                 let place = |[row, column]: [usize; 2]| {
-                    cell.point(own.fractions(row as f64 / 6.0, column as f64 / points.columns as f64))
+                    cell.point(sliding.fractions(row as f64 / 6.0, column as f64 / points.columns as f64))
                 };
-                let way = [0, 1].map(|k| own.lengths()[2] / 6.0 * direction[k] / direction[0].hypot(direction[1]));
+                let way = [0, 1].map(|k| sliding.lengths()[2] / 6.0 * direction[k] / direction[0].hypot(direction[1]));
                 for (one, next) in samples.iter().zip(samples.iter().cycle().skip(1)) {
                     met[one[0] * points.columns + one[1]] += 1;
                     let (from, to) = (place(*one), place(*next));
                     let toward = [-1.0, 1.0].map(|sign| [0, 1].map(|k| to[k] - from[k] - sign * way[k]));
-                    let off = toward.map(|own| {
-                        let [x, y] = reduced.nearest(cell.parts(own));
+                    let off = toward.map(|vector| {
+                        let [x, y] = reduced.nearest(cell.parts(vector));
                         x.hypot(y)
                     });
                     assert!(off[0].min(off[1]) < 1e-12, "{cell}, {multiples:?}: {from:?}, {to:?}");
@@ -275,13 +275,13 @@ mod tests {
             }
             assert!(met.iter().all(|&times| times == 1), "{multiples:?}: {met:?}");
             let length = direction[0].hypot(direction[1]);
-            assert!((own.period_across().unwrap() * length / cell.area() - 1.0).abs() < 1e-12, "{multiples:?}");
-            assert!((own.period().unwrap() / length - 1.0).abs() < 1e-12, "{multiples:?}");
+            assert!((sliding.period_across().unwrap() * length / cell.area() - 1.0).abs() < 1e-12, "{multiples:?}");
+            assert!((sliding.period().unwrap() / length - 1.0).abs() < 1e-12, "{multiples:?}");
             for line in 0..count {
-                for (number, [row, column]) in own.samples(line, points).into_iter().enumerate() {
+                for (number, [row, column]) in sliding.samples(line, points).into_iter().enumerate() {
                     let place =
-                        cell.point(own.fractions((row as f64 + 0.25) / 6.0, column as f64 / points.columns as f64));
-                    let position = own.position(place, line, points);
+                        cell.point(sliding.fractions((row as f64 + 0.25) / 6.0, column as f64 / points.columns as f64));
+                    let position = sliding.position(place, line, points);
                     assert!((position - number as f64 - 0.25).abs() < 1e-9, "{multiples:?}: {position}, {number}");
                 }
             }

@@ -126,9 +126,9 @@ mod tests {
         let compliance = Compliance::from(Material::from_young(200.0, 0.3).unwrap());
         let strain = compliance.strain(&state([0.0, 0.0, 10.0, 0.0, 0.0, 0.0]));
         let expected = [-0.015, -0.015, 0.05, 0.0, 0.0, 0.0];
-        assert!(strain.components().iter().zip(expected).all(|(own, due)| (own - due).abs() < 1e-16), "{strain:?}");
+        assert!(strain.components().iter().zip(expected).all(|(found, due)| (found - due).abs() < 1e-16), "{strain:?}");
         assert!((strain.volume() - 0.02).abs() < 1e-16 && (strain.horizontal() + 0.015).abs() < 1e-16);
-        assert!(strain.principal().iter().zip([0.05, -0.015, -0.015]).all(|(own, due)| (own - due).abs() < 1e-15));
+        assert!(strain.principal().iter().zip([0.05, -0.015, -0.015]).all(|(found, due)| (found - due).abs() < 1e-15));
         // γ = τ/G, and the tensor has half of it.
         let sheared = compliance.strain(&state([0.0, 0.0, 0.0, 0.0, 10.0, 0.0]));
         let half = 0.5 * 10.0 / (200.0 / 2.6);
@@ -141,7 +141,7 @@ mod tests {
         let strain = compliance.strain(&state([-1.0, 0.3, -2.0, 0.4, -0.7, 0.1]));
         assert!(strain.volume().abs() < 1e-15 && strain.principal()[0] > 0.1, "{strain:?}");
         let pressed = compliance.strain(&state([-1.0, -1.0, -1.0, 0.0, 0.0, 0.0]));
-        assert!(pressed.components().iter().all(|own| own.abs() < 1e-15));
+        assert!(pressed.components().iter().all(|component| component.abs() < 1e-15));
     }
 
     #[test]

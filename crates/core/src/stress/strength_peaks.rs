@@ -26,7 +26,8 @@ impl StrengthPeaks {
         };
         let [tension, mises] = [StressMeasure::Tension, StressMeasure::Mises].map(of);
         let interfaces = contenders.interfaces.iter();
-        let delamination = interfaces.map(|(_, own)| found.stated_of(own, StressMeasure::is_delamination)).collect();
+        let delamination =
+            interfaces.map(|(_, contenders)| found.stated_of(contenders, StressMeasure::is_delamination)).collect();
         Self { tension, mises, delamination }
     }
 

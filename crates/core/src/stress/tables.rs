@@ -58,9 +58,10 @@ impl Tables {
     pub fn interiors(&self, grid: &Arc<Grid>, half_space: &HalfSpace, slides: bool) -> Arc<InteriorTable> {
         let mut entries = self.interiors.lock().unwrap_or_else(PoisonError::into_inner);
         let response = half_space.response();
-        let is_own = |own: &&Entry| is_same(&own.grid, grid) && own.slides == slides && own.response == *response;
-        if let Some(own) = entries.iter().find(is_own) {
-            return Arc::clone(&own.table);
+        let is_known =
+            |entry: &&Entry| is_same(&entry.grid, grid) && entry.slides == slides && entry.response == *response;
+        if let Some(entry) = entries.iter().find(is_known) {
+            return Arc::clone(&entry.table);
         }
         let (grid, response) = (Arc::clone(grid), Arc::clone(response));
         let table = Arc::new(InteriorTable::new(Arc::clone(&response), grid.waves().wavenumbers(), slides));
@@ -71,7 +72,7 @@ impl Tables {
     /// The grid of the series of a pressure on `grid`, see [`series_grid`], set up unless there is one already.
     pub(super) fn series_grid(&self, grid: &Arc<Grid>) -> Arc<Grid> {
         let mut entries = self.grids.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some([_, series]) = entries.iter().find(|[own, _]| is_same(own, grid)) {
+        if let Some([_, series]) = entries.iter().find(|[known, _]| is_same(known, grid)) {
             return Arc::clone(series);
         }
         let series = series_grid(grid);
@@ -93,13 +94,13 @@ impl Tables {
     /// Tables of the free field around an isolated contact in a window.
     pub(super) fn far(&self, window: Cell, half_space: &HalfSpace, form: ShearForm) -> Arc<FarTables> {
         let mut entries = self.far.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(own) = entries.iter().find(|own| own.are_of(window, half_space, form)) {
-            return Arc::clone(own);
+        if let Some(tables) = entries.iter().find(|tables| tables.are_of(window, half_space, form)) {
+            return Arc::clone(tables);
         }
-        let own = FarTables::new(window, half_space, form).expect("multiples of a window are windows");
-        let own = Arc::new(own);
-        keep(self.kept, &mut entries, Arc::clone(&own));
-        own
+        let tables = FarTables::new(window, half_space, form).expect("multiples of a window are windows");
+        let tables = Arc::new(tables);
+        keep(self.kept, &mut entries, Arc::clone(&tables));
+        tables
     }
 }
 

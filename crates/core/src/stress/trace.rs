@@ -88,8 +88,8 @@ impl<'a> Trace<'a> {
             waves.real_parts().into_iter().map(|sums| std::array::from_fn(|k| mean[k] + sums[k])).collect();
         if let Some(far) = response.far() {
             let line = far.on_line(self.origin, self.unit, [first, first + points.saturating_sub(1) as f64 * step]);
-            for (i, own) in all.iter_mut().enumerate() {
-                own.iter_mut().zip(line.at(first + i as f64 * step)).for_each(|(own, far)| *own += far);
+            for (i, sum) in all.iter_mut().enumerate() {
+                sum.iter_mut().zip(line.at(first + i as f64 * step)).for_each(|(component, far)| *component += far);
             }
         }
         all

@@ -52,9 +52,9 @@ impl<const K: usize> Far<K> {
         if !self.plane.is_read(0, s) {
             return;
         }
-        let line: Vec<f64> = self.plane.along(s).iter().map(|own| own[k]).collect();
+        let line: Vec<f64> = self.plane.along(s).iter().map(|coefficients| coefficients[k]).collect();
         for (sample, weights) in row[self.columns.clone()].iter_mut().zip(self.across.chunks_exact(line.len())) {
-            *sample += line.iter().zip(weights).map(|(own, weight)| own * weight).sum::<f64>();
+            *sample += line.iter().zip(weights).map(|(coefficient, weight)| coefficient * weight).sum::<f64>();
         }
     }
 }
@@ -186,8 +186,8 @@ impl<const K: usize> FieldColumns<'_, K> {
                     let phase = Complex64::cis(std::f64::consts::TAU * (k2 as f64 * by(row)).fract());
                     for lines in fields.chunks_exact_mut(tile) {
                         let line = &mut lines[row * LINE..][..LINE];
-                        let own = phase * Complex64::new(line[lane], line[LANES + lane]);
-                        (line[lane], line[LANES + lane]) = (own.re, own.im);
+                        let turned = phase * Complex64::new(line[lane], line[LANES + lane]);
+                        (line[lane], line[LANES + lane]) = (turned.re, turned.im);
                     }
                 }
             }
@@ -287,8 +287,8 @@ impl<const K: usize> FieldColumns<'_, K> {
         let at_a_time = BATCH.max(rayon::current_num_threads()).min(groups);
         let mut batch: Vec<_> = (0..at_a_time).map(|_| (self.buffers(), vec![0.0; C * LANES * n2], 0)).collect();
         for first in (0..groups).step_by(at_a_time) {
-            let own = &mut batch[..at_a_time.min(groups - first)];
-            own.par_iter_mut().enumerate().for_each(|(group, (buffers, results, count))| {
+            let used = &mut batch[..at_a_time.min(groups - first)];
+            used.par_iter_mut().enumerate().for_each(|(group, (buffers, results, count))| {
                 *count = self.group(first + group, buffers);
                 for number in 0..*count {
                     let rows: [&[f64]; K] = std::array::from_fn(|k| self.transform.rows.row(number, &buffers[k]));
@@ -300,7 +300,7 @@ impl<const K: usize> FieldColumns<'_, K> {
                     }
                 }
             });
-            for (_, results, count) in own {
+            for (_, results, count) in used {
                 let rows = ArrayView3::from_shape([C, *count, n2], &results[..C * *count * n2]);
                 sink(rows.expect("as many numbers as rows take"))?;
             }
@@ -328,9 +328,9 @@ mod tests {
             let columns = transform.columns(
                 buffer,
                 |columns| columns.contains(&k2),
-                |column, own: &mut FieldColumn<'_, K>| {
+                |column, fields: &mut FieldColumn<'_, K>| {
                     if column == k2 {
-                        own.add(1, std::array::from_fn(|k| Complex64::from(0.5 * (k + 1) as f64)));
+                        fields.add(1, std::array::from_fn(|k| Complex64::from(0.5 * (k + 1) as f64)));
                     }
                 },
             );
