@@ -17,8 +17,8 @@ pub(super) fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
 
 /// The longest chord of at least one point; its length is not a number where a coordinate is none.
 ///
-/// With dᵢ, the distance of a point from any centre, a chord is at most dᵢ + dⱼ long: pairs are compared in descending order of d
-/// until none can be longer.
+/// A chord is at most dᵢ + dⱼ long, dᵢ the distance of a point from any centre: pairs are compared in descending order
+/// of d until none can be longer.
 pub(super) fn longest_chord<const D: usize>(points: &[[f64; D]]) -> Chord {
     let middle: [f64; D] = std::array::from_fn(|k| {
         let ends = points

@@ -1,6 +1,6 @@
 //! Contenders: values that may be the largest one within their errors.
 //!
-//! Of values vᵢ with the errors eᵢ the largest, v with the error e₀, is stated with the error
+//! The largest of values vᵢ with the errors eᵢ, v with the error e₀, is stated with the error
 //!
 //! e = max(vᵢ + eᵢ) − v ≥ e₀,
 //!
@@ -63,19 +63,20 @@ impl<'a> CoarserField<'a> {
     }
 }
 
-/// What lies near the surface.
+/// Region near the surface, in which stresses may ring.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NearSurface {
-    /// Depth above which it is near, a length.
+    /// Depth of the region, a length.
     pub depth: f64,
-    /// How far stresses may ring there, a pressure.
+    /// Largest ringing of stresses in the region, a pressure.
     pub ringing: f64,
-    /// Whether the waves of the pressure are known, so that below it the samples leave nothing open.
+    /// Whether the waves of the pressure are known, so that below the region the samples leave nothing open.
     pub is_exact_below: bool,
 }
 
 impl NearSurface {
-    /// How far stresses may ring at a depth, a pressure: waves that the grid lacks have (1 + qz)e^{−qz} of their pressure at most.
+    /// Largest ringing of stresses at a depth, a pressure: waves that the grid lacks have (1 + qz)e^{−qz} of their
+    /// pressure at most.
     fn ringing_at(&self, depth: f64) -> f64 {
         let s = PI * SHALLOW * depth / self.depth;
         self.ringing * (1.0 + s) * (-s).exp()
@@ -160,7 +161,7 @@ impl Peak {
         Some(Self { error: Some(error), rival, ..best })
     }
 
-    /// This value as a rival, or its own rival where that may be larger.
+    /// The value as a rival, or its own rival where that may be larger.
     fn rival_itself(&self) -> Rival {
         let Self { value, position, material, .. } = *self;
         let itself = Rival { value, error: self.error.unwrap_or(f64::INFINITY), position, material };
@@ -201,7 +202,7 @@ mod tests {
         let highest = |peaks: &[Peak]| Peak::highest(peaks, 0.1).unwrap();
         let decided = highest(&[peak(1.0, 0.01, 1.0), peak(0.9, 0.05, 0.0)]);
         assert_eq!((decided.value, decided.error, decided.rival), (1.0, Some(0.01), None));
-        // It may be as high, not higher: the place is undecided, the error is the same.
+        // The second may be as high, not higher: the place is undecided, the error is the same.
         let near = highest(&[peak(1.0, 0.01, 1.0), peak(0.9, 0.095, 0.0)]);
         assert_eq!((near.error, near.rival.map(|rival| rival.position[2])), (Some(0.01), Some(0.0)));
         let undecided = highest(&[peak(0.9, 0.3, 0.0), peak(1.0, 0.01, 1.0)]);

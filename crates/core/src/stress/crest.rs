@@ -184,7 +184,7 @@ impl StressField {
         let value_of = |edge: &EdgePoint| measure.of(&edge.state);
         let SurfacePoint { kind, place, state, smoothed_pressure, near } = highest;
         let value = measure.of(&state);
-        // By how much the stress at an edge of few samples may exceed the largest one.
+        // Excess of the stress at an edge of few samples over the largest one.
         let per_stress = measure.per_stress();
         let usual = if measure.is_tensile() { USUAL_TENSION * pressed * per_stress } else { 0.0 };
         let spread: f64 = others.map(|other| (measure.of(&other.state) - value).abs()).sum();

@@ -10,7 +10,7 @@ pub(super) struct CubicInterpolation {
 }
 
 impl CubicInterpolation {
-    /// At the fractions s, t of a₁ and a₂.
+    /// Interpolation at the fractions s, t of a₁ and a₂.
     pub fn new([n1, n2]: [usize; 2], [s, t]: [f64; 2]) -> Self {
         let around = |x: f64, n: usize| {
             let f = x - x.floor();

@@ -22,7 +22,7 @@ pub(super) struct DepthResponse {
     pub mean: StressState,
     /// Whether the exact waves of discs are summed, see [`Response::is_deep`].
     pub is_deep: bool,
-    /// What a free field has beside the periodic one.
+    /// Difference of the free and the periodic field; `None` where the system is periodic.
     pub far: Option<FarPlane<9>>,
 }
 

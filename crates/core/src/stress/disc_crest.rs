@@ -112,7 +112,7 @@ impl<'a> SmoothedDiscs<'a> {
         Self { field, stresses: SurfaceStresses::of_discs(response, |q| fourth(q * width)), width }
     }
 
-    /// For each measure the largest sample of the surface, and the points on edges where it is largest.
+    /// Largest sample of the surface by each measure, and the points on edges where the measure is largest.
     fn candidates(&self, measures: &[StressMeasure]) -> Vec<Vec<Point>> {
         let (grid, field) = (self.field.series_grid(), self.field);
         let ([n1, n2], cell, len) = (grid.points(), grid.cell(), grid.len());
@@ -190,7 +190,7 @@ impl<'a> SmoothedDiscs<'a> {
             let jump = disc.pressure * (step - f64::from(u8::from(is_inside)));
             let excess = self.width * (0.5 * density - 0.5 * u.abs() * libm::erfc(u.abs() / SQRT_2));
             let kink = (1.0 - 2.0 * nu) * disc.pressure / disc.radius * excess;
-            // In the middle of a small disc the mean over all directions.
+            // Mean over all directions in the middle of a small disc.
             let [nxx, nyy, nxy] =
                 if r > 0.0 { [x * x, y * y, x * y].map(|product| product / (r * r)) } else { [0.5, 0.5, 0.0] };
             xx += jump * (nxx + 2.0 * nu * nyy) + kink * (nxx - nyy);

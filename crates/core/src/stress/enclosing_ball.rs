@@ -1,8 +1,8 @@
 //! The smallest ball that encloses a set of points.
 //!
-//! It is that of at most D + 1 of them, its support, whose circumscribed ball has its centre among them. From the ball of one point
-//! on the farthest point is added to the support, and the smallest ball of these few is found from those of all their parts: the radius
-//! grows in every step, so that it ends at the smallest ball of all.
+//! The ball is that of at most D + 1 of the points, its support, whose circumscribed ball has its centre among them.
+//! From the ball of one point on the farthest point is added to the support, and the smallest ball of these few is
+//! found from those of all their parts: the radius grows in every step, so that it ends at the smallest ball of all.
 
 use super::chord::distance;
 use crate::numeric::linear;
@@ -104,8 +104,8 @@ mod tests {
         }
     }
 
-    /// A circle in five dimensions has its own radius, a line half its length, a single point none; of more than half a circle the ball
-    /// is that of the whole.
+    /// The ball of a circle in five dimensions has the radius of the circle, that of a line half its length, a single
+    /// point none; of more than half a circle the ball is that of the whole.
     #[test]
     fn a_circle_is_enclosed_by_its_own_radius_and_a_line_by_half_its_length() {
         let circle = |angle: f64| [2.0 + 3.0 * angle.cos(), 1.0, 3.0 * angle.sin(), 0.0, -1.0];

@@ -40,7 +40,7 @@ pub(super) struct FarField {
     corner: [f64; 2],
     /// Transform of the traction at the waves of each part, with weights.
     coefficients: Vec<TractionWaves>,
-    /// Of each interval that has been read, coefficients of the polynomials by those in depth.
+    /// Coefficients of the polynomials of each interval, by those in depth; set once the interval is read.
     segments: Vec<(Interval, OnceLock<Vec<Nodes>>)>,
 }
 
@@ -233,8 +233,9 @@ mod tests {
     use crate::stress::traction::ShearForm;
     use ndarray::Array2;
 
-    /// Of each cell, between the nodes and at the corners, under a pressure and a traction: what all of its waves add up to one by one.
-    /// The first five are left out: alone they are not smooth enough over the window for its nodes, only together.
+    /// Sums of all waves of each cell one by one, between the nodes and at the corners, under a pressure and a
+    /// traction. The first five cells are left out: alone they are not smooth enough over the window for their nodes,
+    /// only together.
     #[test]
     fn few_nodes_give_what_the_waves_of_a_wide_cell_add_up_to() {
         let layer = Layer::new(Material::from_shear(5.0, 0.2).unwrap(), 0.05, Interface::Bonded).unwrap();
@@ -292,7 +293,7 @@ mod tests {
         }
     }
 
-    /// Under a window of these sides, 1 and `side`.
+    /// Asserts that both agree at depths under a window of the sides 1 and `side`.
     fn agrees_in_depth(half_space: &HalfSpace, side: f64) {
         let window = Cell::window([1.0, side]).unwrap();
         let grid = Arc::new(Grid::new(window, [8, 8]).unwrap());

@@ -16,7 +16,7 @@ pub(super) struct FarPlane<const K: usize> {
     pub counts: [usize; 2],
     /// Coefficients of the polynomials over the window, along x, then y.
     pub coefficients: Vec<[f64; K]>,
-    /// Of the cell of the series, whose sides are twice those of the window: the place of its corner, over half the window.
+    /// Corner of the cell of the series, whose sides are twice those of the window, over half the window.
     pub corner: [f64; 2],
 }
 
@@ -132,7 +132,8 @@ impl<const K: usize> FarLine<K> {
 mod tests {
     use super::*;
 
-    /// Along x, along y and aslant, in both directions, across the window and from beyond it: to rounding what the plane has.
+    /// Lines along x, along y and aslant, in both directions, across the window and from beyond it, have the plane's
+    /// values to rounding.
     #[test]
     fn a_line_has_what_the_plane_has() {
         for counts in [[5, 7], [10, 162]] {

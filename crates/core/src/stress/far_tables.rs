@@ -31,9 +31,10 @@ const DOWN: usize = 8;
 /// Depth below the upper face of an elastic substrate, over the longer side of the window or the depth of that face, whichever gives
 /// more, down to which the field is tabulated.
 const DEEPEST: [f64; 2] = [4.0, 3.0];
-/// What the polynomials over an interval of depth leave of the difference, by the distance of the images.
+/// Part of the difference that the polynomials over an interval of depth leave, by the distance of the images.
 const LEFT_IN_DEPTH: f64 = 1e-7;
-/// What polynomials over the window or over an interval of depth leave of a wave, where fewer of them suffice than the images need.
+/// Part of a wave that polynomials over the window or over an interval of depth leave, where fewer suffice than the
+/// images need.
 const LEFT_OF_WAVE: f64 = 1e-9;
 /// Components: six stresses and three displacements.
 pub(super) const COMPONENTS: usize = 9;
@@ -61,7 +62,7 @@ pub(super) struct Part {
 pub(super) struct NodePhases {
     /// The lowest κ.
     first: i32,
-    /// Of each node the cosines of all κ, then the sines.
+    /// Cosines of all κ, then the sines, at each node.
     values: Vec<[Vec<f64>; 2]>,
 }
 
@@ -90,10 +91,10 @@ impl NodePhases {
     }
 }
 
-/// Of each part the responses at the nodes in depth that its waves need.
+/// Responses of each part at the nodes in depth that its waves need.
 pub(super) type Responses = Vec<Vec<DepthResponse>>;
 
-/// What does not depend on the pressure: the waves of all cells, and their amplitudes at the nodes in depth.
+/// Tables that do not depend on the pressure: the waves of all cells, and their amplitudes at the nodes in depth.
 #[derive(Debug)]
 pub struct FarTables {
     pub(super) window: Cell,
@@ -196,7 +197,7 @@ impl FarTables {
         (0..CELLS).map(of_part).sum::<usize>() + depths * n1 * n2 * COMPONENTS * size_of::<f64>()
     }
 
-    /// Whether they are those of a window on a half-space under tangential tractions of a form.
+    /// Whether the tables are those of a window on a half-space under tangential tractions of a form.
     pub fn are_of(&self, window: Cell, half_space: &HalfSpace, form: ShearForm) -> bool {
         self.window == window && self.form == form && self.half_space.response() == half_space.response()
     }

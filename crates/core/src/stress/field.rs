@@ -33,7 +33,8 @@ pub struct StressField {
     grid: Arc<Grid>,
     /// The grid of the series: that of the pressure, or of an isolated contact one of twice its window.
     series_grid: Arc<Grid>,
-    /// What the free field of an isolated contact has beside the periodic one of the series.
+    /// Difference of the free field of an isolated contact and the periodic one of the series; `None` in a periodic
+    /// cell.
     far: Option<FarField>,
     /// The traction in the window of an isolated contact; `None` in a periodic cell.
     pub(super) loaded: Option<Arc<LoadedWindow>>,
@@ -282,7 +283,7 @@ impl StressField {
         &self.series_grid
     }
 
-    /// What the free field has beside the periodic one at a depth; `None` where the system is periodic.
+    /// Difference of the free and the periodic field at a depth; `None` where the system is periodic.
     pub(super) fn far(&self, depth: Depth) -> Option<FarPlane<9>> {
         self.far.as_ref().map(|far| far.plane(depth))
     }

@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 /// The stress field of the body, and that of the counterbody where it is elastic.
 ///
-/// Each has its own z, from the common surface inward; x and y are those of the body. The counterbody bears the tangential traction in
-/// the opposite direction.
+/// Each field has its own z, from the common surface inward; x and y are those of the body. The counterbody bears the
+/// tangential traction in the opposite direction.
 #[derive(Debug)]
 pub struct StressFields {
     body: StressField,

@@ -1,4 +1,4 @@
-//! What a search for the largest stresses has found, and the errors of it.
+//! Results of a search for the largest stresses, and their errors.
 
 use super::contender::{CoarserField, Contender, Contenders, NearSurface, stated};
 use super::crest::Crest;
@@ -44,7 +44,7 @@ impl ContenderLists {
     }
 }
 
-/// How far measures are followed beyond the window of an isolated contact.
+/// Conditions under which measures are followed beyond the window of an isolated contact.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Following {
     /// Strengths of the materials, from the surface down.
@@ -93,7 +93,7 @@ pub(super) struct FoundStresses {
     pub resolution: f64,
     /// Depth down to which stresses vary fast from sample to sample, a length.
     pub shallow_depth: f64,
-    /// How far stresses on the surface may ring beside jumps of a given pressure, a pressure; zero under a contact.
+    /// Largest ringing of stresses on the surface beside jumps of a given pressure, a pressure; zero under a contact.
     pub ringing: f64,
     /// Whether the waves of the pressure are known, so that below the surface the samples leave nothing open.
     pub is_exact_below: bool,
@@ -101,7 +101,8 @@ pub(super) struct FoundStresses {
     pub left_out: f64,
     /// The states at rest of each material, which those around an isolated contact approach far away; none of a periodic system.
     pub at_rest: Vec<StressState>,
-    /// How far measures are followed beyond the window of an isolated contact; `None` of a periodic system.
+    /// Conditions under which measures are followed beyond the window of an isolated contact; `None` of a periodic
+    /// system.
     pub following: Option<Following>,
     /// Contenders in the windows around that of an isolated contact, from the inner one outward.
     pub around: Vec<Self>,
@@ -137,7 +138,8 @@ impl FoundStresses {
         all
     }
 
-    /// Of each material, and of the interface below it, whether a larger value of a measure is looked for outside of the last window.
+    /// Whether a larger value of a measure is looked for outside of the last window, in each material and on the
+    /// interface below it.
     pub fn may_be_larger_outside(&self) -> Vec<[bool; 2]> {
         let (everywhere, Some(following)) = (self.everywhere(), &self.following) else { return Vec::new() };
         let is_there = |contenders: &Contenders| {
@@ -163,8 +165,8 @@ impl FoundStresses {
         self.stated(contenders, measure)
     }
 
-    /// It with the errors of all contenders, see [`Maxima::with_errors`](super::maxima::Maxima::with_errors); `None` when `goes_on`,
-    /// called between contenders, returns false.
+    /// The results with the errors of all contenders, see [`Maxima::with_errors`](super::maxima::Maxima::with_errors);
+    /// `None` when `goes_on`, called between contenders, returns false.
     pub fn with_errors(mut self, coarser: &StressField, goes_on: &dyn Fn() -> bool) -> Option<Self> {
         let mut of_crests: Vec<StressMeasure> = Vec::new();
         for (measure, contender) in self.contenders.each() {

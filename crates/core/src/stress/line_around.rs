@@ -1,9 +1,10 @@
 //! Lines of a path beyond the window of an isolated contact.
 //!
-//! What a point meets on its way past the contact does not end at the window: stiff layers bend, and the tension of the surface or the shear of
-//! an interface may be largest several contact radii away. So each line of the window goes on in the [windows around
-//! it](super::surroundings), to the distance from which stresses only decay. Between four neighbouring lines of such a window its stresses
-//! are those of the cubic through them: there the waves of the pressure have been cut so that samples are dense.
+//! Stresses that a point meets on its way past the contact do not end at the window: stiff layers bend, and the tension
+//! of the surface or the shear of an interface may be largest several contact radii away. So each line of the window
+//! goes on in the [windows around it](super::surroundings), to the distance from which stresses only decay. Between
+//! four neighbouring lines of such a window its stresses are those of the cubic through them: there the waves of the
+//! pressure have been cut so that samples are dense.
 //!
 //! Lines beside the window are left out: they pass the contact at a distance, and meet what those through it meet on their way, and less.
 

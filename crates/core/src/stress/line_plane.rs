@@ -29,7 +29,7 @@ const PER_RADIUS: f64 = 16.0;
 /// Refinement of planes that are read once more, which are few.
 const FINER: usize = 3;
 
-/// Which stresses are kept at each sample.
+/// Stresses that are kept at each sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Kept {
     /// τ₁.

@@ -133,7 +133,8 @@ pub fn bytes_far(cell: Cell, half_space: &HalfSpace, slides: bool) -> usize {
     let (mut tables, mut largest) = (0, 0);
     for number in numbers {
         let (_, [n1, n2]) = extent.cut(number);
-        // Of the series, on the grid and on the coarser one of the error; a wave and its conjugate count once, four share their shell.
+        // Waves of the series on the grid and on the coarser one of the error; a wave and its conjugate count once,
+        // four share their shell.
         let samples = 4 * n1 * n2;
         let shells = 2 * samples / 8;
         let wide = Cell::window(extent.sides(number)).map_or(0, |wide| FarTables::bytes(wide, half_space, slides));

@@ -44,7 +44,7 @@ pub(super) fn mean_states(
         }
     }
     if half_space.substrate().is_rigid() {
-        // What they are at the base has been counted from the surface.
+        // Displacements of the base have been counted from the surface.
         let all = states.iter_mut().flat_map(|(state, _)| state.displacement.iter_mut().zip(displacement));
         all.for_each(|(u, base)| *u -= base);
     }

@@ -36,12 +36,12 @@ pub(super) enum StressMeasure {
 pub(super) const MATERIAL_MEASURES: [StressMeasure; 3] =
     [StressMeasure::Tau1, StressMeasure::Tension, StressMeasure::Mises];
 
-/// Which largest stresses are searched.
+/// Largest stresses that are searched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sought {
     /// All measures of stress of each material, each face and each interface, and those of strain where `strains` is set.
     All { strains: bool },
-    /// Those by which strengths are judged, where there are strengths.
+    /// Measures by which strengths are judged, where there are strengths.
     Strengths,
 }
 

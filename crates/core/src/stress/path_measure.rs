@@ -46,7 +46,7 @@ pub(super) struct LineValue {
     pub value: f64,
     /// Place x, y where the stresses are most extreme, lengths.
     pub place: [f64; 2],
-    /// By how much stresses farther from an isolated contact than the samples may change it, a pressure.
+    /// Largest change of the value by stresses farther from an isolated contact than the samples, a pressure.
     pub beyond: f64,
     /// Rise of the value where those of all cycles rise by one.
     pub gain: f64,
@@ -61,9 +61,10 @@ pub(super) struct LinePath<'a> {
     pub ordered: usize,
     /// Numbers of the samples that are farthest from an isolated contact, before and behind it.
     pub border: [usize; 2],
-    /// Number of those from one end of a line to the other: fewer where all of a plane is one path.
+    /// Number of samples from one end of a line to the other: fewer where all of a plane is one path.
     pub run: usize,
-    /// Of each sample behind the ordered ones the number of that before it on the path, with the part of the way to the next.
+    /// Position of each sample behind the ordered ones: the number of that before it on the path, with the part of the
+    /// way to the next.
     pub edges: Vec<f64>,
     /// Times that a pass goes along the path, in one way.
     pub times: f64,
@@ -87,7 +88,7 @@ impl PathMeasure {
         }
     }
 
-    /// Its value along a line of at least one sample.
+    /// Value of the measure along a line of at least one sample.
     pub fn along(self, line: &LinePath<'_>) -> LineValue {
         match self {
             Self::Range(exponent) => line.range(exponent),
@@ -114,7 +115,8 @@ fn hydrostatic(state: &StressState) -> f64 {
     (state.xx + state.yy + state.zz) / 3.0
 }
 
-/// By how much the top of the parabola through three values exceeds the middle one, none of the others being higher, and its place.
+/// Excess of the top of the parabola through three values over the middle one, none of the others being higher, and its
+/// place.
 fn top([before, middle, after]: [f64; 3]) -> (f64, f64) {
     let (slope, curvature) = (0.5 * (after - before), 2.0 * middle - before - after);
     if before <= middle && after <= middle && curvature > 0.0 {
@@ -150,7 +152,8 @@ impl LinePath<'_> {
         self.along(k).into_iter().chain(across)
     }
 
-    /// By how much the values between the samples exceed that of sample `k`, the largest one beside it, and the place of the maximum.
+    /// Excess of the values between the samples over that of sample `k`, the largest one beside it, and the place of
+    /// the maximum.
     fn summit(&self, k: usize, value: impl Fn(usize) -> f64) -> (f64, [f64; 2]) {
         let place = self.stresses.places[k];
         let (mut rise, mut moved) = (0.0, place);

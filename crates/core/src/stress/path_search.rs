@@ -34,15 +34,15 @@ const MAX_PLANES: usize = 8;
 const LEAST_RISE: f64 = 2e-5;
 /// Part of a value that the search between planes, lines and places leaves open, with sixteen places to a radius.
 const LEFT_OPEN: f64 = 2e-4;
-/// The same of utilisations, which are not read once more on denser lines and places.
+/// Part of a utilisation that the search leaves open: utilisations are not read once more on denser lines and places.
 const LEFT_OPEN_OF_UTILISATIONS: f64 = 8e-4;
 
-/// Which measures are searched.
+/// Measures that are searched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PathSought {
-    /// Those of laws of fatigue.
+    /// Measures of laws of fatigue.
     pub fatigue: bool,
-    /// Those of endurance limits.
+    /// Measures of endurance limits.
     pub endurance: bool,
     /// Planes of the ranges between which damage is known.
     pub map: bool,
@@ -90,7 +90,7 @@ pub struct MaterialPeaks {
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathPeaks {
     pub(crate) path: SlidingPath,
-    /// Of each material, from the surface down.
+    /// Peaks of each material, from the surface down.
     pub materials: Vec<MaterialPeaks>,
     /// Range of the shear traction of each interface with fatigue, from the surface down.
     pub interfaces: Vec<Option<PathPeak>>,
@@ -122,7 +122,7 @@ struct SearchedLines {
     depth: Depth,
     /// y of each line, ascending.
     y: Vec<f64>,
-    /// Of each line the values of the measures.
+    /// Values of the measures on each line.
     values: Vec<Vec<LineValue>>,
     is_smooth: bool,
 }
@@ -149,7 +149,7 @@ struct Best {
     gain: f64,
 }
 
-/// What the searches share.
+/// Parameters that the searches share.
 struct PathSearch<'a> {
     lines: SlidingLines,
     direction: [f64; 2],
@@ -351,7 +351,7 @@ impl StressField {
                 let away = lines.y(place) - y;
                 period.map_or(away, |period| away - period * (away / period).round()).abs()
             };
-            // Of equally near lines the first one.
+            // The first of equally near lines.
             let nearest = all.iter_mut().min_by(|a, b| away(a.0).total_cmp(&away(b.0)));
             nearest.into_iter().for_each(|(_, _, on_edges)| on_edges.push((place, state)));
         }
@@ -409,7 +409,7 @@ impl StressField {
                 let value = deep[i].value;
                 let drop = beside.clone().map(|neighbour| value - neighbour.value).fold(0.0, f64::max);
                 let is_near = value + RISE_BETWEEN_PLANES * drop + MISSED_BY_SAMPLES * most.abs() >= most;
-                // Of equal depths the first one.
+                // The first of equal depths.
                 let is_first = i.checked_sub(1).is_none_or(|before| deep[before].value < value);
                 is_near && is_first && beside.into_iter().all(|neighbour| neighbour.value <= value)
             })
@@ -597,7 +597,8 @@ impl NumberedLines {
     }
 }
 
-/// Where a place lies among others on a straight line: the number of the one before it and the part of the way to the next.
+/// Position of a place among others on a straight line: the number of the one before it and the part of the way to the
+/// next.
 fn between_places(places: &[[f64; 2]], [x, y]: [f64; 2]) -> f64 {
     let (Some([first_x, first_y]), Some([last_x, last_y])) = (places.first(), places.last()) else { return 0.0 };
     let along = [last_x - first_x, last_y - first_y];

@@ -77,7 +77,7 @@ impl StressField {
     /// The first error of `sink`, after which it is not called again.
     ///
     /// # Panics
-    /// As [`Self::plane`].
+    /// When [`Self::plane`] does.
     pub fn stresses_by_rows<E>(
         &self,
         depth: Depth,
@@ -101,7 +101,7 @@ impl StressField {
     /// The first error of `sink`, after which it is not called again.
     ///
     /// # Panics
-    /// As [`Self::plane`].
+    /// When [`Self::plane`] does.
     pub fn displacements_by_rows<E>(
         &self,
         depth: Depth,

@@ -42,7 +42,7 @@ pub(super) struct PlaneSamples {
     pub border: f64,
 }
 
-/// Of a row the column and the value of the largest sample by each measure, and the largest size of stresses on the border.
+/// Column and value of the largest sample of a row by each measure, and the largest size of stresses on the border.
 type RowSamples = (Vec<(usize, f64)>, f64);
 
 /// Columns of a plane that are searched.

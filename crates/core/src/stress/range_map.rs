@@ -1,9 +1,10 @@
 //! Planes of a material between which the damage of a pass is known.
 //!
-//! Where the planes of a search lie is a matter of the contact radius and of the layers, not of the grid: what a cubic between them misses
-//! is the same on every grid. The damage rises with the power m of the range, and the depth at which it is largest,
-//! that of a fragment, is sensitive to the error of the cubic. So between two planes on which damage is done a further plane is added in the
-//! middle, until the damage read there agrees with that of the cubic; the cubic through the further plane errs by less.
+//! The planes of a search follow from the contact radius and the layers, not from the grid: what a cubic between them
+//! misses is the same on every grid. The damage rises with the power m of the range, and the depth at which it is
+//! largest, that of a fragment, is sensitive to the error of the cubic. So between two planes on which damage is done a
+//! further plane is added in the middle, until the damage read there agrees with that of the cubic; the cubic through
+//! the further plane errs by less.
 
 use super::range_plane::RangePlane;
 use crate::body::Depth;

@@ -84,7 +84,7 @@ fn through(points: &[[f64; 2]], y: f64) -> f64 {
 
 /// Planes on the lines of the one that has most of them, at most 512: waves fade with depth, so that deeper planes need fewer.
 pub(super) fn on_common_lines(planes: Vec<RangePlane>) -> Vec<RangePlane> {
-    // Of equally many the first one.
+    // The first of equally many.
     let Some(finest) = planes.iter().rev().max_by_key(|plane| plane.lines.len()) else { return planes };
     let y: Vec<f64> = match (finest.lines.len(), &finest.lines[..]) {
         (count, [[first, _], .., [last, _]]) if count > MOST => {

@@ -13,8 +13,8 @@ pub(super) struct Regions {
     count: u32,
     /// Number of samples of each spot and open region.
     sizes: Vec<usize>,
-    /// Of a pressure that is given, by which waves of the grid may ring on the surface, a pressure; `None` of a contact, which vanishes
-    /// at its edge like a power of the distance.
+    /// Largest ringing of waves of the grid on the surface under a given pressure, a pressure; `None` of a contact,
+    /// whose pressure vanishes at its edge like a power of the distance.
     ringing: Option<f64>,
     /// Number of samples along lines on which nothing changes; `None` where there are none.
     along_lines: Option<usize>,
@@ -59,7 +59,7 @@ impl Regions {
         Self { ringing: Some(OVERSHOOT * jumps), is_exact, ..self }
     }
 
-    /// How far stresses on the surface may ring beside jumps of a given pressure, a pressure; zero under a contact.
+    /// Largest ringing of stresses on the surface beside jumps of a given pressure, a pressure; zero under a contact.
     pub fn ringing(&self) -> f64 {
         self.ringing.unwrap_or(0.0)
     }

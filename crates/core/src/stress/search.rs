@@ -22,7 +22,7 @@ use super::strain::Compliance;
 use super::tensor::StressState;
 use crate::body::{Depth, Layer};
 
-/// What the searches in all materials share.
+/// Parameters that the searches in all materials share.
 #[derive(Clone, Copy)]
 struct Search<'a> {
     /// The smallest and the largest contact radius, lengths.
@@ -210,7 +210,7 @@ impl StressField {
             value(i) + RISE_BETWEEN_PLANES * drop + MISSED_BY_SAMPLES * best.abs() >= best
         };
         let is_start = |&i: &usize| {
-            // Of neighbouring depths beside the same maximum the higher one is the start.
+            // The higher one of neighbouring depths beside the same maximum is the start.
             let is_better = |j: usize| value(j) > value(i) && is_near(j) && self.are_beside(candidate(i), candidate(j));
             is_near(i) && !beside(i).any(is_better)
         };

@@ -30,7 +30,7 @@ pub(super) trait Response<const K: usize>: Sync {
     fn is_deep(&self) -> bool {
         false
     }
-    /// What a free field has beside the periodic one of the series; `None` where the system is periodic.
+    /// Difference of the free field and the periodic one of the series; `None` where the system is periodic.
     fn far(&self) -> Option<FarPlane<K>> {
         None
     }
@@ -136,7 +136,7 @@ impl Series {
         self.of_waves_from(start, transform, buffer, response).with_far(response.far(), start)
     }
 
-    /// What the waves and the mean pressure contribute to [`Self::on_plane_from`].
+    /// Contribution of the waves and the mean pressure to [`Self::on_plane_from`].
     pub fn of_waves_from<'t, const K: usize, R: Response<K>>(
         &self,
         start: [f64; 2],
@@ -203,7 +203,8 @@ impl Series {
         }
     }
 
-    /// As [`Self::of_waves_from`] with the axes of the transform exchanged: its rows follow one another along a₂, its columns along a₁.
+    /// Fields of [`Self::of_waves_from`] with the axes of the transform exchanged: rows follow one another along a₂,
+    /// columns along a₁.
     pub fn of_waves_exchanged<'t, const K: usize, R: Response<K>>(
         &self,
         start: [f64; 2],

@@ -25,15 +25,15 @@ const BEHIND: f64 = 0.75;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SlidingPath {
-    /// Along the lattice vector m₁a₁ + m₂a₂ of these m₁, m₂, after which it closes.
+    /// Path along the lattice vector m₁a₁ + m₂a₂ of these m₁, m₂, after which it closes.
     LatticeVector([i32; 2]),
-    /// It never closes: every place of a plane of constant depth counts.
+    /// Path that never closes: every place of a plane of constant depth counts.
     WholePlane,
-    /// From far away to far away, past an isolated contact.
+    /// Path from far away to far away, past an isolated contact.
     FromFarAway,
 }
 
-/// How the lines of a path are sampled on planes of constant depth.
+/// Sampling of the lines of a path on planes of constant depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SlidingLines {
     pub path: SlidingPath,
@@ -45,7 +45,7 @@ pub(super) struct SlidingLines {
     pub slope: f64,
     /// Times that a line crosses the cell along **a** before it closes.
     turns: usize,
-    /// Multiple of **b** after which it closes.
+    /// Multiple of **b** after which a line closes.
     across: i32,
     cell: Cell,
 }
@@ -170,11 +170,12 @@ impl SlidingLines {
         (line as i64 + moved).rem_euclid(columns as i64) as usize
     }
 
-    /// Where a place of a cell lies among the samples of a line: the number of the sample before it and the part of the way to the next.
+    /// Position of a place of a cell among the samples of a line: the number of the sample before it and the part of
+    /// the way to the next.
     pub fn position(&self, place: [f64; 2], line: usize, points: LinePoints) -> f64 {
         let LinePoints { rows, columns } = points;
         let parts = self.cell.parts(place);
-        // Of a tiny negative number the remainder is rounded to 1.
+        // The remainder of a tiny negative number is rounded to 1.
         let u = Some(parts[self.advance].rem_euclid(1.0)).filter(|u| *u < 1.0).unwrap_or(0.0);
         let column = (parts[1 - self.advance] - self.shift(u)) * columns as f64;
         let away = |of_turn: usize| {
@@ -194,8 +195,8 @@ impl SlidingLines {
         self.slope * (u - if self.path == SlidingPath::FromFarAway { 0.5 } else { 0.0 })
     }
 
-    /// Fractions of the cell vectors a₁, a₂ of a row's fraction u of **a** and a column's v of **b**; columns of a window run over two of
-    /// it.
+    /// Fractions of the cell vectors a₁, a₂ of a row's fraction u of **a** and a column's v of **b**; columns of a
+    /// window run over two windows.
     pub fn fractions(&self, u: f64, v: f64) -> [f64; 2] {
         let v = if self.path == SlidingPath::FromFarAway && v >= 2.0 * BEHIND { v - 2.0 } else { v };
         let parts = [u, v + self.shift(u)];

@@ -27,7 +27,7 @@ const TABLE_INTERVALS: usize = 320;
 #[derive(Debug)]
 pub(super) struct SmoothedEdge {
     across: EdgeTable,
-    /// Of the trailing and the leading edge, where their exponents are others.
+    /// Tables of the trailing and the leading edge, where their exponents are others.
     sliding: Option<[EdgeTable; 2]>,
 }
 

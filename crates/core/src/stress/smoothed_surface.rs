@@ -1,6 +1,7 @@
 //! Stresses on the surface itself, where the pressure ends like a square root.
 //!
-//! There the series of the stresses converges slowly and overshoots. But only the pressure is singular at an edge: with **n** normal and **t** along the edge, and ν of the surface material,
+//! The series of the stresses converges slowly there and overshoots. But only the pressure is singular at an edge: with
+//! **n** normal and **t** along the edge, and ν of the surface material,
 //!
 //! σ_αβ = σ̂_αβ − p (n_α n_β + 2ν t_α t_β),
 //!
@@ -139,7 +140,7 @@ impl Response<4> for SurfaceStresses {
     }
 
     fn far(&self) -> Option<FarPlane<4>> {
-        // As smooth as it is, it is the same smoothed.
+        // The far field is so smooth that smoothing leaves it as it is.
         Some(self.surface.far.as_ref()?.map(|[xx, yy, zz, xy, ..]| [xx, yy, xy, -zz]))
     }
 }
@@ -215,7 +216,7 @@ impl SmoothedSurface {
     /// σ_xx, σ_yy, σ_xy near an edge at the distance `u`: of the smoothed ones in `four` the smoothed pressure `four[3]` is replaced by
     /// the pressure `p`, and the smoothed cusp of the traction by the sharp one.
     fn sharpened(&self, four: [f64; 4], near: NearEdge, (u, p): (f64, f64), [nx, ny]: [f64; 2]) -> [f64; 3] {
-        // Of tangential fields the smoothed ones make the cusp, of friction μ e times the smoothed pressure.
+        // The cusp is that of the smoothed tangential fields, or under friction of μ e times the smoothed pressure.
         let (nu, [tx, ty], smoothed) = match self.shear {
             Some(_) => (self.poisson, near.shear, 1.0),
             None => (self.poisson, self.ratio, near.pressure[0]),

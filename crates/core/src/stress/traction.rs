@@ -19,7 +19,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct Traction<'a> {
     grid: Arc<Grid>,
-    /// One value per sample, a₂ fastest.
+    /// Pressure, one value per sample, a₂ fastest.
     pressure: Cow<'a, [f64]>,
     tangential: Tangential<'a>,
     /// Discs of a given pressure that the samples stand for; none of another pressure.
@@ -122,7 +122,7 @@ impl<'a> Traction<'a> {
     pub fn reversed(self) -> Self {
         let tangential = match self.tangential {
             Tangential::None => Tangential::None,
-            // With β too, so that trailing edges stay trailing edges.
+            // β changes its sign too, so that trailing edges stay trailing edges.
             Tangential::Coulomb { friction, beta } => {
                 Tangential::Coulomb { friction: friction.reversed(), beta: -beta }
             }
@@ -354,7 +354,7 @@ mod tests {
         }
     }
 
-    /// With their errors, around the window of an isolated contact too.
+    /// Largest stresses and their errors, around the window of an isolated contact too.
     #[test]
     fn fields_in_proportion_to_the_pressure_have_the_largest_stresses_of_friction() {
         let half_space = layered();
@@ -546,7 +546,7 @@ mod tests {
         let grid = Arc::new(Grid::new(cell, [n, n]).unwrap());
         let (pressure, spot) = (Array2::zeros([n, n]), spot([n, n]));
         let place = |i: usize, j: usize| cell.point([i as f64 / n as f64, j as f64 / n as f64]);
-        // Of both signs along x, and a twist.
+        // Both signs along x, and a twist.
         let x = Array2::from_shape_fn([n, n], |(i, j)| spot[[i, j]] * (0.4 - 3.0 * place(i, j)[1]));
         let y = Array2::from_shape_fn([n, n], |(i, j)| spot[[i, j]] * 3.0 * place(i, j)[0]);
         let traction = Traction::normal(&grid, pressure.view()).unwrap().with_fields([x.view(), y.view()]).unwrap();
@@ -557,7 +557,7 @@ mod tests {
                 let [px, py] = place(i, j);
                 let area = grid.sample_area();
                 let by_x = cerruti([u - px, v - py, z], nu);
-                // The same along y, with x and y exchanged.
+                // Stresses under a force along y, with x and y exchanged.
                 let [yy, xx, zz, yz, xz] = cerruti([v - py, u - px, z], nu);
                 for (sum, (a, b)) in sums.iter_mut().zip(by_x.into_iter().zip([xx, yy, zz, xz, yz])) {
                     *sum += area * (x[[i, j]] * a + y[[i, j]] * b);

@@ -81,7 +81,7 @@ where
 #[derive(Debug, Clone)]
 pub(super) struct TractionWaves {
     pub pressure: Vec<Complex64>,
-    /// Those of q_x and q_y; `None` where they follow from the pressure.
+    /// Coefficients of q_x and q_y; `None` where they follow from the pressure.
     pub shear: Option<[Vec<Complex64>; 2]>,
 }
 

@@ -233,7 +233,7 @@ impl<const K: usize> FieldColumns<'_, K> {
         count
     }
 
-    /// Their buffer, for other columns.
+    /// Buffer of the fields, for other columns.
     pub fn into_buffer(self) -> Vec<f64> {
         self.values
     }

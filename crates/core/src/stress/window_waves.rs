@@ -10,7 +10,7 @@ use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 
 /// Coefficients c of the `waves` of a cell whose middle is that of the window of a traction: p = Re Σ c e^{2πi(κ₁s + κ₂t)} by the
-/// fractions s, t of the cell, and q_x and q_y alike. Of discs the pressure has their own waves.
+/// fractions s, t of the cell, and q_x and q_y alike. The pressure of discs has the exact waves of the discs.
 pub(super) fn window_waves(waves: &Waves, cell: Cell, traction: &Traction<'_>) -> TractionWaves {
     let of = |field: &[f64]| waves_of_samples(waves, cell, traction.grid(), field);
     let pressure = match traction.discs() {
@@ -22,7 +22,7 @@ pub(super) fn window_waves(waves: &Waves, cell: Cell, traction: &Traction<'_>) -
 
 /// Coefficients of the waves of a `field` with one value per sample of the `grid` of the window, a₂ fastest.
 ///
-/// By the exact sums over the samples: the spacings of the cell's own grid may be any.
+/// The sums over the samples are exact: the spacings of the cell's grid may be any.
 fn waves_of_samples(waves: &Waves, cell: Cell, grid: &Grid, field: &[f64]) -> Vec<Complex64> {
     let [n1, n2] = grid.points();
     let fractions = |axis: usize, n: usize| -> Vec<f64> {
