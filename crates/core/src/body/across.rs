@@ -37,7 +37,7 @@ struct ShearState<N = f64> {
 }
 
 impl<N: Number> ShearState<N> {
-    /// At a height `x` = q·(distance) ≥ 0 further up in the same material.
+    /// The state at a height `x` = q·(distance) ≥ 0 further up in the same material.
     fn raised(self, x: f64) -> Self {
         let x = x.min(MAX_EXPONENT);
         let [cosh, sinh] = [0.5 * (1.0 + (-2.0 * x).exp()), -0.5 * (-2.0 * x).exp_m1()];
@@ -199,7 +199,7 @@ mod tests {
                     let up = q * (1.0 - z);
                     let Antiplane { stz, sqt, ut } = response.antiplane(q, Depth { z, material: 1 });
                     let (v, s) = (up.cosh() * chi + up.sinh(), up.cosh() + chi * up.sinh());
-                    // What a thick layer shields, e^{−45}, is left out.
+                    // The part that comes through a thick layer, e^{−45}, is left out.
                     let near = |found: f64, known: f64| (found - known).abs() < 1e-13 * known + 1e-19;
                     assert!(near(-stz, s / top), "χ {chi}, q {q}, z {z}: {stz}, {}", -s / top);
                     assert!(near(-sqt, v / top) && near(ut * chi * q, v / top), "χ {chi}, q {q}, z {z}: {sqt}, {ut}");

@@ -103,9 +103,9 @@ impl Bodies {
 
     /// Whether a material or an interface has a law of fatigue.
     pub fn tire(&self) -> bool {
-        let tires = |own: &HalfSpace| {
-            own.durabilities().any(|own| own.fatigue.is_some())
-                || own.layers().iter().any(|own| own.interface_fatigue().is_some())
+        let tires = |body: &HalfSpace| {
+            body.durabilities().any(|durability| durability.fatigue.is_some())
+                || body.layers().iter().any(|layer| layer.interface_fatigue().is_some())
         };
         self.each().any(tires)
     }
@@ -132,21 +132,21 @@ impl Bodies {
 
     /// Whether neither has layers.
     pub fn is_bare(&self) -> bool {
-        self.each().all(|own| own.layers().is_empty())
+        self.each().all(|body| body.layers().is_empty())
     }
 
     /// Compliance C₁ + C₂ = ŵ/p̂ at the wavenumber q > 0 (1/length): a length per pressure.
     pub fn compliance(&self, wavenumber: f64) -> f64 {
-        self.each().map(|own| own.response().compliance(wavenumber)).sum()
+        self.each().map(|body| body.response().compliance(wavenumber)).sum()
     }
 
     /// Layer correction T = ½ E* q (C₁ + C₂) at the wavenumber q > 0 (1/length), with E* of [`Self::contact_modulus`]; 1 for
     /// bodies without layers.
     pub fn correction(&self, wavenumber: f64) -> f64 {
-        let own = self.body.response().correction(wavenumber);
-        let Some(counterbody) = &self.counterbody else { return own };
+        let correction = self.body.response().correction(wavenumber);
+        let Some(counterbody) = &self.counterbody else { return correction };
         let [first, second] = [&self.body, counterbody].map(unit_compliance);
-        (first * own + second * counterbody.response().correction(wavenumber)) / (first + second)
+        (first * correction + second * counterbody.response().correction(wavenumber)) / (first + second)
     }
 
     /// Compliance at the wavenumber q > 0 (1/length) with the given [correction](Self::correction).
@@ -173,7 +173,7 @@ impl Bodies {
 
     /// Thickness of the thinnest layer at a surface, a length; `None` without layers.
     pub fn thinnest_first_layer(&self) -> Option<f64> {
-        self.each().filter_map(|own| own.layers().first()).map(Layer::thickness).reduce(f64::min)
+        self.each().filter_map(|body| body.layers().first()).map(Layer::thickness).reduce(f64::min)
     }
 
     /// Contact modulus E* of the materials at the surfaces, 1/E* = 1/E₁* + 1/E₂*, a pressure.
@@ -184,7 +184,7 @@ impl Bodies {
     /// Contact modulus E* of the substrates, by which waves longer than all layers are thick displace, a pressure; `None` where no
     /// substrate is elastic.
     pub fn substrate_modulus(&self) -> Option<f64> {
-        let elastic: Vec<Material> = self.each().filter_map(|own| own.substrate().material()).collect();
+        let elastic: Vec<Material> = self.each().filter_map(|body| body.substrate().material()).collect();
         (!elastic.is_empty()).then(|| composite(elastic.into_iter()))
     }
 
@@ -196,13 +196,13 @@ impl Bodies {
 
     /// Whether a body has a rigid base.
     pub fn has_rigid_base(&self) -> bool {
-        self.each().any(|own| own.substrate().is_rigid())
+        self.each().any(|body| body.substrate().is_rigid())
     }
 
     /// Dundurs' β of the materials at the surfaces,
     /// [(1 − 2ν₁)/G₁ − (1 − 2ν₂)/G₂] / (2[(1 − ν₁)/G₁ + (1 − ν₂)/G₂]); (1 − 2ν)/(2(1 − ν)) under a rigid counterbody.
     pub fn dundurs_beta(&self) -> f64 {
-        let tangential = |own: Material| (1.0 - 2.0 * own.poisson()) / own.shear();
+        let tangential = |material: Material| (1.0 - 2.0 * material.poisson()) / material.shear();
         let body = self.body.surface_material();
         match &self.counterbody {
             None => (1.0 - 2.0 * body.poisson()) / (2.0 * (1.0 - body.poisson())),
@@ -228,7 +228,9 @@ fn composite(mut materials: impl Iterator<Item = Material>) -> f64 {
 impl fmt::Display for Bodies {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.body)?;
-        self.counterbody.iter().try_for_each(|own| write!(f, "\ncounterbody, from its surface inward:\n{own}"))
+        self.counterbody
+            .iter()
+            .try_for_each(|counterbody| write!(f, "\ncounterbody, from its surface inward:\n{counterbody}"))
     }
 }
 

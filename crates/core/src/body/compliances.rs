@@ -73,9 +73,9 @@ impl<'a> Compliances<'a> {
 
     /// Compliances with series of the [coupling ratio](Self::coupling_ratio) too.
     pub fn coupled(bodies: &'a Bodies, [least, most]: [f64; 2], times: usize) -> Self {
-        let own = Self::new(bodies, [least, most], times);
+        let uncoupled = Self::new(bodies, [least, most], times);
         let times = if bodies.is_bare() { 0 } else { times };
-        Self { ratios: Panels::new([least, most], times, 1.0, |q| bodies.coupling_ratio(q)), ..own }
+        Self { ratios: Panels::new([least, most], times, 1.0, |q| bodies.coupling_ratio(q)), ..uncoupled }
     }
 
     /// Displacement under a uniform pressure, a length per pressure: 0 where displacements have zero mean.

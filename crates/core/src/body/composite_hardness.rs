@@ -18,9 +18,9 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum HardnessLaw {
-    /// By the area that the coating bears, of Jönsson and Hogmark.
+    /// Law of the area that the coating bears, by Jönsson and Hogmark.
     Area,
-    /// By the work of indentation, of Korsunsky and others.
+    /// Law of the work of indentation, by Korsunsky and others.
     Korsunsky,
 }
 
@@ -63,8 +63,11 @@ impl CompositeHardness {
             return Err(CompositeError::Constant(constant));
         }
         let coating = body.surface_durability().hardness.ok_or(CompositeError::Unknown("layer"))?;
-        let substrate =
-            body.durabilities().nth(1).and_then(|own| own.hardness).ok_or(CompositeError::Unknown("substrate"))?;
+        let substrate = body
+            .durabilities()
+            .nth(1)
+            .and_then(|durability| durability.hardness)
+            .ok_or(CompositeError::Unknown("substrate"))?;
         Ok(Self { law, constant, hardness: [coating, substrate], thickness: layer.thickness() })
     }
 
@@ -73,8 +76,8 @@ impl CompositeHardness {
         let (relative, [coating, substrate]) = ((depth / self.thickness).max(0.0), self.hardness);
         let part = match self.law {
             HardnessLaw::Area => {
-                let own = self.constant / relative.max(self.constant);
-                own * (2.0 - own)
+                let ratio = self.constant / relative.max(self.constant);
+                ratio * (2.0 - ratio)
             }
             HardnessLaw::Korsunsky => 1.0 / (1.0 + self.constant * relative * relative),
         };

@@ -1,4 +1,4 @@
-//! What a material bears when it is pressed, rubbed and loaded again and again: hardness, wear and fatigue.
+//! Hardness, wear and fatigue: what a material bears when it is pressed, rubbed and loaded again and again.
 //!
 //! - **Hardness** H: the pressure on a surface never exceeds that of the softer one, 0 ≤ p ≤ H.
 //! - **Wear** (Archard): ∂h/∂s = k p, the depth h worn off along a path s of sliding by the pressure p, k in one over a pressure.
@@ -95,8 +95,8 @@ impl Endurance {
     }
 }
 
-/// What a material bears when it is pressed, rubbed and loaded again and again. What is not given has no limit, and without a
-/// coefficient nothing wears.
+/// Hardness, wear and fatigue of a material. Limits that are not given are infinite, and without a coefficient nothing
+/// wears.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Durability {
     /// Hardness H, a pressure.
@@ -139,12 +139,12 @@ mod tests {
     #[test]
     fn the_tests_that_give_the_limits_are_at_them() {
         let (torsion, bending) = (0.29, 0.45);
-        let own = Endurance::new(torsion, bending).unwrap();
+        let endurance = Endurance::new(torsion, bending).unwrap();
         for found in [
-            own.crossland(torsion, 0.0),
-            own.crossland(bending / 3f64.sqrt(), bending / 3.0),
-            own.dang_van(torsion, 0.0),
-            own.dang_van(bending / 2.0, bending / 3.0),
+            endurance.crossland(torsion, 0.0),
+            endurance.crossland(bending / 3f64.sqrt(), bending / 3.0),
+            endurance.dang_van(torsion, 0.0),
+            endurance.dang_van(bending / 2.0, bending / 3.0),
         ] {
             assert!((found - 1.0).abs() < 1e-15, "{found}");
         }
@@ -155,9 +155,9 @@ mod tests {
         assert_eq!(Fatigue::new(0.0, 1.0, 1.0), Err(MaterialError::Fatigue(0.0)));
         assert!(Fatigue::new(1.0, f64::INFINITY, 1.0).is_err() && Fatigue::new(1.0, 1.0, -2.0).is_err());
         assert_eq!(Endurance::new(1.0, 1.8), Err(MaterialError::Endurance(1.8)));
-        let own = Durability { hardness: Some(0.0), ..Durability::default() };
-        assert_eq!(own.check(), Err(MaterialError::Hardness(0.0)));
-        let own = Durability { wear: Some(-1.0), ..Durability::default() };
-        assert_eq!(own.check(), Err(MaterialError::Wear(-1.0)));
+        let durability = Durability { hardness: Some(0.0), ..Durability::default() };
+        assert_eq!(durability.check(), Err(MaterialError::Hardness(0.0)));
+        let durability = Durability { wear: Some(-1.0), ..Durability::default() };
+        assert_eq!(durability.check(), Err(MaterialError::Wear(-1.0)));
     }
 }

@@ -14,14 +14,14 @@ const GONE: f64 = 1e-6;
 
 /// A coated elastic half-space: layers from the surface down, then the substrate, or layers on a rigid base.
 ///
-/// Its elastic [response](Self::response) is set up once, in the constructor, and shared by all clones.
+/// The elastic [response](Self::response) is set up once, in the constructor, and shared by all clones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HalfSpace {
     layers: Vec<Layer>,
     substrate: Substrate,
     substrate_strength: Strength,
     substrate_durability: Durability,
-    /// Which of two elastic bodies it is.
+    /// Side of the half-space, where it is one of two elastic bodies.
     side: Option<Side>,
     response: Arc<LayeredResponse>,
 }
@@ -46,13 +46,13 @@ impl HalfSpace {
         Self { layers, substrate, substrate_strength, substrate_durability, side: None, response }
     }
 
-    /// It as one of two elastic bodies: its materials and interfaces say so.
+    /// The half-space as one of two elastic bodies: its materials and interfaces say so.
     #[must_use]
     pub fn on_side(self, side: Side) -> Self {
         Self { side: Some(side), ..self }
     }
 
-    /// Which of two elastic bodies it is; `None` under a rigid counterbody.
+    /// Side of the half-space, one of two elastic bodies; `None` under a rigid counterbody.
     pub fn side(&self) -> Option<Side> {
         self.side
     }
@@ -89,7 +89,7 @@ impl HalfSpace {
         &self.layers
     }
 
-    /// What the layers lie on.
+    /// Substrate that the layers lie on, elastic or rigid.
     pub fn substrate(&self) -> Substrate {
         self.substrate
     }
@@ -129,7 +129,7 @@ impl HalfSpace {
     /// pressure: Σ h/M of the layers and 1/k_n of their springs, from the rigid base. Zero on an elastic substrate, whose infinite
     /// mean displacement is left out.
     pub fn mean_compliance(&self) -> f64 {
-        let own = |layer: &Layer| {
+        let compliance = |layer: &Layer| {
             let closure = match layer.interface() {
                 Interface::Spring { normal, .. } => normal.recip(),
                 Interface::Bonded | Interface::Frictionless => 0.0,
@@ -138,7 +138,7 @@ impl HalfSpace {
         };
         match self.substrate {
             Substrate::Elastic(_) => 0.0,
-            Substrate::Rigid => self.layers.iter().map(own).sum(),
+            Substrate::Rigid => self.layers.iter().map(compliance).sum(),
         }
     }
 
@@ -173,12 +173,13 @@ impl HalfSpace {
         self.durabilities().next().unwrap_or_default()
     }
 
-    /// What is left after everything above a `depth` has come off: thinner layers, those above it gone, with the number of these. A layer of
-    /// which less than a millionth is left is gone too. `None` where nothing is left on a rigid base.
+    /// Half-space after everything above a `depth`, a length, has come off, and the number of layers gone: the first
+    /// one left is thinner, and a layer of which less than a millionth is left is gone too. `None` where nothing is
+    /// left on a rigid base.
     pub fn uncovered(&self, depth: f64) -> Option<(Self, usize)> {
         let faces = self.interface_depths();
         let is_gone = |(layer, face): (&Layer, &f64)| face - depth < GONE * layer.thickness();
-        let gone = self.layers.iter().zip(&faces).take_while(|&own| is_gone(own)).count();
+        let gone = self.layers.iter().zip(&faces).take_while(|&(layer, face)| is_gone((layer, face))).count();
         let mut layers = self.layers[gone..].to_vec();
         if let (Some(layer), Some(face)) = (layers.first_mut(), faces.get(gone)) {
             *layer = layer.thinned((face - depth).min(layer.thickness()));
@@ -190,7 +191,7 @@ impl HalfSpace {
         Some((Self { layers, response, ..self.clone() }, gone))
     }
 
-    /// It without hardness: elastic under any pressure.
+    /// The half-space without hardness: elastic under any pressure.
     #[must_use]
     pub fn without_hardness(&self) -> Self {
         let layers = self.layers.iter().map(|layer| layer.of_hardness(None)).collect();
@@ -241,7 +242,7 @@ impl HalfSpace {
         let above = faces.iter().filter(|&&face| face * (1.0 + tolerance) < z).count();
         let below = faces.iter().filter(|&&face| face * (1.0 - tolerance) <= z).count();
         (above + 1..=below + 1)
-            .filter(|&own| own <= self.material_count())
+            .filter(|&material| material <= self.material_count())
             .map(|material| Depth { z, material })
             .collect()
     }
@@ -309,13 +310,13 @@ mod tests {
         let layers = [0.1, 0.2].map(|h| Layer::new(material(h), h, Interface::Bonded).unwrap());
         let half_space = HalfSpace::new(layers.to_vec(), material(1.0));
         let left = |depth: f64| {
-            let (own, gone) = half_space.uncovered(depth).unwrap();
-            let thicknesses: Vec<f64> = own.layers().iter().map(Layer::thickness).collect();
+            let (rest, gone) = half_space.uncovered(depth).unwrap();
+            let thicknesses: Vec<f64> = rest.layers().iter().map(Layer::thickness).collect();
             assert_eq!(
-                own.response().compliance(3.0),
-                HalfSpace::new(own.layers().to_vec(), material(1.0)).response().compliance(3.0)
+                rest.response().compliance(3.0),
+                HalfSpace::new(rest.layers().to_vec(), material(1.0)).response().compliance(3.0)
             );
-            (thicknesses, gone, own.surface_material().young())
+            (thicknesses, gone, rest.surface_material().young())
         };
         assert_eq!(left(0.0), (vec![0.1, 0.2], 0, material(0.1).young()));
         assert_eq!(left(0.025), (vec![0.1 - 0.025, 0.2], 0, material(0.1).young()));

@@ -110,7 +110,7 @@ impl<N: Number> Interior<N> {
                 // Nothing is below a rigid base.
                 (_, None) => functional,
                 (Interface::Frictionless, Some(_)) => {
-                    // The plane at the top of what lies below the interface, in its own units.
+                    // The plane at the top of what lies below the interface, in the units there.
                     let top = match layers.get(k + 1) {
                         Some(next) => planes[k + 1].raised(&next.material, wavenumber * next.thickness),
                         None => planes[k + 1],

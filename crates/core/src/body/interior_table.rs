@@ -25,7 +25,7 @@ const MIN_PARALLEL: usize = 512;
 #[derive(Debug)]
 pub struct InteriorTable {
     response: Arc<LayeredResponse>,
-    /// From the surface down, an elastic substrate last.
+    /// Materials from the surface down, an elastic substrate last.
     materials: Vec<MaterialTable>,
 }
 
@@ -42,18 +42,18 @@ struct MaterialTable {
     /// a, b, c, d of F under a pressure, and under a shear traction along the wavevector.
     normal: Vec<[f64; 4]>,
     along: Vec<[f64; 4]>,
-    /// α, β.
+    /// α, β of v under a shear traction across the wavevector.
     across: Vec<[f64; 2]>,
 }
 
 /// Traction that a face of a material transmits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Face {
-    /// That of the surface.
+    /// The traction of the surface.
     Surface,
     /// No shear.
     Frictionless,
-    /// Any.
+    /// Any traction.
     Joined,
 }
 
@@ -112,8 +112,8 @@ impl InteriorTable {
         let below = (depth.z - material.top).clamp(0.0, material.thickness);
         let of = |number: usize| {
             let q = wavenumbers[number];
-            let Some(own) = coefficients.get(number) else { return self.response.amplitudes(traction, q, depth) };
-            amplitudes_of(traction, material.functions(traction, own, below, q), material.elasticity(), q)
+            let Some(row) = coefficients.get(number) else { return self.response.amplitudes(traction, q, depth) };
+            amplitudes_of(traction, material.functions(traction, row, below, q), material.elasticity(), q)
         };
         (0..wavenumbers.len()).into_par_iter().with_min_len(MIN_PARALLEL).map(of).collect()
     }
@@ -130,7 +130,7 @@ impl InteriorTable {
         let of = |number: usize| {
             let q = wavenumbers[number];
             match coefficients.get(number) {
-                Some(own) => material.functions(traction, own, below, q),
+                Some(row) => material.functions(traction, row, below, q),
                 None => {
                     derivatives_of(&self.response.amplitudes(traction, q, depth), traction, material.elasticity(), q)
                 }
@@ -342,7 +342,12 @@ mod tests {
         let table = InteriorTable::new(Arc::clone(bare), &WAVENUMBERS, false);
         let depth = Depth { z: 0.2, material: 1 };
         let found = table.amplitudes(InPlane::Normal, &WAVENUMBERS, depth);
-        assert!(found.iter().zip(WAVENUMBERS).all(|(own, q)| *own == bare.amplitudes(InPlane::Normal, q, depth)));
+        assert!(
+            found
+                .iter()
+                .zip(WAVENUMBERS)
+                .all(|(amplitudes, q)| *amplitudes == bare.amplitudes(InPlane::Normal, q, depth))
+        );
         let body = bodies().next().unwrap();
         let uncoated = HalfSpace::new(vec![], body.material(3));
         assert_eq!(

@@ -126,7 +126,7 @@ impl Layer {
         Self { durability: Durability { hardness, ..self.durability }, ..*self }
     }
 
-    /// It with another thickness, a length above zero.
+    /// The layer with another thickness, a length above zero.
     pub(super) fn thinned(&self, thickness: f64) -> Self {
         Self { thickness, ..*self }
     }

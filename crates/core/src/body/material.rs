@@ -88,12 +88,12 @@ impl Material {
         Self { name, ..self }
     }
 
-    /// Its name; `None` where it was given none.
+    /// Name of the material; `None` where it was given none.
     pub fn name(&self) -> Option<Name> {
         self.name
     }
 
-    /// Its name in parentheses with a space before; empty where it was given none.
+    /// Name of the material in parentheses with a space before; empty where it was given none.
     pub fn name_behind(&self) -> String {
         self.name.map_or(String::new(), |name| format!(" ({name})"))
     }
@@ -128,7 +128,7 @@ impl Material {
 impl fmt::Display for Material {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [young, shear, contact] = [self.young(), self.shear, self.contact_modulus()].map(number);
-        // As it was given, without what rounding has left between the ends of a graded layer.
+        // ν as it was given, without what rounding has left between the ends of a graded layer.
         let poisson = (1e9 * self.poisson).round() / 1e9;
         write!(f, "E {young}, ν {poisson}, G {shear}, E* {contact}")
     }

@@ -198,7 +198,7 @@ mod tests {
                 let (top, bottom) = body.faces(index + 1);
                 let depth =
                     Depth { z: if bottom.is_finite() { 0.5 * (top + bottom) } else { top }, material: index + 1 };
-                // What bends with the layer is of the order qh.
+                // Stresses of bending with the layer are of the order qh.
                 let at = |q: f64| body.response().amplitudes(InPlane::Normal, q, depth);
                 let (one, other) = (at(1e-5), at(2e-5));
                 let limits = [2.0 * one.sqq - other.sqq, 2.0 * one.stt - other.stt];

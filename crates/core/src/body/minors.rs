@@ -55,13 +55,13 @@ pub(super) struct Minors<N = f64> {
 }
 
 impl<N: Number> Minors<N> {
-    /// On a rigid base: no displacement, any tractions.
+    /// The plane on a rigid base: no displacement, any tractions.
     pub fn rigid() -> Self {
         let zero = N::from(0.0);
         Self { n: N::from(1.0), a: zero, b: zero, c: zero, d: zero, exponent: 0.0 }
     }
 
-    /// At the top of a homogeneous half-space: A/N = C/N = 1−ν, B/N = ½−ν, D/N = ¾−ν.
+    /// The plane at the top of a homogeneous half-space: A/N = C/N = 1−ν, B/N = ½−ν, D/N = ¾−ν.
     pub fn half_space(material: &PlaneStrain<N>) -> Self {
         let less_poisson = |number: f64| N::from(number) - material.poisson;
         let [a, b, d] = [1.0, 0.5, 0.75].map(less_poisson);

@@ -17,15 +17,15 @@ impl Name {
     pub fn new(text: &str) -> Self {
         static KEPT: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
         let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-        let own = kept.get(text).copied();
-        Self(own.unwrap_or_else(|| {
-            let own: &'static str = Box::leak(text.into());
-            kept.insert(own);
-            own
+        let known = kept.get(text).copied();
+        Self(known.unwrap_or_else(|| {
+            let leaked: &'static str = Box::leak(text.into());
+            kept.insert(leaked);
+            leaked
         }))
     }
 
-    /// Its text.
+    /// Text of the name.
     pub fn text(self) -> &'static str {
         self.0
     }
@@ -64,8 +64,8 @@ impl fmt::Display for Side {
 
 impl Side {
     /// Words behind what belongs to the counterbody: " of the counterbody"; none for what belongs to the body.
-    fn behind(own: Option<Self>) -> &'static str {
-        if own == Some(Self::Counterbody) { " of the counterbody" } else { "" }
+    fn behind(side: Option<Self>) -> &'static str {
+        if side == Some(Self::Counterbody) { " of the counterbody" } else { "" }
     }
 }
 
@@ -73,9 +73,9 @@ macro_rules! numbered {
     ($(#[$doc:meta])* $id:ident, $what:literal, $number:literal) => {
         $(#[$doc])*
         ///
-        /// It prints itself as its name, or without one as its number. Equal numbers of one body are equal and in order, whatever
-        /// the names: a name says what stands there, and may differ between two cases. Those of the counterbody follow those of
-        /// the body.
+        /// Prints itself as its name, or without one as its number. Equal numbers of one body are equal and in order,
+        /// whatever the names: a name says what stands there, and may differ between two cases. Those of the
+        /// counterbody follow those of the body.
         #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
         pub struct $id {
             /// The body it belongs to; `None` where the counterbody is rigid.
@@ -84,18 +84,18 @@ macro_rules! numbered {
             #[doc = $number]
             #[serde(rename = $what)]
             pub number: usize,
-            /// Its name; `None` where it has none.
+            /// Name of the material or interface; `None` where it has none.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             pub name: Option<Name>,
         }
 
         impl $id {
-            /// The one with this number, from 1, without a name.
+            /// Material or interface of this number, from 1, without a name.
             pub const fn numbered(number: usize) -> Self {
                 Self { side: None, number, name: None }
             }
 
-            /// It without its name.
+            /// The number without the name.
             #[must_use]
             pub const fn without_name(self) -> Self {
                 Self { name: None, ..self }
@@ -106,18 +106,18 @@ macro_rules! numbered {
                 self.side == Some(Side::Counterbody)
             }
 
-            /// Its number with the body it belongs to, as files have it.
+            /// Number with the body it belongs to, as files have it.
             pub fn code(self) -> String {
                 format!("{} {}{}", $what, self.number, Side::behind(self.side))
             }
 
             /// Reads its [code](Self::code).
             pub fn of_code(code: &str) -> Option<Self> {
-                let (side, own) = match code.strip_suffix(Side::behind(Some(Side::Counterbody))) {
-                    Some(own) => (Some(Side::Counterbody), own),
+                let (side, rest) = match code.strip_suffix(Side::behind(Some(Side::Counterbody))) {
+                    Some(rest) => (Some(Side::Counterbody), rest),
                     None => (None, code),
                 };
-                let number = own.strip_prefix($what)?.strip_prefix(' ')?.parse().ok()?;
+                let number = rest.strip_prefix($what)?.strip_prefix(' ')?.parse().ok()?;
                 Some(Self { side, number, name: None })
             }
 
@@ -171,7 +171,7 @@ impl InterfaceId {
     pub fn between(upper: MaterialId, lower: MaterialId) -> Self {
         let has_name = upper.name.is_some() || lower.name.is_some();
         // The body stands behind the whole.
-        let [above, below] = [upper, lower].map(|own| MaterialId { side: None, ..own });
+        let [above, below] = [upper, lower].map(|id| MaterialId { side: None, ..id });
         let name = has_name.then(|| Name::new(&format!("{above}/{below}")));
         Self { side: upper.side, number: upper.number, name }
     }

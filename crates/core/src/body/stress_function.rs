@@ -97,14 +97,14 @@ pub(super) fn amplitudes_of(
 /// F and its derivatives from amplitudes: the inverse of [`amplitudes_of`].
 #[inline(always)]
 pub(super) fn derivatives_of(
-    own: &Amplitudes,
+    &Amplitudes { szz, sqz, sqq, uz, .. }: &Amplitudes,
     traction: InPlane,
     [shear, poisson]: [f64; 2],
     wavenumber: f64,
 ) -> Derivatives {
     let sign = traction.sign();
-    let w = sign * own.uz * shear * wavenumber;
-    [-sign * own.szz, own.sqz, sign * own.sqq, (2.0 * w + (2.0 - poisson) * own.sqz) / (1.0 - poisson)]
+    let w = sign * uz * shear * wavenumber;
+    [-sign * szz, sqz, sign * sqq, (2.0 * w + (2.0 - poisson) * sqz) / (1.0 - poisson)]
 }
 
 /// cosh x, sinh x, ½x sinh x and ½(x cosh x − sinh x), 0 ≤ x < 1, by their series: the last one is Σ j x^{2j+1}/(2j+1)!.

@@ -1,8 +1,8 @@
-//! What the layers lie on: an elastic half-space, or a rigid base.
+//! The substrate that the layers lie on: an elastic half-space, or a rigid base.
 
 use super::Material;
 
-/// What the layers of a body lie on.
+/// Substrate that the layers of a body lie on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Substrate {
     /// An elastic half-space of this material. Its mean displacement under a periodic pressure is infinite and left out.
@@ -13,7 +13,7 @@ pub enum Substrate {
 }
 
 impl Substrate {
-    /// Its material; `None` for a rigid base.
+    /// Material of the substrate; `None` for a rigid base.
     pub fn material(self) -> Option<Material> {
         match self {
             Self::Elastic(material) => Some(material),
@@ -144,9 +144,9 @@ mod tests {
 
     /// Rows F, F′, u_z, u_q over the coefficients of a layer at a distance z below its upper face.
     fn rows(layer: &Layer, q: f64, z: f64) -> [[f64; 4]; 4] {
-        let own = basis(q * z, layer.material().poisson());
+        let functions = basis(q * z, layer.material().poisson());
         let unit = 0.5 / (layer.material().shear() * q);
-        std::array::from_fn(|row| std::array::from_fn(|k| own[k][row] * if row > 1 { unit } else { 1.0 }))
+        std::array::from_fn(|row| std::array::from_fn(|k| functions[k][row] * if row > 1 { unit } else { 1.0 }))
     }
 
     /// The coefficients of all layers by one dense system: the tractions on the surface, the conditions at the interfaces, and at the base
@@ -157,7 +157,10 @@ mod tests {
         let mut condition = |parts: &[(usize, [f64; 4])], value: f64| {
             let mut row = vec![0.0; size];
             for (number, part) in parts {
-                row[4 * number..4 * number + 4].iter_mut().zip(part).for_each(|(to, own)| *to += own);
+                row[4 * number..4 * number + 4]
+                    .iter_mut()
+                    .zip(part)
+                    .for_each(|(entry, coefficient)| *entry += coefficient);
             }
             matrix.push(row);
             right.push(value);
@@ -166,8 +169,8 @@ mod tests {
         let [pressure, shear] = if traction == InPlane::Normal { [1.0, 0.0] } else { [0.0, -1.0] };
         condition(&[(0, top[0])], pressure);
         condition(&[(0, top[1])], shear);
-        for (number, own) in layers.iter().enumerate() {
-            let [f, g, uz, uq] = rows(own, q, own.thickness());
+        for (number, layer) in layers.iter().enumerate() {
+            let [f, g, uz, uq] = rows(layer, q, layer.thickness());
             let next = layers.get(number + 1).map(|next| rows(next, q, 0.0).map(|row| (number + 1, row.map(|x| -x))));
             let with = |part: [f64; 4], row: usize| {
                 std::iter::once((number, part)).chain(next.map(|next| next[row])).collect::<Vec<_>>()
@@ -175,9 +178,9 @@ mod tests {
             if next.is_some() {
                 condition(&with(f, 0), 0.0);
             }
-            // What moves down is closed by the pressure F over k_n and drawn by −F′ over k_t.
+            // A spring is closed by the pressure F over k_n and drawn by −F′ over k_t.
             let sum = |a: [f64; 4], b: [f64; 4], factor: f64| std::array::from_fn(|k| a[k] + factor * b[k]);
-            let (normal, tangential) = match own.interface() {
+            let (normal, tangential) = match layer.interface() {
                 Interface::Spring { tangential, normal } => (normal.recip(), Some(tangential.recip())),
                 Interface::Bonded => (0.0, Some(0.0)),
                 Interface::Frictionless => (0.0, None),
@@ -207,16 +210,17 @@ mod tests {
     fn amplitudes_are_those_of_a_dense_system() {
         for layers in stacks() {
             let body = on_rigid_base(&layers);
-            for (traction, q) in
-                [InPlane::Normal, InPlane::Along].into_iter().flat_map(|own| [0.3, 1.0, 4.0].map(|q| (own, q)))
+            for (traction, q) in [InPlane::Normal, InPlane::Along]
+                .into_iter()
+                .flat_map(|traction| [0.3, 1.0, 4.0].map(|q| (traction, q)))
             {
                 let coefficients = dense(&layers, traction, q);
                 let sign = if traction == InPlane::Normal { 1.0 } else { -1.0 };
                 let (interior, mut top) = (body.response().interior(traction, q), 0.0);
-                for (number, own) in layers.iter().enumerate() {
+                for (number, layer) in layers.iter().enumerate() {
                     for part in [0.0, 0.37, 1.0] {
-                        let z = part * own.thickness();
-                        let [f, g, uz, uq] = rows(own, q, z)
+                        let z = part * layer.thickness();
+                        let [f, g, uz, uq] = rows(layer, q, z)
                             .map(|row| (0..4).map(|k| row[k] * coefficients[4 * number + k]).sum::<f64>());
                         let Amplitudes { szz, sqz, uz: found_uz, uq: found_uq, .. } =
                             interior.at(Depth { z: top + z, material: number + 1 });
@@ -228,7 +232,7 @@ mod tests {
                             );
                         }
                     }
-                    top += own.thickness();
+                    top += layer.thickness();
                 }
             }
         }
@@ -242,16 +246,16 @@ mod tests {
             let bottom = Depth { z: body.base_depth(), material: layers.len() };
             let errors = |q: f64, stiffness: f64| {
                 let stiff = HalfSpace::new(layers.clone(), Material::from_shear(stiffness, 0.3).unwrap());
-                let [own, other] = [&body, &stiff].map(|own| own.response().surface(q));
+                let [rigid, elastic] = [&body, &stiff].map(|body| body.response().surface(q));
                 let surface = [
-                    other.normal / own.normal - 1.0,
-                    (other.coupling - own.coupling) / (own.normal * own.along).sqrt(),
-                    other.along / own.along - 1.0,
-                    other.across / own.across - 1.0,
+                    elastic.normal / rigid.normal - 1.0,
+                    (elastic.coupling - rigid.coupling) / (rigid.normal * rigid.along).sqrt(),
+                    elastic.along / rigid.along - 1.0,
+                    elastic.across / rigid.across - 1.0,
                 ];
                 let inside = [InPlane::Normal, InPlane::Along].map(|traction| {
-                    let [own, other] = [&body, &stiff].map(|own| own.response().amplitudes(traction, q, bottom));
-                    [other.szz - own.szz, other.sqz - own.sqz, other.sqq - own.sqq, other.stt - own.stt]
+                    let [rigid, elastic] = [&body, &stiff].map(|body| body.response().amplitudes(traction, q, bottom));
+                    [elastic.szz - rigid.szz, elastic.sqz - rigid.sqz, elastic.sqq - rigid.sqq, elastic.stt - rigid.stt]
                 });
                 surface.into_iter().chain(inside.concat()).fold(0.0f64, |most, error| most.max(error.abs()))
             };
@@ -268,8 +272,8 @@ mod tests {
     #[test]
     fn the_base_is_no_material() {
         let titled = layer(2.0, 0.3, 1.0, Interface::Bonded);
-        let own = Material::from_shear(2.0, 0.3).unwrap().with_name(Some(Name::new("rubber")));
-        let named = Layer::new(own, 0.5, Interface::Bonded).unwrap();
+        let rubber = Material::from_shear(2.0, 0.3).unwrap().with_name(Some(Name::new("rubber")));
+        let named = Layer::new(rubber, 0.5, Interface::Bonded).unwrap();
         let body = on_rigid_base(&[titled, named]);
         assert_eq!((body.material_count(), body.materials().count(), body.strengths().count()), (2, 2, 2));
         assert_eq!(body.interface_id(2).to_string(), "rubber/rigid base");

@@ -123,11 +123,11 @@ impl<'a> TwoMeshes<'a> {
 
     /// The solution on half the elements of a solution that was `found`.
     fn on_half_the_elements(&self, rule: CircleRadius, found: &localized::Solution) -> localized::Solution {
-        let own = found.spots[0].mesh;
-        if own == self.mesh {
+        let mesh = found.spots[0].mesh;
+        if mesh == self.mesh {
             return self.coarse.solve(self.task.load, rule, Some(found));
         }
-        let coarse = Coupled::new(self.localized.system(), own.halved(), self.indenters, self.task.mutual_effect);
+        let coarse = Coupled::new(self.localized.system(), mesh.halved(), self.indenters, self.task.mutual_effect);
         coarse.solve(self.task.load, rule, Some(found))
     }
 }

@@ -186,7 +186,10 @@ mod tests {
             let mut squares = [0.0, 1e-8, 0.1, 0.64, 2.0];
             let expected = squares.map(|square: f64| shape.profile(square.sqrt()));
             shape.profiles(&mut squares);
-            assert!(squares.iter().zip(expected).all(|(f, own)| (f - own).abs() <= 1e-15 * own), "{squares:?}");
+            assert!(
+                squares.iter().zip(expected).all(|(f, profile)| (f - profile).abs() <= 1e-15 * profile),
+                "{squares:?}"
+            );
         }
     }
 

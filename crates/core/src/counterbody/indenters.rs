@@ -51,7 +51,7 @@ impl Indenters {
         Ok(Self { lattice, levels })
     }
 
-    /// The same indenters around the middle of a window `factor` times as wide and as high; `None` in a periodic system.
+    /// The indenters around the middle of a window `factor` times as wide and as high; `None` in a periodic system.
     pub(crate) fn widened(&self, factor: f64) -> Option<Self> {
         let window = self.lattice.cell().widened(factor)?;
         let place = |s: &[f64; 2]| s.map(|s| 0.5 + (s - 0.5) / factor);

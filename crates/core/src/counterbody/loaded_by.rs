@@ -1,4 +1,4 @@
-//! What loads the body: a counterbody that is pressed onto it, or a given pressure.
+//! Loading of the body: a counterbody that is pressed onto it, or a given pressure.
 
 use super::{Counterbody, GivenPressure, Indenters, Surface, Topography, constant_axis};
 use crate::kind::ContactKind;
@@ -6,7 +6,7 @@ use crate::lattice::{Cell, LatticeError};
 use ndarray::ArrayView2;
 use std::fmt;
 
-/// What loads the body.
+/// Loading of the body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LoadedBy {
     /// A counterbody, whose pressure of contact is sought.

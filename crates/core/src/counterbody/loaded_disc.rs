@@ -26,14 +26,14 @@ pub(super) struct Arrangement {
 /// A loaded disc with what overlaps it.
 struct Placed {
     disc: LoadedDisc,
-    /// The discs and images that overlap it, their centres seen from this disc's own.
+    /// The discs and images that overlap it, their centres seen from the centre of this disc.
     others: Vec<LoadedDisc>,
 }
 
 impl Arrangement {
     /// The discs of a cell that have a pressure.
     pub fn new(cell: Cell, discs: &[LoadedDisc]) -> Self {
-        let loaded: Vec<LoadedDisc> = discs.iter().filter(|own| own.pressure > 0.0).copied().collect();
+        let loaded: Vec<LoadedDisc> = discs.iter().filter(|disc| disc.pressure > 0.0).copied().collect();
         let place = |number: usize| {
             let disc = loaded[number];
             let others = loaded.iter().enumerate().flat_map(|(index, other)| {
@@ -50,12 +50,12 @@ impl Arrangement {
 
     /// The loaded discs.
     pub fn discs(&self) -> impl Iterator<Item = &LoadedDisc> {
-        self.discs.iter().map(|own| &own.disc)
+        self.discs.iter().map(|placed| &placed.disc)
     }
 
     /// Whether any discs overlap.
     pub fn overlaps(&self) -> bool {
-        self.discs.iter().any(|own| !own.others.is_empty())
+        self.discs.iter().any(|placed| !placed.others.is_empty())
     }
 
     /// The largest pressure of all discs together.
@@ -65,8 +65,8 @@ impl Arrangement {
 }
 
 impl Placed {
-    /// The largest pressure just inside of the disc's circle. Where the pressure is largest everywhere, the region ends with arcs of circles
-    /// that enclose it, so that the largest of all discs is that of all.
+    /// The largest pressure just inside of the disc's circle. The region of the largest pressure of all is bounded by
+    /// arcs of circles that enclose it, so that the largest value of all discs is this pressure.
     fn highest(&self) -> f64 {
         let radius = self.disc.radius;
         let crossings = |other: &LoadedDisc| {
@@ -95,7 +95,7 @@ impl Placed {
     }
 }
 
-/// Centres, seen from that of one disc, of the images of another one that overlap it; of its own image where it is the other one.
+/// Centres of the images of `other` that overlap `one`, seen from the centre of `one`: 0 too for the same disc twice.
 fn images(cell: Cell, one: &LoadedDisc, other: &LoadedDisc) -> Vec<[f64; 2]> {
     let away = [0, 1].map(|k| other.centre[k] - one.centre[k]);
     cell.equivalents_within(away, one.radius + other.radius)
@@ -176,7 +176,7 @@ fn disc_over_triangle(radius: f64, from: [f64; 2], to: [f64; 2]) -> f64 {
     if root <= 0.0 {
         return sector(from, to);
     }
-    // Where the edge enters the disc and leaves it.
+    // Parts of the edge at which it enters the disc and leaves it.
     let [enters, leaves] = [-1.0, 1.0].map(|sign| ((-b + sign * root.sqrt()) / a).clamp(0.0, 1.0));
     if enters >= leaves {
         return sector(from, to);

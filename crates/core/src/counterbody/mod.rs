@@ -1,4 +1,5 @@
-//! What loads the body: a counterbody of indenters at several levels or of a topography, or a given pressure; and its surface on a grid.
+//! Loading of the body: a counterbody of indenters at several levels or of a topography, or a given pressure; and the
+//! surface of the counterbody on a grid.
 
 mod error;
 mod indenter;

@@ -51,8 +51,8 @@ impl GivenPressure {
             }
         }
         let force: f64 = discs.iter().map(|disc| disc.pressure * disc.radius * disc.radius).sum();
-        let own = Self { cell, distribution: Distribution::Discs(discs) };
-        if force > 0.0 { Ok(own) } else { Err(CounterbodyError::Unloaded) }
+        let given = Self { cell, distribution: Distribution::Discs(discs) };
+        if force > 0.0 { Ok(given) } else { Err(CounterbodyError::Unloaded) }
     }
 
     /// A field of pressures ≥ 0 at equally spaced samples, axis 0 along a₁, axis 1 along a₂, sample \[0, 0\] at the corner of the
@@ -95,7 +95,7 @@ impl GivenPressure {
     /// Force on the cell, a pressure times an area.
     pub fn force(&self) -> f64 {
         match &self.distribution {
-            Distribution::Discs(discs) => discs.iter().map(|own| PI * own.radius * own.radius * own.pressure).sum(),
+            Distribution::Discs(discs) => discs.iter().map(|disc| PI * disc.radius * disc.radius * disc.pressure).sum(),
             Distribution::Field(values) => values.sum() / values.len() as f64 * self.cell.area(),
         }
     }
@@ -113,7 +113,7 @@ impl GivenPressure {
         match &self.distribution {
             Distribution::Discs(discs) => {
                 let arrangement = Arrangement::new(self.cell, discs);
-                let area = arrangement.discs().map(|own| PI * own.radius * own.radius).sum();
+                let area = arrangement.discs().map(|disc| PI * disc.radius * disc.radius).sum();
                 (!arrangement.overlaps()).then_some(area)
             }
             Distribution::Field(values) => {
@@ -137,8 +137,8 @@ impl GivenPressure {
 
 /// A field of means over the cells of its samples, over the cells of `points` samples; the sum over the area is kept.
 fn averaged(values: &Array2<f64>, points: [usize; 2]) -> Array2<f64> {
-    let (own1, own2) = values.dim();
-    let [along, across] = [(own1, points[0]), (own2, points[1])].map(|(own, wanted)| overlaps(own, wanted));
+    let (n1, n2) = values.dim();
+    let [along, across] = [(n1, points[0]), (n2, points[1])].map(|(given, wanted)| overlaps(given, wanted));
     Array2::from_shape_fn(points, |(i, j)| {
         let row = |&(k, weight): &(usize, f64)| {
             weight * across[j].iter().map(|&(l, weight)| weight * values[[k, l]]).sum::<f64>()
@@ -147,18 +147,18 @@ fn averaged(values: &Array2<f64>, points: [usize; 2]) -> Array2<f64> {
     })
 }
 
-/// For each of `wanted` cells around a line, the cells of `own` that it overlaps, with their parts of it.
-fn overlaps(own: usize, wanted: usize) -> Vec<Vec<(usize, f64)>> {
-    if own == wanted {
-        return (0..own).map(|k| vec![(k, 1.0)]).collect();
+/// For each of `wanted` cells around a line, the cells of `given` that it overlaps, with their parts of it.
+fn overlaps(given: usize, wanted: usize) -> Vec<Vec<(usize, f64)>> {
+    if given == wanted {
+        return (0..given).map(|k| vec![(k, 1.0)]).collect();
     }
-    // In units of a cell of `own`; both lines have a sample at zero, in the middle of its cell.
-    let width = own as f64 / wanted as f64;
+    // In units of a cell of `given`; both lines have a sample at zero, in the middle of its cell.
+    let width = given as f64 / wanted as f64;
     let of = |i: usize| {
         let (start, end) = ((i as f64 - 0.5) * width + 0.5, (i as f64 + 0.5) * width + 0.5);
         let cells = start.floor() as i64..=end.floor() as i64;
         let part = |k: i64| (end.min(k as f64 + 1.0) - start.max(k as f64)) / width;
-        cells.map(|k| (k.rem_euclid(own as i64) as usize, part(k))).filter(|(_, part)| *part > 0.0).collect()
+        cells.map(|k| (k.rem_euclid(given as i64) as usize, part(k))).filter(|(_, part)| *part > 0.0).collect()
     };
     (0..wanted).map(of).collect()
 }
@@ -198,7 +198,7 @@ mod tests {
                 let pressure = given.on(&grid);
                 let force = pressure.sum() * grid.sample_area();
                 assert!((force / given.force() - 1.0).abs() < 1e-12, "{cell}, {points:?}: {force}");
-                // Where all three overlap, 7.7 at most.
+                // At most 7.7, where all three overlap.
                 assert!(pressure.iter().all(|p| (0.0..=7.7 + 1e-12).contains(p)), "{cell}, {points:?}");
             }
         }

@@ -51,8 +51,8 @@ impl Surface {
         Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() }
     }
 
-    /// Surface without owners on a coarser grid: every k-th sample where the numbers of samples are multiples along both directions, so
-    /// that heights are unchanged; otherwise the waves that the coarser grid holds.
+    /// Surface without owners on a coarser grid: every k-th sample, with heights unchanged, where the numbers of
+    /// samples are multiples along both directions; otherwise the waves that the coarser grid holds.
     ///
     /// # Errors
     /// [`LatticeError`] when a number of points is zero.
@@ -154,9 +154,9 @@ impl fmt::Display for Surface {
 /// coarser grid of `points` holds.
 fn restricted(cell: Cell, gap: ArrayView2<'_, f64>, points: [usize; 2]) -> Result<Array2<f64>, LatticeError> {
     let (rows, columns) = gap.dim();
-    let own = [rows, columns];
-    if (0..2).all(|axis| own[axis].is_multiple_of(points[axis])) {
-        let [every1, every2] = [0, 1].map(|axis| own[axis] / points[axis]);
+    let shape = [rows, columns];
+    if (0..2).all(|axis| shape[axis].is_multiple_of(points[axis])) {
+        let [every1, every2] = [0, 1].map(|axis| shape[axis] / points[axis]);
         return Ok(Array2::from_shape_fn(points, |(i, j)| gap[[every1 * i, every2 * j]]));
     }
     Spectrum::of(cell, gap)?.resampled(points)

@@ -8,16 +8,16 @@ use ndarray::{Array2, ArrayView2};
 use std::borrow::Cow;
 use std::fmt;
 
-/// Where between the middle and the nearer border of its window the profile of a ball goes over into a plane for the search of the apex,
-/// and how steeply: in the middle it differs from the ball by 10⁻¹⁴ of the plane's depth, at a fifth of the way by 2·10⁻⁷. Thirty samples to the
-/// border hold its waves to 10⁻⁷.
+/// Place, over the way from the middle to the nearer border of the window, at which the profile of a ball goes over
+/// into a plane for the search of the apex, and steepness there: in the middle the profile differs from the ball by
+/// 10⁻¹⁴ of the plane's depth, at a fifth of the way by 2·10⁻⁷. Thirty samples to the border hold its waves to 10⁻⁷.
 const PLANE_FROM: (f64, f64) = (0.6, 9.0);
 
 /// One period of a measured or generated topography, or the roughness of a ball in the window of an isolated contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Topography {
     cell: Cell,
-    /// Lengths, in standard layout.
+    /// Heights, lengths, in standard layout.
     heights: Array2<f64>,
     run_out: Option<RunOut>,
     /// Radius of the ball that the heights stand on, a length.
@@ -179,7 +179,7 @@ mod tests {
         assert!(surface.depths([0, 3]).is_err());
     }
 
-    /// What a grid cannot hold is left out, whether or not it divides the samples.
+    /// Waves that a grid cannot hold are left out, whether or not it divides the samples.
     #[test]
     fn waves_too_short_for_a_grid_are_left_out_on_every_grid() {
         let wave = |k: usize, i: usize, n: usize| (std::f64::consts::TAU * (k * i) as f64 / n as f64).cos();
@@ -212,16 +212,16 @@ mod tests {
             let rough = Array2::from_shape_fn(points, |(i, _)| wave(i, points[0]));
             let rough = Topography::new(window, rough).unwrap().on_ball(3.0).unwrap();
             let fine = [120, 180];
-            let (own, finer) = (rough.depths(points).unwrap(), rough.depths(fine).unwrap());
+            let (coarser, finer) = (rough.depths(points).unwrap(), rough.depths(fine).unwrap());
             let apex = 1e-3 * (std::f64::consts::TAU * 1.5).cos();
             let highest = |depths: &Array2<f64>, points: [usize; 2]| {
                 let all = depths
                     .indexed_iter()
                     .map(|((i, j), depth)| depth - ball.profile(distance(i, j, points)) + wave(i, points[0]));
-                all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], own| [low.min(own), high.max(own)])
+                all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| [low.min(height), high.max(height)])
             };
-            let ([low, high], [from, to]) = (highest(&own, points), highest(&finer, fine));
-            // What is left is the height of the apex: one number on both grids, above the middle, where the wave has a trough.
+            let ([low, high], [from, to]) = (highest(&coarser, points), highest(&finer, fine));
+            // The rest is the height of the apex: one number on both grids, above the trough of the wave in the middle.
             assert!(high - low < 1e-14 && to - from < 1e-14 && (high - to).abs() < 1e-7, "{low} {high} {from} {to}");
             assert!(high > apex && high < 1e-3, "{high}");
         }

@@ -2,11 +2,11 @@
 //!
 //! h(s, t) = h̄ + Σ ĥ_κ e^{2πi(κ₁s + κ₂t)}, s and t fractions of **a**₁ and **a**₂, is defined between the samples. Newton's method
 //! starts from the highest of the samples that at most one of their eight neighbours exceeds, and from those that are highest by
-//! the paraboloid through the nine: with waves down to two samples the highest hill may have lower samples than others, and none
-//! that exceeds all its neighbours. All starts iterate together: each round takes one sum over the waves. Where −∇∇h is not
-//! positive definite, as along a ridge, its absolute value is used; no step is longer than a spacing, and a step that leads down is
-//! repeated with a quarter of its length. A start is dropped when it would stay below the best one even if it rose by many times
-//! what its paraboloid predicts.
+//! the paraboloid through the nine: with waves down to two samples the highest hill may have lower samples than others,
+//! and none that exceeds all its neighbours. All starts iterate together: each round takes one sum over the waves.
+//! Where −∇∇h is not positive definite, as along a ridge, its absolute value is used; no step is longer than a spacing,
+//! and a step that leads down is repeated with a quarter of its length. A start is dropped when it would stay below the
+//! best one even if it rose by many times what its paraboloid predicts.
 //!
 //! Contact begins at the apex, on every grid that holds the waves: the highest sample lies below it by up to the square of a spacing
 //! times half the curvature.
@@ -110,8 +110,8 @@ fn starts([n1, n2]: [usize; 2], heights: &[f64]) -> Vec<usize> {
     };
     let of_row = |i: usize| (0..n2).filter(move |&j| is_high(i, j)).map(move |j| (heights[i * n2 + j], i * n2 + j));
     let mut high: Vec<(f64, usize)> = (0..n1).into_par_iter().flat_map_iter(of_row).collect();
-    let own = highest(&mut high).to_vec();
-    let enough = own.iter().map(|(height, _)| *height).fold(f64::INFINITY, f64::min);
+    let samples = highest(&mut high).to_vec();
+    let enough = samples.iter().map(|(height, _)| *height).fold(f64::INFINITY, f64::min);
     let lifted = |&(height, index): &(f64, usize)| {
         let nine = around(index / n2, index % n2);
         let (low, top) = nine.as_flattened().iter().fold((height, height), |(a, b), x| (a.min(*x), b.max(*x)));
@@ -121,7 +121,7 @@ fn starts([n1, n2]: [usize; 2], heights: &[f64]) -> Vec<usize> {
         hopeful.then(|| (height + paraboloid::rise(1, above).unwrap_or(0.0), index))
     };
     let mut lifted: Vec<(f64, usize)> = high.par_iter().filter_map(lifted).collect();
-    let mut starts: Vec<usize> = own.iter().chain(highest(&mut lifted)).map(|(_, index)| *index).collect();
+    let mut starts: Vec<usize> = samples.iter().chain(highest(&mut lifted)).map(|(_, index)| *index).collect();
     starts.sort_unstable();
     starts.dedup();
     starts
@@ -193,7 +193,7 @@ mod tests {
         [Cell::square(2.0), Cell::hexagonal(1.5), Cell::new([1.0, 0.1], [-0.3, 1.4])].map(Result::unwrap)
     }
 
-    /// Of many hills, against a fine mesh of places and a paraboloid through the best of them.
+    /// Surfaces of many hills, against a fine mesh of places and a paraboloid through the best of them.
     #[test]
     fn the_apex_is_the_highest_place_of_the_sum_of_waves_on_any_grid() {
         let waves = [

@@ -2,9 +2,9 @@
 //!
 //! rᵢ = rms of the differences across the border of the period along **a**ᵢ / rms of the differences of neighbours within.
 //!
-//! The border of a periodic surface does not differ from other lines between samples. The mean of r² over all N lines is 1, so
-//! that at most a ninth of them can have r > 3; the lines of a random surface hardly differ. With r > 3 at the border the surface
-//! is not periodic.
+//! The border of a periodic surface does not differ from other lines between samples. The mean of r² over all N lines
+//! is 1, so that at most a ninth of them can have r > 3; the lines of a random surface hardly differ. A surface with
+//! r > 3 at the border is not periodic.
 
 use ndarray::{ArrayView2, Axis};
 

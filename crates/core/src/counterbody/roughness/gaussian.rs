@@ -133,8 +133,8 @@ mod tests {
             let weight = |[x, y]: [f64; 2]| (-PI * (x * x + y * y) / (LN_2 / PI * cutoff * cutoff)).exp();
             let expected = Array2::from_shape_fn(points, |(i, j)| {
                 let (sum, weights) = surface.indexed_iter().fold((0.0, 0.0), |(sum, weights), ((k, l), height)| {
-                    let own = weight(cell.vector([(k as f64 - i as f64) / 30.0, (l as f64 - j as f64) / 25.0]));
-                    (sum + own * height, weights + own)
+                    let w = weight(cell.vector([(k as f64 - i as f64) / 30.0, (l as f64 - j as f64) / 25.0]));
+                    (sum + w * height, weights + w)
                 });
                 sum / weights
             });

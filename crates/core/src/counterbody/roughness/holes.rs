@@ -60,12 +60,12 @@ fn membrane([n1, n2]: [usize; 2], weights: [f64; 2], height: impl Fn(usize) -> f
     let middle = 0.5 * (least + most);
     let places: Vec<usize> = (0..len).filter(|k| height(*k).is_nan()).collect();
     let mut number = vec![MEASURED; len];
-    (0..).zip(&places).for_each(|(own, k)| number[*k] = own);
+    (0..).zip(&places).for_each(|(hole, k)| number[*k] = hole);
     let holes = Holes::new([n1, n2], weights, number);
-    let at_rim = |own: usize| {
-        let k = places[own];
+    let at_rim = |hole: usize| {
+        let k = places[hole];
         let neighbours = [k.wrapping_sub(n2), k + n2, k.wrapping_sub(1), k + 1];
-        let rim = (0..4).filter(|side| holes.neighbours[own][*side] == MEASURED);
+        let rim = (0..4).filter(|side| holes.neighbours[hole][*side] == MEASURED);
         rim.map(|side| weights[side / 2] * (height(neighbours[side]) - middle)).sum()
     };
     let u = holes.solve((0..places.len()).map(at_rim).collect(), SETTLED * (most - least));
@@ -103,8 +103,8 @@ impl Holes {
         let mut blocks = vec![0; m1 * m2];
         (0..number.len()).filter(|k| number[*k] == MEASURED).for_each(|k| blocks[block(k)] = MEASURED);
         let mut count = 0;
-        for own in blocks.iter_mut().filter(|own| **own != MEASURED) {
-            *own = count;
+        for index in blocks.iter_mut().filter(|index| **index != MEASURED) {
+            *index = count;
             count += 1;
         }
         let coarser = (count > 0).then(|| {
@@ -118,16 +118,16 @@ impl Holes {
     }
 
     /// Sum of the weights of a hole's neighbours.
-    fn diagonal(&self, own: usize) -> f64 {
-        (0..4).map(|side| if self.neighbours[own][side] == BEYOND { 0.0 } else { self.weights[side / 2] }).sum()
+    fn diagonal(&self, hole: usize) -> f64 {
+        (0..4).map(|side| if self.neighbours[hole][side] == BEYOND { 0.0 } else { self.weights[side / 2] }).sum()
     }
 
     /// Σ w (u − u of the neighbour) at a hole, u = 0 at the rim.
-    fn applied(&self, u: &[f64], own: usize) -> f64 {
-        let difference = |side: usize| match self.neighbours[own][side] {
+    fn applied(&self, u: &[f64], hole: usize) -> f64 {
+        let difference = |side: usize| match self.neighbours[hole][side] {
             BEYOND => 0.0,
-            MEASURED => self.weights[side / 2] * u[own],
-            number => self.weights[side / 2] * (u[own] - u[number as usize]),
+            MEASURED => self.weights[side / 2] * u[hole],
+            number => self.weights[side / 2] * (u[hole] - u[number as usize]),
         };
         difference(0) + difference(1) + difference(2) + difference(3)
     }
@@ -137,19 +137,19 @@ impl Holes {
         (0..self.neighbours.len()).into_par_iter().with_min_len(BLOCK).map(value).collect()
     }
 
-    /// About the solution of a residual: a cycle to the coarsest grid and back.
+    /// Approximate solution of a residual: a cycle to the coarsest grid and back.
     fn cycle(&self, residual: &[f64]) -> Vec<f64> {
-        let mut u = self.each(|own| DAMPING * residual[own] / self.diagonal(own));
+        let mut u = self.each(|hole| DAMPING * residual[hole] / self.diagonal(hole));
         if let Some((coarser, blocks)) = &self.coarser {
-            let rest = self.each(|own| residual[own] - self.applied(&u, own));
+            let rest = self.each(|hole| residual[hole] - self.applied(&u, hole));
             let mut sums = vec![0.0; coarser.neighbours.len()];
             let within = |(_, block): &(usize, u32)| *block != MEASURED;
             let all = || blocks.iter().copied().enumerate().filter(within);
-            all().for_each(|(own, block)| sums[block as usize] += rest[own]);
+            all().for_each(|(hole, block)| sums[block as usize] += rest[hole]);
             let correction = coarser.cycle(&sums);
-            all().for_each(|(own, block)| u[own] += correction[block as usize]);
+            all().for_each(|(hole, block)| u[hole] += correction[block as usize]);
         }
-        self.each(|own| u[own] + DAMPING * (residual[own] - self.applied(&u, own)) / self.diagonal(own))
+        self.each(|hole| u[hole] + DAMPING * (residual[hole] - self.applied(&u, hole)) / self.diagonal(hole))
     }
 
     /// Solves for the right side `residual`, until a cycle corrects no height by more than `enough`.
@@ -163,7 +163,7 @@ impl Holes {
             if rz <= 0.0 || correction.iter().all(|z| z.abs() <= enough) {
                 break;
             }
-            let image = self.each(|own| self.applied(&direction, own));
+            let image = self.each(|hole| self.applied(&direction, hole));
             let step = rz / product(&direction, &image);
             sums::update(&mut u, |k, u| u + step * direction[k]);
             sums::update(&mut residual, |k, r| r - step * image[k]);

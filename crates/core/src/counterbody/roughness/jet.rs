@@ -116,12 +116,12 @@ struct PointGroup {
 impl PointGroup {
     fn new(places: &[[f64; 2]], half: usize) -> Self {
         let phases = (0..half).map(|k2| {
-            let mut own = [[0.0; LANES]; 2];
+            let mut parts = [[0.0; LANES]; 2];
             for (lane, [_, t]) in places.iter().enumerate() {
                 let phase = phase(k2 as f64, *t);
-                (own[0][lane], own[1][lane]) = (phase.re, phase.im);
+                (parts[0][lane], parts[1][lane]) = (phase.re, phase.im);
             }
-            own
+            parts
         });
         Self { phases: phases.collect(), places: places.to_vec() }
     }
@@ -166,9 +166,9 @@ impl PointGroup {
             }
         }
         sums.map(|sum| {
-            let mut own = [0.0; LANES];
-            sum.store_slice(&mut own);
-            own
+            let mut lanes = [0.0; LANES];
+            sum.store_slice(&mut lanes);
+            lanes
         })
     }
 }

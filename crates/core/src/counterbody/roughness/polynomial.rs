@@ -62,12 +62,12 @@ impl Polynomial {
                 return [0.0; 27];
             }
             let terms = Self::terms(samples.place(k));
-            let mut own = [0.0; 27];
+            let mut products = [0.0; 27];
             for row in 0..6 {
-                (0..=row).for_each(|column| own[row * (row + 1) / 2 + column] = terms[row] * terms[column]);
-                own[21 + row] = terms[row] * height;
+                (0..=row).for_each(|column| products[row * (row + 1) / 2 + column] = terms[row] * terms[column]);
+                products[21 + row] = terms[row] * height;
             }
-            own
+            products
         });
         let at = |row: usize, column: usize| normal[row.max(column) * (row.max(column) + 1) / 2 + row.min(column)];
         let rows = (0..count).map(|row| (0..count).map(|column| at(row, column)).collect()).collect();
@@ -75,7 +75,7 @@ impl Polynomial {
         Some(Self(std::array::from_fn(|k| found.get(k).copied().unwrap_or(0.0))))
     }
 
-    /// Its height at a place, in units.
+    /// Height of the polynomial at a place, in units.
     pub fn at(&self, place: [f64; 2]) -> f64 {
         self.0.iter().zip(Self::terms(place)).map(|(c, term)| c * term).sum()
     }

@@ -36,36 +36,36 @@ impl Round {
     /// The best sphere or cylinder, from the polynomial of second order; `None` where the iteration finds none, or one whose equator is at a
     /// sample.
     pub fn fit(samples: &Samples<'_>, start: Polynomial, is_cylinder: bool) -> Option<Self> {
-        let own = Self::iterated(samples, start, is_cylinder)?;
-        let margin = |k: usize| if samples.height(k).is_nan() { 1.0 } else { own.margin(samples.place(k)) };
-        (sums::least(samples.len(), margin) > EQUATOR).then_some(own)
+        let form = Self::iterated(samples, start, is_cylinder)?;
+        let margin = |k: usize| if samples.height(k).is_nan() { 1.0 } else { form.margin(samples.place(k)) };
+        (sums::least(samples.len(), margin) > EQUATOR).then_some(form)
     }
 
     fn iterated(samples: &Samples<'_>, start: Polynomial, is_cylinder: bool) -> Option<Self> {
-        let mut own = Self::osculating(start, is_cylinder);
-        let mut normal = own.normal(samples);
+        let mut form = Self::osculating(start, is_cylinder);
+        let mut normal = form.normal(samples);
         // A start with curvature may not reach all samples.
         if !normal.squares.is_finite() {
-            own.parameters[3] = 0.0;
-            normal = own.normal(samples);
+            form.parameters[3] = 0.0;
+            normal = form.normal(samples);
         }
         let enough = ROUND_OFF * normal.heights;
         let mut damping = 1e-3;
         for _ in 0..MOST {
             if normal.squares <= enough {
-                return Some(own);
+                return Some(form);
             }
-            let other = Self { parameters: normal.step(own.parameters, damping, is_cylinder)?, ..own };
+            let other = Self { parameters: normal.step(form.parameters, damping, is_cylinder)?, ..form };
             let next = other.normal(samples);
             if next.squares.is_finite() && next.squares <= normal.squares {
                 let has_settled = normal.squares - next.squares <= SETTLED * normal.squares;
-                (own, normal, damping) = (other, next, damping / 9.0);
+                (form, normal, damping) = (other, next, damping / 9.0);
                 if has_settled {
-                    return Some(own);
+                    return Some(form);
                 }
             } else if damping > 1e12 {
                 // No step lessens the squares any more: they are least within rounding, or a sample is at the equator.
-                return Some(own);
+                return Some(form);
             } else {
                 damping *= 7.0;
             }
@@ -121,20 +121,20 @@ impl Round {
     /// JᵀJ, Jᵀr, Σr² and Σh².
     fn normal(&self, samples: &Samples<'_>) -> Normal {
         let changed = |k: usize, change: f64| {
-            let mut own = *self;
-            own.parameters[k] += change;
-            own
+            let mut moved = *self;
+            moved.parameters[k] += change;
+            moved
         };
         let others: [[Self; 2]; 5] = std::array::from_fn(|k| [changed(k, STEP), changed(k, -STEP)]);
         let summed = sums::of::<22>(samples.len(), |k| {
             let (height, place) = (samples.height(k), samples.place(k));
-            let mut own = [0.0; 22];
+            let mut products = [0.0; 22];
             if height.is_nan() {
-                return own;
+                return products;
             }
             let Some(residual) = self.at(place).map(|form| height - form) else {
-                own[20] = f64::INFINITY;
-                return own;
+                products[20] = f64::INFINITY;
+                return products;
             };
             let slope = |[more, less]: &[Self; 2]| match (more.at(place), less.at(place)) {
                 (Some(more), Some(less)) => (more - less) / (2.0 * STEP),
@@ -142,11 +142,11 @@ impl Round {
             };
             let slopes = others.each_ref().map(slope);
             for row in 0..5 {
-                (0..=row).for_each(|column| own[row * (row + 1) / 2 + column] = slopes[row] * slopes[column]);
-                own[15 + row] = slopes[row] * residual;
+                (0..=row).for_each(|column| products[row * (row + 1) / 2 + column] = slopes[row] * slopes[column]);
+                products[15 + row] = slopes[row] * residual;
             }
-            (own[20], own[21]) = (residual * residual, height * height);
-            own
+            (products[20], products[21]) = (residual * residual, height * height);
+            products
         });
         let at = |row: usize, column: usize| summed[row.max(column) * (row.max(column) + 1) / 2 + row.min(column)];
         Normal {
@@ -176,12 +176,12 @@ impl Normal {
         let trace: f64 = (0..count).map(|k| self.matrix[k][k]).sum();
         // A plane has no axis: the azimuth stays where nothing depends on it.
         let damped = |row: usize, column: usize| {
-            let own = self.matrix[row][column];
-            if row == column { own + damping * own.max(1e-15 * trace) } else { own }
+            let entry = self.matrix[row][column];
+            if row == column { entry + damping * entry.max(1e-15 * trace) } else { entry }
         };
         let rows = (0..count).map(|row| (0..count).map(|column| damped(row, column)).collect()).collect();
         let change = linear::solve(rows, self.right[..count].to_vec())?;
-        parameters.iter_mut().zip(change).for_each(|(own, change)| *own += change);
+        parameters.iter_mut().zip(change).for_each(|(parameter, change)| *parameter += change);
         Some(parameters)
     }
 }

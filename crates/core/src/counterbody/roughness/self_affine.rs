@@ -175,8 +175,8 @@ impl SelfAffine {
     /// # Errors
     /// [`SelfAffineError`].
     pub fn density(&self, cell: Cell) -> Result<impl Fn(f64) -> f64, SelfAffineError> {
-        let (own, scale) = (*self, self.power(cell)? * cell.area() / (TAU * TAU));
-        Ok(move |q| scale * own.shape(q))
+        let (surface, scale) = (*self, self.power(cell)? * cell.area() / (TAU * TAU));
+        Ok(move |q| scale * surface.shape(q))
     }
 
     /// Rms slope √⟨|∇h|²⟩ of the surface on a cell, all waves included, dimensionless.
@@ -257,7 +257,7 @@ mod tests {
             assert!((&finer - &other).iter().all(|d| d.abs() < 1e-12 * scale), "{cell}");
             let next = SelfAffine { seed: 8, ..surface }.heights(cell, coarse).unwrap();
             let product = (&next * &one).mean().unwrap() / (scale * scale);
-            // Of some 200 waves' products with random phases.
+            // The mean of some 200 waves' products with random phases.
             assert!(product.abs() < 0.4, "{product}");
         }
     }

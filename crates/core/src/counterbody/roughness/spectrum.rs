@@ -89,8 +89,8 @@ impl Spectrum {
         let ring = |q: f64| (RINGS_PER_DECADE * (q / least).log10() + 0.5).floor().max(0.0) as usize;
         let mut sums = vec![[0.0; 3]; ring(most) + 1];
         for (q, square, waves) in self.squares().filter(|(q, ..)| *q <= most * (1.0 + 1e-9)) {
-            let own = &mut sums[ring(q).min(ring(most))];
-            *own = [own[0] + waves * q, own[1] + square, own[2] + waves];
+            let sum = &mut sums[ring(q).min(ring(most))];
+            *sum = [sum[0] + waves * q, sum[1] + square, sum[2] + waves];
         }
         let scale = self.grid.cell().area() / (TAU * TAU);
         let found = sums.into_iter().filter(|[_, _, waves]| *waves > 0.0);
@@ -117,7 +117,7 @@ impl Spectrum {
                 let q = [0, 1].map(|c| f64::from(wave[0]) * b1[c] + f64::from(wave[1]) * b2[c]);
                 if to.holds(q) {
                     sum.add(wave, part);
-                    // Its conjugate is not among the components.
+                    // The conjugate is not among the components.
                     if !alone {
                         sum.add(wave.map(|k| -k), part.conj());
                     }
@@ -131,10 +131,10 @@ impl Spectrum {
     pub(super) fn squares(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
         let [_, n2] = self.grid.points();
         self.components.indexed_iter().skip(1).map(move |((k1, k2), value)| {
-            let own = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { 2.0 };
+            let count = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { 2.0 };
             // Shared in equal parts, the squares of the parts add to the component's square over their number.
             let tied = self.grid.tied([k1, k2]) as f64;
-            (self.grid.wavenumber([k1, k2]), own * value.norm_sqr() / tied, own * tied)
+            (self.grid.wavenumber([k1, k2]), count * value.norm_sqr() / tied, count * tied)
         })
     }
 }

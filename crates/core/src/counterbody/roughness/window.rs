@@ -129,23 +129,23 @@ mod tests {
             assert!(mean.abs() < 1e-12 && slopes.iter().all(|slope| slope.abs() < 1e-12), "{mean} {slopes:?}");
             let weights = [window.weights(40), window.weights(30)];
             let kept = MeanPlane::fit(surface().view(), &weights).mean;
-            let (own, run_out) = tapered(surface(), window, false);
-            assert!((run_out.undone(own).mean().unwrap() - kept).abs() < 1e-12);
+            let (heights, run_out) = tapered(surface(), window, false);
+            assert!((run_out.undone(heights).mean().unwrap() - kept).abs() < 1e-12);
         }
     }
 
     #[test]
     fn the_border_lies_below_every_height_and_the_middle_is_left_as_it_is() {
         for window in [Window::Hann, Window::Tukey] {
-            let (own, run_out) = tapered(surface(), window, false);
+            let (heights, run_out) = tapered(surface(), window, false);
             let lowest = surface().iter().copied().fold(f64::INFINITY, f64::min);
-            let border = [own.row(0), own.row(39), own.column(0), own.column(29)];
+            let border = [heights.row(0), heights.row(39), heights.column(0), heights.column(29)];
             let highest = border.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
             assert!(highest < lowest, "{window:?}");
             let place = |(i, j): (usize, usize)| [i as f64 / 40.0, j as f64 / 30.0];
             let same = |(at, height): ((usize, usize), &f64)| (height - surface()[at]).abs() < 1e-12;
-            assert!(own.indexed_iter().all(|own| run_out.is_tapered(place(own.0)) || same(own)));
-            let whole = own.indexed_iter().filter(|own| !run_out.is_tapered(place(own.0))).count();
+            assert!(heights.indexed_iter().all(|sample| run_out.is_tapered(place(sample.0)) || same(sample)));
+            let whole = heights.indexed_iter().filter(|sample| !run_out.is_tapered(place(sample.0))).count();
             assert_eq!(whole, if window == Window::Tukey { 32 * 24 } else { 0 });
         }
     }
