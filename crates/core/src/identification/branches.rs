@@ -28,7 +28,8 @@ pub(super) fn check(forces: &[f64], penetrations: &[f64]) -> Result<(), Measurem
 
 /// Standard deviation of the noise of a record; 0 of one with less than three points.
 fn noise(record: &[f64]) -> f64 {
-    let mut second: Vec<f64> = record.windows(3).map(|own| (own[2] - 2.0 * own[1] + own[0]).abs()).collect();
+    let mut second: Vec<f64> =
+        record.windows(3).map(|triple| (triple[2] - 2.0 * triple[1] + triple[0]).abs()).collect();
     second.sort_by(f64::total_cmp);
     second.get(second.len() / 2).map_or(0.0, |median| median / (MEDIAN * 6f64.sqrt()))
 }
@@ -64,7 +65,7 @@ fn hold(forces: &[f64], penetrations: &[f64], [noise, scatter]: [f64; 2]) -> Opt
             let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
             let [first, last] = [start..start + third, end - third..end];
             let rise = |of: &[f64]| mean(&of[last.clone()]) - mean(&of[first.clone()]);
-            // Where a zero was missed δ/P is no bound of the slope: from the least penetration on it is.
+            // δ/P is no bound of the slope where a zero was missed: from the least penetration on it is.
             let top = mean(&penetrations[last.clone()]);
             let least = penetrations.iter().copied().fold(f64::INFINITY, f64::min);
             let slope = top.abs().max(top - least) / mean(&forces[last.clone()]);

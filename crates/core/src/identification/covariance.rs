@@ -40,9 +40,9 @@ impl Covariance {
         let undetermined = match least_squares::inverse(&normal) {
             None => parallel(free, place, &normal, radii),
             Some(inverse) => {
-                let own = Self { variance, inverse };
-                match own.undetermined(free, place, radii, most_uncertain) {
-                    None => return Ok(own),
+                let covariance = Self { variance, inverse };
+                match covariance.undetermined(free, place, radii, most_uncertain) {
+                    None => return Ok(covariance),
                     Some(undetermined) => undetermined,
                 }
             }
@@ -107,10 +107,10 @@ fn parallel(free: FreeParameters<'_>, place: &[f64], normal: &[Vec<f64>], radii:
     let parallel = |k: usize, other: usize| normal[k][other] / (normal[k][k] * normal[other][other]).sqrt();
     let pairs = (0..place.len()).flat_map(|k| (0..k).map(move |other| (k, other)));
     let worst = pairs.max_by(|a, b| parallel(a.0, a.1).abs().total_cmp(&parallel(b.0, b.1).abs()));
-    let own = worst.map_or(0, |(k, _)| k);
+    let index = worst.map_or(0, |(k, _)| k);
     Undetermined {
-        name: free.name(own),
-        value: free.value(own, place[own]),
+        name: free.name(index),
+        value: free.value(index, place[index]),
         error: f64::INFINITY,
         mixed: worst.map(|(k, other)| (free.name(other), -parallel(k, other))),
         radii,

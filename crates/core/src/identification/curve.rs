@@ -1,8 +1,8 @@
 //! The indentation curve of a model: δ(P) and its derivatives by parameters, at nodes in ln P, and between them.
 //!
-//! Each node has a window of its own, which its contact fills by [`FILLED`]: a contact in free space does not depend on its window, so
-//! that all nodes have as many samples across the contact. ln δ is smooth in ln P for one indenter of any shape: it is interpolated at
-//! Chebyshev nodes.
+//! Each node has a window of its own, which its contact fills by [`FILLED`]: a contact in free space does not depend on
+//! the window, so that all nodes have as many samples across the contact. ln δ is smooth in ln P for one indenter of
+//! any shape: it is interpolated at Chebyshev nodes.
 
 use crate::counterbody::Indenters;
 use crate::lattice::{Cell, Lattice};
@@ -81,8 +81,8 @@ impl IndentationCurve {
     ) -> Result<Self, CurveError> {
         check(&model.problem)?;
         let places = places([least.ln(), most.ln()]);
-        let (own, are_known) = (model.problem.cell().vectors()[0][0], !windows.is_empty());
-        windows.resize(places.len(), own);
+        let (side, are_known) = (model.problem.cell().vectors()[0][0], !windows.is_empty());
+        windows.resize(places.len(), side);
         let solved: Result<Vec<Node>, CurveError> = places
             .par_iter()
             .zip(windows.par_iter_mut())
@@ -128,8 +128,8 @@ impl IndentationCurve {
 
     /// Weights of the nodes at a place, by the barycentric formula of Chebyshev nodes of the first kind.
     fn weights(&self, x: f64) -> Vec<f64> {
-        if let Some(own) = self.places.iter().position(|&place| (place - x).abs() < 1e-13 * (1.0 + x.abs())) {
-            return (0..self.places.len()).map(|k| f64::from(u8::from(k == own))).collect();
+        if let Some(node) = self.places.iter().position(|&place| (place - x).abs() < 1e-13 * (1.0 + x.abs())) {
+            return (0..self.places.len()).map(|k| f64::from(u8::from(k == node))).collect();
         }
         let count = self.places.len() as f64;
         let weight = |(k, place): (usize, &f64)| {
@@ -207,8 +207,8 @@ fn node(
         let Some(tangent) = solver.tangent() else { break };
         let derivative = |quotient: &Vec<(f64, Problem)>| {
             let moved: Vec<(f64, Problem)> =
-                quotient.iter().map(|(weight, own)| (*weight, in_window(own, *window))).collect();
-            let all: Vec<(f64, &Problem)> = moved.iter().map(|(weight, own)| (*weight, own)).collect();
+                quotient.iter().map(|(weight, problem)| (*weight, in_window(problem, *window))).collect();
+            let all: Vec<(f64, &Problem)> = moved.iter().map(|(weight, problem)| (*weight, problem)).collect();
             tangent.penetration(step.finest(), &all)
         };
         let penetration = step.penetration();

@@ -31,7 +31,7 @@ pub struct Missing {
     pub value: f64,
     /// Standard error of the value.
     pub error: f64,
-    /// The parameters with it, to first order.
+    /// Parameters with the number, to first order.
     pub estimates: Vec<f64>,
 }
 
@@ -55,13 +55,13 @@ impl AtMinimum<'_> {
         let along = |row: &[f64]| row.iter().zip(&taken).map(|(j, t)| j * t).sum::<f64>();
         let apart: Vec<f64> = column.iter().zip(jacobian).map(|(c, row)| c - along(row)).collect();
         let square = |all: &[f64]| all.iter().map(|x| x * x).sum::<f64>();
-        let own = square(&apart);
-        if own <= APART * APART * square(column) {
+        let squares = square(&apart);
+        if squares <= APART * APART * square(column) {
             return None;
         }
-        let value = -apart.iter().zip(residuals).map(|(c, r)| c * r).sum::<f64>() / own;
-        let left = (square(residuals) - value * value * own).max(0.0) / freedom as f64;
-        let error = (if are_known { left.max(1.0) } else { left } / own).sqrt();
+        let value = -apart.iter().zip(residuals).map(|(c, r)| c * r).sum::<f64>() / squares;
+        let left = (square(residuals) - value * value * squares).max(0.0) / freedom as f64;
+        let error = (if are_known { left.max(1.0) } else { left } / squares).sqrt();
         let is_needed = value.abs() > student::quantile(Quantile::TwoSided400, freedom) * error;
         is_needed.then(|| (value, error, taken.iter().map(|t| -value * t).collect()))
     }

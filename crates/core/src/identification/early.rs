@@ -63,7 +63,7 @@ impl EarlyCheck {
 fn scatter(measured: &Measurement) -> Option<f64> {
     let (forces, penetrations) = (measured.forces(), measured.penetrations());
     let (largest, freedom) = (penetrations.iter().copied().fold(0.0, f64::max), forces.len().checked_sub(TERMS)?);
-    if freedom < 3 || penetrations.iter().any(|own| *own <= 0.0) {
+    if freedom < 3 || penetrations.iter().any(|penetration| *penetration <= 0.0) {
         return None;
     }
     let logarithm = |x: &f64| x.ln();
@@ -71,12 +71,13 @@ fn scatter(measured: &Measurement) -> Option<f64> {
     let rows: Vec<Vec<f64>> =
         forces.iter().map(|force| (0..TERMS as i32).map(|k| (force.ln() - middle).powi(k)).collect()).collect();
     let inverse = least_squares::inverse(&least_squares::normal(&rows))?;
-    let along = |k: usize| rows.iter().zip(penetrations).map(|(row, own)| row[k] * own.ln()).sum::<f64>();
+    let along =
+        |k: usize| rows.iter().zip(penetrations).map(|(row, penetration)| row[k] * penetration.ln()).sum::<f64>();
     let gradient: Vec<f64> = (0..TERMS).map(along).collect();
     let fit: Vec<f64> = inverse.iter().map(|row| row.iter().zip(&gradient).map(|(a, g)| a * g).sum()).collect();
-    let residual = |(row, own): (&Vec<f64>, &f64)| {
+    let residual = |(row, penetration): (&Vec<f64>, &f64)| {
         let fitted: f64 = row.iter().zip(&fit).map(|(x, c)| x * c).sum();
-        (own / largest * (own.ln() - fitted)).powi(2)
+        (penetration / largest * (penetration.ln() - fitted)).powi(2)
     };
     Some(rows.iter().zip(penetrations).map(residual).sum::<f64>() / freedom as f64)
 }

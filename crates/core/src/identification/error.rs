@@ -13,7 +13,7 @@ pub enum IdentificationError<E> {
     /// The model has no indentation curve.
     #[error(transparent)]
     Curve(#[from] CurveError),
-    /// As many parameters as points, or more.
+    /// Too few points: no more than parameters.
     #[error("{points} points do not determine {parameters} parameters: more points than parameters are needed")]
     TooFew {
         /// Points of the curve.
@@ -46,7 +46,7 @@ pub enum NoValue<E> {
     /// The model refuses the values.
     #[error("the model is refused: {0}")]
     Model(E),
-    /// It has no indentation curve, or a load of it is not solved.
+    /// The model has no indentation curve, or a load of it is not solved.
     #[error(transparent)]
     Curve(#[from] CurveError),
     /// A trial value of a parameter lies outside of its bounds, or a thousand times from its start; a sentence.
@@ -72,11 +72,11 @@ impl<E> NoValue<E> {
 /// A parameter that the curve does not contain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Undetermined {
-    /// Its name.
+    /// Name of the parameter.
     pub name: String,
-    /// Its value, and its standard error; infinite where parameters cannot be told apart.
+    /// Value of the parameter.
     pub value: f64,
-    /// Standard error.
+    /// Standard error of the value; infinite where parameters cannot be told apart.
     pub error: f64,
     /// The parameter that it is mixed up with, and their correlation.
     pub mixed: Option<(String, f64)>,

@@ -21,11 +21,11 @@ use std::ops::ControlFlow;
 pub struct Estimate {
     /// The parameter.
     pub parameter: Parameter,
-    /// Its value.
+    /// Value of the parameter.
     pub value: f64,
-    /// Its standard error, in the unit of the value.
+    /// Standard error, in the unit of the value.
     pub error: f64,
-    /// The interval that holds it with a probability of 95 %, as far as its bounds reach.
+    /// Interval that holds the parameter with a probability of 95 %, as far as its bounds reach.
     pub interval: [f64; 2],
 }
 
@@ -38,8 +38,8 @@ pub struct Identification {
     pub correlation: Vec<Vec<f64>>,
     /// Penetration of the fit under each measured force, a length.
     pub fitted: Vec<f64>,
-    /// Its standard error, by that of the parameters alone, a length: the mean of many measurements lies within it, a single one
-    /// scatters by its own deviation besides.
+    /// Standard error of each fitted penetration by the errors of the parameters alone, a length: the mean of many
+    /// measurements lies within it, a single one scatters by its deviation besides.
     pub band: Vec<f64>,
     /// Root mean square of measured minus fitted penetrations, a length.
     pub rms: f64,
@@ -75,10 +75,11 @@ impl Identification {
         Self::new_with_progress(model, parameters, measured, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// As [`Identification::new`]. Calls `progress` after each trial of values; `Break` ends the search.
+    /// Finds the parameters as [`Identification::new`] does. Calls `progress` after each trial of values; `Break` ends
+    /// the search.
     ///
     /// # Errors
-    /// Those of [`Identification::new`], and [`IdentificationError::Stopped`].
+    /// Errors of [`Identification::new`], and [`IdentificationError::Stopped`].
     pub fn new_with_progress<E: Send + fmt::Display>(
         model: &Model<'_, E>,
         parameters: &[Parameter],
@@ -88,8 +89,9 @@ impl Identification {
         Self::with_fixed(model, (parameters, &[]), measured, progress)
     }
 
-    /// As [`Identification::new_with_progress`], with the derivatives of what is found by the numbers `fixed`, whose starts are their values:
-    /// the model has a problem at the values of the parameters alone, and at these and then those of `fixed`.
+    /// Finds the parameters as [`Identification::new_with_progress`] does, with their derivatives by the numbers
+    /// `fixed`, whose starts are their values: the model has a problem at the values of the parameters alone, and at
+    /// these and then those of `fixed`.
     ///
     /// # Errors
     /// Errors of [`Identification::new_with_progress`].
@@ -203,7 +205,7 @@ fn doubts<E: Send>(
     let is_beyond = root(lengths) > grid * root(&fitted);
     let systematic = (pattern.is_systematic() && is_beyond).then_some(Doubt::Systematic(pattern));
     let missing = |quantity: Quantity, per: &dyn Fn(usize) -> f64, most: f64| {
-        if search.free.all.iter().any(|own| own.quantity == quantity) {
+        if search.free.all.iter().any(|parameter| parameter.quantity == quantity) {
             return None;
         }
         let column: Vec<f64> = (0..forces.len()).map(|i| per(i) / search.deviation(i)).collect();
@@ -214,7 +216,7 @@ fn doubts<E: Send>(
     let offset = missing(Quantity::Offset, &|_| 1.0, 1.0);
     let frame = missing(Quantity::FrameCompliance, &|i| forces[i], largest);
     // One makes up for the other: the one that explains more is told.
-    let certain = |own: &Option<Missing>| own.as_ref().map_or(0.0, |own| (own.value / own.error).abs());
+    let certain = |found: &Option<Missing>| found.as_ref().map_or(0.0, |found| (found.value / found.error).abs());
     let better = match certain(&offset) >= certain(&frame) {
         true => offset.map(Doubt::Offset),
         false => frame.map(Doubt::FrameCompliance),
@@ -224,8 +226,8 @@ fn doubts<E: Send>(
 
 impl fmt::Display for Identification {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for own in &self.estimates {
-            writeln!(f, "{} = {} ± {}", own.parameter.name, number(own.value), number(own.error))?;
+        for estimate in &self.estimates {
+            writeln!(f, "{} = {} ± {}", estimate.parameter.name, number(estimate.value), number(estimate.error))?;
         }
         write!(f, "residual {} (root mean square), {} degrees of freedom", number(self.rms), self.freedom)
     }

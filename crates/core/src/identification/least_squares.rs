@@ -11,7 +11,7 @@ pub struct Linearised<M> {
     pub residuals: Vec<f64>,
     /// J, one row for each residual.
     pub jacobian: Vec<Vec<f64>>,
-    /// What else is known of the model at t.
+    /// Model at t: all else that is known of it there.
     pub model: M,
 }
 
@@ -33,9 +33,9 @@ pub struct Minimum<M, R> {
 pub enum End<R> {
     /// A step changed each parameter by less than the tolerance.
     Converged,
-    /// It has not converged, and the model had no value at the end of a step; of several the reason of the last.
+    /// Not converged, and the model had no value at the end of a step; of several the reason of the last.
     Refused(R),
-    /// It has not converged: no step lowers the sum any more, or too many do.
+    /// Not converged: no step lowers the sum any more, or too many do.
     Exhausted,
 }
 
@@ -54,10 +54,10 @@ pub fn minimise<M, R>(
     start: Vec<f64>,
     mut at: impl FnMut(&[f64]) -> Result<Linearised<M>, R>,
 ) -> Result<Minimum<M, R>, R> {
-    let mut own = Minimum { linearised: at(&start)?, place: start, steps: 0, end: End::Exhausted };
+    let mut best = Minimum { linearised: at(&start)?, place: start, steps: 0, end: End::Exhausted };
     let ([mut damping, down, up, most], mut refused) = (DAMPING, None);
     for _ in 0..TRIALS {
-        let Linearised { residuals, jacobian, .. } = &own.linearised;
+        let Linearised { residuals, jacobian, .. } = &best.linearised;
         let (normal, gradient) = (normal(jacobian), gradient(residuals, jacobian));
         let mut damped = normal.clone();
         for (k, row) in damped.iter_mut().enumerate() {
@@ -65,17 +65,17 @@ pub fn minimise<M, R>(
         }
         let mut change = up;
         if let Some(step) = factor(&damped).map(|factor| solve(&factor, &gradient)) {
-            let trial: Vec<f64> = own.place.iter().zip(&step).map(|(t, step)| t - step).collect();
+            let trial: Vec<f64> = best.place.iter().zip(&step).map(|(t, step)| t - step).collect();
             let small = step.iter().all(|step| step.abs() <= TOLERANCE);
             match at(&trial) {
                 Ok(linearised) => {
                     if sum(&linearised.residuals) <= sum(residuals) {
-                        own = Minimum { place: trial, linearised, steps: own.steps + 1, end: End::Exhausted };
+                        best = Minimum { place: trial, linearised, steps: best.steps + 1, end: End::Exhausted };
                         change = down;
                     }
-                    // Where it is not lower only rounding, and the samples of a contact, are left.
+                    // A sum that is not lower leaves only rounding, and the samples of a contact.
                     if small {
-                        return Ok(Minimum { end: End::Converged, ..own });
+                        return Ok(Minimum { end: End::Converged, ..best });
                     }
                 }
                 Err(reason) => {
@@ -91,7 +91,7 @@ pub fn minimise<M, R>(
             break;
         }
     }
-    Ok(Minimum { end: refused.map_or(End::Exhausted, End::Refused), ..own })
+    Ok(Minimum { end: refused.map_or(End::Exhausted, End::Refused), ..best })
 }
 
 /// Σ rᵢ².
@@ -170,8 +170,8 @@ mod tests {
         let [a, b] = [t[0].exp(), t[1].exp()];
         let of = |k: usize| {
             let x = k as f64 / 5.0;
-            let (own, known) = (a * (-b * x).exp(), 3.0 * (-0.7 * x).exp());
-            (own - known, vec![own, -own * b * x])
+            let (value, known) = (a * (-b * x).exp(), 3.0 * (-0.7 * x).exp());
+            (value - known, vec![value, -value * b * x])
         };
         linearised((0..12).map(of), ())
     }
@@ -206,14 +206,14 @@ mod tests {
         move |t| if t[0] < border { Ok(linearised([(t[0] - 0.4, vec![0.1])], ())) } else { Err(t[0]) }
     }
 
-    /// Where the model has no value a step is shortened.
+    /// A step is shortened where the model has no value.
     #[test]
     fn steps_stay_where_the_model_has_a_value() {
         let found = minimise(vec![0.0], beyond(0.5)).unwrap();
         assert!((found.place[0] - 0.4).abs() < 0.1, "{found:?}");
     }
 
-    /// Where none is accepted any more the search has not converged, and the last reason is given; that of a start is its error.
+    /// A search that can step no further has not converged, and gives the last reason; that at a start is the error.
     #[test]
     fn a_search_that_ends_at_a_border_gives_the_reason() {
         let found = minimise(vec![0.0], beyond(0.3)).unwrap();

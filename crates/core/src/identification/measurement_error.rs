@@ -1,4 +1,4 @@
-//! What is wrong with a measured curve.
+//! Faults of a measured curve.
 
 use crate::notation::number;
 
@@ -25,7 +25,7 @@ pub enum MeasurementError {
         from: usize,
         /// Index of the point of the least force behind it.
         to: usize,
-        /// Their forces.
+        /// Forces at both points.
         forces: [f64; 2],
     },
     /// A penetration that changes under one force.

@@ -89,7 +89,7 @@ impl Measurement {
         Ok(Self { forces, penetrations, deviations, instrument: Instrument::default() })
     }
 
-    /// The same curve of an instrument whose zero and frame are known.
+    /// The curve measured by an instrument whose zero and frame are known.
     #[must_use]
     pub fn with_instrument(self, instrument: Instrument) -> Self {
         Self { instrument, ..self }

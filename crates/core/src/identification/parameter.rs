@@ -2,7 +2,7 @@
 
 use crate::notation::number;
 
-/// What a parameter is.
+/// Kind of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Quantity {
     /// A quantity above 0 of the model, searched by its logarithm: start · eᵗ.
@@ -18,11 +18,11 @@ pub enum Quantity {
 /// A parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
-    /// Its name.
+    /// Name of the parameter.
     pub name: String,
-    /// What it is.
+    /// Kind of the parameter.
     pub quantity: Quantity,
-    /// Its value at the beginning.
+    /// Value at the beginning of the search.
     pub start: f64,
 }
 
@@ -111,18 +111,18 @@ mod tests {
 
     #[test]
     fn a_slope_is_the_derivative_of_the_value_and_bounds_hold() {
-        let own = |quantity, start| Parameter { name: "own".to_owned(), quantity, start };
+        let parameter = |quantity, start| Parameter { name: "parameter".to_owned(), quantity, start };
         let all = [
-            own(Quantity::Positive, 3.0),
-            own(Quantity::Bounded([0.0, 0.5]), 0.2),
-            own(Quantity::Offset, 0.0),
-            own(Quantity::FrameCompliance, 0.0),
+            parameter(Quantity::Positive, 3.0),
+            parameter(Quantity::Bounded([0.0, 0.5]), 0.2),
+            parameter(Quantity::Offset, 0.0),
+            parameter(Quantity::FrameCompliance, 0.0),
         ];
         let free = FreeParameters { all: &all, units: [2.0, 5.0] };
-        for (k, own) in all.iter().enumerate() {
-            assert_eq!(free.value(k, 0.0), own.start);
+        for (k, parameter) in all.iter().enumerate() {
+            assert_eq!(free.value(k, 0.0), parameter.start);
             let quotient = (free.value(k, 0.4 + 1e-6) - free.value(k, 0.4 - 1e-6)) / 2e-6;
-            assert!((free.slope(k, 0.4) / quotient - 1.0).abs() < 1e-8, "{own:?}");
+            assert!((free.slope(k, 0.4) / quotient - 1.0).abs() < 1e-8, "{parameter:?}");
         }
         assert_eq!(free.outside(&[6.8, 0.59, 1e3, 1e3]), None);
         assert!(free.outside(&[-7.0, 0.0, 0.0, 0.0]).unwrap().contains("thousandth"));

@@ -1,9 +1,10 @@
 //! Whether residuals are scatter: their runs and their ranks, in the order of the force.
 //!
-//! Of n₁ residuals above and n₂ below 0 the number of runs of one sign has a known distribution where they are independent (Wald and
-//! Wolfowitz, Ann. Math. Stat. 11 (1940) 147); Σ(Rᵢ − Rᵢ₊₁)²/Σ(Rᵢ − R̄)² of their ranks R lies about 2, with the variance
-//! 4(n − 2)(5n² − 2n − 9)/(5n(n + 1)(n − 1)²) (Bartels, J. Am. Stat. Assoc. 77 (1982) 40). A trend, an arch or a hysteresis has few runs
-//! and a small ratio. Neither needs the size of the scatter; residuals of a fit tend to more runs than independent ones, on the safe side.
+//! The number of runs of one sign among n₁ residuals above and n₂ below 0 has a known distribution where they are
+//! independent (Wald and Wolfowitz, Ann. Math. Stat. 11 (1940) 147); Σ(Rᵢ − Rᵢ₊₁)²/Σ(Rᵢ − R̄)² of their ranks R lies
+//! about 2, with the variance 4(n − 2)(5n² − 2n − 9)/(5n(n + 1)(n − 1)²) (Bartels, J. Am. Stat. Assoc. 77 (1982) 40). A
+//! trend, an arch or a hysteresis has few runs and a small ratio. Neither needs the size of the scatter; residuals of a
+//! fit tend to more runs than independent ones, on the safe side.
 
 use super::student::NORMAL;
 
@@ -29,7 +30,7 @@ impl Pattern {
         let signs: Vec<bool> = residuals.iter().filter(|r| **r != 0.0).map(|r| *r > 0.0).collect();
         let above = signs.iter().filter(|is| **is).count();
         let (n1, n2) = (above, signs.len() - above);
-        let runs = usize::from(!signs.is_empty()) + signs.windows(2).filter(|own| own[0] != own[1]).count();
+        let runs = usize::from(!signs.is_empty()) + signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
         let expected = 1.0 + 2.0 * (n1 * n2) as f64 / (signs.len().max(1)) as f64;
         Self { runs, expected, probability: as_few(runs, [n1, n2]), ranks: bartels(residuals) }
     }
@@ -73,7 +74,7 @@ fn bartels(residuals: &[f64]) -> f64 {
     let mut ranks = vec![0.0; count];
     order.iter().zip(0u32..).for_each(|(&index, rank)| ranks[index] = f64::from(rank));
     let middle = 0.5 * (count as f64 - 1.0);
-    let steps: f64 = ranks.windows(2).map(|own| (own[1] - own[0]).powi(2)).sum();
+    let steps: f64 = ranks.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
     let squares: f64 = ranks.iter().map(|rank| (rank - middle).powi(2)).sum();
     let n = count as f64;
     let variance = 4.0 * (n - 2.0) * (5.0 * n * n - 2.0 * n - 9.0) / (5.0 * n * (n + 1.0) * (n - 1.0).powi(2));

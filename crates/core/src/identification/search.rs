@@ -34,7 +34,7 @@ impl<E> fmt::Debug for Model<'_, E> {
 /// Progress of a search: a trial of values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trial {
-    /// Its number, from 1.
+    /// Number of the trial, from 1.
     pub number: usize,
     /// Root mean square of measured minus computed penetrations, a length; `None` where the model has no value.
     pub rms: Option<f64>,
@@ -65,7 +65,7 @@ impl<'a, E: Send> Search<'a, E> {
     /// The problem at t, of which the entry `moved` is changed by a step.
     pub(super) fn problem(&self, t: &[f64], moved: Option<(usize, f64)>) -> Result<Problem, E> {
         let at = |k: usize| {
-            let by = moved.filter(|(own, _)| *own == k).map_or(0.0, |(_, by)| by);
+            let by = moved.filter(|(entry, _)| *entry == k).map_or(0.0, |(_, by)| by);
             self.free.value(k, t[k] + by)
         };
         let values: Vec<f64> = (0..t.len()).map(at).collect();
@@ -76,7 +76,7 @@ impl<'a, E: Send> Search<'a, E> {
     fn perturbed(&self, t: &[f64]) -> Result<Perturbed, E> {
         let problem = self.problem(t, None)?;
         let quotient = |k: usize| {
-            let sides = match [STEP, -STEP].map(|by| self.problem(t, Some((k, by))).map(|own| (by, own))) {
+            let sides = match [STEP, -STEP].map(|by| self.problem(t, Some((k, by))).map(|changed| (by, changed))) {
                 [Err(error), Err(_)] => return Err(error),
                 sides => sides.map(Result::ok),
             };
@@ -85,7 +85,7 @@ impl<'a, E: Send> Search<'a, E> {
                 _ => STEP,
             };
             let mut parts: Vec<(f64, Problem)> =
-                sides.into_iter().flatten().map(|(by, own)| (by.signum() / whole, own)).collect();
+                sides.into_iter().flatten().map(|(by, changed)| (by.signum() / whole, changed)).collect();
             if let [(weight, _)] = parts[..] {
                 parts.push((-weight, problem.clone()));
             }
@@ -107,7 +107,7 @@ impl<'a, E: Send> Search<'a, E> {
         }
         let linearised = self.linearised(t);
         self.trials += 1;
-        let rms = linearised.as_ref().ok().map(|own| self.rms(&own.residuals));
+        let rms = linearised.as_ref().ok().map(|linearised| self.rms(&linearised.residuals));
         match listener(Trial { number: self.trials, rms }) {
             ControlFlow::Continue(()) => linearised,
             ControlFlow::Break(()) => {
@@ -134,7 +134,7 @@ impl<'a, E: Send> Search<'a, E> {
             let deviation = self.deviation(i);
             let added = self.measured.instrument().adds(forces[i]);
             let residual = (fitted + added - self.measured.penetrations()[i]) / deviation;
-            (residual, derivatives.into_iter().map(|own| own / deviation).collect())
+            (residual, derivatives.into_iter().map(|derivative| derivative / deviation).collect())
         });
         let (residuals, jacobian) = rows.unzip();
         Ok(Linearised { residuals, jacobian, model })

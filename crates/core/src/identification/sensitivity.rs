@@ -19,7 +19,7 @@ pub struct Sensitivity {
 /// Numbers that were taken as known, and by which there are no derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NoDerivative {
-    /// Their names.
+    /// Names of the numbers.
     pub names: Vec<String>,
     /// Why the model has no penetrations beside their values.
     pub reason: String,
@@ -45,14 +45,14 @@ impl<E: Send + fmt::Display> Differentiated<'_, E> {
         if let Ok(all) = self.by_some(fixed, 0..fixed.len()) {
             return (all, missing);
         }
-        for (index, own) in fixed.iter().enumerate() {
+        for (index, parameter) in fixed.iter().enumerate() {
             match self.by_some(fixed, index..index + 1) {
                 Ok(found) => known.extend(found),
                 Err(error) => {
                     let reason = error.to_string().lines().next().unwrap_or_default().to_owned();
                     match missing.iter_mut().find(|other| other.reason == reason) {
-                        Some(other) => other.names.push(own.name.clone()),
-                        None => missing.push(NoDerivative { names: vec![own.name.clone()], reason }),
+                        Some(other) => other.names.push(parameter.name.clone()),
+                        None => missing.push(NoDerivative { names: vec![parameter.name.clone()], reason }),
                     }
                 }
             }
@@ -63,7 +63,7 @@ impl<E: Send + fmt::Display> Differentiated<'_, E> {
     /// The sensitivities by some of the numbers, the others at their values.
     fn by_some(&self, fixed: &[Parameter], some: Range<usize>) -> Result<Vec<Sensitivity>, NoValue<E>> {
         let Self { search, place, values, jacobian, covariance } = self;
-        let starts: Vec<f64> = fixed.iter().map(|own| own.start).collect();
+        let starts: Vec<f64> = fixed.iter().map(|parameter| parameter.start).collect();
         let problem = |moved: &[f64]| {
             let mut all = starts.clone();
             all[some.clone()].copy_from_slice(moved);
@@ -73,12 +73,12 @@ impl<E: Send + fmt::Display> Differentiated<'_, E> {
         let mut beside = Search::new(&model, &fixed[some.clone()], search.measured);
         beside.windows = search.windows.clone();
         let by = beside.linearised(&vec![0.0; some.len()])?.jacobian;
-        let of = |(f, own): (usize, &Parameter)| {
+        let of = |(f, parameter): (usize, &Parameter)| {
             let column: Vec<f64> = by.iter().map(|row| row[f]).collect();
             let taken = covariance.taken_up(jacobian, &column);
             let per = beside.free.slope(f, 0.0);
             let derivative = |(k, t): (usize, &f64)| -t * search.free.slope(k, place[k]) / per;
-            Sensitivity { fixed: own.clone(), derivatives: taken.iter().enumerate().map(derivative).collect() }
+            Sensitivity { fixed: parameter.clone(), derivatives: taken.iter().enumerate().map(derivative).collect() }
         };
         Ok(fixed[some.clone()].iter().enumerate().map(of).collect())
     }

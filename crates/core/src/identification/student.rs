@@ -14,7 +14,7 @@ pub enum Quantile {
 
 /// Quantile of Student's distribution, to 0.2 % of the first and 5 % of the second probability (Abramowitz & Stegun 26.7.5).
 pub fn quantile(of: Quantile, freedom: usize) -> f64 {
-    // Of the normal distribution, and of one and two degrees of freedom.
+    // Quantiles of the normal distribution, and of one and two degrees of freedom.
     let (z, few): (f64, [f64; 2]) = match of {
         Quantile::TwoSided95 => (1.959_963_985, [12.7062, 4.3027]),
         Quantile::TwoSided400 => (3.023_341_440, [254.6466, 19.9625]),

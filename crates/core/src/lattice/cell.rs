@@ -13,7 +13,7 @@ use std::fmt;
 pub struct Cell {
     a1: [f64; 2],
     a2: [f64; 2],
-    /// Of a window its corner, a point; `None` of a periodic cell.
+    /// Corner of a window, a point; `None` of a periodic cell.
     corner: Option<[f64; 2]>,
 }
 
@@ -51,7 +51,7 @@ impl Cell {
         Ok(Self { corner: Some(corner), ..Self::new([width, 0.0], [0.0, height])? })
     }
 
-    /// What lies around the cell: nothing around a window.
+    /// Surroundings of the cell: nothing around a window.
     pub fn surroundings(&self) -> Surroundings {
         match self.corner {
             Some(_) => Surroundings::FreeSpace,

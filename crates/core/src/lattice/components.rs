@@ -64,7 +64,7 @@ pub fn open_regions(grid: &Grid, pressure: &[f64]) -> Vec<Component> {
 pub fn components(grid: &Grid, connectivity: Connectivity, members: impl Fn(usize) -> bool + Sync) -> Vec<Component> {
     let [n1, n2] = grid.points();
     let mut offsets = grid.neighbour_offsets(connectivity);
-    // Where consecutive samples of a row are not joined, each sample is a run of its own.
+    // Each sample is a run of its own where consecutive samples of a row are not joined.
     let along = offsets.iter().position(|&offset| offset == [0, 1] || offset == [0, -1]);
     if let Some(along) = along {
         offsets.swap_remove(along);
@@ -105,7 +105,7 @@ fn join_rows(
     let (n1, n2) = (rows.len() as i32, columns as i32);
     let below = i as i32 + down;
     let (cell, there) = (below.div_euclid(n1), below.rem_euclid(n1) as usize);
-    for (own, &[first, end]) in (starts[i]..).zip(&rows[i]) {
+    for (number, &[first, end]) in (starts[i]..).zip(&rows[i]) {
         let (first, last) = (first + right, end - 1 + right);
         for across in first.div_euclid(n2)..=last.div_euclid(n2) {
             let offset = across * n2;
@@ -114,7 +114,7 @@ fn join_rows(
                 if run[0] + offset > last {
                     break;
                 }
-                sets.join(own, starts[there] + k, [cell, across]);
+                sets.join(number, starts[there] + k, [cell, across]);
             }
         }
     }
@@ -156,7 +156,7 @@ struct DisjointSets {
     parents: Vec<u32>,
     /// Number of cells from the parent along a₁ and a₂.
     shifts: Vec<[i32; 2]>,
-    /// Of a root: whether the set is connected to an image of itself.
+    /// Whether the set of a root is connected to an image of itself.
     wraps: Vec<bool>,
 }
 
@@ -175,18 +175,18 @@ impl DisjointSets {
         // Path compression.
         let (mut at, mut rest) = (run, shift);
         while self.parents[at] as usize != root && at != root {
-            let (next, own) = (self.parents[at] as usize, self.shifts[at]);
+            let (next, step) = (self.parents[at] as usize, self.shifts[at]);
             (self.parents[at], self.shifts[at]) = (root as u32, rest);
-            (at, rest) = (next, difference(rest, own));
+            (at, rest) = (next, difference(rest, step));
         }
         (root, shift)
     }
 
     /// Joins a run to the image of `other` that lies `cells` cells along a₁ and a₂ away.
     fn join(&mut self, run: usize, other: usize, cells: [i32; 2]) {
-        let ((a, own), (b, others)) = (self.root(run), self.root(other));
+        let ((a, shift), (b, other_shift)) = (self.root(run), self.root(other));
         // Cells from the root a to the root b.
-        let apart = difference(sum(own, cells), others);
+        let apart = difference(sum(shift, cells), other_shift);
         if a == b {
             self.wraps[a] |= apart != [0; 2];
             return;

@@ -160,15 +160,15 @@ impl Grid {
         self.waves.get_or_init(|| Arc::new(Waves::new(&self.zone)))
     }
 
-    /// Mean unit vector of the shortest aliases of the component (k₁, k₂), of length 1 unless several are tied; zero for a component
-    /// that is its own conjugate.
+    /// Mean unit vector of the shortest aliases of the component (k₁, k₂), of length 1 unless several are tied; zero
+    /// for a component that is its own conjugate.
     pub fn mean_direction(&self, component: [usize; 2]) -> [f64; 2] {
         let unit = |[x, y]: [f64; 2]| {
             let length = norm([x, y]);
             if length > 0.0 { [x / length, y / length] } else { [0.0; 2] }
         };
-        let own = (0..2).all(|axis| (2 * component[axis]).is_multiple_of(self.points()[axis]));
-        if own {
+        let is_self_conjugate = (0..2).all(|axis| (2 * component[axis]).is_multiple_of(self.points()[axis]));
+        if is_self_conjugate {
             return [0.0; 2];
         }
         let q = self.wavevector(component);

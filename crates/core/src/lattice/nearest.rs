@@ -110,8 +110,8 @@ impl Grid {
         if !is_tied(length(diagonal), long) {
             return vec![direction(r1, 1.0, long), direction(r2, 1.0, short)];
         }
-        let [own, others] = if is_tied(short, long) { [2.0 / 3.0; 2] } else { [1.0, 0.5] };
-        vec![direction(r1, own, long), direction(r2, others, short), direction(diagonal, others, short)]
+        let [shortest, others] = if is_tied(short, long) { [2.0 / 3.0; 2] } else { [1.0, 0.5] };
+        vec![direction(r1, shortest, long), direction(r2, others, short), direction(diagonal, others, short)]
     }
 }
 
@@ -150,12 +150,12 @@ mod tests {
             ([1.0, 0.0], [0.5, 0.75f64.sqrt()], 3),
             ([1.0, 0.0], [0.5, 2.0], 3),
         ] {
-            let own = described(Cell::new(a1, a2).unwrap(), [6, 6]);
-            assert_eq!(own.len(), count);
-            assert!((own.iter().map(|direction| direction[2]).sum::<f64>() - 2.0).abs() < 1e-15);
+            let lines = described(Cell::new(a1, a2).unwrap(), [6, 6]);
+            assert_eq!(lines.len(), count);
+            assert!((lines.iter().map(|direction| direction[2]).sum::<f64>() - 2.0).abs() < 1e-15);
             for multiple in [-3.0, -1.0, 1.0, 2.0] {
                 let skewed = Cell::new(a1, [0, 1].map(|k| a2[k] + multiple * a1[k])).unwrap();
-                for (a, b) in own.iter().flatten().zip(described(skewed, [6, 6]).iter().flatten()) {
+                for (a, b) in lines.iter().flatten().zip(described(skewed, [6, 6]).iter().flatten()) {
                     assert!((a - b).abs() < 1e-8, "{a1:?} {a2:?} {multiple}: {a} {b}");
                 }
             }

@@ -114,8 +114,8 @@ mod tests {
                 {
                     let [n1, n2] = points.map(|n| n as i32);
                     assert_eq!(index as i32, sample[0].rem_euclid(n1) * n2 + sample[1].rem_euclid(n2));
-                    let own = place(&grid, sample);
-                    assert!((0..2).all(|k| (offset[k] - own[k] + centre[k]).abs() < 1e-12));
+                    let position = place(&grid, sample);
+                    assert!((0..2).all(|k| (offset[k] - position[k] + centre[k]).abs() < 1e-12));
                 }
             }
         }

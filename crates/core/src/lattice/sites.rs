@@ -1,6 +1,6 @@
 //! Sites of the indenters of each level in the cell.
 //!
-//! With the lattice period l, the distance of neighbouring indenters of any level:
+//! The lattice period l is the distance of neighbouring indenters of any level:
 //!
 //! | lattice | levels | cell | sites of levels 1, 2, … in fractions of a₁, a₂ |
 //! |---|---|---|---|
@@ -44,7 +44,7 @@ impl Lattice {
     /// Square lattice of the given period with one indenter of each of 1, 2 or 4 levels in its cell.
     ///
     /// # Errors
-    /// As [`Lattice::hexagonal`].
+    /// Errors of [`Lattice::hexagonal`].
     pub fn square(period: f64, levels: usize) -> Result<Self, LatticeError> {
         let (scale, sites) = match levels {
             1 => (1.0, vec![[0.0, 0.0]]),

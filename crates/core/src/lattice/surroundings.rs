@@ -1,6 +1,6 @@
-//! What lies around a cell: its periodic images, or nothing.
+//! Surroundings of a cell: its periodic images, or nothing.
 
-/// What lies around a cell and the samples in it.
+/// Surroundings of a cell and of the samples in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Surroundings {
     /// Periodic images of the cell. The mean displacement of a loaded half-space is infinite: displacements have zero mean, a uniform

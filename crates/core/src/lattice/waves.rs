@@ -2,8 +2,8 @@
 //!
 //! A real field is its mean and Re Σ c e^{i**q**·**x**} over waves **q** = κ₁**b**₁ + κ₂**b**₂, one of each pair ±**q**:
 //! κ₂ > 0, or κ₂ = 0 and κ₁ > 0. The zone is convex, so that each κ₂ has one interval of κ₁, a **row**. On its border a
-//! Fourier component has several shortest aliases: each is a wave with an equal part of the coefficient, so that factors
-//! that depend on the direction are averaged over them and keep the symmetry of the lattice.
+//! Fourier component has several shortest aliases: each is a wave with an equal part of the coefficient, so that
+//! factors that depend on the direction are averaged over them and keep the symmetry of the lattice.
 //!
 //! Waves of equal wavenumber form a **shell**: the response of a layered half-space to a wave depends on its shell alone.
 
@@ -209,9 +209,9 @@ fn shells(rows: &[WaveRow], step: [f64; 2], count: usize) -> (Vec<u32>, Vec<f64>
     }
     let (mut shells, mut wavenumbers) = (vec![0; count], Vec::new());
     for bounds in starts.windows(2) {
-        let own = &mut order[bounds[0] as usize..bounds[1] as usize];
-        own.sort_unstable_by(|&a, &b| lengths[a as usize].total_cmp(&lengths[b as usize]));
-        for &mut number in own {
+        let numbers = &mut order[bounds[0] as usize..bounds[1] as usize];
+        numbers.sort_unstable_by(|&a, &b| lengths[a as usize].total_cmp(&lengths[b as usize]));
+        for &mut number in numbers {
             let q = lengths[number as usize];
             if wavenumbers.last().is_none_or(|last| q > last * (1.0 + WAVENUMBER_TOLERANCE)) {
                 wavenumbers.push(q);
