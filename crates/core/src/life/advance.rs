@@ -1,4 +1,4 @@
-//! From one state of a life to the next: what fails comes off, and what slides wears.
+//! Steps of a life from one state to the next: what fails comes off, and what slides wears.
 
 use super::beginning::Beginning;
 use super::damage::{Damage, Failure, FailurePlace};
@@ -99,7 +99,7 @@ impl LifeTask {
         }
         // Until the half-space is laid out anew, or the first layer is worn through.
         let left = original.interface_depths().get(gone).map_or(f64::INFINITY, |face| face - next.removed());
-        let room = original.layers().get(gone).map_or(f64::INFINITY, |own| (RELAID * own.thickness()).min(left));
+        let room = original.layers().get(gone).map_or(f64::INFINITY, |layer| (RELAID * layer.thickness()).min(left));
         let wear = self.wear(solver.problem())?;
         let wears = [Side::Body, Side::Counterbody].iter().any(|&side| wear.coefficient(side) > 0.0);
         let (before, begun) = (next.removed(), next.passes);
@@ -113,7 +113,7 @@ impl LifeTask {
         };
         let rates = match mean {
             Some(MeanPressure { pressure, back, swing }) => {
-                let back = contact.back.as_ref().zip(back).map(|(own, back)| own.with_mean_pressure(back));
+                let back = contact.back.as_ref().zip(back).map(|(step, back)| step.with_mean_pressure(back));
                 let over = self.read(contact.step.with_mean_pressure(pressure), back, goes_on)?;
                 let rates = Rates::new(original, gone, &over.planes, over.record.fatigue.as_ref(), next.damage.y());
                 next.damage.add(&rates, next.passes - begun, before);
@@ -134,7 +134,7 @@ impl LifeTask {
         Ok(next)
     }
 
-    /// State after a contact that is not solved: a wider window where it reaches the border of its own, else the end.
+    /// State after a contact that is not solved: in a wider window where it reaches the border, else at the end.
     fn without_contact(&self, state: LifeState, stop: Stop) -> LifeState {
         let wider = if stop == Stop::AtBorder { self.in_wider_window(state.clone()) } else { None };
         match wider {
@@ -152,7 +152,8 @@ impl LifeTask {
             let next = state.damage.next_failure(original, rates, removed);
             let next = self.exact_first(state, contact).or(next);
             let left = self.passes.map_or(f64::INFINITY, |last| last - state.passes);
-            let due = next.filter(|own| own.passes <= (until - state.passes).max((NOW * state.passes).min(left)));
+            let due =
+                next.filter(|failure| failure.passes <= (until - state.passes).max((NOW * state.passes).min(left)));
             let Some(failure) = due else {
                 let passes = until - state.passes;
                 if passes > 0.0 && passes.is_finite() {
@@ -181,14 +182,14 @@ impl LifeTask {
         let life = contact.record.fatigue.as_ref()?.lives.iter().filter(|life| !life.part.is_counterbody());
         let first = life.min_by(|a, b| a.passes.total_cmp(&b.passes))?;
         let place = match first.part {
-            FatiguePart::Material(own) => FailurePlace::Material(own.number),
-            FatiguePart::Interface(own) => FailurePlace::Interface(own.number),
+            FatiguePart::Material(id) => FailurePlace::Material(id.number),
+            FatiguePart::Interface(id) => FailurePlace::Interface(id.number),
         };
         let is_unworn = state.passes == 0.0 && state.events.is_empty() && first.passes.is_finite();
         is_unworn.then_some(Failure { place, passes: first.passes, depth: first.position[2] })
     }
 
-    /// What lies above a failure comes off.
+    /// Takes off what lies above a failure.
     fn come_off(&self, state: &mut LifeState, failure: Failure) {
         let original = self.problem.half_space();
         let removed = state.removed();
@@ -208,7 +209,7 @@ impl LifeTask {
         let is_slice = what == EventKind::SurfaceWear;
         let after = state.removed();
         let thickness = self.thickness(after);
-        // What fails just below what has just come off is part of it: damage is next to 1 about the depth that fails.
+        // A failure just below what has just come off is part of it: damage is next to 1 about the depth that fails.
         let follows = |last: &&mut Event| {
             last.what == EventKind::Detachment && last.part == part && last.passes >= state.passes * (1.0 - NOW)
         };
@@ -219,7 +220,7 @@ impl LifeTask {
             }
             return;
         }
-        // Of slices that follow each other the first one is an event.
+        // The first one of slices that follow each other is an event.
         if !(is_slice && state.sheds) {
             let (passes, distance) = (state.passes, self.slid_after(state.passes));
             state.events.push(Event { passes, distance, what, part, depth, thickness, removed: after });
@@ -234,12 +235,12 @@ impl LifeTask {
     fn worn_solver(&self, problem: &Arc<Problem>, state: &LifeState) -> Result<Solver, LifeError> {
         let solver = Solver::new(Arc::clone(problem), state.points, self.settings)?;
         let depths = [&state.worn[0], &state.worn[1], &state.indented];
-        if depths.iter().all(|own| own.is_empty()) {
+        if depths.iter().all(|field| field.is_empty()) {
             return Ok(solver);
         }
         let mut gap = solver.surface().initial_gap().to_owned();
-        for own in depths {
-            gap.iter_mut().zip(own).for_each(|(gap, depth)| *gap += depth);
+        for field in depths {
+            gap.iter_mut().zip(field).for_each(|(gap, depth)| *gap += depth);
         }
         // The penetration counts from first touch.
         let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
@@ -274,7 +275,7 @@ impl LifeTask {
         let mut worn = WornSince::new(self, contact, wear, tires)?;
         let followed = worn.slide(&path, solver, goes_on)?;
         let slid = worn.slid;
-        // Where no step was accepted the length that is tried next stays.
+        // The length that is tried next stays where no step was accepted.
         state.step = if followed.next > 0.0 { followed.next } else { state.step };
         state.stop = match followed.end {
             PathEnd::Unsolved(stop) => Some(stop),
@@ -297,9 +298,9 @@ impl LifeTask {
 
     /// Keeps what a solver has worn off and pressed in, of a body that was lower by `removed` before.
     fn keep_worn(&self, state: &mut LifeState, solver: &Solver, wear: &Wear, removed: f64) {
-        for (own, side) in state.worn.iter_mut().zip([Side::Body, Side::Counterbody]) {
+        for (depths, side) in state.worn.iter_mut().zip([Side::Body, Side::Counterbody]) {
             if let Some(worn) = solver.worn().filter(|_| wear.coefficient(side) > 0.0) {
-                add(own, worn.depth(side).iter());
+                add(depths, worn.depth(side).iter());
             }
         }
         if let Some(depths) = solver.indented() {
@@ -319,8 +320,8 @@ impl LifeState {
     }
 }
 
-/// Height by which the body is lowered over a length of sliding by the pressure of a step: on a lattice k p̄, under an isolated contact
-/// that of the deepest line of its track, k ∫p ds over the stroke.
+/// Height by which the body is lowered over a length of sliding by the pressure of a step: on a lattice k p̄, under an
+/// isolated contact k ∫p ds over the stroke along the deepest line of its track.
 pub(super) fn lowering(step: &Step, wear: &Wear) -> f64 {
     let (k, grid, pressure) = (wear.coefficient(Side::Body), step.grid(), step.pressure());
     let Some(stroke) = wear.stroke_on(grid.cell()) else {
@@ -342,7 +343,7 @@ fn keep_indented(state: &mut LifeState, step: &Step) {
 }
 
 /// Adds depths to those of a state, which are none where it has none.
-fn add<'a>(own: &mut Vec<f64>, depths: impl ExactSizeIterator<Item = &'a f64>) {
-    own.resize(depths.len(), 0.0);
-    own.iter_mut().zip(depths).for_each(|(own, depth)| *own += depth);
+fn add<'a>(sums: &mut Vec<f64>, depths: impl ExactSizeIterator<Item = &'a f64>) {
+    sums.resize(depths.len(), 0.0);
+    sums.iter_mut().zip(depths).for_each(|(sum, depth)| *sum += depth);
 }

@@ -14,7 +14,7 @@ pub struct Beginning {
     pub step: Step,
     /// The step on the way back of a counterbody that goes to and fro with friction; `None` where the way there stands for both.
     pub back: Option<Step>,
-    /// Its record, with the lives of what tires.
+    /// Record of the step, with the lives of what tires.
     pub record: StepRecord,
     /// Range of τ₁ on planes of the materials that tire.
     pub planes: Vec<RangePlane>,
@@ -25,8 +25,9 @@ pub struct Beginning {
 }
 
 impl LifeTask {
-    /// The contact before the first pass; where an accuracy is prescribed on finer and finer grids, all that `fits` says have room, until
-    /// its results change by less: with the exponent m of a law the passes change m times as much as the range of the shear stress.
+    /// The contact before the first pass; where an accuracy is prescribed on finer and finer grids, all that `fits`
+    /// says have room, until the results change by less: with the exponent m of a law the passes change m times as much
+    /// as the range of the shear stress.
     ///
     /// # Errors
     /// [`LifeError`].
@@ -47,8 +48,8 @@ impl LifeTask {
         let mut coarse: Option<StepRecord> = None;
         loop {
             let begun = on_grid(refinement.points())?;
-            let own = std::slice::from_ref(&begun.record);
-            let change = coarse.as_ref().map(|coarse| change(std::slice::from_ref(coarse), own));
+            let record = std::slice::from_ref(&begun.record);
+            let change = coarse.as_ref().map(|coarse| change(std::slice::from_ref(coarse), record));
             if let Some(end) = refinement.refine(change, fits) {
                 return Ok(Beginning { change, end: Some(end), ..begun });
             }

@@ -27,7 +27,7 @@ const FAILED: f64 = 1e-9;
 pub struct Damage {
     /// y of each line across the path, lengths.
     y: Vec<f64>,
-    /// Of each material with a law of fatigue, from the original surface down.
+    /// Damage of each material with a law of fatigue, from the original surface down.
     materials: Vec<MaterialDamage>,
     /// Largest damage of each interface, from the original surface down; those that have come off keep theirs.
     interfaces: Vec<f64>,
@@ -51,10 +51,10 @@ struct MaterialDamage {
     damage: Vec<f64>,
 }
 
-/// Where damage reaches 1 next.
+/// The next failure: damage reaches 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Failure {
-    /// What fails: the number of a material or an interface of the original body.
+    /// Material or interface that fails, by its number in the original body.
     pub place: FailurePlace,
     /// Passes from now on.
     pub passes: f64,
@@ -62,7 +62,7 @@ pub struct Failure {
     pub depth: f64,
 }
 
-/// What fails.
+/// Material or interface that fails.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FailurePlace {
     /// The material of this number.
@@ -75,7 +75,7 @@ impl Damage {
     /// No damage in a body, on the lines of `planes`; `radii`: the smallest and the largest contact radius, lengths.
     pub fn none(original: &HalfSpace, [smallest, largest]: [f64; 2], planes: &[RangePlane]) -> Self {
         let radius = smallest.max(largest * NODES / MOST_NODES);
-        let laws = (1..).zip(original.durabilities()).filter(|(_, own)| own.fatigue.is_some());
+        let laws = (1..).zip(original.durabilities()).filter(|(_, durability)| durability.fatigue.is_some());
         let material = |(number, _): (usize, Durability)| {
             let (top, bottom) = original.faces(number);
             let thickness = bottom - top;
@@ -95,8 +95,8 @@ impl Damage {
         &self.y
     }
 
-    /// Follows the lines of `planes` that lie beyond its own too, those of a wider window, without damage until then. They had less than
-    /// the outermost of its lines: ranges fall with the distance from a contact.
+    /// Follows the lines of `planes` beyond those followed so far too, in a wider window, without damage until then.
+    /// They had less than the outermost line so far: ranges fall with the distance from a contact.
     pub fn widen(&mut self, planes: &[RangePlane]) {
         let (Some(plane), &[first, second, ..], &[.., before, last]) = (planes.first(), &self.y[..], &self.y[..])
         else {
@@ -107,34 +107,35 @@ impl Damage {
         let left: Vec<f64> = plane.y().filter(|y| *y < lower).collect();
         let right: Vec<f64> = plane.y().filter(|y| *y > upper).collect();
         let none = [&left, &right].map(|lines| vec![0.0; lines.len()]);
-        for own in &mut self.materials {
+        for material in &mut self.materials {
             let wider = |node: &[f64]| [&none[0], node, &none[1]].concat();
-            own.damage = own.damage.chunks(self.y.len()).flat_map(wider).collect();
+            material.damage = material.damage.chunks(self.y.len()).flat_map(wider).collect();
         }
         self.y = [&left[..], &self.y, &right].concat();
     }
 
     /// Adds the damage of some passes on a surface `removed` below the original one.
     pub fn add(&mut self, rates: &Rates, passes: f64, removed: f64) {
-        for own in &mut self.materials {
-            own.add(rates, passes, removed, self.y.len());
+        for material in &mut self.materials {
+            material.add(rates, passes, removed, self.y.len());
         }
-        self.interfaces.iter_mut().zip(&rates.interfaces).for_each(|(own, rate)| *own += passes * rate);
+        self.interfaces.iter_mut().zip(&rates.interfaces).for_each(|(damage, rate)| *damage += passes * rate);
     }
 
-    /// Where the damage of what is left reaches 1 first at these rates; `None` where it never does.
+    /// First failure of what is left at these rates; `None` where damage never reaches 1.
     pub fn next_failure(&self, original: &HalfSpace, rates: &Rates, removed: f64) -> Option<Failure> {
-        let materials = self.materials.iter().filter_map(|own| own.next_failure(rates, removed, self.y.len()));
+        let materials =
+            self.materials.iter().filter_map(|material| material.next_failure(rates, removed, self.y.len()));
         let faces = original.interface_depths();
         let interfaces = (1..).zip(self.interfaces.iter().zip(&rates.interfaces)).zip(&faces);
         let interfaces = interfaces.filter(|((_, (_, rate)), face)| **rate > 0.0 && **face > removed).map(
-            |((number, (own, rate)), &face)| Failure {
+            |((number, (damage, rate)), &face)| Failure {
                 place: FailurePlace::Interface(number),
-                passes: ((1.0 - own) / rate).max(0.0),
+                passes: ((1.0 - damage) / rate).max(0.0),
                 depth: face,
             },
         );
-        // Of failures at the same time the deepest: it takes the others with it.
+        // The deepest of failures at the same time takes the others with it.
         materials
             .chain(interfaces)
             .reduce(|a, b| if b.passes < a.passes || (b.passes == a.passes && b.depth > a.depth) { b } else { a })
@@ -144,11 +145,11 @@ impl Damage {
     /// depth at which this is wear of the surface, one node and a half deeper: nodes resolve no thinner fragments.
     pub fn slice(&self, place: FailurePlace, removed: f64) -> [f64; 2] {
         let FailurePlace::Material(number) = place else { return [0.0; 2] };
-        let own = self.materials.iter().find(|own| own.material == number);
-        own.map_or([0.0; 2], |own| {
-            let next = ((removed - own.top) / own.spacing + 1e-9).floor() + 1.0;
-            let slice = (own.top + next * own.spacing).min(own.bottom) - removed;
-            [slice, slice + UNRESOLVED * own.spacing]
+        let material = self.materials.iter().find(|material| material.material == number);
+        material.map_or([0.0; 2], |material| {
+            let next = ((removed - material.top) / material.spacing + 1e-9).floor() + 1.0;
+            let slice = (material.top + next * material.spacing).min(material.bottom) - removed;
+            [slice, slice + UNRESOLVED * material.spacing]
         })
     }
 }
@@ -182,9 +183,9 @@ impl MaterialDamage {
         }
         for node in 0..nodes {
             let z = self.depth(self.gone + node) - removed;
-            let own = &mut self.damage[node * lines..(node + 1) * lines];
+            let row = &mut self.damage[node * lines..(node + 1) * lines];
             if let Some(rates) = rates.at(self.material, z.max(0.0)) {
-                own.iter_mut().zip(rates).for_each(|(own, rate)| *own += passes * rate);
+                row.iter_mut().zip(rates).for_each(|(damage, rate)| *damage += passes * rate);
             }
         }
     }
@@ -201,12 +202,12 @@ impl MaterialDamage {
         for node in nodes.clone() {
             let depth = self.depth(node) - removed;
             let rates = rates.at(self.material, depth.max(0.0)).into_iter().flatten().enumerate();
-            // What failed at this depth has made the surface, and fails no more.
+            // A failure at this depth has made the surface, which fails no more.
             let is_surface = depth < SURFACE * self.spacing;
             for (line, rate) in rates.filter(|(_, rate)| *rate > 0.0) {
                 let done = self.done(node, line, lines);
                 let passes = ((1.0 - done) / rate).max(0.0);
-                // Of failures at the same time the deepest: it takes the others with it.
+                // The deepest of failures at the same time takes the others with it.
                 let is_next = next.is_none_or(|(least, last, _)| passes < least || (passes == least && node > last));
                 if is_next && passes.is_finite() && !(is_surface && done > 1.0 - FAILED) {
                     next = Some((passes, node, line));
@@ -232,8 +233,8 @@ impl MaterialDamage {
         (line, lines): (usize, usize),
     ) -> (f64, f64) {
         let rate = |depth: f64| {
-            let own = rates.at(self.material, depth - removed).and_then(|mut own| own.nth(line));
-            own.unwrap_or(0.0)
+            let found = rates.at(self.material, depth - removed).and_then(|mut all| all.nth(line));
+            found.unwrap_or(0.0)
         };
         let then = |node: usize| self.done(node, line, lines) + passes * rate(self.depth(node));
         let [above, below] = [node - 1, node + 1].map(|node| 1.0 - then(node));

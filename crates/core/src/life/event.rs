@@ -1,4 +1,4 @@
-//! What happens to a body while it lasts: something fails and what lies above it comes off.
+//! Events of a body while it lasts: something fails and what lies above it comes off.
 
 use crate::numeric::serialised;
 use crate::reading::FatiguePart;
@@ -33,11 +33,11 @@ impl fmt::Display for EventKind {
 /// An event.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Event {
-    /// Passes until then.
+    /// Passes until the event.
     pub passes: f64,
-    /// Distance that the counterbody has slid until then, a length; `None` where it is not known.
+    /// Distance that the counterbody has slid until the event, a length; `None` where it is not known.
     pub distance: Option<f64>,
-    /// What happens.
+    /// Kind of the event.
     pub what: EventKind,
     /// The material or the interface that fails, by its number in the original body.
     #[serde(flatten)]
@@ -47,7 +47,7 @@ pub struct Event {
     pub depth: f64,
     /// Thickness of all layers together afterwards, a length.
     pub thickness: f64,
-    /// Height of what has come off and was worn off until then, a length.
+    /// Height of what has come off and was worn off until the event, a length.
     pub removed: f64,
 }
 
@@ -70,7 +70,7 @@ pub struct Scar {
     pub volume: f64,
 }
 
-/// What is left and worn after some passes.
+/// A row of the course: what is left and worn after some passes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Course {
     /// Passes.

@@ -28,10 +28,10 @@ pub struct First {
     /// The part that fails, or is worn through.
     #[serde(flatten)]
     pub part: FatiguePart,
-    /// Passes until then; infinite where nothing ever fails.
+    /// Passes until the event; infinite where nothing ever fails.
     #[serde(deserialize_with = "serialised::infinite")]
     pub passes: f64,
-    /// Distance that the counterbody has slid until then, a length; `None` where it is not known.
+    /// Distance that the counterbody has slid until the event, a length; `None` where it is not known.
     pub distance: Option<f64>,
     /// Estimated relative error of the passes by the grid; `None` where it is not known.
     pub error: Option<f64>,
@@ -52,7 +52,7 @@ impl First {
     /// tires and nothing is worn through.
     pub fn of(task: &LifeTask, begun: &Beginning, state: &LifeState) -> Option<Self> {
         let fatigue = begun.record.fatigue.as_ref();
-        let lives = || fatigue.iter().flat_map(|own| &own.lives);
+        let lives = || fatigue.iter().flat_map(|reading| &reading.lives);
         let foreseen = |life: &Life| Self {
             kind: kind_of(life.part),
             part: life.part,
@@ -68,7 +68,7 @@ impl First {
         let shorter = |a: Self, b: Self| if b.passes < a.passes { b } else { a };
         let Some(event) = state.events.first() else { return lives().map(foreseen).reduce(shorter) };
         let life = lives().find(|life| life.part == event.part && event.what != EventKind::WornThrough);
-        let own = Self {
+        let followed = Self {
             kind: if event.what == EventKind::WornThrough { FirstKind::WornThrough } else { kind_of(event.part) },
             part: event.part,
             passes: event.passes,
@@ -80,14 +80,14 @@ impl First {
             y: None,
             z: Some(event.removed),
         };
-        // That of the unworn surfaces has a place; that of surfaces that wear errs by as much at least.
-        let own = life.map_or(own, |life| match life.passes == event.passes {
+        // The failure of the unworn surfaces has a place; that of surfaces that wear errs by as much at least.
+        let followed = life.map_or(followed, |life| match life.passes == event.passes {
             true => foreseen(life),
-            false => Self { error: life.error, ..own },
+            false => Self { error: life.error, ..followed },
         });
         // An elastic counterbody is not followed.
         let others = lives().filter(|life| life.part.is_counterbody()).map(foreseen);
-        Some(others.fold(own, shorter))
+        Some(others.fold(followed, shorter))
     }
 }
 

@@ -39,7 +39,7 @@ struct Sum {
 pub(super) struct MeanPressure {
     /// Mean of the pressure, sample by sample, a₂ fastest.
     pub pressure: Vec<f64>,
-    /// The same on the way back, where that has another one.
+    /// Mean of the pressure on the way back, where that has another one.
     pub back: Option<Vec<f64>>,
     /// Half of the rise and fall of the largest pressure.
     pub swing: f64,
@@ -61,7 +61,7 @@ impl Groove {
     /// Adds a step of wear that ends with a contact, with that on the way back where it is another one.
     pub fn add(&mut self, worn: &WornStep, end: &Step, back: Option<&Step>) {
         self.there.add(end, worn.length);
-        self.back.iter_mut().zip(back).for_each(|(own, back)| own.add(back, worn.length));
+        self.back.iter_mut().zip(back).for_each(|(sum, back)| sum.add(back, worn.length));
         self.slid += worn.length;
         self.rows[1] = rows_in_contact(end, self.along);
         self.peaks = [self.peaks[0].min(worn.max_pressure), self.peaks[1].max(worn.max_pressure)];
@@ -77,12 +77,12 @@ impl Groove {
         self.slid > 0.0
     }
 
-    /// The mean; `None` before the first step.
+    /// Mean pressure over the groove; `None` before the first step.
     pub fn mean(self) -> Option<MeanPressure> {
         let (slid, [least, most]) = (self.slid, self.peaks);
         self.has_begun().then(|| MeanPressure {
             pressure: self.there.over(slid),
-            back: self.back.map(|own| own.over(slid)),
+            back: self.back.map(|sum| sum.over(slid)),
             swing: 0.5 * (most - least),
         })
     }
@@ -103,7 +103,7 @@ impl Sum {
         }
     }
 
-    /// The mean over a length.
+    /// Mean pressure over a length of sliding.
     fn over(self, length: f64) -> Vec<f64> {
         self.sum.into_iter().map(|sum| sum / length).collect()
     }

@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-9;
 /// Damage that one pass does on the present surface.
 #[derive(Debug, Clone)]
 pub struct Rates {
-    /// Of each material of the original body with a law and planes.
+    /// Rates of each material of the original body with a law and planes.
     materials: Vec<MaterialRates>,
     /// Damage in a pass of each interface of the original body.
     pub(super) interfaces: Vec<f64>,
@@ -43,16 +43,16 @@ impl Rates {
         y: &[f64],
     ) -> Self {
         let laws = (1..).zip(original.durabilities()).skip(gone);
-        let of = |(number, own): (usize, Durability)| {
+        let of = |(number, durability): (usize, Durability)| {
             let own_planes = planes.iter().filter(|plane| plane.depth.material + gone == number);
-            MaterialRates::new(number, own.fatigue?, own_planes.map(|plane| plane.on(y)).collect())
+            MaterialRates::new(number, durability.fatigue?, own_planes.map(|plane| plane.on(y)).collect())
         };
         let mut interfaces = vec![0.0; original.layers().len()];
-        for life in reading.iter().flat_map(|own| &own.lives) {
-            if let FatiguePart::Interface(own) = life.part
-                && !own.is_counterbody()
+        for life in reading.iter().flat_map(|reading| &reading.lives) {
+            if let FatiguePart::Interface(id) = life.part
+                && !id.is_counterbody()
             {
-                interfaces[own.number - 1 + gone] = life.damage;
+                interfaces[id.number - 1 + gone] = life.damage;
             }
         }
         Self { materials: laws.filter_map(of).collect(), interfaces }
@@ -65,26 +65,26 @@ impl Rates {
 
     /// Damage in a pass of a material at a depth below the present surface, on all lines; none below the deepest plane.
     pub(super) fn at(&self, material: usize, z: f64) -> Option<impl Iterator<Item = f64> + '_> {
-        let own = self.materials.iter().find(|own| own.material == material)?;
-        let last = own.depths.len() - 1;
-        let z = if z <= own.depths[last] * (1.0 + ROUNDING) { z.min(own.depths[last]) } else { return None };
-        let after = own.depths.partition_point(|depth| *depth < z).min(last);
+        let rates = self.materials.iter().find(|rates| rates.material == material)?;
+        let last = rates.depths.len() - 1;
+        let z = if z <= rates.depths[last] * (1.0 + ROUNDING) { z.min(rates.depths[last]) } else { return None };
+        let after = rates.depths.partition_point(|depth| *depth < z).min(last);
         let before = after.saturating_sub(1);
-        let apart = own.depths[after] - own.depths[before];
-        let t = if apart > 0.0 { ((z - own.depths[before]) / apart).max(0.0) } else { 0.0 };
-        let ranges = own.lines[before].iter().zip(&own.lines[after]);
-        Some(ranges.map(move |(above, below)| own.law.damage(between([*above, *below], apart, t))))
+        let apart = rates.depths[after] - rates.depths[before];
+        let t = if apart > 0.0 { ((z - rates.depths[before]) / apart).max(0.0) } else { 0.0 };
+        let ranges = rates.lines[before].iter().zip(&rates.lines[after]);
+        Some(ranges.map(move |(above, below)| rates.law.damage(between([*above, *below], apart, t))))
     }
 
     /// Depth of the deepest plane of a material.
     pub(super) fn deepest(&self, material: usize) -> Option<f64> {
-        let own = self.materials.iter().find(|own| own.material == material)?;
-        own.depths.last().copied()
+        let rates = self.materials.iter().find(|rates| rates.material == material)?;
+        rates.depths.last().copied()
     }
 }
 
 impl MaterialRates {
-    /// `None` without a plane.
+    /// Rates of a material by its planes; `None` without a plane.
     fn new(material: usize, law: Fatigue, mut planes: Vec<RangePlane>) -> Option<Self> {
         planes.sort_by(|a, b| a.depth.z.total_cmp(&b.depth.z));
         planes.dedup_by(|a, b| a.depth.z == b.depth.z);
@@ -111,9 +111,9 @@ mod tests {
         MaterialRates::new(1, Fatigue::new(1.0, 1.0, 1.0).unwrap(), depths.iter().map(of).collect()).unwrap()
     }
 
-    fn at(own: MaterialRates, z: f64) -> f64 {
-        let own = Rates { materials: vec![own], interfaces: Vec::new() };
-        own.at(1, z).unwrap().next().unwrap()
+    fn at(material: MaterialRates, z: f64) -> f64 {
+        let rates = Rates { materials: vec![material], interfaces: Vec::new() };
+        rates.at(1, z).unwrap().next().unwrap()
     }
 
     /// Below a Hertz contact, on the axis, ν = 0.3, at depths a third apart as planes are: a quarter of what a range linear between them
@@ -136,12 +136,12 @@ mod tests {
     /// The slope below it is three times too steep at most, which is 4/27 of the distance times twice the slope.
     #[test]
     fn a_rise_at_the_surface_raises_and_lowers_nothing_below_it() {
-        let own = |z: f64| at(rates(&[0.0, 0.05, 0.1, 0.15], |z| if z == 0.0 { 0.8 } else { 0.3 - 0.2 * z }), z);
+        let rate = |z: f64| at(rates(&[0.0, 0.05, 0.1, 0.15], |z| if z == 0.0 { 0.8 } else { 0.3 - 0.2 * z }), z);
         for k in 0..100 {
             let z = 0.05 + 0.001 * f64::from(k);
-            assert!((own(z) - (0.3 - 0.2 * z)).abs() < 0.05 * 0.4 * 4.0 / 27.0 + 1e-12, "{z}: {}", own(z));
+            assert!((rate(z) - (0.3 - 0.2 * z)).abs() < 0.05 * 0.4 * 4.0 / 27.0 + 1e-12, "{z}: {}", rate(z));
         }
-        assert!((own(0.15 * (1.0 + 1e-12)) - 0.27).abs() < 1e-12);
+        assert!((rate(0.15 * (1.0 + 1e-12)) - 0.27).abs() < 1e-12);
         assert!(rates(&[0.0], |_| 1.0).lines[0][0] == [1.0, 0.0]);
     }
 }

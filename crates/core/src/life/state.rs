@@ -38,7 +38,7 @@ pub struct LifeState {
     pub course: Vec<Course>,
     /// Times that the window of an isolated contact was doubled, as contact grew.
     pub doubled: u32,
-    /// Why it ended, if it has.
+    /// Why the life ended, if it has.
     pub end: Option<LifeEnd>,
     /// Why the last contact was not solved, where it was not.
     pub stop: Option<Stop>,
@@ -56,7 +56,7 @@ pub enum LifeEnd {
     NothingLeft,
     /// A contact of the worn surfaces could not be solved.
     Unsolved,
-    /// It has taken as many loads as are solved at most.
+    /// The largest number of loads was solved.
     LoadLimit,
 }
 

@@ -18,10 +18,10 @@ impl LifeTask {
     pub(super) fn record(&self, state: &mut LifeState, contact: &Beginning, rates: &Rates) {
         let failure = state.damage.next_failure(self.problem.half_space(), rates, state.removed());
         // At the end of a groove the mean before stays.
-        let groove = state.course.last().filter(|own| own.max_pressure_error.is_some() && self.is_over(state));
+        let groove = state.course.last().filter(|row| row.max_pressure_error.is_some() && self.is_over(state));
         let row = Course {
-            max_pressure: groove.map_or(contact.record.reading.max_pressure, |own| own.max_pressure),
-            max_pressure_error: groove.and_then(|own| own.max_pressure_error),
+            max_pressure: groove.map_or(contact.record.reading.max_pressure, |row| row.max_pressure),
+            max_pressure_error: groove.and_then(|row| row.max_pressure_error),
             contact_area: contact.record.reading.contact_area,
             next: failure.map_or(f64::INFINITY, |failure| failure.passes),
             ..self.row(state)
@@ -62,9 +62,9 @@ impl LifeTask {
             groove: self.groove(state),
             specific_rate: scar.zip(work).map(|(scar, work)| scar.volume / work),
             scar,
-            max_pressure: last.map_or(0.0, |own| own.max_pressure),
+            max_pressure: last.map_or(0.0, |row| row.max_pressure),
             max_pressure_error: None,
-            contact_area: last.map_or(0.0, |own| own.contact_area),
+            contact_area: last.map_or(0.0, |row| row.contact_area),
             next: f64::INFINITY,
         }
     }

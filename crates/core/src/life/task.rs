@@ -1,4 +1,4 @@
-//! What a life is followed from: bodies, load, grid, and how far.
+//! The task of following a life: bodies, load, grid, and how far.
 
 use crate::body::{Durability, MeanStress, Side};
 use crate::lattice::LatticeError;
@@ -82,7 +82,7 @@ pub enum LifeError {
     /// A worn surface is no gap.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// It was interrupted.
+    /// The search for damage was interrupted.
     #[error("the search for damage was interrupted")]
     Interrupted,
 }
@@ -119,7 +119,7 @@ impl LifeTask {
     }
 
     fn body_wears(&self) -> bool {
-        let wears = |own: Durability| own.wear.is_some_and(|wear| wear > 0.0);
+        let wears = |durability: Durability| durability.wear.is_some_and(|wear| wear > 0.0);
         self.problem.half_space().durabilities().any(wears)
     }
 

@@ -16,7 +16,8 @@ impl LifeTask {
     /// Warnings about the contact before the first pass, and about what follows it.
     pub fn warnings(&self, begun: &Beginning, state: &LifeState) -> Vec<String> {
         let mut warnings = warnings(&self.problem, std::slice::from_ref(&begun.record), begun.end, begun.change);
-        if let Some(error) = begun.record.fatigue.as_ref().and_then(|own| own.first.error).filter(|own| *own > UNKNOWN)
+        if let Some(error) =
+            begun.record.fatigue.as_ref().and_then(|fatigue| fatigue.first.error).filter(|error| *error > UNKNOWN)
         {
             warnings.push(format!(
                 "the passes to the first failure are known to {:.0} % only: an error of the range of the shear stress counts as often as \
@@ -48,7 +49,8 @@ impl LifeTask {
     fn unworn_below(&self, state: &LifeState) -> Option<String> {
         let original = self.problem.half_space();
         let (_, gone) = original.uncovered(state.removed())?;
-        let wears: Vec<bool> = original.durabilities().map(|own| own.wear.is_some_and(|wear| wear > 0.0)).collect();
+        let wears: Vec<bool> =
+            original.durabilities().map(|durability| durability.wear.is_some_and(|wear| wear > 0.0)).collect();
         let stays =
             self.passes.is_some() && wears.iter().take(gone).any(|wears| *wears) && wears.get(gone) == Some(&false);
         stays.then(|| {
@@ -94,8 +96,8 @@ impl LifeTask {
     /// body.
     fn counterbody_failure(&self, begun: &Beginning) -> Option<Life> {
         let fatigue = begun.record.fatigue.as_ref()?;
-        let own = fatigue.lives.iter().filter(|life| life.part.is_counterbody());
-        let first = own.min_by(|a, b| a.passes.total_cmp(&b.passes)).filter(|life| life.passes.is_finite())?;
+        let lives = fatigue.lives.iter().filter(|life| life.part.is_counterbody());
+        let first = lives.min_by(|a, b| a.passes.total_cmp(&b.passes)).filter(|life| life.passes.is_finite())?;
         let comes = first.part == fatigue.first.part || self.passes.is_some_and(|last| first.passes < last);
         comes.then_some(*first)
     }

@@ -18,7 +18,7 @@ impl LifeTask {
     /// The way back over the bodies of a problem, which tire, on a grid.
     pub(super) fn way_back(&self, problem: &Problem, points: [usize; 2]) -> Result<WayBack, LifeError> {
         let matters = self.stroke.is_some() && problem.bodies().tire();
-        let friction = problem.friction().filter(|own| matters && own.coefficient() > 0.0);
+        let friction = problem.friction().filter(|friction| matters && friction.coefficient() > 0.0);
         // Interfaces that hold a layer against the friction of one direction hold it against the other's.
         let reversed = friction.and_then(|friction| problem.clone().sliding(friction.reversed()).ok());
         let solver = reversed.map(|problem| Solver::new(Arc::new(problem), points, self.settings)).transpose()?;

@@ -12,14 +12,14 @@ const DOUBLED: u32 = 6;
 impl LifeTask {
     /// The problem of a state, in its window, on a body.
     pub(super) fn problem_of(&self, state: &LifeState, body: HalfSpace) -> Problem {
-        let own = self.problem.on_body(body);
-        own.widened(factor(state.doubled)).filter(|_| state.doubled > 0).unwrap_or(own)
+        let problem = self.problem.on_body(body);
+        problem.widened(factor(state.doubled)).filter(|_| state.doubled > 0).unwrap_or(problem)
     }
 
     /// The window of a state, or the cell.
     pub(super) fn window(&self, state: &LifeState) -> Cell {
         let wider = self.problem.widened(factor(state.doubled)).filter(|_| state.doubled > 0);
-        wider.map_or(self.problem.cell(), |own| own.cell())
+        wider.map_or(self.problem.cell(), |problem| problem.cell())
     }
 
     /// The state in a window twice as large on as many samples; `None` in a periodic cell, and where it has been doubled often.
@@ -47,9 +47,9 @@ fn spread(depths: &[f64], [n1, n2]: [usize; 2], goes_on: Option<usize>) -> Vec<f
     // Samples of the window about a place of the larger one, with their parts.
     let beside = |k: usize, n: usize, axis: usize| -> [(Option<usize>, f64); 2] {
         let place = 2.0 * k as f64 - 0.5 * n as f64;
-        let within = |own: f64| match goes_on == Some(axis) {
-            true => Some(own.clamp(0.0, (n - 1) as f64) as usize),
-            false => (own >= 0.0 && own < n as f64).then_some(own as usize),
+        let within = |sample: f64| match goes_on == Some(axis) {
+            true => Some(sample.clamp(0.0, (n - 1) as f64) as usize),
+            false => (sample >= 0.0 && sample < n as f64).then_some(sample as usize),
         };
         let part = place - place.floor();
         [(within(place.floor()), 1.0 - part), (within(place.floor() + 1.0), part)]
@@ -85,7 +85,7 @@ mod tests {
             let longer = spread(&groove, [n; 2], Some(0));
             for (k, (wide, longer)) in wide.iter().zip(&longer).enumerate() {
                 let (x, y) = large(k / n, k % n);
-                let is_inner = |own: f64| own > -0.5 && own < 0.5 - 1.0 / n as f64;
+                let is_inner = |fraction: f64| fraction > -0.5 && fraction < 0.5 - 1.0 / n as f64;
                 if is_inner(x) && is_inner(y) {
                     assert!((wide - linear((x, y))).abs() < 1e-12, "{n}: {x}, {y}");
                 }

@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 const REREAD: f64 = 0.02;
 /// Accepted steps of wear from one state to the next, at most.
 const WEAR_STEPS: usize = 8;
-/// The same over a groove, from one row of samples to the next.
+/// Accepted steps of wear over a groove, from one row of samples to the next, at most.
 const GROOVE_STEPS: usize = 60;
 /// Relative change of the largest pressure over a groove, beyond that of a row, at which it is read anew at the latest.
 const IN_GROOVE: f64 = 0.3;
@@ -20,7 +20,7 @@ const IN_GROOVE: f64 = 0.3;
 /// Steps of wear after a contact.
 #[derive(Debug)]
 pub(super) struct WornSince {
-    /// Largest pressure of that contact.
+    /// Largest pressure of the contact before the steps.
     begun: f64,
     /// Whether damage is done.
     tires: bool,
@@ -35,7 +35,7 @@ pub(super) struct WornSince {
 }
 
 impl WornSince {
-    /// Before the first step after a contact, of bodies that tire or not.
+    /// No steps yet after a contact, of bodies that tire or not.
     pub fn new(task: &LifeTask, contact: &Beginning, wear: &Wear, tires: bool) -> Result<Self, LifeError> {
         Ok(Self {
             begun: contact.record.reading.grid_peak(),
@@ -73,7 +73,7 @@ impl WornSince {
 
     /// Whether a groove has not taken in a row since its beginning, over which it has its mean.
     pub fn is_between_rows(&self) -> bool {
-        self.stop.is_none() && self.groove.as_ref().is_some_and(|own| own.has_begun() && !own.has_widened())
+        self.stop.is_none() && self.groove.as_ref().is_some_and(|groove| groove.has_begun() && !groove.has_widened())
     }
 
     /// Adds a step: whether the contact at its `end` is to be read anew.

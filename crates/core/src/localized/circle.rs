@@ -121,7 +121,7 @@ mod tests {
                 assert_eq!(circle.indenters(), whole, "{asked} asked");
                 assert_eq!(circle.images[centre][0], [0.0, 0.0]);
             }
-            // One of the own level and three of each other within one period.
+            // One of the level of the centre and three of each other within one period.
             let counts = Circle::new(&lattice, &sites, centre, 7).images.iter().map(Vec::len).collect::<Vec<_>>();
             assert!((0..3).all(|site| counts[site] == if site == centre { 1 } else { 3 }));
         }

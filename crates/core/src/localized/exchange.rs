@@ -1,7 +1,7 @@
 //! How the levels share the load, once the shapes of their pressures are known.
 //!
-//! With the contact stiffness S = dP/dδ of each level alone and the displacement J of the surface under one level by a unit
-//! load on another, the loads P° that a pass over the levels has found change to P:
+//! Given the contact stiffness S = dP/dδ of each level alone and the displacement J of the surface under one level by a
+//! unit load on another, the loads P° that a pass over the levels has found change to P:
 //!
 //! P_m + S_m Σ_c J_mc P_c − S_m Δδ = P_m° + S_m Σ_c J_mc P_c*,  Σ_m P_m = p̄ A (Eq. 5),
 //!
@@ -24,7 +24,7 @@ pub(super) struct LoadExchange {
 }
 
 impl LoadExchange {
-    /// Before a pass that assumes these loads.
+    /// Exchange before a pass that assumes these loads, forces.
     pub fn new(assumed: Vec<f64>) -> Self {
         let count = assumed.len();
         Self { assumed, found: vec![0.0; count], stiffness: vec![0.0; count], coupling: vec![vec![0.0; count]; count] }

@@ -4,8 +4,8 @@
 //!
 //! G(**x**) = (c/A) Σ_{**q**≠0} T(q)/q · cos **q**·**x**,
 //!
-//! **q** over the reciprocal lattice, A the area of the cell. At the forces the sum does not converge. Far from a force
-//! its displacement is that of a smoothed force: the factor
+//! **q** over the reciprocal lattice, A the area of the cell. At the forces the sum does not converge. The displacement
+//! far from a force is that of a smoothed force: the factor
 //!
 //! g(q) = e^{−s} Σ_{k<n} sᵏ/k!,  s = (q/κ)²,
 //!
@@ -15,7 +15,7 @@
 //!
 //! E(**x**) = (c/A) Σ_{**q**≠0} T g/q · cos **q**·**x** − Σ_i K_g(|**x** − **r**_i|).
 //!
-//! This is Ewald's summation with a bell so flat in q that the part summed in real space is negligible at the first image
+//! The sum is Ewald's, with a bell so flat in q that the part summed in real space is negligible at the first image
 //! outside. Layers enter by T alone, whatever their thickness. No moment of the pressure is neglected: each element is a force
 //! of its own.
 

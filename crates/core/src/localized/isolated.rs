@@ -37,8 +37,8 @@ pub fn radii(problem: &Problem, reading: &Reading) -> Option<Vec<f64>> {
     let localized = Localized::new(problem, 1).ok().filter(|_| stand_apart(reading))?;
     let solution = localized.solve(Load::MeanPressure(reading.mean_pressure?), &ISOLATED);
     // All indenters of a level have the same contact.
-    let own = |level: usize| solution.spots.iter().find(|spot| spot.level == level && spot.touches());
-    let radii = (1..=reading.levels.len()).map(|level| own(level).map_or(0.0, Spot::outer_radius)).collect();
+    let spot_of = |level: usize| solution.spots.iter().find(|spot| spot.level == level && spot.touches());
+    let radii = (1..=reading.levels.len()).map(|level| spot_of(level).map_or(0.0, Spot::outer_radius)).collect();
     (solution.stop == Stop::Converged).then_some(radii)
 }
 
@@ -47,8 +47,8 @@ pub fn radii(problem: &Problem, reading: &Reading) -> Option<Vec<f64>> {
 pub fn profiles(problem: &Problem, reading: &Reading) -> Option<Vec<Vec<[f64; 2]>>> {
     let size = problem.cell().reduced().longer_side();
     let levels = problem.levels().iter().zip(&reading.levels);
-    let own = |(level, own): (&Level, &LevelReading)| profile(*level, problem.bodies(), own.load, size);
-    stand_apart(reading).then(|| levels.map(|level| own(level).unwrap_or_default()).collect())
+    let of_level = |(level, loaded): (&Level, &LevelReading)| profile(*level, problem.bodies(), loaded.load, size);
+    stand_apart(reading).then(|| levels.map(|level| of_level(level).unwrap_or_default()).collect())
 }
 
 /// Pressure of a single indenter of `level` under a `force`, as in [`profiles`]; `size` is a length of the order of the contact's

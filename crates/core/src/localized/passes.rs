@@ -106,7 +106,7 @@ impl<'a> Passes<'a> {
             Control::Penetration(penetration) => patterns.penetration = penetration,
             Control::MeanPressure(pressure) => {
                 let (cell, element) = (coupled.system.cell().area(), mesh.size * mesh.size);
-                let by_one_element = pressure * cell / element * tables.own(0).diagonal();
+                let by_one_element = pressure * cell / element * tables.on_itself(0).diagonal();
                 first_depth = first_depth.max(MIN_FIRST_DEPTH * by_one_element);
             }
         }
@@ -172,8 +172,8 @@ impl<'a> Passes<'a> {
                 self.patterns.penetration - coupled.shapes[m][i] - moved + outside
             })
             .collect();
-        let (own, element) = (tables.own(m), mesh.size * mesh.size);
-        let spot = press(own, &wanted, GAP_TOLERANCE, &mut self.patterns.pressures[m]);
+        let (influence, element) = (tables.on_itself(m), mesh.size * mesh.size);
+        let spot = press(influence, &wanted, GAP_TOLERANCE, &mut self.patterns.pressures[m]);
         self.gaps[m] = spot.gap;
         self.iterations += spot.iterations;
         exchange.found[m] = self.patterns.pressures[m].iter().sum::<f64>() * element;
@@ -181,7 +181,7 @@ impl<'a> Passes<'a> {
             return spot.end;
         }
         let last = std::mem::take(&mut self.punches[m]);
-        self.punches[m] = punch(own, &self.patterns.pressures[m], STIFFNESS_TOLERANCE, last);
+        self.punches[m] = punch(influence, &self.patterns.pressures[m], STIFFNESS_TOLERANCE, last);
         let punch = &self.punches[m];
         let sum: f64 = punch.iter().sum();
         exchange.stiffness[m] = sum * element;

@@ -15,7 +15,7 @@ pub(super) struct Patterns {
 }
 
 impl Patterns {
-    /// Interpolated from an earlier solution onto the `mesh`; without contact where there is none.
+    /// Patterns interpolated from an earlier solution onto the `mesh`; without contact where there is none.
     pub fn new(mesh: Mesh, sites: usize, start: Option<&Solution>) -> Self {
         let mut patterns = Self {
             penetration: start.map_or(0.0, |start| start.penetration),

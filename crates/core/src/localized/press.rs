@@ -3,9 +3,9 @@
 //! A p ≥ b, p ≥ 0, p (A p − b) = 0: b = δ − f − u is the displacement required of the spot's own pressures (with their images in
 //! the circle). A is symmetric; Polonsky & Keer's (1999) conjugate gradients without their constraint on the load.
 //!
-//! With the lattice sum A measures displacements from the mean plane, so that a uniform pressure over the whole cell displaces
-//! nothing: A is positive definite only where a part of the cell is open. A spot pressed beyond complete contact has no
-//! solution. The conjugate gradients then find a direction along which tᵀA t ≤ 0, and end.
+//! Under the lattice sum A measures displacements from the mean plane, so that a uniform pressure over the whole cell
+//! displaces nothing: A is positive definite only where a part of the cell is open. A spot pressed beyond complete
+//! contact has no solution. The conjugate gradients then find a direction along which tᵀA t ≤ 0, and end.
 
 use super::mesh::Influence;
 use crate::numeric::search::largest;

@@ -131,7 +131,7 @@ pub fn hankel(bessel: Bessel, r: f64, end: f64, tolerance: f64, f: impl Fn(f64) 
     let ends = |k: i32| {
         [if k == INTERVALS { 0.0 } else { first * INTERVAL_RATIO.powi(k) }, first * INTERVAL_RATIO.powi(k - 1)]
     };
-    // Where f is nearly zero it is rounding noise, which has to be judged by the size of the whole integral.
+    // A nearly zero f is rounding noise, which has to be judged by the size of the whole integral.
     let scale = (1..=INTERVALS).map(|k| integrate(&integrand, ends(k), f64::INFINITY, tolerance).value.abs());
     let scale = scale.fold(0.0, f64::max);
     let mut sum = Estimate::default();

@@ -69,7 +69,7 @@ impl Solution {
     /// minus that by p̄ on the circle, or plus that by the lattice sum outside it: a length. Summed directly, element by
     /// element.
     ///
-    /// It equals the penetration where the highest level touches.
+    /// Equals the penetration where the highest level touches.
     pub fn additional_displacement(&self) -> f64 {
         let (system, highest) = (&*self.system, self.system.highest());
         let spot = &self.spots[highest];
@@ -103,24 +103,25 @@ impl Solution {
     }
 
     fn level(&self, level: usize, whole: f64) -> LevelReading {
-        let own: Vec<(&Spot, Option<Outline>)> = self.of_level(level).map(|spot| (spot, spot.outline())).collect();
-        let count = own.len() as f64;
-        let merged = own.iter().any(|(spot, _)| spot.merged && spot.touches());
-        let load: f64 = own.iter().map(|(spot, _)| spot.load()).sum();
+        let spots: Vec<(&Spot, Option<Outline>)> = self.of_level(level).map(|spot| (spot, spot.outline())).collect();
+        let count = spots.len() as f64;
+        let merged = spots.iter().any(|(spot, _)| spot.merged && spot.touches());
+        let load: f64 = spots.iter().map(|(spot, _)| spot.load()).sum();
         // Root mean squares over the indenters: of √(area/π) of the spots, or of a radius of their outlines.
         let mean = |squares: f64| (squares / count).sqrt();
         let radius = |(spot, outline): &(&Spot, Option<Outline>)| {
             outline.as_ref().map_or(spot.counted_radius(), |outline| (outline.area() / PI).sqrt())
         };
-        let area = own.iter().map(|spot| PI * radius(spot).powi(2)).sum::<f64>() / count;
+        let area = spots.iter().map(|spot| PI * radius(spot).powi(2)).sum::<f64>() / count;
         let contact_radius = (area / PI).sqrt();
-        let outlines: Option<Vec<&Outline>> = own.iter().map(|(_, outline)| outline.as_ref()).collect();
-        let ring = !merged && own.iter().any(|(_, outline)| outline.as_ref().is_some_and(|outline| outline.hole > 0.0));
+        let outlines: Option<Vec<&Outline>> = spots.iter().map(|(_, outline)| outline.as_ref()).collect();
+        let ring =
+            !merged && spots.iter().any(|(_, outline)| outline.as_ref().is_some_and(|outline| outline.hole > 0.0));
         let rings = outlines.as_ref().filter(|_| ring);
         let radii = || outlines.iter().flatten().flat_map(|outline| outline.radii.iter().copied());
         let radius_min = radii().reduce(f64::min).filter(|_| !merged);
         let radius_max = radii().reduce(f64::max).filter(|_| !merged);
-        let shown = own.iter().map(|(spot, _)| spot.peak()).fold(0.0, f64::max);
+        let shown = spots.iter().map(|(spot, _)| spot.peak()).fold(0.0, f64::max);
         let is_tip = load > 0.0 && self.system.levels()[level - 1].shape().singular_peak();
         let (max_pressure, resolved_peak) = LevelReading::peak_of(shown, is_tip);
         LevelReading {
@@ -138,7 +139,7 @@ impl Solution {
             radius_max,
             asymmetry: LevelReading::asymmetry_of(radius_min, radius_max),
             merged,
-            resolution: contact_radius / own.iter().map(|(spot, _)| spot.mesh.size).fold(0.0, f64::max),
+            resolution: contact_radius / spots.iter().map(|(spot, _)| spot.mesh.size).fold(0.0, f64::max),
             ..LevelReading::default()
         }
     }

@@ -49,7 +49,7 @@ pub(super) struct Subsurface {
 }
 
 impl Subsurface {
-    /// Below the surface of a `half_space`.
+    /// Amplitudes below the surface of a `half_space`.
     pub fn new(half_space: &HalfSpace) -> Self {
         Self { transfer: Arc::clone(half_space.response()) }
     }

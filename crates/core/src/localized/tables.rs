@@ -39,7 +39,7 @@ impl InfluenceTables {
     }
 
     /// Influence of the indenters of the site m under m.
-    pub fn own(&self, m: usize) -> &Influence {
+    pub fn on_itself(&self, m: usize) -> &Influence {
         self.rows[m][m].as_ref().expect("the centre stands in its own circle")
     }
 
