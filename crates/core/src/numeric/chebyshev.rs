@@ -55,9 +55,9 @@ impl<const N: usize> Chebyshev<N> {
 pub fn polynomials(x: f64) -> impl Iterator<Item = f64> {
     let mut pair = [1.0, x];
     std::iter::from_fn(move || {
-        let own = pair[0];
-        pair = [pair[1], 2.0 * x * pair[1] - own];
-        Some(own)
+        let value = pair[0];
+        pair = [pair[1], 2.0 * x * pair[1] - value];
+        Some(value)
     })
 }
 
@@ -70,7 +70,7 @@ pub fn nodes(count: usize) -> Vec<f64> {
 pub fn analysis(count: usize) -> Vec<Vec<f64>> {
     let at: Vec<Vec<f64>> = nodes(count).into_iter().map(|x| polynomials(x).take(count).collect()).collect();
     let factor = |order: usize| if order == 0 { 1.0 } else { 2.0 } / count as f64;
-    (0..count).map(|order| at.iter().map(|own| own[order] * factor(order)).collect()).collect()
+    (0..count).map(|order| at.iter().map(|values| values[order] * factor(order)).collect()).collect()
 }
 
 /// Coordinate in [−1, 1] of a place between `from` and `to`.

@@ -30,7 +30,7 @@ pub trait Real: FftNum + SimdFloatElement + Default + bytemuck::Pod {
     /// Eight values.
     type Lanes<S: Simd>: SimdFloat<S, Element = Self>;
 
-    /// As many values as a register of the processor holds, a divisor of `WIDTH`.
+    /// Values of one register of the processor; their number divides `WIDTH`.
     type Register<S: Simd>: SimdFloat<S, Element = Self>;
 
     /// `WIDTH` values.
@@ -155,7 +155,7 @@ impl Real for f32 {
 
 /// The [transpose](Real::transpose) of W runs of W numbers, by blocks of N vectors of N numbers.
 ///
-/// Where a register holds fewer than W numbers the blocks are of 128 bits: transposing wider ones takes more instructions for each
+/// Blocks are of 128 bits where a register holds fewer than W numbers: transposing wider ones takes more instructions for each
 /// number, since numbers cross the halves of a register.
 #[inline(always)]
 fn transpose_by_blocks<S: Simd, V: SimdFloat<S>, const N: usize, const W: usize>(

@@ -7,10 +7,10 @@ pub fn fit(unknowns: usize, rows: impl Iterator<Item = (Vec<f64>, f64)>) -> Opti
     let mut matrix = vec![vec![0.0; unknowns]; unknowns];
     let mut right = vec![0.0; unknowns];
     for (row, value) in rows {
-        for ((line, right), own) in matrix.iter_mut().zip(&mut right).zip(&row) {
-            *right += own * value;
+        for ((line, right), factor) in matrix.iter_mut().zip(&mut right).zip(&row) {
+            *right += factor * value;
             // The lower triangle alone is needed, but whole rows are summed faster.
-            line.iter_mut().zip(&row).for_each(|(sum, other)| *sum += own * other);
+            line.iter_mut().zip(&row).for_each(|(sum, other)| *sum += factor * other);
         }
     }
     solved(matrix, right)

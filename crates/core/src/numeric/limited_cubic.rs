@@ -20,11 +20,11 @@ pub fn slopes(places: &[f64], values: &[f64]) -> Vec<f64> {
         _ if last == 0 => 0.0,
         _ if last == 1 => secant(0),
         0 => end_slope([secant(0), secant(1)], [apart(0), apart(1)]),
-        own if own == last => end_slope([secant(last - 1), secant(last - 2)], [apart(last - 1), apart(last - 2)]),
-        own if are_alike((own - 1..=own + 1).filter(|&k| 0 < k && k < last).map(bend)) => {
-            parabola_slope([secant(own - 1), secant(own)], [apart(own - 1), apart(own)])
+        _ if place == last => end_slope([secant(last - 1), secant(last - 2)], [apart(last - 1), apart(last - 2)]),
+        _ if are_alike((place - 1..=place + 1).filter(|&k| 0 < k && k < last).map(bend)) => {
+            parabola_slope([secant(place - 1), secant(place)], [apart(place - 1), apart(place)])
         }
-        own => inner_slope([secant(own - 1), secant(own)], [apart(own - 1), apart(own)]),
+        _ => inner_slope([secant(place - 1), secant(place)], [apart(place - 1), apart(place)]),
     };
     (0..places.len()).map(slope).collect()
 }
@@ -48,7 +48,7 @@ fn parabola_slope([before, after]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
     (b * before + a * after) / (a + b)
 }
 
-/// The same where values do not bend evenly.
+/// Slope of the parabola in its middle place, limited where values do not bend evenly.
 fn inner_slope(secants: [f64; 2], lengths: [f64; 2]) -> f64 {
     limited(parabola_slope(secants, lengths), secants[0].abs().min(secants[1].abs()))
 }

@@ -62,7 +62,7 @@ impl Number for Complex64 {
 mod tests {
     use super::*;
 
-    /// Of numbers, too, whose squares are beyond what a number holds.
+    /// Numbers whose squares overflow or underflow are among them.
     #[test]
     fn a_quotient_times_its_divisor_is_the_number() {
         let parts = [(3.0, 0.0), (-2.0, 1e-30), (0.3, -7.0), (0.0, 1e-120), (1e160, 1e160), (-1e-118, 3e-119)];

@@ -31,8 +31,8 @@ impl SeriesFit {
 
     /// Adds samples at one angle, given by its waves: the sums Σ aₜaᵤ for u ≤ t, one t after the other, and Σ aₜy.
     pub fn add(&mut self, waves: &[f64], products: &[f64], values: &[f64]) {
-        let own = self.products.iter_mut().chain(&mut self.values);
-        for (sums, factor) in own.zip(products.iter().chain(values)).filter(|(_, factor)| **factor != 0.0) {
+        let totals = self.products.iter_mut().chain(&mut self.values);
+        for (sums, factor) in totals.zip(products.iter().chain(values)).filter(|(_, factor)| **factor != 0.0) {
             sums.iter_mut().zip(waves).for_each(|(sum, wave)| *sum += factor * wave);
         }
     }

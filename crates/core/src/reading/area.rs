@@ -91,7 +91,7 @@ impl<G: Fn(usize) -> f64, X: Fn(usize) -> bool> SampleLine<'_, G, X> {
     fn fraction(&self) -> [f64; 2] {
         let n = self.pressure.len();
         let touches = |i: usize| self.pressure[i] > 0.0;
-        // Where contact begins and ends, alternately, from the first sample in contact beside an open one on.
+        // Beginnings and ends of contact, alternately, from the first sample in contact beside an open one on.
         let mut ends: Vec<usize> = (1..n).filter(|&i| touches(i - 1) != touches(i)).collect();
         if touches(n - 1) != touches(0) {
             ends.insert(0, 0);
@@ -181,8 +181,8 @@ impl Parabolas {
         let used = (count / 2 - 1).min(EXTRA_SAMPLES + (count as f64).sqrt() as usize).clamp(3, 2 + self.weights.len());
         let mut c = [0.0; 3];
         for (k, weights) in (1..).zip(&self.weights[used - 3]) {
-            let own = height(k);
-            c = [0, 1, 2].map(|power| c[power] + weights[power] * own);
+            let sample = height(k);
+            c = [0, 1, 2].map(|power| c[power] + weights[power] * sample);
         }
         let discriminant = c[1] * c[1] - 4.0 * c[0] * c[2];
         let root = 2.0 * c[0] / (c[1] + discriminant.max(0.0).sqrt()) * used as f64;

@@ -43,12 +43,12 @@ impl Beneath {
         let of_body = |body: &HalfSpace| -> Vec<Self> {
             let faces = body.interface_depths();
             let below = body.durabilities().skip(1).zip((2..).zip(faces));
-            let known = below.filter_map(|(own, (number, depth))| Some((own.hardness?, number, depth)));
+            let known = below.filter_map(|(durability, (number, depth))| Some((durability.hardness?, number, depth)));
             let reached = known.map(|(hardness, number, depth)| {
                 let [pressure, radius] = reaching(reading, &spots, equivalent_depth(body, number));
                 Self { material: body.material_id(number), hardness, pressure, depth, radius }
             });
-            reached.filter(|own| own.pressure > own.hardness).collect()
+            reached.filter(|beneath| beneath.pressure > beneath.hardness).collect()
         };
         let all = problem.bodies().each().flat_map(of_body);
         all.max_by(|a, b| (a.pressure / a.hardness).total_cmp(&(b.pressure / b.hardness)))

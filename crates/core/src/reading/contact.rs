@@ -123,7 +123,7 @@ impl Reading {
         Some(Measured::new(mean, error))
     }
 
-    /// What lies around the cell.
+    /// Surroundings of the cell.
     pub fn surroundings(&self) -> Surroundings {
         match self.contact_fraction {
             Some(_) => Surroundings::Periodic,
@@ -149,7 +149,7 @@ impl Reading {
         READING.load(quantity).of(self).and_then(|load| load.error)
     }
 
-    /// What states how far contact extends: the fraction of the cell, or of an isolated contact the area.
+    /// Quantity that states how far contact extends: the fraction of the cell, or of an isolated contact the area.
     pub fn extent(&self) -> &'static Quantity<Self> {
         if self.contact_fraction.is_some() { &READING.contact_fraction } else { &READING.contact_area }
     }
@@ -206,7 +206,7 @@ impl Reading {
         };
         let known = given.and_then(|given| given.loaded_area());
         let fractions = known.map_or_else(fractions, |area| Fractions::known(area / cell.area()));
-        let (fraction, _) = fractions.best(|own, _| own.uncertainty);
+        let (fraction, _) = fractions.best(|fraction, _| fraction.uncertainty);
         let typical = counts.half_load().map_or(0, |index| counts.sizes[index].0);
         let spot_resolution = (typical as f64 / PI).sqrt();
         // A pressure that is given has no peak between the samples.

@@ -42,8 +42,8 @@ impl ContactArea {
             )
         } else {
             // A component has one owner, or its owners have merged.
-            let owner = |own: &Component| surface.owners()[own.runs[0].index(grid.points())];
-            let others = components.iter().filter(|own| spots[owner(own) as usize].boundary.is_none());
+            let owner = |component: &Component| surface.owners()[component.runs[0].index(grid.points())];
+            let others = components.iter().filter(|component| spots[owner(component) as usize].boundary.is_none());
             area::of_components(grid, (pressure, contact.hardness()), gap, others, components.len())
         };
         let boundaries = || spots.iter().map(|spot| &spot.boundary).chain(topography).flatten();

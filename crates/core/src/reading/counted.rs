@@ -1,6 +1,6 @@
 //! The area in contact counted by samples, its border, and its correction by the perimeter.
 //!
-//! Of N samples n are in contact, and of E pairs of neighbours one is: neighbours along the reduced basis of the
+//! n of N samples are in contact, and one of both in E pairs of neighbours: neighbours along the reduced basis of the
 //! samples' lattice, whichever vectors describe the cell (where three directions are tied, each counts by its weight).
 //! Counting takes every sample at the border for whole, and overestimates: V. A. Yastrebov, G. Anciaux & J.-F. Molinari
 //! (Tribol. Int. 114 (2017) 161–171) take off (π − 1 + ln 2)/24 · S_d Δx with the perimeter S_d along the edges of the
@@ -63,8 +63,8 @@ fn border(grid: &Grid, pressure: &[f64]) -> [f64; 2] {
     for direction in grid.directions() {
         let [down, right] = [0, 1].map(|k| direction.step[k].rem_euclid(grid.points()[k] as i32) as usize);
         let of_row = |i: usize| {
-            let (own, other) = (row(i), row((i + down) % n1));
-            differing(&own[..n2 - right], &other[right..]) + differing(&own[n2 - right..], &other[..right])
+            let (upper, lower) = (row(i), row((i + down) % n1));
+            differing(&upper[..n2 - right], &lower[right..]) + differing(&upper[n2 - right..], &lower[..right])
         };
         let pairs = direction.weight * (0..n1).into_par_iter().map(of_row).sum::<usize>() as f64;
         sum = [sum[0] + pairs, sum[1] + pairs * direction.beside];

@@ -23,7 +23,7 @@ pub struct DamageMap {
 impl DamageMap {
     /// The map of the planes of a body that one step gives; `None` without any.
     pub fn new(body: &HalfSpace, planes: &[RangePlane]) -> Option<Self> {
-        let laws: Vec<_> = body.durabilities().map(|own| own.fatigue).collect();
+        let laws: Vec<_> = body.durabilities().map(|durability| durability.fatigue).collect();
         let y: Vec<f64> = planes.first()?.y().collect();
         let z: Vec<Depth> = planes.iter().map(|plane| plane.depth).collect();
         let range = Array2::from_shape_fn([z.len(), y.len()], |(row, column)| planes[row].lines[column][1]);

@@ -125,15 +125,15 @@ impl ContactEdge {
         let place = ((root - self.first) * self.per_step).clamp(0.0, ROOT_STEPS as f64 - 0.001);
         let k = place as usize;
         let rest = place - k as f64;
-        let (own, next) = (self.roots[k][side], self.roots[k + 1][side]);
-        let across = [0, 1].map(|c| own[c] + rest * (next[c] - own[c]));
+        let (node, next) = (self.roots[k][side], self.roots[k + 1][side]);
+        let across = [0, 1].map(|c| node[c] + rest * (next[c] - node[c]));
         let Some(SlidingEdge { ratios, .. }) = self.sliding.as_ref().filter(|_| along != 0.0) else { return across };
         let all = [across, self.logarithmic(&ratios[0], distance, side), self.logarithmic(&ratios[1], distance, side)];
         if all.iter().any(|[ratio, _]| *ratio <= 0.0) {
             return across;
         }
         let weights = [1.0 - along * along, 0.5 * along * (along + 1.0), 0.5 * along * (along - 1.0)];
-        let sum = |of: fn([f64; 2]) -> f64| -> f64 { all.into_iter().zip(weights).map(|(own, w)| w * of(own)).sum() };
+        let sum = |of: fn([f64; 2]) -> f64| -> f64 { all.into_iter().zip(weights).map(|(pair, w)| w * of(pair)).sum() };
         let ratio = sum(|[ratio, _]| ratio.ln()).exp();
         [ratio, ratio * sum(|[ratio, slope]| slope / ratio)]
     }

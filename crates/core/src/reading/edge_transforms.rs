@@ -1,7 +1,7 @@
 //! The Laplace transforms of pressure and gap near an edge, and their inversion.
 //!
-//! With T₊(is) = exp[(s/π) ∫₀^∞ ln T(q)/(q² + s²) dq], the phase factor exp[(1/π) ∫₀^∞ α(q) q/(q² + s²) dq] and the transforms of
-//! [`edge`](super::edge), by the Euler sum of J. Abate & W. Whitt, INFORMS J. Comput. 18 (2006) 408.
+//! T₊(is) = exp[(s/π) ∫₀^∞ ln T(q)/(q² + s²) dq], the phase factor exp[(1/π) ∫₀^∞ α(q) q/(q² + s²) dq] and the transforms of
+//! [`edge`](super::edge) are inverted by the Euler sum of J. Abate & W. Whitt, INFORMS J. Comput. 18 (2006) 408.
 
 use crate::numeric::lanes::{LANES, Real, splat, vectorised};
 use fearless_simd::Simd;

@@ -48,7 +48,7 @@ fn centre_law(samples: f64) -> f64 {
 mod safety {
     pub const MEAN_PRESSURE: f64 = 2.0;
     pub const PENETRATION: f64 = 3.2;
-    /// Of penetration, mean gap and elastic energy of a topography, whose coarser grids are measured from the same apex.
+    /// Factor for penetration, mean gap and elastic energy of a topography, whose coarser grids are measured from the same apex.
     pub const TOPOGRAPHY: f64 = 1.6;
     pub const LOAD: f64 = 3.0;
     pub const SHARE: f64 = 3.0;
@@ -108,9 +108,9 @@ impl Step {
             if let Some((composite, error)) = self.problem().composite_hardness().zip(reading.errors.penetration) {
                 reading.err_with_hardness(hardness, composite.error(reading.penetration, error));
             }
-            let (fraction, error) = fractions.best(|own, of| {
+            let (fraction, error) = fractions.best(|fraction, of| {
                 let coarser = coarser.iter().map(|coarse| Some(of(&coarse.fractions)?.value));
-                estimate(safety::AREA, own.uncertainty, own.value, coarser)
+                estimate(safety::AREA, fraction.uncertainty, fraction.value, coarser)
             });
             let error = error + by_apex.area * fraction.value;
             let cell = self.grid().cell();
@@ -120,7 +120,7 @@ impl Step {
             reading.contact_fraction = cell.surroundings().per_cell(fraction.value);
             reading.errors.contact_fraction = cell.surroundings().per_cell(error);
         } else if self.load.is_load_control() && reading.penetration > 0.0 {
-            // What earlier loads have left.
+            // The penetration that earlier loads have left.
             let left = coarser.iter().map(|coarse| Some(coarse.penetration));
             reading.errors.penetration = Some(of_area(0.0, reading.penetration, left) + self.apex_error());
         }
@@ -163,9 +163,9 @@ impl Step {
 impl Reading {
     /// Gives the largest pressures that are a hardness, a pressure, its error.
     fn err_with_hardness(&mut self, hardness: f64, error: f64) {
-        let levels = self.levels.iter_mut().map(|own| (own.max_pressure, &mut own.errors.max_pressure));
+        let levels = self.levels.iter_mut().map(|level| (level.max_pressure, &mut level.errors.max_pressure));
         let all = levels.chain([(self.max_pressure, &mut self.errors.max_pressure)]);
-        all.filter(|(pressure, _)| *pressure >= hardness).for_each(|(_, own)| *own = Some(error));
+        all.filter(|(pressure, _)| *pressure >= hardness).for_each(|(_, estimated)| *estimated = Some(error));
     }
 }
 
@@ -226,7 +226,7 @@ impl Grids<'_> {
         let peak = fine.grid_peak() * peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest);
         // The highest of all may be that of any level that reaches as high within its own error.
         let peaks = fine.levels.iter().zip(of_levels);
-        let peaks = peaks.filter_map(|(own, errors)| Some(own.finite_peak()? + errors.max_pressure?));
+        let peaks = peaks.filter_map(|(level, errors)| Some(level.finite_peak()? + errors.max_pressure?));
         let beyond = peaks.fold(0.0, f64::max) - fine.grid_peak();
         Errors {
             mean_pressure: force.zip(area).map(|(force, area)| force / area),
@@ -236,8 +236,8 @@ impl Grids<'_> {
             contact_fraction: None,
             elastic_energy: energy,
             max_pressure: self.unless_known(fine.max_pressure, || {
-                let own = self.error(safety::PEAK, peak, &|reading| reading.finite_peak());
-                own.map(|error| error.max(beyond) + by_apex.pressure)
+                let grid_error = self.error(safety::PEAK, peak, &|reading| reading.finite_peak());
+                grid_error.map(|error| error.max(beyond) + by_apex.pressure)
             }),
         }
     }
@@ -279,33 +279,33 @@ impl Grids<'_> {
 
     /// Estimated errors of the scalars of a level, by its index from 0, whose profile has an exponent.
     fn level_errors(&self, index: usize, exponent: f64) -> LevelErrors {
-        let own = &self.fine.levels[index];
-        if own.load <= 0.0 {
+        let level = &self.fine.levels[index];
+        if level.load <= 0.0 {
             return LevelErrors::default();
         }
         let by_load = self.load.is_load_control();
         // The laws hold from one sample on.
-        let samples = own.resolution.max(1.0);
+        let samples = level.resolution.max(1.0);
         let of = |safety: f64, law: f64, value: fn(&LevelReading) -> Option<f64>| {
             self.error(safety, law, &|reading| reading.levels.get(index).and_then(value))
         };
         // A single level carries the whole load.
         let share = if self.fine.levels.len() == 1 { 0.0 } else { share_law(samples) };
-        let load = own.load * if by_load { share / own.load_share } else { load_law(samples) };
-        let peak = own.grid_peak() * peak_law(own.uncertainty.peak_to_edge.max(1.0), exponent);
-        let centre = own.contact_radius.unwrap_or(0.0) * centre_law(samples);
+        let load = level.load * if by_load { share / level.load_share } else { load_law(samples) };
+        let peak = level.grid_peak() * peak_law(level.uncertainty.peak_to_edge.max(1.0), exponent);
+        let centre = level.contact_radius.unwrap_or(0.0) * centre_law(samples);
         let radius = |error: Option<f64>, value: fn(&LevelReading) -> Option<f64>| of(safety::AREA, error?, value);
-        let relative = own.uncertainty.boundary.zip(own.radius_max).map(|(error, largest)| error / largest);
+        let relative = level.uncertainty.boundary.zip(level.radius_max).map(|(error, largest)| error / largest);
         LevelErrors {
             load: of(safety::LOAD, load, |level| Some(level.load)),
             load_share: of(safety::SHARE, share, |level| Some(level.load_share)),
-            max_pressure: self.unless_known(own.max_pressure, || of(safety::PEAK, peak, LevelReading::finite_peak)),
-            contact_area: of(safety::AREA, own.uncertainty.area, |level| Some(level.contact_area)),
-            contact_radius: radius(own.uncertainty.radius, |level| level.contact_radius),
-            radius_inner: radius(own.uncertainty.hole, |level| level.radius_inner),
-            radius_outer: radius(own.uncertainty.boundary, |level| level.radius_outer),
-            radius_min: radius(own.uncertainty.boundary, |level| level.radius_min),
-            radius_max: radius(own.uncertainty.boundary, |level| level.radius_max),
+            max_pressure: self.unless_known(level.max_pressure, || of(safety::PEAK, peak, LevelReading::finite_peak)),
+            contact_area: of(safety::AREA, level.uncertainty.area, |level| Some(level.contact_area)),
+            contact_radius: radius(level.uncertainty.radius, |level| level.contact_radius),
+            radius_inner: radius(level.uncertainty.hole, |level| level.radius_inner),
+            radius_outer: radius(level.uncertainty.boundary, |level| level.radius_outer),
+            radius_min: radius(level.uncertainty.boundary, |level| level.radius_min),
+            radius_max: radius(level.uncertainty.boundary, |level| level.radius_max),
             asymmetry: radius(relative, |level| level.asymmetry),
             centre: [
                 of(safety::CENTRE, centre, |level| Some(level.centre?[0])),

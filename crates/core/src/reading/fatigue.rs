@@ -25,7 +25,7 @@ use crate::stress::{
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What tires.
+/// A material or an interface, which tires.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum FatiguePart {
@@ -39,8 +39,8 @@ impl FatiguePart {
     /// Whether it is one of an elastic counterbody.
     pub fn is_counterbody(self) -> bool {
         match self {
-            Self::Material(own) => own.side == Some(Side::Counterbody),
-            Self::Interface(own) => own.is_counterbody(),
+            Self::Material(material) => material.side == Some(Side::Counterbody),
+            Self::Interface(interface) => interface.is_counterbody(),
         }
     }
 }
@@ -48,8 +48,8 @@ impl FatiguePart {
 impl fmt::Display for FatiguePart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Material(own) => own.fmt(f),
-            Self::Interface(own) => own.fmt(f),
+            Self::Material(material) => material.fmt(f),
+            Self::Interface(interface) => interface.fmt(f),
         }
     }
 }
@@ -58,7 +58,7 @@ quantities! {
     /// How long a material or an interface lasts.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct Life {
-        /// What tires.
+        /// The material or interface that tires.
         #[serde(flatten)]
         pub part: FatiguePart,
         /// Largest range of τ₁ along the path, or of the shear traction of an interface, a pressure: that of one cycle that does the damage
@@ -89,8 +89,8 @@ pub struct FatigueReading {
     pub path: SlidingPath,
     /// The shortest life.
     pub first: Life,
-    /// Of each material with a law of fatigue, from the surface down, then of each such interface; those of an elastic counterbody
-    /// follow those of the body.
+    /// Lives of the materials with a law of fatigue, from the surface down, then of such interfaces; an elastic counterbody follows
+    /// the body.
     pub lives: Vec<Life>,
 }
 
@@ -118,7 +118,7 @@ impl Life {
 impl FatigueReading {
     /// A reading of some lives; `None` without any.
     pub fn new(path: SlidingPath, lives: Vec<Life>) -> Option<Self> {
-        // Of equal lives the first one.
+        // The first one of equal lives.
         let shorter = |a: Life, b: Life| if b.passes < a.passes { b } else { a };
         let first = lives.iter().copied().reduce(shorter)?;
         Some(Self { path, first, lives })
@@ -128,12 +128,12 @@ impl FatigueReading {
     /// fatigue.
     pub fn of(step: &Step, reading: &Reading, fields: &StressFields) -> Option<Self> {
         let sought = PathSought { fatigue: true, endurance: false, map: false };
-        PathReading::of_while(step, reading, fields, sought, &|| true).and_then(|own| own.fatigue)
+        PathReading::of_while(step, reading, fields, sought, &|| true).and_then(|path| path.fatigue)
     }
 
     /// The life of a part.
     pub fn life(&self, part: FatiguePart) -> Option<&Life> {
-        self.lives.iter().find(|own| own.part == part)
+        self.lives.iter().find(|life| life.part == part)
     }
 }
 
@@ -146,7 +146,7 @@ pub(crate) struct Pass<'a> {
     pub back: Option<&'a Step>,
 }
 
-/// What the stresses along the path of sliding say of a step.
+/// Lives and utilisations of a step by the stresses along the path of sliding.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct PathReading {
     /// Lives; `None` where nothing has a law of fatigue, or none is sought.
@@ -158,7 +158,7 @@ pub(crate) struct PathReading {
 }
 
 impl PathReading {
-    /// What is `sought` of a step that has contact; `None` when `goes_on`, called many times a second during the search, returns false.
+    /// The readings that are `sought` of a step that has contact; `None` when `goes_on`, called many times a second during the search, returns false.
     pub fn of_while(
         step: &Step,
         reading: &Reading,
@@ -179,9 +179,10 @@ impl PathReading {
     ) -> Option<Self> {
         let has_any = |half_space: &HalfSpace| {
             let durabilities = || half_space.durabilities();
-            let tires = durabilities().any(|own| own.fatigue.is_some())
-                || half_space.layers().iter().any(|own| transmitted(own).is_some());
-            sought.fatigue && tires || sought.endurance && durabilities().any(|own| own.endurance.is_some())
+            let tires = durabilities().any(|durability| durability.fatigue.is_some())
+                || half_space.layers().iter().any(|layer| transmitted(layer).is_some());
+            sought.fatigue && tires
+                || sought.endurance && durabilities().any(|durability| durability.endurance.is_some())
         };
         let wanted: Vec<&StressField> = fields.each().filter(|field| has_any(field.half_space())).collect();
         if wanted.is_empty() {
@@ -224,8 +225,8 @@ fn lives_of<'a>(half_space: &'a HalfSpace, peaks: &'a PathPeaks) -> impl Iterato
     let life =
         |part: FatiguePart, law: Fatigue, peak: PathPeak| Life::new(part, law, peak.value, peak.error, peak.position);
     let materials = (1..).zip(half_space.durabilities()).zip(&peaks.materials);
-    let materials = materials.filter_map(move |((number, own), peaks)| {
-        Some(life(FatiguePart::Material(half_space.material_id(number)), own.fatigue?, peaks.range?))
+    let materials = materials.filter_map(move |((number, durability), peaks)| {
+        Some(life(FatiguePart::Material(half_space.material_id(number)), durability.fatigue?, peaks.range?))
     });
     let interfaces = (1..).zip(half_space.layers()).zip(&peaks.interfaces);
     let interfaces = interfaces.filter_map(move |((number, layer), peak)| {
@@ -236,10 +237,10 @@ fn lives_of<'a>(half_space: &'a HalfSpace, peaks: &'a PathPeaks) -> impl Iterato
 
 /// Utilisations of the endurance limits of a body's materials.
 fn utilisations_of<'a>(half_space: &'a HalfSpace, peaks: &'a PathPeaks) -> impl Iterator<Item = Utilisation> + 'a {
-    (1..).zip(&peaks.materials).flat_map(move |(number, own)| {
+    (1..).zip(&peaks.materials).flat_map(move |(number, peaks)| {
         let material = half_space.material_id(number);
-        let crossland = own.crossland.map(|peak| Utilisation::by_path(Criterion::Crossland(material), peak));
-        let dang_van = own.dang_van.map(|peak| Utilisation::by_path(Criterion::DangVan(material), peak));
+        let crossland = peaks.crossland.map(|peak| Utilisation::by_path(Criterion::Crossland(material), peak));
+        let dang_van = peaks.dang_van.map(|peak| Utilisation::by_path(Criterion::DangVan(material), peak));
         crossland.into_iter().chain(dang_van)
     })
 }
@@ -272,8 +273,8 @@ mod tests {
             [FatiguePart::Material(MaterialId::numbered(1)), FatiguePart::Interface(InterfaceId::numbered(1))];
         let life = |part: FatiguePart, range: f64| Life::new(part, law(6.0), range, None, [0.0, 1.0, 2.0]);
         let path = SlidingPath::LatticeVector([1, 0]);
-        let own = FatigueReading::new(path, vec![life(one, 0.1), life(two, 0.3)]).unwrap();
-        assert_eq!((own.first.part, own.life(one).unwrap().range), (two, 0.1));
+        let reading = FatigueReading::new(path, vec![life(one, 0.1), life(two, 0.3)]).unwrap();
+        assert_eq!((reading.first.part, reading.life(one).unwrap().range), (two, 0.1));
         assert_eq!(FatigueReading::new(path, Vec::new()), None);
     }
 
@@ -284,10 +285,10 @@ mod tests {
         let life = |part: FatiguePart, range: f64| Life::new(part, law(6.0), range, Some(1e-3), [0.5, 1.0, 2.0]);
         for path in [SlidingPath::LatticeVector([1, -2]), SlidingPath::WholePlane, SlidingPath::FromFarAway] {
             let lives = vec![life(one, 0.3), life(two, 0.0), life(two, f64::INFINITY)];
-            let own = FatigueReading::new(path, lives).unwrap();
-            let text = serde_json::to_string(&own).unwrap();
+            let reading = FatigueReading::new(path, lives).unwrap();
+            let text = serde_json::to_string(&reading).unwrap();
             let back: FatigueReading = serde_json::from_str(&text).unwrap();
-            assert_eq!(back, own, "{text}");
+            assert_eq!(back, reading, "{text}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Which reading of the area in contact is printed.
+//! The readings of the area in contact, and the choice of the printed one.
 //!
 //! The fraction of the cell in contact is read **between** the samples, from the boundaries of its spots and along lines of
 //! samples ([`Boundary`](super::Boundary)); of a topography it is also counted and **corrected** by the perimeter
@@ -19,11 +19,11 @@ const WIDE: f64 = 10.0;
 /// The readings of the fraction in contact of one contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Fractions {
-    /// From boundaries and lines between the samples.
+    /// Fraction from boundaries and lines between the samples.
     pub between: Fraction,
     /// Whether there are many spots, and located boundaries around less than half of the area in contact.
     pub many: bool,
-    /// Counted by samples; `None` for indenters.
+    /// Area counted by samples; `None` for indenters.
     pub counted: Option<CountedArea>,
 }
 
@@ -36,9 +36,10 @@ impl Fractions {
     /// The fraction between the samples, or the corrected one where its error is smaller and the spots are narrow or many; with
     /// its error. `error` takes the reading of this contact and how to find that of another one.
     pub fn best(&self, error: impl Fn(Fraction, fn(&Self) -> Option<Fraction>) -> f64) -> (Fraction, f64) {
-        let between = (self.between, error(self.between, |own| Some(own.between)));
-        let corrected = self.counted.filter(|own| own.width < WIDE || self.many).map(|own| own.corrected);
-        match corrected.map(|own| (own, error(own, Self::corrected))) {
+        let between = (self.between, error(self.between, |fractions| Some(fractions.between)));
+        let corrected =
+            self.counted.filter(|counted| counted.width < WIDE || self.many).map(|counted| counted.corrected);
+        match corrected.map(|fraction| (fraction, error(fraction, Self::corrected))) {
             Some(corrected) if corrected.1 < between.1 => corrected,
             _ => between,
         }
@@ -46,7 +47,7 @@ impl Fractions {
 
     /// The fraction corrected by the perimeter; `None` for indenters.
     pub fn corrected(&self) -> Option<Fraction> {
-        self.counted.map(|own| own.corrected)
+        self.counted.map(|counted| counted.corrected)
     }
 }
 
@@ -60,7 +61,7 @@ mod tests {
         let counted = |value, uncertainty, width| {
             Some(CountedArea { corrected: of(value, uncertainty), width, ..CountedArea::default() })
         };
-        let best = |fractions: Fractions| fractions.best(|own, _| own.uncertainty);
+        let best = |fractions: Fractions| fractions.best(|fraction, _| fraction.uncertainty);
         let (between, many) = (of(0.3, 0.02), false);
         assert_eq!(best(Fractions { between, many, counted: None }), (between, 0.02));
         assert_eq!(best(Fractions { between, many, counted: counted(0.28, 0.02, 3.0) }).0, between);

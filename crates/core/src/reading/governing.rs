@@ -1,6 +1,6 @@
 //! The governing criterion of a load step, and its rivals within the errors.
 //!
-//! Of several utilisations u ± e the largest u governs; every other one with u′ + e′ ≥ u − e is its rival.
+//! The largest u of several utilisations u ± e governs; every other one with u′ + e′ ≥ u − e is its rival.
 
 use super::strength::{Criterion, Utilisation};
 use super::verdict::Verdict;
@@ -24,10 +24,12 @@ impl Governing {
     /// The governing criterion of all utilisations of a step; `None` without any.
     pub fn of(all: &[Utilisation]) -> Option<Self> {
         let first = all.iter().max_by(|a, b| a.value.total_cmp(&b.value))?;
-        let mut rivals: Vec<&Utilisation> =
-            all.iter().filter(|own| own.criterion != first.criterion && own.most() >= first.least()).collect();
+        let mut rivals: Vec<&Utilisation> = all
+            .iter()
+            .filter(|utilisation| utilisation.criterion != first.criterion && utilisation.most() >= first.least())
+            .collect();
         rivals.sort_by(|a, b| b.most().total_cmp(&a.most()));
-        let rivals = rivals.into_iter().map(|own| own.criterion).collect();
+        let rivals = rivals.into_iter().map(|rival| rival.criterion).collect();
         Some(Self { criterion: first.criterion, verdict: first.verdict, rivals })
     }
 }
@@ -47,7 +49,7 @@ pub mod names {
 
     /// Writes the names of criteria.
     pub fn serialize<S: Serializer>(criteria: &[Criterion], names: S) -> Result<S::Ok, S::Error> {
-        names.collect_seq(criteria.iter().map(|own| own.code_with_name()))
+        names.collect_seq(criteria.iter().map(|criterion| criterion.code_with_name()))
     }
 
     /// Reads the names of criteria.

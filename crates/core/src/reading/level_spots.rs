@@ -31,7 +31,7 @@ impl<'a> LevelSpots<'a> {
         let (grid, indenters) = (self.contact.grid(), self.spots.len() as f64);
         let load = self.spots.iter().map(|spot| spot.load).sum::<f64>();
         let areas: Vec<[f64; 2]> = self.spots.iter().map(|spot| area.of_spot(spot)).collect();
-        let [area, area_error] = [0, 1].map(|k| areas.iter().map(|own| own[k]).sum::<f64>() / indenters);
+        let [area, area_error] = [0, 1].map(|k| areas.iter().map(|spot_area| spot_area[k]).sum::<f64>() / indenters);
         let merged = self.spots.iter().any(|spot| spot.merged);
         let radius = (area / PI).sqrt();
         let resolution = (area / PI / grid.sample_area()).sqrt();

@@ -1,10 +1,10 @@
-//! What hardness has pressed in for good: the area at the hardness, the depths and their volume.
+//! The permanent indentation under a hardness: the area at the hardness, the depths and their volume.
 //!
-//! Where p = H the gap is −(what is pressed in). Inside its border −g rises like d^{3/2}, outside H − p rises like √d: the border is
+//! The gap is −(what is pressed in) where p = H. Inside its border −g rises like d^{3/2}, outside H − p rises like √d: the border is
 //! that of a contact turned around, with H − p in the place of the pressure, and is read between the samples in the same way.
 //!
 //! The model has no pile-up: what is pressed in does not rise beside it, and its volume is lost to it. Hardness does not depend on the
-//! depth; below about a tenth of its thickness a coating has its own, deeper the substrate yields too.
+//! depth; down to about a tenth of its thickness a coating bears its hardness alone, deeper the substrate yields too.
 
 use super::{area, estimate};
 use crate::notation::number;
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 
 quantities! {
-    /// What the hardness of the softer surface has pressed in. Errors are those of the grid; `None` without a coarser one.
+    /// Permanent indentation of the softer surface under its hardness. Errors are those of the grid; `None` without a coarser one.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct PlasticReading {
         /// Hardness H of the softer surface, a pressure.
@@ -82,19 +82,19 @@ impl OnGrid {
 impl PlasticReading {
     /// Reading of a step; `None` without hardness.
     pub fn of(step: &Step) -> Option<Self> {
-        let own = OnGrid::of(step.finest())?;
+        let finest = OnGrid::of(step.finest())?;
         let coarser: Vec<OnGrid> = step.coarser().iter().filter_map(OnGrid::of).collect();
         let error = |index: usize, law: f64| {
             let of_coarser = coarser.iter().map(|coarse| Some(coarse.values[index]));
-            (!coarser.is_empty()).then(|| estimate::of_area(law, own.values[index], of_coarser))
+            (!coarser.is_empty()).then(|| estimate::of_area(law, finest.values[index], of_coarser))
         };
-        let [area, depth, volume, permanent_depth] = own.values;
+        let [area, depth, volume, permanent_depth] = finest.values;
         Some(Self {
             hardness: step.finest().hardness(),
             hardness_depth: step.problem().composite_hardness().map(|_| step.penetration()),
             hardness_error: None,
             area,
-            area_error: error(0, own.uncertainty),
+            area_error: error(0, finest.uncertainty),
             depth,
             depth_error: error(1, 0.0),
             volume,

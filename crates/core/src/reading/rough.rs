@@ -3,8 +3,8 @@
 //!
 //! **Area.** Samples in contact are counted, and the count is corrected by the perimeter of contact
 //! (V. A. Yastrebov, G. Anciaux & J.-F. Molinari, Tribol. Int. 114 (2017) 161–171).
-//! Where spots have fewer than some ten samples across, or are many without smooth boundaries, the reading between the samples
-//! errs by more: [`Reading::contact_fraction`](super::Reading::contact_fraction) is then the one of both with the smaller error.
+//! The reading between the samples errs by more where spots have fewer than some ten samples across, or are many without smooth
+//! boundaries: [`Reading::contact_fraction`](super::Reading::contact_fraction) is then the one of both with the smaller error.
 //!
 //! **Spots** are samples in contact whose cells share an edge or a corner, as the usual tools of the field join them; what is
 //! open joins at edges alone, so that a spot closed at corners keeps its hole. Cells of samples are parallelograms of the reduced
@@ -15,7 +15,7 @@
 //! exact dP/dδ by [`Tangent`](crate::Tangent) instead, except under friction that couples.
 //!
 //! **An isolated contact** has no area to which parts, densities and a mean gap could be related: it lies in a window of any size.
-//! Of these it has none, not a number each; the area of contact, the spots and the stiffness do not depend on the window.
+//! None of these is stated, instead of a number each; the area of contact, the spots and the stiffness do not depend on the window.
 
 use super::counted::CountedArea;
 use super::histogram::Histogram;
@@ -159,14 +159,14 @@ pub fn stiffness(steps: &[[f64; 2]]) -> Vec<Option<[f64; 2]>> {
     let mut path: Vec<[f64; 2]> =
         steps.iter().filter(|[p, _]| *p > 0.0 && p.is_finite()).map(|[p, depth]| [p.ln(), *depth]).collect();
     path.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    path.dedup_by(|next, own| next[0] - own[0] < SAME_LOAD);
+    path.dedup_by(|next, kept| next[0] - kept[0] < SAME_LOAD);
     let lengths: Vec<f64> = path.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
     let secants: Vec<f64> =
         path.windows(2).zip(&lengths).map(|(pair, length)| (pair[1][1] - pair[0][1]) / length).collect();
     let at = |&[pressure, _]: &[f64; 2]| {
         let index = path.iter().position(|[x, _]| (x - pressure.ln()).abs() < SAME_LOAD).filter(|_| pressure > 0.0)?;
         // The interval at the step, and the next one: at an end of the path both on one side.
-        let [own, next] = match index {
+        let [interval, next] = match index {
             _ if secants.is_empty() => return None,
             _ if secants.len() == 1 => [0, 0],
             0 => [0, 1],
@@ -174,15 +174,15 @@ pub fn stiffness(steps: &[[f64; 2]]) -> Vec<Option<[f64; 2]>> {
             inner => [inner - 1, inner],
         };
         let is_end = index == 0 || index == secants.len();
-        let (near, far) = (lengths[own], lengths[next]);
-        let rise = (secants[next] - secants[own]) * near / (near + far);
-        let derivative = secants[own] + if is_end { -rise } else { rise };
+        let (near, far) = (lengths[interval], lengths[next]);
+        let rise = (secants[next] - secants[interval]) * near / (near + far);
+        let derivative = secants[interval] + if is_end { -rise } else { rise };
         let value = Some(pressure / derivative).filter(|value| value.is_finite() && *value > 0.0)?;
         let distance = |secant: &f64| (value - pressure / secant).abs();
         let around = secants[index.saturating_sub(2)..].iter().take(index.min(2) + 2).map(distance).fold(0.0, f64::max);
         let error = match is_end {
             _ if secants.len() == 1 => value,
-            true => around.max(2.0 * distance(&secants[own])),
+            true => around.max(2.0 * distance(&secants[interval])),
             false => around,
         };
         Some([value, error]).filter(|[_, error]| error.is_finite())

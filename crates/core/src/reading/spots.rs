@@ -61,8 +61,10 @@ pub fn spots(contact: &Contact, components: &[Component]) -> Vec<SpotReading> {
     if surface.owners().is_empty() {
         return spots;
     }
-    let runs: Vec<(u32, SampleRun)> =
-        (0..).zip(components).flat_map(|(own, component)| component.runs.iter().map(move |run| (own, *run))).collect();
+    let runs: Vec<(u32, SampleRun)> = (0..)
+        .zip(components)
+        .flat_map(|(number, component)| component.runs.iter().map(move |run| (number, *run)))
+        .collect();
     let parts: Vec<Vec<Part>> = runs.par_chunks(RUNS_PER_TASK).map(|runs| parts(contact, runs)).collect();
     let area = grid.sample_area();
     let mut first: Option<&Part> = None;
@@ -94,10 +96,10 @@ fn share_ties(contact: &Contact, spots: &mut [SpotReading]) {
     let (grid, surface, pressure) = (contact.grid(), contact.surface(), contact.pressures());
     let (reduced, area) = (grid.cell().reduced(), grid.sample_area());
     for (index, facing) in surface.ties().iter().filter(|(index, _)| pressure[*index] > 0.0) {
-        let (own, p, whole) = (surface.owners()[*index], pressure[*index], facing.len() as f64);
+        let (owner, p, whole) = (surface.owners()[*index], pressure[*index], facing.len() as f64);
         for &site in facing {
             let spot = &mut spots[site as usize];
-            let part = area * (1.0 / whole - f64::from(u8::from(site == own)));
+            let part = area * (1.0 / whole - f64::from(u8::from(site == owner)));
             let [x, y] = surface.offset(&reduced, site, *index);
             spot.load += part * p;
             spot.moment = [spot.moment[0] + part * p * x, spot.moment[1] + part * p * y];
@@ -136,22 +138,23 @@ fn add_parts(contact: &Contact, component: u32, run: SampleRun, parts: &mut Vec<
     let mut from = 0;
     while from < run.len() {
         let site = owners[start + from];
-        let mut to = owners[start + from..start + run.len()].iter().take_while(|own| **own == site).count() + from;
+        let mut to = owners[start + from..start + run.len()].iter().take_while(|owner| **owner == site).count() + from;
         let offset = |k: usize| surface.offset(&reduced, site, start + k);
         let axis = |k: usize| {
             let offset = offset(k);
             [0, 1].map(|c| place[c] + k as f64 * along[c] - offset[c])
         };
-        let own = axis(from);
+        let first_axis = axis(from);
         // The samples nearest to one image are a convex set: where both ends are, all between them are.
-        if is_apart(own, axis(to - 1), spacing) {
-            to = (from + 1..to).find(|&k| is_apart(own, axis(k), spacing)).unwrap_or(to);
+        if is_apart(first_axis, axis(to - 1), spacing) {
+            to = (from + 1..to).find(|&k| is_apart(first_axis, axis(k), spacing)).unwrap_or(to);
         }
         let goes_on =
-            |last: &Part| last.component == component && last.site == site && !is_apart(last.axis, own, spacing);
+            |last: &Part| last.component == component && last.site == site && !is_apart(last.axis, first_axis, spacing);
         if !parts.last().is_some_and(goes_on) {
             let peak = start + from;
-            let fresh = Part { component, site, axis: own, count: 0, load: 0.0, moment: [0.0; 2], peak, farthest: 0.0 };
+            let fresh =
+                Part { component, site, axis: first_axis, count: 0, load: 0.0, moment: [0.0; 2], peak, farthest: 0.0 };
             parts.push(fresh);
         }
         let part = parts.last_mut().expect("there is a part to add to");
@@ -185,7 +188,7 @@ pub fn locate(contact: &Contact, samples: &ContactSamples<'_>, spots: &mut [Spot
     let (grid, surface, pressure) = (contact.grid(), contact.surface(), contact.pressures());
     let owners = surface.owners();
     // Open samples between merged contacts lie outside each of them.
-    let holes = Holes::of(grid, pressure, |index| Some(owners[index]).filter(|own| !spots[*own as usize].merged));
+    let holes = Holes::of(grid, pressure, |index| Some(owners[index]).filter(|owner| !spots[*owner as usize].merged));
     spots.par_iter_mut().enumerate().for_each(|(site, spot)| {
         let site = site as u32;
         spot.ring = holes.has(site);

@@ -44,7 +44,7 @@ impl Criterion {
         let yields = strengths().filter(|(_, strength)| strength.yielding.is_some());
         let cracks = strengths().filter(|(_, strength)| strength.tensile.is_some());
         let interfaces = (1..).zip(half_space.layers()).filter(|(_, layer)| !layer.interface_strength().is_empty());
-        let endures = (1..).zip(half_space.durabilities()).filter(|(_, own)| own.endurance.is_some());
+        let endures = (1..).zip(half_space.durabilities()).filter(|(_, durability)| durability.endurance.is_some());
         yields
             .map(|(number, _)| Self::Yield(half_space.material_id(number)))
             .chain(cracks.map(|(number, _)| Self::Cracking(half_space.material_id(number))))
@@ -71,7 +71,7 @@ impl Criterion {
         Self::Delamination(InterfaceId::numbered(interface))
     }
 
-    /// What fails, in one word of outputs.
+    /// Name of the failure in one word, as in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Self::Yield(_) => "yield",
@@ -82,37 +82,39 @@ impl Criterion {
         }
     }
 
-    /// It by number, as files have it: "yield of material 2".
+    /// Code of the criterion by number, as in files: "yield of material 2".
     pub fn code(self) -> String {
         match self {
-            Self::Yield(own) | Self::Cracking(own) | Self::Crossland(own) | Self::DangVan(own) => {
-                format!("{} of {}", self.name(), own.code())
+            Self::Yield(material) | Self::Cracking(material) | Self::Crossland(material) | Self::DangVan(material) => {
+                format!("{} of {}", self.name(), material.code())
             }
-            Self::Delamination(own) => format!("{} of {}", self.name(), own.code()),
+            Self::Delamination(interface) => format!("{} of {}", self.name(), interface.code()),
         }
     }
 
-    /// Its code, with the name of its material or interface behind: "yield of material 2 (TiN)".
+    /// Code of the criterion with the name of its material or interface behind: "yield of material 2 (TiN)".
     pub fn code_with_name(self) -> String {
         self.subject().map_or_else(|| self.code(), |name| format!("{} ({name})", self.code()))
     }
 
-    /// The name of its material or interface.
+    /// Name of the material or interface of the criterion; `None` where it was given none.
     pub fn subject(self) -> Option<Name> {
         match self {
-            Self::Yield(own) | Self::Cracking(own) | Self::Crossland(own) | Self::DangVan(own) => own.name,
-            Self::Delamination(own) => own.name,
+            Self::Yield(material) | Self::Cracking(material) | Self::Crossland(material) | Self::DangVan(material) => {
+                material.name
+            }
+            Self::Delamination(interface) => interface.name,
         }
     }
 
     /// The criteria of several cases, each once; without a name where the cases give different ones.
     pub fn distinct(all: impl IntoIterator<Item = Self>) -> Vec<Self> {
         let mut distinct: Vec<Self> = Vec::new();
-        for own in all {
-            match distinct.iter_mut().find(|known| **known == own) {
-                None => distinct.push(own),
-                Some(known) if known.subject() == own.subject() => {}
-                Some(known) => *known = own.without_name(),
+        for criterion in all {
+            match distinct.iter_mut().find(|known| **known == criterion) {
+                None => distinct.push(criterion),
+                Some(known) if known.subject() == criterion.subject() => {}
+                Some(known) => *known = criterion.without_name(),
             }
         }
         distinct
@@ -120,23 +122,25 @@ impl Criterion {
 
     fn without_name(self) -> Self {
         match self {
-            Self::Yield(own) => Self::Yield(own.without_name()),
-            Self::Cracking(own) => Self::Cracking(own.without_name()),
-            Self::Delamination(own) => Self::Delamination(own.without_name()),
-            Self::Crossland(own) => Self::Crossland(own.without_name()),
-            Self::DangVan(own) => Self::DangVan(own.without_name()),
+            Self::Yield(material) => Self::Yield(material.without_name()),
+            Self::Cracking(material) => Self::Cracking(material.without_name()),
+            Self::Delamination(interface) => Self::Delamination(interface.without_name()),
+            Self::Crossland(material) => Self::Crossland(material.without_name()),
+            Self::DangVan(material) => Self::DangVan(material.without_name()),
         }
     }
 
     /// The body whose material or interface fails; `None` where only one is elastic.
     pub fn side(self) -> Option<Side> {
         match self {
-            Self::Yield(own) | Self::Cracking(own) | Self::Crossland(own) | Self::DangVan(own) => own.side,
+            Self::Yield(material) | Self::Cracking(material) | Self::Crossland(material) | Self::DangVan(material) => {
+                material.side
+            }
             Self::Delamination(interface) => interface.side,
         }
     }
 
-    /// Its strength, a pressure; 1 for an interface and of endurance limits, whose utilisations are searched themselves.
+    /// Strength of the criterion, a pressure; 1 for interfaces and endurance limits, whose utilisations are searched themselves.
     fn strength(self, bodies: &Bodies) -> Option<f64> {
         let half_space = bodies.on(self.side());
         match self {
@@ -152,15 +156,18 @@ impl Criterion {
         let half_space = bodies.on(self.side());
         let residual = |material: MaterialId| half_space.residual_stresses().nth(material.number - 1).unwrap_or(0.0);
         let endured = |material: MaterialId, utilisation: fn(&Endurance, f64) -> f64| {
-            let own = half_space.durabilities().nth(material.number - 1).and_then(|own| own.endurance);
-            own.map_or(0.0, |own| utilisation(&own, 2.0 / 3.0 * residual(material)).max(0.0))
+            let endurance =
+                half_space.durabilities().nth(material.number - 1).and_then(|durability| durability.endurance);
+            endurance.map_or(0.0, |endurance| utilisation(&endurance, 2.0 / 3.0 * residual(material)).max(0.0))
         };
         let stress = match self {
             Self::Yield(material) => residual(material).abs(),
             Self::Cracking(material) => residual(material).max(0.0),
             Self::Delamination(_) => 0.0,
-            Self::Crossland(material) => endured(material, |own, hydrostatic| own.crossland(0.0, hydrostatic)),
-            Self::DangVan(material) => endured(material, |own, hydrostatic| own.dang_van(0.0, hydrostatic)),
+            Self::Crossland(material) => {
+                endured(material, |endurance, hydrostatic| endurance.crossland(0.0, hydrostatic))
+            }
+            Self::DangVan(material) => endured(material, |endurance, hydrostatic| endurance.dang_van(0.0, hydrostatic)),
         };
         self.strength(bodies).map_or(0.0, |strength| stress / strength)
     }
@@ -183,13 +190,13 @@ impl FromStr for Criterion {
 
     /// Reads a [code](Criterion::code), with a name behind it or without.
     fn from_str(text: &str) -> Result<Self, String> {
-        let (own, name) = match text.strip_suffix(')').and_then(|text| text.split_once(" (")) {
-            Some((own, name)) => (own, Some(name)),
+        let (code, name) = match text.strip_suffix(')').and_then(|text| text.split_once(" (")) {
+            Some((code, name)) => (code, Some(name)),
             None => (text, None),
         };
         let name = name.map(Name::new);
-        let material = |start: &str| Some(MaterialId { name, ..MaterialId::of_code(own.strip_prefix(start)?)? });
-        let interface = |start: &str| Some(InterfaceId { name, ..InterfaceId::of_code(own.strip_prefix(start)?)? });
+        let material = |start: &str| Some(MaterialId { name, ..MaterialId::of_code(code.strip_prefix(start)?)? });
+        let interface = |start: &str| Some(InterfaceId { name, ..InterfaceId::of_code(code.strip_prefix(start)?)? });
         let yields = material("yield of ").map(Self::Yield);
         let cracks = || material("cracking of ").map(Self::Cracking);
         let parts = || interface("delamination of ").map(Self::Delamination);
@@ -295,11 +302,11 @@ mod tests {
             Criterion::DangVan(MaterialId::numbered(2)),
             Criterion::Crossland(MaterialId { name, ..MaterialId::numbered(1) }),
         ];
-        for own in named.into_iter().chain([Criterion::cracking_of(3)]).chain(tires) {
-            let read: Criterion = own.code_with_name().parse().unwrap();
-            assert_eq!((read, read.subject()), (own, own.subject()));
+        for criterion in named.into_iter().chain([Criterion::cracking_of(3)]).chain(tires) {
+            let read: Criterion = criterion.code_with_name().parse().unwrap();
+            assert_eq!((read, read.subject()), (criterion, criterion.subject()));
         }
-        assert_eq!(named.map(|own| own.to_string()), ["yield of TiN (PVD)", "delamination of TiN (PVD)"]);
+        assert_eq!(named.map(|criterion| criterion.to_string()), ["yield of TiN (PVD)", "delamination of TiN (PVD)"]);
         assert_eq!(named[0].code_with_name(), "yield of material 2 (TiN (PVD))");
         assert!("yield of TiN".parse::<Criterion>().is_err());
     }

@@ -19,8 +19,9 @@ pub(crate) fn utilisations_while(
     let mut all = Vec::new();
     for field in fields.each() {
         let side = field.half_space().side();
-        let own: Vec<Criterion> = Criterion::all(bodies).into_iter().filter(|own| own.side() == side).collect();
-        if own.is_empty() {
+        let criteria: Vec<Criterion> =
+            Criterion::all(bodies).into_iter().filter(|criterion| criterion.side() == side).collect();
+        if criteria.is_empty() {
             continue;
         }
         let mut peaks = field.strength_peaks_while(radii, coarser.as_ref().map(|coarser| coarser.on(side)), goes_on)?;
@@ -36,7 +37,8 @@ pub(crate) fn utilisations_while(
             Criterion::Delamination(interface) => peaks.delamination[interface.number - 1],
             Criterion::Crossland(_) | Criterion::DangVan(_) => None,
         };
-        let judged = own.into_iter().filter_map(|criterion| Utilisation::by_peak(bodies, criterion, peak(criterion)?));
+        let judged =
+            criteria.into_iter().filter_map(|criterion| Utilisation::by_peak(bodies, criterion, peak(criterion)?));
         all.extend(judged);
     }
     let sought = PathSought { fatigue: false, endurance: true, map: false };
@@ -61,8 +63,8 @@ mod tests {
     }
 
     fn layer(strength: Strength, interface: InterfaceStrength) -> Layer {
-        let own = Layer::new(material(2.0), 0.05, Interface::Bonded).unwrap().with_residual_stress(-0.01).unwrap();
-        own.with_strengths(strength, interface).unwrap()
+        let layer = Layer::new(material(2.0), 0.05, Interface::Bonded).unwrap().with_residual_stress(-0.01).unwrap();
+        layer.with_strengths(strength, interface).unwrap()
     }
 
     /// One search finds all stresses, the other those by which strengths are judged: the utilisations are the same bit for bit. Materials
@@ -101,11 +103,11 @@ mod tests {
                 let step = solver.solve(Load::Force(0.01));
                 let (reading, fields) = (step.reading(), StressFields::new(step.finest(), MeanStress::Confined));
                 let all = Utilisation::all(step.problem().bodies(), &StressReading::of(&step, &reading, &fields));
-                let own = utilisations_while(&step, &reading, &fields, &|| true).unwrap();
-                assert!(own == all && !own.is_empty(), "{index}: {own:?}, {all:?}");
-                assert!(own.iter().all(|own| own.error.is_some() || own.value.is_infinite()));
+                let found = utilisations_while(&step, &reading, &fields, &|| true).unwrap();
+                assert!(found == all && !found.is_empty(), "{index}: {found:?}, {all:?}");
+                assert!(found.iter().all(|utilisation| utilisation.error.is_some() || utilisation.value.is_infinite()));
                 assert_eq!(utilisations_while(&step, &reading, &fields, &|| false), None);
-                compared += own.len();
+                compared += found.len();
             }
         }
         assert!(compared > 20, "{compared}");

@@ -42,25 +42,25 @@ impl StressReading {
         let (mut materials, mut faces, mut interfaces, mut surface_error) = (vec![], vec![], vec![], 0.0f64);
         for field in fields.each() {
             let coarser = coarser.as_ref().map(|coarser| coarser.on(field.half_space().side()));
-            let own = in_body(step, reading, field, coarser, goes_on)?;
-            let error = own.surface_error();
+            let stresses = in_body(step, reading, field, coarser, goes_on)?;
+            let error = stresses.surface_error();
             // A number that is none stays.
             surface_error = if error > surface_error || error.is_nan() { error } else { surface_error };
-            materials.extend(own.materials);
-            faces.extend(own.faces);
-            interfaces.extend(own.interfaces);
+            materials.extend(stresses.materials);
+            faces.extend(stresses.faces);
+            interfaces.extend(stresses.interfaces);
         }
         Some(Self { overall: overall(&materials), materials, faces, interfaces, surface_error })
     }
 
     /// Largest stresses in a material.
     pub fn in_material(&self, material: MaterialId) -> Option<&Extremes> {
-        self.materials.iter().find(|own| own.tau1.material == material)
+        self.materials.iter().find(|extremes| extremes.tau1.material == material)
     }
 
     /// Largest stresses that an interface carries.
     pub fn on_interface(&self, interface: InterfaceId) -> Option<&Carried> {
-        self.interfaces.iter().find(|own| own.interface == interface)
+        self.interfaces.iter().find(|carried| carried.interface == interface)
     }
 }
 
@@ -127,7 +127,7 @@ impl Tip {
         *peak = Peak { value: f64::INFINITY, position, material, error: None, rival: None, ..*peak };
     }
 
-    /// The same of a measure along a path: its shear stress and the amplitude of its deviator are infinite.
+    /// Makes the peak of a measure along a path infinite, as shear stress and amplitude of the deviator are at the tip.
     pub fn press_path(&self, peak: &mut PathPeak) {
         *peak = PathPeak { value: f64::INFINITY, error: None, position: self.position };
     }
@@ -164,7 +164,7 @@ fn overall(materials: &[Extremes]) -> Extremes {
     }
 }
 
-/// Where τ₁ is infinite at the surface of one of the bodies: at the tips in contact, unless its material there is
+/// Places of infinite τ₁ at the surface of one of the bodies: the tips in contact, unless its material there is
 /// incompressible, as σ_z and σ_r are then infinite alike; then the traction of a counterbody that slides still is.
 pub fn tips<'a>(
     step: &'a Step,
@@ -204,7 +204,7 @@ pub(super) fn beside_site(step: &Step, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let [u, v] = reduced.nearest([s - site.place[0], t - site.place[1]]);
         (cell.point(site.place), [u, v], u.hypot(v))
     });
-    // Of indenters that are as near, to rounding, the first one.
+    // The first one of indenters that are as near, to rounding.
     let nearest = near.reduce(|best, next| if next.2 < best.2 * (1.0 - 1e-9) { next } else { best });
     nearest.map_or([x, y, z], |(site, [u, v], _)| [site[0] + u, site[1] + v, z])
 }

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 /// Number of spots whose boundaries are fitted, at most: the largest ones, and all as large as the smallest of these.
 pub const LARGEST_SPOTS: usize = 8;
-/// Largest area of the circle around a spot over the spot's own: that of an ellipse six times as long as wide.
+/// Largest area of the circle around a spot over the area of the spot: that of an ellipse six times as long as wide.
 const LONGEST: f64 = 6.0;
 
 /// Boundaries of the contact spots around their own centres, one for each component; `None` for small and long spots, for those
@@ -24,40 +24,41 @@ pub fn boundaries(contact: &Contact, components: &[Component], samples: &Contact
         return boundaries;
     }
     let mut label = vec![NO_CONTACT; grid.len()];
-    for (own, component) in (0..).zip(components) {
-        component.indices(grid).for_each(|run| label[run].fill(own));
+    for (number, component) in (0..).zip(components) {
+        component.indices(grid).for_each(|run| label[run].fill(number));
     }
     let holes = Holes::of(grid, pressure, |index| Some(label[index]));
-    let boundary = |&own: &u32| {
-        let component = &components[own as usize];
+    let boundary = |&number: &u32| {
+        let component = &components[number as usize];
         let centre = component.centre(grid);
         let farthest = component.farthest(grid, centre);
         if PI * farthest * farthest > LONGEST * component.size() as f64 * grid.sample_area() {
             return None;
         }
         let what = |index: usize| match holes.around(index) {
-            Some(around) if around == own => Sample::Hole,
-            None if label[index] == own => Sample::Contact,
+            Some(around) if around == number => Sample::Hole,
+            None if label[index] == number => Sample::Contact,
             None if label[index] == NO_CONTACT => Sample::Open,
             _ => Sample::Other,
         };
         let spot = PolarSpot::new(grid, centre, farthest, &what);
-        spot.stands_alone().then(|| Boundary::locate(&spot, samples, holes.has(own))).flatten()
+        spot.stands_alone().then(|| Boundary::locate(&spot, samples, holes.has(number))).flatten()
     };
     let found: Vec<Option<Boundary>> = fitted.par_iter().map(boundary).collect();
-    fitted.iter().zip(found).for_each(|(own, boundary)| boundaries[*own as usize] = boundary);
+    fitted.iter().zip(found).for_each(|(number, boundary)| boundaries[*number as usize] = boundary);
     boundaries
 }
 
 /// Numbers of the components whose boundaries are fitted, the largest first.
 fn largest(components: &[Component]) -> Vec<u32> {
-    let size = |own: &u32| components[*own as usize].size();
-    let large =
-        |own: &u32| !components[*own as usize].wraps && size(own) as f64 >= PI * MIN_RESOLUTION * MIN_RESOLUTION;
+    let size = |number: &u32| components[*number as usize].size();
+    let large = |number: &u32| {
+        !components[*number as usize].wraps && size(number) as f64 >= PI * MIN_RESOLUTION * MIN_RESOLUTION
+    };
     let mut largest: Vec<u32> = (0..components.len() as u32).filter(large).collect();
-    largest.sort_by_key(|own| Reverse(size(own)));
-    // Which of several spots of one size comes first depends on the vectors that describe the cell: all of them count.
+    largest.sort_by_key(|number| Reverse(size(number)));
+    // The order of spots of one size depends on the vectors that describe the cell: all of them count.
     let least = largest.get(LARGEST_SPOTS - 1).map_or(0, size);
-    largest.retain(|own| size(own) >= least);
+    largest.retain(|number| size(number) >= least);
     largest
 }

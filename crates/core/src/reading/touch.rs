@@ -46,13 +46,13 @@ pub fn first_touches(solver: &mut Solver) -> Vec<Option<FirstTouch>> {
         }
     }
     let touch = |level: usize, beside: f64| {
-        let own = search.brackets[0][level];
+        let fine = search.brackets[0][level];
         let coarser = Some(search.brackets[1][level]).filter(|coarser| coarser.enough.is_some());
-        let mean_pressure = own.pressure();
+        let mean_pressure = fine.pressure();
         let error = coarser.map(|coarser| {
             let change = (coarser.pressure() - mean_pressure).abs();
-            let bracket = if own.least > 0.0 { 0.5 * (own.most - own.least) } else { 0.0 };
-            let enough = own.enough.filter(|_| own.least > 0.0);
+            let bracket = if fine.least > 0.0 { 0.5 * (fine.most - fine.least) } else { 0.0 };
+            let enough = fine.enough.filter(|_| fine.least > 0.0);
             let open = enough.map_or(0.0, |FirstContact { penetration, resolution }| {
                 let apex = 2.0 * beside / penetration;
                 mean_pressure * apex.max(load_law(resolution.max(1.0)))

@@ -25,7 +25,7 @@ pub const fn line<T: Real>() -> usize {
 pub enum Columns<T: Real> {
     /// Stages of butterflies, in the order of the forward transform.
     Butterflies(Vec<Stage<T>>),
-    /// By rustfft in double precision, whatever the precision of the columns.
+    /// Transforms by rustfft in double precision, whatever the precision of the columns.
     Library {
         /// Plan of the forward transform.
         forward: Arc<dyn Fft<f64>>,

@@ -1,7 +1,7 @@
 //! Waves of any frequency, summed at equally spaced points: the non-uniform transform of type 1, by Gaussian gridding
 //! (Dutt & Rokhlin 1993, Greengard & Lee 2004).
 //!
-//! Of F_j = Σ c e^{2πi xj/M}, x any numbers, each c is spread over the neighbours m of its x with the weights
+//! For F_j = Σ c e^{2πi xj/M}, x any numbers, each c is spread over the neighbours m of its x with the weights
 //! e^{−b(x−m)²}; the transform of the sums on the M numbers m, divided by that of the Gaussian, is F. With W neighbours on each
 //! side and |j| ≤ P/2 the Gaussian is cut off at e^{−bW²}, and the aliases on the M numbers are of the order
 //! e^{−π²(1−P/M)/b}: both are equal for b = (π/W)√(1−P/M), 10⁻¹⁴ for W = 12 and M = 4P.
@@ -60,18 +60,18 @@ impl<const K: usize> Nonuniform<K> {
         };
         let restored: Vec<f64> = (0..points).map(restored).collect();
         let mut results = vec![[0.0; K]; points];
-        let mut own = vec![Complex64::default(); numbers];
+        let mut line = vec![Complex64::default(); numbers];
         let mut scratch = vec![Complex64::default(); fft.get_inplace_scratch_len()];
         let (re, im) = gathered.split_at(gathered.len() / 2);
         let size = numbers + 2 * SIDE;
         for (k, (re, im)) in re.chunks_exact(size).zip(im.chunks_exact(size)).enumerate() {
-            own.fill(Complex64::default());
+            line.fill(Complex64::default());
             for (place, (&re, &im)) in re.iter().zip(im).enumerate() {
-                own[(place + numbers - SIDE) % numbers] += Complex64::new(re, im);
+                line[(place + numbers - SIDE) % numbers] += Complex64::new(re, im);
             }
-            fft.process_with_scratch(&mut own, &mut scratch);
+            fft.process_with_scratch(&mut line, &mut scratch);
             for (point, (result, restored)) in results.iter_mut().zip(&restored).enumerate() {
-                result[k] = restored * own[(point + numbers - points / 2) % numbers].re;
+                result[k] = restored * line[(point + numbers - points / 2) % numbers].re;
             }
         }
         results
@@ -106,11 +106,11 @@ fn gather<S: Simd, const K: usize>(
         }
         for (k, c) in c.iter().enumerate() {
             for (part, value) in [(k, c.re), (K + k, c.im)] {
-                let own = &mut sums.gathered[part * size + number + 1..][..2 * SIDE];
+                let neighbours = &mut sums.gathered[part * size + number + 1..][..2 * SIDE];
                 let value = f64x8::splat(simd, value);
                 for group in 0..GROUPS {
-                    let own = &mut own[group * LANES..][..LANES];
-                    weights[group].mul_add(value, f64x8::from_slice(simd, own)).store_slice(own);
+                    let lanes = &mut neighbours[group * LANES..][..LANES];
+                    weights[group].mul_add(value, f64x8::from_slice(simd, lanes)).store_slice(lanes);
                 }
             }
         }
@@ -129,7 +129,7 @@ mod tests {
             sums.add([(turns, [Complex64::new(0.6, 0.8)])].into_iter());
             sums.real_parts()
         };
-        // As below.
+        // The error is that of the test below.
         let error = 1.4e-14 + PI * 60.0 * f64::EPSILON / 2.0;
         for turns in [0.0, -0.0, -1e-17, -f64::EPSILON / 4.0, 1.0 - f64::EPSILON / 2.0, 3.0, -2.0] {
             assert!(sum(turns).iter().all(|[value]| (value - 0.6).abs() < error), "{turns:e}");

@@ -26,7 +26,7 @@ pub struct Rows<T: Real> {
 /// How rows are transformed.
 #[derive(Clone)]
 enum Algorithm<T: Real> {
-    /// By pairs of samples, for even numbers of samples.
+    /// Transforms of pairs of samples, for even numbers of samples.
     Paired {
         /// Plan for the transform of z.
         halves: Columns<T>,
@@ -35,7 +35,7 @@ enum Algorithm<T: Real> {
         /// Twiddle factors ω^k, k ≤ M.
         twiddles: Vec<[T; 2]>,
     },
-    /// By rustfft in double precision, whatever the precision of the rows.
+    /// Transforms by rustfft in double precision, whatever the precision of the rows.
     Library { forward: Arc<dyn RealToComplex<f64>>, inverse: Arc<dyn ComplexToReal<f64>> },
 }
 
@@ -204,16 +204,16 @@ fn pairs_to_samples<S: Simd, T: Real>(simd: S, pairs: &[T], samples: &mut [T]) {
 /// Real and imaginary parts of the line with a `number`.
 #[inline(always)]
 fn get<S: Simd, T: Real>(simd: S, lines: &[T], number: usize) -> [T::Wide<S>; 2] {
-    let own = &lines[number * line::<T>()..][..line::<T>()];
-    [wide(simd, own, 0), wide(simd, own, T::WIDTH)]
+    let parts = &lines[number * line::<T>()..][..line::<T>()];
+    [wide(simd, parts, 0), wide(simd, parts, T::WIDTH)]
 }
 
 /// Stores the real and imaginary parts of the line with a `number`.
 #[inline(always)]
 fn put<S: Simd, T: Real>([re, im]: [T::Wide<S>; 2], lines: &mut [T], number: usize) {
-    let own = &mut lines[number * line::<T>()..][..line::<T>()];
-    re.store_slice(&mut own[..T::WIDTH]);
-    im.store_slice(&mut own[T::WIDTH..]);
+    let parts = &mut lines[number * line::<T>()..][..line::<T>()];
+    re.store_slice(&mut parts[..T::WIDTH]);
+    im.store_slice(&mut parts[T::WIDTH..]);
 }
 
 /// X from Z, to lines of the blocks; `components` is working memory for those of one block.

@@ -91,8 +91,8 @@ impl<'a> Beside<'a> {
 
     /// Samples of a sector in contact, or open ones.
     pub fn points(&self, sector: usize, open: bool) -> &[Point] {
-        let own = 2 * sector + usize::from(open);
-        &self.points[self.starts[own]..self.starts[own + 1]]
+        let group = 2 * sector + usize::from(open);
+        &self.points[self.starts[group]..self.starts[group + 1]]
     }
 
     /// Distance of a sample outside the rim `radii`, a length; outside a hole lies contact.

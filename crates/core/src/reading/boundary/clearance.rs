@@ -23,14 +23,14 @@ pub fn clearance(spot: &PolarSpot<'_>, rim: Rim, radii: &[f64], spacing: f64) ->
         };
         // The farthest first.
         let steps = |length: f64| (0..=(length / spacing) as usize).map(move |k| k as f64 * spacing);
-        let own = match rim {
+        let distance = match rim {
             Rim::Outer => {
                 steps(2.0 * mean - radius).map(|inwards| 2.0 * mean - inwards).find(is_open).map(|r| r - radius)
             }
             Rim::Hole => steps(*radius).find(is_open).map(|r| radius - r),
         };
         let sector = &mut clearance[index * SECTORS / ANGLES];
-        *sector = sector.max(own.unwrap_or(0.0));
+        *sector = sector.max(distance.unwrap_or(0.0));
     }
     let unbounded = |clearance: f64| rim == Rim::Outer && clearance > FAR * mean;
     clearance.map(|clearance| if unbounded(clearance) { f64::INFINITY } else { clearance })

@@ -18,13 +18,13 @@ pub fn counted_rim(spot: &PolarSpot<'_>, sample_area: f64, rim: Rim) -> (Vec<f64
     let disc = if rim == Rim::Outer { DISC * spot.farthest() } else { 0.0 };
     // No sample of the spot or its hole lies beyond the farthest one in contact.
     let blocks = spot.taken([0.0, spot.farthest() * (1.0 + 1e-9)], |sums: &mut [f64; COUNT], _, [x, y], sample| {
-        let own = sample == Sample::Hole || rim == Rim::Outer && sample == Sample::Contact;
-        sums[0] += f64::from(u8::from(own));
+        let inside = sample == Sample::Hole || rim == Rim::Outer && sample == Sample::Contact;
+        sums[0] += f64::from(u8::from(inside));
         let square = x * x + y * y;
-        if own != (square < disc * disc) && square > 0.0 {
+        if inside != (square < disc * disc) && square > 0.0 {
             let r = square.sqrt();
             let (cosine, sine) = (x / r, y / r);
-            let (mut c, mut s) = (if own { 1.0 } else { -1.0 }, 0.0);
+            let (mut c, mut s) = (if inside { 1.0 } else { -1.0 }, 0.0);
             for k in 0..HARMONICS {
                 (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
                 sums[2 * k + 1] += c;

@@ -1,7 +1,7 @@
 //! The normal equations of a fit, one step of its iteration.
 //!
-//! They need sums over samples of products of five factors with waves in the angle. Those of a sector are added first; the waves are
-//! those at its middle. At the fitted boundary the shift is zero, whatever the waves.
+//! The equations need sums over samples of products of five factors with waves in the angle. Products of a sector are added first; the
+//! waves are those at its middle. At the fitted boundary the shift is zero, whatever the waves.
 
 use super::beside::Beside;
 use super::constants::WEIGHT_RISE;
@@ -147,15 +147,16 @@ impl Fit {
             };
             let (y, value, slope) = (point.value * per_unit, value * per_unit, slope * (reach * per_unit));
             sums.count += 1;
-            let (mut square, mut mixed, mut own) = (weight * value * value, weight * value * slope, weight * value * y);
+            let (mut square, mut mixed, mut product) =
+                (weight * value * value, weight * value * slope, weight * value * y);
             for k in 0..5 {
                 sums.squares[k] += square;
                 square *= part;
             }
             for k in 0..3 {
                 sums.mixed[k] += mixed;
-                sums.values[k] += own;
-                (mixed, own) = (mixed * part, own * part);
+                sums.values[k] += product;
+                (mixed, product) = (mixed * part, product * part);
             }
             sums.slopes += weight * slope * slope;
             sums.slope_values += weight * slope * y;

@@ -165,8 +165,8 @@ impl Fit {
         let (mean, sign) = (mean_radius(radii), beside.rim().sign());
         let whole = sign * PI * ((mean + sign * self.reach).powi(2) - mean * mean);
         let near = |sector: usize| {
-            let own = 0.0..self.one_edge_reach(sector);
-            beside.points(sector, true).iter().filter(|point| own.contains(&beside.distance(point, radii))).count()
+            let range = 0.0..self.one_edge_reach(sector);
+            beside.points(sector, true).iter().filter(|point| range.contains(&beside.distance(point, radii))).count()
         };
         beside.filled().iter().map(|&sector| near(sector)).sum::<usize>() as f64 * beside.samples().sample_area
             > ENOUGH_OPEN * whole

@@ -13,16 +13,16 @@ pub(super) const NEAREST: f64 = 0.3;
 /// Runs of samples of one task.
 const RUNS_PER_TASK: usize = 64;
 
-/// Where a sample lies in relation to a spot.
+/// Place of a sample in relation to a spot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sample {
-    /// In contact, in this spot.
+    /// Sample of this spot, in contact.
     Contact,
-    /// Open, outside this spot and nearer to it than to others.
+    /// Open sample outside this spot and nearer to it than to others.
     Open,
-    /// Open, enclosed by this spot.
+    /// Open sample enclosed by this spot.
     Hole,
-    /// In another spot, or beside another one.
+    /// Sample in or beside another spot.
     Other,
 }
 
@@ -36,7 +36,7 @@ pub struct PolarSpot<'a> {
     centre: [f64; 2],
     /// Distance of the farthest sample in contact from the axis, a length.
     farthest: f64,
-    /// Where a sample lies, by its flat index.
+    /// Place of a sample in relation to the spot, by its flat index.
     what: &'a (dyn Fn(usize) -> Sample + Sync),
 }
 
@@ -59,7 +59,7 @@ impl<'a> PolarSpot<'a> {
         self.farthest
     }
 
-    /// Where a sample lies, given its `offset` from the axis (lengths): [`Sample::Other`] if an image of the axis is nearer, or
+    /// Place of a sample, given its `offset` from the axis (lengths): [`Sample::Other`] if an image of the axis is nearer, or
     /// outside of a window.
     fn what(&self, index: usize, offset: [f64; 2]) -> Sample {
         let [x, y] = offset;
@@ -70,7 +70,7 @@ impl<'a> PolarSpot<'a> {
         (self.what)(index)
     }
 
-    /// Where the sample nearest to a place lies, given the place's `offset` from the axis (lengths).
+    /// Place of the sample nearest to a point at an `offset` from the axis (lengths).
     pub fn at(&self, offset: [f64; 2]) -> Sample {
         let [n1, n2] = self.grid.points();
         let place = [self.centre[0] + offset[0], self.centre[1] + offset[1]];
