@@ -1,6 +1,6 @@
 //! Sliding friction by Coulomb's law.
 //!
-//! With the coefficient μ the shear traction q = μ p **e** acts on the body in contact, **e** the direction in which the
+//! The shear traction q = μ p **e** acts on the body in contact, μ the coefficient and **e** the direction in which the
 //! counterbody slides. The traction displaces the surface vertically too
 //! ([`SurfaceResponse`](crate::body::SurfaceResponse)): with **coupled** friction the pressure depends on that displacement;
 //! uncoupled, the pressure is that of frictionless contact, as in the school of the paper, and stresses superpose.
@@ -92,7 +92,7 @@ impl Friction {
         self.direction.map(|e| self.coefficient * e)
     }
 
-    /// It as the counterbody bears it: the body slides the other way.
+    /// The friction as the counterbody bears it: the body slides the other way.
     #[must_use]
     pub fn reversed(self) -> Self {
         Self { direction: self.direction.map(|e| -e), ..self }

@@ -14,13 +14,13 @@ use crate::load::LoadQuantity;
 /// Kind of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ContactKind {
-    /// What lies around the cell.
+    /// Surroundings of the cell.
     pub surroundings: Surroundings,
     /// Whether a pressure is given, and no contact is solved for.
     pub is_given: bool,
 }
 
-/// What the penetration and the displacements of a surface count from.
+/// Datum from which the penetration and the displacements of a surface count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Datum {
     /// The mean plane of the deformed surface: the penetration is the additional displacement of Eq. (8).

@@ -29,7 +29,7 @@ pub enum LoadQuantity {
 }
 
 impl LoadQuantity {
-    /// Its symbol.
+    /// Symbol of the quantity.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::MeanPressure => "p̄",
@@ -37,7 +37,7 @@ impl LoadQuantity {
         }
     }
 
-    /// Its name in words.
+    /// Name of the quantity in words.
     pub fn name(self) -> &'static str {
         match self {
             Self::MeanPressure => "mean pressure",
@@ -45,7 +45,7 @@ impl LoadQuantity {
         }
     }
 
-    /// Its key in case files and results.
+    /// Key of the quantity in case files and results.
     pub fn key(self) -> &'static str {
         match self {
             Self::MeanPressure => "mean_pressure",
@@ -83,7 +83,7 @@ impl Load {
         !matches!(self, Self::Penetration(_))
     }
 
-    /// What it prescribes on a cell: a force is a mean pressure there.
+    /// Control by the load on a cell: a force is a mean pressure there.
     pub(crate) fn on(self, cell: Cell) -> Control {
         match self {
             Self::MeanPressure(mean) => Control::MeanPressure(mean),

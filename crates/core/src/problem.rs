@@ -29,9 +29,9 @@ impl Problem {
     /// # Errors
     /// [`FrictionError::Unheld`] when a layer lies on a frictionless interface, unless the coefficient is zero.
     pub fn sliding(self, friction: Friction) -> Result<Self, FrictionError> {
-        let loose = |own: &HalfSpace| {
-            let index = own.layers().iter().position(|layer| layer.interface() == Interface::Frictionless)?;
-            Some(own.interface_id(index + 1))
+        let loose = |body: &HalfSpace| {
+            let index = body.layers().iter().position(|layer| layer.interface() == Interface::Frictionless)?;
+            Some(body.interface_id(index + 1))
         };
         let unheld = self.bodies.each().find_map(loose).filter(|_| friction.coefficient() > 0.0);
         match unheld {
@@ -46,7 +46,7 @@ impl Problem {
         self.bodies.hardness().filter(|_| !self.kind().is_given)
     }
 
-    /// The problem with a hardness of the coating and its substrate together: each load meets that of its own penetration.
+    /// The problem with a hardness of the coating and its substrate together: each load meets the hardness at its penetration.
     ///
     /// # Errors
     /// [`CompositeError::Counterbody`] for a counterbody that is softer than either: the laws are those of a body that yields alone.
@@ -66,7 +66,7 @@ impl Problem {
         }
     }
 
-    /// Hardness of the coating and its substrate together; `None` where the coating has its own at any depth.
+    /// Hardness of the coating and its substrate together; `None` where the hardness of the coating holds at any depth.
     pub fn composite_hardness(&self) -> Option<&CompositeHardness> {
         self.composite.as_ref()
     }
@@ -84,19 +84,19 @@ impl Problem {
             && self.hardness().is_some_and(|(_, softer)| softer == Side::Body)
     }
 
-    /// The same problem without hardness: elastic under any pressure.
+    /// The problem without hardness: elastic under any pressure.
     #[must_use]
     pub fn without_hardness(&self) -> Self {
         Self { bodies: self.bodies.without_hardness(), composite: None, ..self.clone() }
     }
 
-    /// The same problem on another body.
+    /// The problem on another body.
     #[must_use]
     pub fn on_body(&self, body: HalfSpace) -> Self {
         Self { bodies: self.bodies.with_body(body), ..self.clone() }
     }
 
-    /// The same indenters in a window `factor` times as wide and as high; `None` unless they are an isolated contact.
+    /// The problem with a window `factor` times as wide and as high; `None` unless they are an isolated contact.
     pub(crate) fn widened(&self, factor: f64) -> Option<Self> {
         let loaded_by = self.indenters()?.widened(factor)?.into();
         Some(Self { loaded_by, ..self.clone() })
@@ -157,7 +157,7 @@ impl Problem {
         self.loaded_by.kind()
     }
 
-    /// What penetration and displacements count from.
+    /// Datum from which penetration and displacements count.
     pub fn datum(&self) -> Datum {
         Datum::of(self.cell().surroundings(), self.bodies.mean_compliance())
     }

@@ -67,13 +67,13 @@ impl Kind {
 /// Place of the error of a quantity in files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ErrorAt {
-    /// Under `errors` of its record, by the code of the quantity.
+    /// The error is under `errors` of its record, by the code of the quantity.
     Under,
-    /// Beside the quantity, under this key.
+    /// The error is beside the quantity, under this key.
     Beside(&'static str),
     /// The quantity is a peak of the keys `value` and `error`.
     InPeak,
-    /// In no place of its own, or not in its unit.
+    /// The error has no key, or is not in the unit of the quantity.
     Nowhere,
 }
 
@@ -102,13 +102,13 @@ impl Named {
         Self { code, name, short: name, given: name, symbol, kind, error }
     }
 
-    /// With a name in narrow places.
+    /// The quantity with another name in narrow places.
     #[must_use]
     pub const fn short(self, short: &'static str) -> Self {
         Self { short, ..self }
     }
 
-    /// With a name where a pressure is given.
+    /// The quantity with another name where a pressure is given.
     #[must_use]
     pub const fn given(self, given: &'static str) -> Self {
         Self { given, ..self }

@@ -19,17 +19,17 @@ const POINTS: usize = 96;
 pub fn alone(problem: &Problem, reading: &Reading) -> Option<Reading> {
     let indenters = problem.indenters()?;
     let [level] = indenters.levels() else { return None };
-    let own = reading.levels.first()?;
+    let level_reading = reading.levels.first()?;
     let sites: usize = indenters.lattice().sites().iter().map(Vec::len).sum();
     let is_sparse = sites == 1 && reading.touches() && reading.contact_fraction.is_some_and(|part| part < SPARSE);
-    let radius = own.contact_radius.filter(|_| is_sparse)?;
+    let radius = level_reading.contact_radius.filter(|_| is_sparse)?;
     let window = Cell::window([2.0 * ROOM * radius; 2]).ok()?;
     let lattice = Lattice::new(window, vec![vec![[0.5; 2]]]).ok()?;
     let mut single = Problem::new(Indenters::new(lattice, vec![*level]).ok()?, problem.bodies());
     if let Some(friction) = problem.friction() {
         single = single.sliding(*friction).ok()?;
     }
-    let step = Solver::new(single, [POINTS; 2], Settings::default()).ok()?.solve(Load::Force(own.load));
+    let step = Solver::new(single, [POINTS; 2], Settings::default()).ok()?.solve(Load::Force(level_reading.load));
     step.report.stop.solved().then(|| step.reading())
 }
 

@@ -44,9 +44,13 @@ impl StepRecord {
                 .into_iter()
                 .try_for_each(|quantity| positive(quantity, plastic, |code| format!("plastic.{code}")))?;
         }
-        if let Some(own) = &self.beneath {
-            let numbers =
-                [("hardness", own.hardness), ("pressure", own.pressure), ("depth", own.depth), ("radius", own.radius)];
+        if let Some(beneath) = &self.beneath {
+            let numbers = [
+                ("hardness", beneath.hardness),
+                ("pressure", beneath.pressure),
+                ("depth", beneath.depth),
+                ("radius", beneath.radius),
+            ];
             numbers.into_iter().try_for_each(|(key, value)| at_least_zero(&format!("beneath.{key}"), value))?;
         }
         finite("penetration", reading.penetration)?;
@@ -71,13 +75,18 @@ impl StepRecord {
             }
             stress.interfaces.iter().try_for_each(|carried| known(&CARRIED.each(), carried))?;
         }
-        for own in &self.strength {
-            number(&format!("utilisation of {}", own.criterion), own.value)?;
-            let due = Utilisation::new(own.criterion, own.value, own.error, own.position).verdict;
+        for utilisation in &self.strength {
+            number(&format!("utilisation of {}", utilisation.criterion), utilisation.value)?;
+            let due =
+                Utilisation::new(utilisation.criterion, utilisation.value, utilisation.error, utilisation.position)
+                    .verdict;
             // An error that is not finite is null in a file, and leaves the criterion undecided.
-            if own.verdict != due && (own.verdict != Verdict::Undecided || own.error.is_some()) {
-                let (criterion, is) = (own.criterion, own.verdict);
-                let value = own.error.map_or(own.value.to_string(), |error| format!("{} ± {error}", own.value));
+            if utilisation.verdict != due && (utilisation.verdict != Verdict::Undecided || utilisation.error.is_some())
+            {
+                let (criterion, is) = (utilisation.criterion, utilisation.verdict);
+                let value = utilisation
+                    .error
+                    .map_or(utilisation.value.to_string(), |error| format!("{} ± {error}", utilisation.value));
                 return Err(format!("`state` of {criterion} is `{is}`, and its utilisation {value} makes it `{due}`"));
             }
         }
@@ -95,7 +104,9 @@ impl StepRecord {
                 ));
             }
         }
-        let governing = |own: Option<&Governing>| own.map_or("nothing".to_owned(), |own| own.criterion.to_string());
+        let governing = |governing: Option<&Governing>| {
+            governing.map_or("nothing".to_owned(), |governing| governing.criterion.to_string())
+        };
         let [is, due] = [self.governing.as_ref(), Governing::of(&self.strength).as_ref()].map(governing);
         if is == due { Ok(()) } else { Err(format!("`governing` is {is}, and the largest utilisation is of {due}")) }
     }

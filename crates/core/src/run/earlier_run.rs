@@ -11,9 +11,9 @@ use crate::spectral::Checkpoint;
 pub struct EarlierRun {
     /// The grid, points along a₁ and a₂.
     pub points: [usize; 2],
-    /// Of a refinement, the changes between the grids before.
+    /// Changes between the grids before, of a refinement.
     pub changes: Vec<f64>,
-    /// Of a refinement, the steps on the grid before; `None` on the first.
+    /// Steps on the grid before, of a refinement; `None` on the first grid.
     pub coarser: Option<Vec<StepRecord>>,
     /// The steps on this grid before the last.
     pub steps: Vec<StepRecord>,

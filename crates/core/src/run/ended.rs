@@ -1,4 +1,4 @@
-//! Where the elastic answer has ended: yield inside, pressures that softer materials beneath the surface do not bear, and penetrations
+//! The end of the elastic answer: yield inside, pressures that softer materials beneath the surface do not bear, and penetrations
 //! beyond the layers.
 //!
 //! Contact is solved for bodies that are elastic inside, and yield at the surface alone where that has a hardness. What is stated beyond
@@ -16,7 +16,7 @@ const EXCEEDED: f64 = 1.02;
 /// Part of their thickness from which on what is pressed into layers is held by the substrate too (Bückle's rule).
 const OF_THE_LAYERS: f64 = 0.1;
 
-/// Where the answers of some steps have ended, a sentence; `None` where all hold.
+/// Sentence on the steps whose elastic answers have ended, and why; `None` where all hold.
 pub(super) fn ended(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let yields: Vec<&Utilisation> = steps.iter().flat_map(|(_, step)| exceeded(step)).collect();
     let has_ended = |step: &StepRecord| exceeded(step).next().is_some() || step.beneath.is_some();
@@ -24,9 +24,9 @@ pub(super) fn ended(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let list = list(steps, |step| has_ended(step) || is_deep(step))?;
     let mut why: Vec<String> = worst(&yields).into_iter().map(yielding).collect();
     let beneath = steps.iter().filter_map(|(_, step)| step.beneath);
-    let is_said = |own: &Beneath| yields.iter().any(|known| known.criterion == Criterion::Yield(own.material));
+    let is_said = |beneath: &Beneath| yields.iter().any(|known| known.criterion == Criterion::Yield(beneath.material));
     let most = |a: &Beneath, b: &Beneath| (a.pressure / a.hardness).total_cmp(&(b.pressure / b.hardness));
-    why.extend(beneath.filter(|own| !is_said(own)).max_by(most).map(|own| own.to_string()));
+    why.extend(beneath.filter(|beneath| !is_said(beneath)).max_by(most).map(|beneath| beneath.to_string()));
     let pressed = steps.iter().filter_map(|(_, step)| pressed_beyond(problem, step));
     why.extend(pressed.max_by(|a, b| a[0].total_cmp(&b[0])).map(|[depth, thickness]| {
         format!(
@@ -73,27 +73,30 @@ pub(super) fn beyond(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 
 /// Utilisations of yield beyond 1, their errors included.
 fn exceeded(step: &StepRecord) -> impl Iterator<Item = &Utilisation> {
-    let is_yield = |own: &&Utilisation| matches!(own.criterion, Criterion::Yield(_));
-    step.strength.iter().filter(is_yield).filter(|own| own.verdict == Verdict::Fails && own.value > EXCEEDED)
+    let is_yield = |utilisation: &&Utilisation| matches!(utilisation.criterion, Criterion::Yield(_));
+    step.strength
+        .iter()
+        .filter(is_yield)
+        .filter(|utilisation| utilisation.verdict == Verdict::Fails && utilisation.value > EXCEEDED)
 }
 
 /// The largest utilisation of each criterion, the largest of all first.
 fn worst<'a>(all: &[&'a Utilisation]) -> Vec<&'a Utilisation> {
     let mut worst: Vec<&Utilisation> = Vec::new();
-    for &own in all {
-        match worst.iter_mut().find(|known| known.criterion == own.criterion) {
-            Some(known) if known.value < own.value => *known = own,
+    for &utilisation in all {
+        match worst.iter_mut().find(|known| known.criterion == utilisation.criterion) {
+            Some(known) if known.value < utilisation.value => *known = utilisation,
             Some(_) => {}
-            None => worst.push(own),
+            None => worst.push(utilisation),
         }
     }
     worst.sort_by(|a, b| b.value.total_cmp(&a.value));
     worst
 }
 
-fn yielding(own: &Utilisation) -> String {
-    let value = if own.value.is_infinite() { "∞".to_owned() } else { ratio(own.value) };
-    format!("{} has the utilisation {value} at the depth {}", own.criterion, number(own.position[2]))
+fn yielding(utilisation: &Utilisation) -> String {
+    let value = if utilisation.value.is_infinite() { "∞".to_owned() } else { ratio(utilisation.value) };
+    format!("{} has the utilisation {value} at the depth {}", utilisation.criterion, number(utilisation.position[2]))
 }
 
 /// Depth pressed in and thickness of the layers of the softer body, lengths, where that is beyond a tenth of it.
@@ -123,13 +126,15 @@ fn thickness(body: &HalfSpace) -> Option<f64> {
 
 /// Whether yield of the material below the layers is judged; `None` where no material has a hardness or a strength, and nothing is.
 fn is_judged(bodies: &Bodies) -> Option<bool> {
-    let known = |own: &HalfSpace| -> Vec<[bool; 2]> {
-        let all = own.strengths().zip(own.durabilities());
-        all.map(|(strength, own)| [strength.yielding.is_some() || own.hardness.is_some(), strength.tensile.is_some()])
-            .collect()
+    let known = |body: &HalfSpace| -> Vec<[bool; 2]> {
+        let all = body.strengths().zip(body.durabilities());
+        all.map(|(strength, durability)| {
+            [strength.yielding.is_some() || durability.hardness.is_some(), strength.tensile.is_some()]
+        })
+        .collect()
     };
-    let any = bodies.each().flat_map(known).any(|own| own.contains(&true));
-    any.then(|| known(bodies.body()).last().is_some_and(|own| own[0]))
+    let any = bodies.each().flat_map(known).any(|judged| judged.contains(&true));
+    any.then(|| known(bodies.body()).last().is_some_and(|judged| judged[0]))
 }
 
 /// Pressure over the contact modulus E* of a material that it reaches.
@@ -143,7 +148,7 @@ struct Strain {
 
 /// The largest pressure over E*, of all steps and materials, where strains are not small any more.
 pub(super) fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<String> {
-    let all = steps.iter().flat_map(|step| strains(problem, step)).filter(|own| own.part > HIGH);
+    let all = steps.iter().flat_map(|step| strains(problem, step)).filter(|strain| strain.part > HIGH);
     let Strain { part, step, peak, whose } = all.reduce(|a, b| if b.part > a.part { b } else { a })?;
     Some(format!(
         "step {step}: the peak pressure {} is {} of E* {whose}: strains are not small any more; are load and moduli in one unit?",

@@ -65,7 +65,7 @@ use std::sync::Arc;
 /// enough.
 const CHECKED_GRID: usize = 3;
 
-/// What a load is solved for.
+/// Purpose for which a load is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Loading {
     /// A step of a load path: the contact stiffness is read too.
@@ -230,7 +230,7 @@ impl Run {
     ) -> Result<Solved, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&self.problem), points, self.settings)?;
         recorder.begin(&solver).map_err(RunError::Recorder)?;
-        let (mut records, mut saved) = finished.map_or((Vec::new(), None), |own| (own.steps, own.last));
+        let (mut records, mut saved) = finished.map_or((Vec::new(), None), |earlier| (earlier.steps, earlier.last));
         let Some(loads) = self.loads.get(records.len()..).filter(|loads| !loads.is_empty()) else {
             return Err(OtherGrids.into());
         };

@@ -49,7 +49,7 @@ quantities! {
         /// Parts of load and contact where the window of a topography is below 1; `None` without a window.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub tapered: Option<Tapered>,
-        /// What the hardness of the softer surface has pressed in; `None` without hardness.
+        /// Permanent indentation of the softer surface under its hardness; `None` without hardness.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticReading>,
         /// Pressure above the hardness of a material beneath the surface; `None` where none is exceeded.
@@ -117,7 +117,8 @@ impl StepRecord {
         let rough = step.rough_reading(&reading);
         let beneath = Beneath::of(step.problem(), &reading, step.grid().points());
         let sliding = Sliding { outer_iterations: report.outer, residual: report.residual };
-        let plastic = PlasticReading::of(step).map(|own| own.with_error_of_depth(step, reading.errors.penetration));
+        let plastic =
+            PlasticReading::of(step).map(|plastic| plastic.with_error_of_depth(step, reading.errors.penetration));
         let record = Self {
             reading,
             stop: report.stop,
@@ -146,7 +147,7 @@ impl StepRecord {
     /// The record with the contact stiffness of its step and its error.
     #[must_use]
     pub(super) fn with_stiffness(self, stiffness: Option<[f64; 2]>) -> Self {
-        let [contact_stiffness, contact_stiffness_error] = [0, 1].map(|index| stiffness.map(|own| own[index]));
+        let [contact_stiffness, contact_stiffness_error] = [0, 1].map(|index| stiffness.map(|pair| pair[index]));
         Self { contact_stiffness, contact_stiffness_error, ..self }
     }
 
@@ -191,7 +192,7 @@ impl StepRecord {
 
     /// The utilisation of a criterion; `None` without contact, or a strength.
     pub fn utilisation(&self, criterion: Criterion) -> Option<&Utilisation> {
-        self.strength.iter().find(|own| own.criterion == criterion)
+        self.strength.iter().find(|utilisation| utilisation.criterion == criterion)
     }
 
     /// The governing criterion in words, numbers and errors formatted by `format`: "yield of material 2 has the utilisation 0.93 ± 0.02, or
@@ -239,7 +240,7 @@ impl StepRecord {
         let utilisations = self.strength.iter().map(|utilisation| utilisation.value);
         let interfaces = self.stress.iter().flat_map(|stress| &stress.interfaces);
         let interfaces = interfaces.flat_map(|carried| carried.peaks().map(|peak| peak.value));
-        let ranges = self.fatigue.iter().flat_map(|own| own.lives.iter().map(|life| life.range));
+        let ranges = self.fatigue.iter().flat_map(|fatigue| fatigue.lives.iter().map(|life| life.range));
         let stresses = stresses.chain(utilisations).chain(interfaces).chain(ranges);
         scalars.iter().all(|x| x.is_finite()) && !stresses.into_iter().any(f64::is_nan)
     }

@@ -16,16 +16,16 @@ pub fn touches(problem: &Problem, steps: &[StepRecord], quantity: LoadQuantity) 
     let levels = problem.levels();
     let highest = levels.iter().map(|level| level.height()).fold(f64::NEG_INFINITY, f64::max);
     let touch = |exponent: f64, is_highest: bool, level: usize| {
-        let load = |step: &StepRecord| step.reading.levels.get(level - 1).map_or(0.0, |own| own.load);
+        let load = |step: &StepRecord| step.reading.levels.get(level - 1).map_or(0.0, |reading| reading.load);
         let first = steps.iter().position(|step| load(step) > 0.0).filter(|&first| first > 0)?;
         // A level that touches from the beginning has no load of first touch.
         let before = whole(steps[first - 1]);
         let power = exponent / (exponent + 1.0);
         let at = |step: &StepRecord| [whole(step), load(step)].map(|x| x.powf(power));
-        let ([x, own], p) = (at(steps[first]), whole(steps[first]));
-        let line = steps.get(first + 1).map(|step| at(step)).filter(|[_, next]| *next > own);
+        let ([x, near], p) = (at(steps[first]), whole(steps[first]));
+        let line = steps.get(first + 1).map(|step| at(step)).filter(|[_, next]| *next > near);
         let zero = line.map_or(0.5 * (before + p), |[next, further]| {
-            (x - own * (next - x) / (further - own)).max(0.0).powf(power.recip())
+            (x - near * (next - x) / (further - near)).max(0.0).powf(power.recip())
         });
         (before > 0.0 || !is_highest).then(|| zero.clamp(before, p))
     };
@@ -66,14 +66,14 @@ mod tests {
             let exact = exact[level - 1].unwrap().mean_pressure;
             assert!((pressure / exact - 1.0).abs() < 0.07, "level {level}: {pressure} {exact}");
         }
-        // As forces they are the same loads.
+        // The loads are the same as forces.
         let (area, forces) = (solver.problem().cell().area(), touches(solver.problem(), &steps, LoadQuantity::Force));
         assert_eq!(forces.len(), 2);
-        for ((level, force), (own, pressure)) in
+        for ((level, force), (number, pressure)) in
             forces.into_iter().zip(touches(solver.problem(), &steps, LoadQuantity::MeanPressure))
         {
             assert!(
-                level == own && (force / (pressure * area) - 1.0).abs() < 1e-12,
+                level == number && (force / (pressure * area) - 1.0).abs() < 1e-12,
                 "level {level}: {force} {pressure}"
             );
         }

@@ -87,7 +87,7 @@ fn is_told(stop: Stop) -> bool {
 /// Warning of what a path presses into a softer body that slides away below the counterbody.
 fn dropped(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let (_, before) = steps.split_last()?;
-    let is_pressed_in = |step: &StepRecord| step.plastic.is_some_and(|own| own.is_pressed_in());
+    let is_pressed_in = |step: &StepRecord| step.plastic.is_some_and(|plastic| plastic.is_pressed_in());
     let list = list(before, is_pressed_in).filter(|_| problem.is_swept())?;
     Some(format!(
         "what step {list} has pressed in is dropped: the body is the softer one and moves away below the sliding counterbody ([friction]), so \
@@ -219,7 +219,7 @@ fn mean_matters(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 /// Contact where the window of a topography tapers its heights.
 fn at_border(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let window = problem.topography()?.run_out()?.window;
-    let part = |step: &StepRecord| step.tapered.map_or(0.0, |own| own.load.max(own.area));
+    let part = |step: &StepRecord| step.tapered.map_or(0.0, |tapered| tapered.load.max(tapered.area));
     let list = list(steps, |step| part(step) > TAPERED_PART)?;
     let worst = steps.iter().filter_map(|(_, step)| step.tapered).max_by(|a, b| a.load.total_cmp(&b.load))?;
     let advice = match window {

@@ -69,7 +69,7 @@ pub struct WearPath {
     pub max_steps: usize,
 }
 
-/// What is worn off one surface, since the solver was made.
+/// Wear of one surface since the solver was made.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct WornSurface {
     /// Volume on one cell or by an isolated contact, a cubed length.
@@ -89,9 +89,9 @@ pub struct WornStep {
     pub error: f64,
     /// Error of the depth worn off on the path so far, over the largest one since the solver was made.
     pub accumulated_error: f64,
-    /// What is worn off the body.
+    /// Wear of the body.
     pub body: WornSurface,
-    /// What is worn off the counterbody.
+    /// Wear of the counterbody.
     pub counterbody: WornSurface,
     /// Force on one cell or on the isolated contact at the end of the step, a pressure times an area.
     pub force: f64,
@@ -99,9 +99,9 @@ pub struct WornStep {
     pub max_pressure: f64,
     /// Penetration at the end of the step, from the first touch of the worn surfaces, a length.
     pub penetration: f64,
-    /// By how much that first touch lies deeper than that of the unworn surfaces, a length.
+    /// Depth of that first touch below the one of the unworn surfaces, a length.
     pub recession: f64,
-    /// Convolutions of its tries, as equivalents of the finest grid.
+    /// Convolutions of all tries of the step, as equivalents of the finest grid.
     pub convolutions: f64,
 }
 
@@ -109,13 +109,13 @@ pub struct WornStep {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PathEnd {
-    /// At its end.
+    /// The whole distance is slid.
     Complete,
-    /// By the callback.
+    /// The callback ended the path.
     Stopped,
-    /// At the largest number of steps.
+    /// The largest number of steps is reached.
     StepLimit,
-    /// At a contact that no length of a step solves.
+    /// No length of a step solves the contact.
     Unsolved(Stop),
 }
 
@@ -124,7 +124,7 @@ pub enum PathEnd {
 pub struct WornPath {
     /// The accepted steps.
     pub steps: Vec<WornStep>,
-    /// How it ended.
+    /// How the path ended.
     pub end: PathEnd,
     /// Number of tries that were too long.
     pub rejected: usize,
@@ -178,7 +178,7 @@ impl WearPath {
                 path.end = PathEnd::StepLimit;
                 break;
             }
-            // What is left is not cut into a last step of next to no length.
+            // The distance left is not cut into a last step of next to no length.
             let left = self.distance - slid;
             length = if left > 2.0 * length {
                 length
@@ -193,20 +193,20 @@ impl WearPath {
             if let (true, Some(step)) = (excess <= 1.0, tried.step) {
                 errors += &tried.errors;
                 slid = if length == left { self.distance } else { slid + length };
-                let own = WornStep {
+                let worn = WornStep {
                     error: tried.relative,
                     convolutions,
                     length,
                     ..WornStep::of(solver, &step, slid, &errors)
                 };
-                path.steps.push(own);
+                path.steps.push(worn);
                 convolutions = 0.0;
                 if keeps {
                     solver.keep_indentation();
                 }
                 present = solver.wear_state();
                 path.next = length * factor(excess);
-                if each(&own, &step).is_break() {
+                if each(&worn, &step).is_break() {
                     path.end = PathEnd::Stopped;
                     break;
                 }
@@ -279,7 +279,7 @@ impl WearPath {
 }
 
 impl WornStep {
-    /// What a step has reached, its own length, error and convolutions left out.
+    /// The state that a step has reached, without the length, error and convolutions of the step.
     fn of(solver: &Solver, step: &Step, distance: f64, errors: &Array2<f64>) -> Self {
         let worn = solver.worn();
         let surface = |side: Side| WornSurface {
@@ -372,11 +372,11 @@ mod tests {
     fn the_stated_error_is_that_of_the_worn_depth() {
         let (load, wear, distance) = (Load::MeanPressure(0.02), Wear::new(0.0, 1.0, [1.0, 0.0]).unwrap(), 0.5);
         let equal = |steps: usize| {
-            let mut own = solver(None);
+            let mut solver = solver(None);
             for _ in 0..steps {
-                own.wear(load, &wear, distance / steps as f64).unwrap();
+                solver.wear(load, &wear, distance / steps as f64).unwrap();
             }
-            worn_depth(&own)
+            worn_depth(&solver)
         };
         let apart = |a: &Array2<f64>, b: &Array2<f64>| largest(samples(&(a - b)));
         let [coarse, middle, fine] = [128, 256, 512].map(equal);
@@ -386,18 +386,18 @@ mod tests {
         assert!(of_reference < 3e-4, "{of_reference:e}");
         let mut last = f64::INFINITY;
         for (tolerance, most) in [(0.1, 16), (1e-2, 60), (1e-3, 250)] {
-            let mut own = solver(None);
-            let path = WearPath::new(load, wear, distance, tolerance).unwrap().slide(&mut own, &mut go_on).unwrap();
+            let mut solver = solver(None);
+            let path = WearPath::new(load, wear, distance, tolerance).unwrap().slide(&mut solver, &mut go_on).unwrap();
             assert_eq!(path.end, PathEnd::Complete);
             let end = path.steps.last().unwrap();
-            let error = apart(&worn_depth(&own), &exact) / deepest;
+            let error = apart(&worn_depth(&solver), &exact) / deepest;
             assert!(error < 1.5 * end.accumulated_error + of_reference, "{error:e}: {end:?}");
             assert!(error < (0.5 * last).max(of_reference), "{error:e} {last:e}");
             assert!(end.accumulated_error <= 3.0 * tolerance && end.distance == distance);
             assert!(path.steps.iter().all(|step| step.error <= tolerance));
             let length: f64 = path.steps.iter().map(|step| step.length).sum();
             assert!((length / distance - 1.0).abs() < 1e-12);
-            let volume = distance * 0.02 * own.grid().cell().area();
+            let volume = distance * 0.02 * solver.grid().cell().area();
             assert!((end.counterbody.volume / volume - 1.0).abs() < 1e-12 && end.body.volume == 0.0);
             let steps = path.steps.len();
             assert!(steps < most && path.rejected < steps, "{tolerance}: {steps} {}", path.rejected);
@@ -445,8 +445,8 @@ mod tests {
             let wear = Wear::new(0.2, 0.5, [1.0, 0.0]).unwrap();
             let mut forces = Vec::new();
             let path = WearPath::new(Load::Penetration(0.02), wear, 10.0, 0.2).unwrap();
-            let mut own = solver(cell);
-            let path = path.slide(&mut own, &mut |step, contact| {
+            let mut solver = solver(cell);
+            let path = path.slide(&mut solver, &mut |step, contact| {
                 forces.push(step.force);
                 assert!((contact.penetration() + step.recession - 0.02).abs() < 1e-15);
                 ControlFlow::Continue(())
@@ -457,7 +457,7 @@ mod tests {
             let rise = forces.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
             assert!(rise < 0.02 * forces[0] && forces[forces.len() - 1] < 0.1 * forces[0], "{forces:?}");
             let most = 0.02 * (1.0 + path.steps.last().unwrap().accumulated_error);
-            assert!(worn_depth(&own).iter().all(|&depth| depth < most));
+            assert!(worn_depth(&solver).iter().all(|&depth| depth < most));
         }
     }
 
@@ -471,8 +471,8 @@ mod tests {
         assert_eq!((limited.end, limited.steps.len()), (PathEnd::StepLimit, 2));
         // A flat as wide as the window.
         let path = WearPath { distance: 100.0, tolerance: 0.5, ..path };
-        let mut own = solver(Some(Cell::window([0.6, 0.6]).unwrap()));
-        let ended = path.slide(&mut own, &mut go_on).unwrap();
+        let mut solver = solver(Some(Cell::window([0.6, 0.6]).unwrap()));
+        let ended = path.slide(&mut solver, &mut go_on).unwrap();
         assert_eq!(ended.end, PathEnd::Unsolved(Stop::AtBorder));
         assert!(WearPath::new(path.load, wear, 1.0, 0.0).is_err());
         assert!(WearPath::new(path.load, wear, f64::NAN, 0.1).is_err());

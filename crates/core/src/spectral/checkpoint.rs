@@ -37,7 +37,9 @@ impl Checkpoint {
     /// Whether the checkpoint is that of a solver whose grids have `samples`, the finest first.
     fn is_of(&self, samples: impl ExactSizeIterator<Item = usize> + Clone) -> bool {
         let count = if self.report.stop.solved() { samples.len() } else { self.coarser.saturating_add(1) };
-        let fits = |(own, samples): (&Unknowns, usize)| own.pressure.len() == samples && own.gap.len() == samples;
+        let fits = |(unknowns, samples): (&Unknowns, usize)| {
+            unknowns.pressure.len() == samples && unknowns.gap.len() == samples
+        };
         self.grids.len() == count
             && self.coarser < count
             && count <= samples.len()
@@ -71,7 +73,7 @@ impl Solver {
     /// # Errors
     /// [`OtherGrids`] for a checkpoint of a solver on other grids; this one is not changed.
     pub fn restore(&mut self, load: Load, checkpoint: Checkpoint) -> Result<Step, OtherGrids> {
-        let samples: Vec<usize> = self.unknowns().map(|own| own.pressure.len()).collect();
+        let samples: Vec<usize> = self.unknowns().map(|unknowns| unknowns.pressure.len()).collect();
         if !checkpoint.is_of(samples.into_iter()) {
             return Err(OtherGrids);
         }

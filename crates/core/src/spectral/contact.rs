@@ -39,7 +39,7 @@ impl Contact {
         Self { problem, surface, pressure, gap, penetration, indented: None, spots: OnceLock::new() }
     }
 
-    /// It after earlier loads that have pressed in these depths, sample by sample.
+    /// The contact after earlier loads that have pressed in these depths, lengths, one per sample.
     pub(super) fn after(self, indented: Option<Arc<Vec<f64>>>) -> Self {
         Self { indented, ..self }
     }
@@ -106,7 +106,7 @@ impl Contact {
 
     /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length.
     ///
-    /// It is the work ∫ P dδ of the force P on the cell along the load path: w has zero mean and δ is measured from the mean
+    /// The energy is the work ∫ P dδ of the force P on the cell along the load path: w has zero mean and δ is measured from the mean
     /// plane, or both from a rigid base, and of E(p) = ½⟨p, Cp⟩ + ⟨p, f − δ⟩ the minimum over p ≥ 0 is −½⟨p, Cp⟩, whose derivative by δ is −P. Under
     /// coupled friction it is the energy stored by the pressure, without the work of the traction.
     pub fn elastic_energy(&self) -> f64 {

@@ -102,7 +102,7 @@ impl<T: Real> Convolution<T> {
     /// The multiplier of the positive values that `fill([k₁, k₂], values)` gives the components (k₁, k₂), (k₁, k₂ + 1), …,
     /// 0 ≤ k₁ < N₁, 0 ≤ k₂ ≤ N₂/2.
     ///
-    /// They must be even under (k₁, k₂) → (−k₁, −k₂): then real fields stay real. Where they are also even in k₁ alone
+    /// Values must be even under (k₁, k₂) → (−k₁, −k₂): then real fields stay real. Where they are also even in k₁ alone
     /// (`mirrored`), half of them are computed.
     pub fn multiplier(&self, mirrored: bool, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> Multiplier {
         let ([n1, _], normalisation) = (self.points, self.normalisation());
@@ -116,7 +116,7 @@ impl<T: Real> Convolution<T> {
     /// The odd multiplier of the values that `fill([k₁, k₂], values)` gives the components (k₁, k₂), (k₁, k₂ + 1), …,
     /// 0 ≤ k₁ < N₁, 0 ≤ k₂ ≤ N₂/2.
     ///
-    /// They must be odd under (k₁, k₂) → (−k₁, −k₂), and with it zero for components that are their own conjugates: then real
+    /// Values must be odd under (k₁, k₂) → (−k₁, −k₂), and with it zero for components that are their own conjugates: then real
     /// fields stay real.
     pub fn skew_ratio(&self, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> SkewRatio {
         SkewRatio::new(self.table(0.0, false, fill))
@@ -222,18 +222,18 @@ impl<T: Real> Convolution<T> {
     }
 
     fn column_pass(&self, action: Action<'_>, multiplier: &Multiplier, spectrum: &mut [T]) {
-        let (own, whole) = (self.tile(), self.points[0] * line::<T>());
-        let padded = if own < whole { whole } else { 0 };
+        let (size, whole) = (self.tile(), self.points[0] * line::<T>());
+        let padded = if size < whole { whole } else { 0 };
         let scratch = || (vec![Complex64::ZERO; self.columns.scratch(self.points[0])], Aligned::new(padded));
-        spectrum.par_chunks_exact_mut(own).enumerate().for_each_init(scratch, |(scratch, padded), (tile, lines)| {
+        spectrum.par_chunks_exact_mut(size).enumerate().for_each_init(scratch, |(scratch, padded), (tile, lines)| {
             let multiply = |first: usize, lines: &mut [T]| action.multiply(multiplier, tile, first, lines);
             if padded.is_empty() {
                 return self.columns.there_and_back(lines, scratch, &multiply);
             }
-            padded[..own].copy_from_slice(lines);
-            padded[own..].fill(T::zero());
+            padded[..size].copy_from_slice(lines);
+            padded[size..].fill(T::zero());
             self.columns.there_and_back(padded, scratch, &multiply);
-            lines.copy_from_slice(&padded[..own]);
+            lines.copy_from_slice(&padded[..size]);
         });
     }
 }
@@ -330,7 +330,7 @@ mod tests {
         [there, back].map(|sum| sum / (n1 * n2) as f64)
     }
 
-    /// Of a field with zeros in all rows but 26 of 150 only the results of these rows are needed: they are, bit for bit, those of
+    /// The field has zeros in all rows but 26 of 150, and only the results of these rows are needed: they are, bit for bit, those of
     /// a transform of every row. The rows fill some groups that are transformed together, and parts of others.
     #[test]
     fn rows_that_are_left_out_change_no_other() {
@@ -342,7 +342,7 @@ mod tests {
         });
         let is_used = |row: usize| (20..45).contains(&row) || row == 140;
         let input: Vec<f32> = noise(n1 * n2).into_iter().map(|x| x as f32).collect();
-        // Where rows are next to nothing each of them is transformed.
+        // Rows that are next to nothing are all transformed.
         let padded = |padding: f32| -> Vec<f32> {
             let rows = input.chunks(n2).enumerate();
             rows.flat_map(|(row, samples)| samples.iter().map(move |&x| if is_used(row) { x } else { padding }))

@@ -18,12 +18,12 @@ pub(super) struct DepthSearch {
     depth: f64,
     /// The last depth whose hardness has borne the load, a length.
     borne: f64,
-    /// By how much the last penetration was deeper than the depth that was tried, a length.
+    /// Excess of the last penetration over the depth that was tried, a length.
     deeper: f64,
     tried: usize,
 }
 
-/// What a solution at the hardness of the depth that is tried says.
+/// Outcome of a solution at the hardness of the depth that is tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Found {
     /// Another depth is tried.

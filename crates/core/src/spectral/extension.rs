@@ -38,10 +38,10 @@ pub(super) fn extended<'a>(
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
     let [_, columns] = blocks.points();
     let fields = blocks.of(residual).zip(blocks.of_mut(weight)).zip(reached.par_chunks_mut(blocks.rows()));
-    fields.enumerate().map(move |(block, ((own, weight), reached))| {
+    fields.enumerate().map(move |(block, ((values, weight), reached))| {
         let mut sums = Triangles::new(blocks, block, residual, Centred { mean });
         let [mut near, mut share] = [(); 2].map(|()| PeriodicRow::new(columns));
-        let mut rows = own.zip(weight).zip(reached);
+        let mut rows = values.zip(weight).zip(reached);
         move |row: &mut [f32]| {
             let ((residual, weight), reached) = next(&mut rows);
             let [sum, count] = sums.next();
@@ -284,8 +284,8 @@ mod tests {
             let mut gathered = Vec::new();
             for block in 0..blocks.count() {
                 let mut rows = gathering(blocks, block, &weight);
-                let own = blocks.rows().min(n1 - block * blocks.rows());
-                (0..own).for_each(|_| gathered.extend_from_slice(&rows.next()[0][..n2]));
+                let count = blocks.rows().min(n1 - block * blocks.rows());
+                (0..count).for_each(|_| gathered.extend_from_slice(&rows.next()[0][..n2]));
             }
             let dot = |a: f32, b: f32| f64::from(a) * f64::from(b);
             let forth: f64 = (0..size).map(|k| dot(extension[k], other[k])).sum();

@@ -25,7 +25,7 @@ const MAX_UNRESOLVED: usize = 4;
 /// Least change of the penetration, over it, at which its composite hardness is known.
 const DEPTH_TOLERANCE: f64 = 1e-6;
 
-/// What was pressed in for good: the surface without it, and the depths, lengths, a₂ fastest.
+/// Permanent indentation: the surface without it, and the depths, lengths, one per sample, a₂ fastest.
 pub(super) type Indented = (Arc<Surface>, Arc<Vec<f64>>);
 
 /// A problem on one grid.

@@ -21,7 +21,7 @@ pub struct LayeredOperator {
     transforms: Transforms,
     /// C, or the transform H of a kernel.
     compliance: Multiplier,
-    /// What coupled friction adds.
+    /// Skew part that coupled friction adds.
     skew: Option<Skew>,
     /// Largest |C⁻¹(A − C)| without a local compliance.
     coupling: f64,
@@ -63,7 +63,7 @@ pub(super) enum Skew {
     Part(SkewPart),
 }
 
-/// What a local compliance has changed.
+/// Values that a local compliance has changed.
 #[derive(Debug, Default)]
 struct Softened {
     /// Compliance under a uniform pressure.
@@ -217,7 +217,7 @@ impl ElasticOperator for LayeredOperator {
         let ([n1, n2], (inverse, _)) = (self.blocks().points(), self.inverse());
         let single = self.transforms.single.memory().max(inverse.single.memory());
         let double = self.transforms.double.memory().max(inverse.double.memory());
-        // Of few columns a tile in single precision has as many bytes as those in double precision.
+        // A tile of few columns in single precision has as many bytes as one in double precision.
         let (memory, rest) = workspace.of(double.max(single + (n1 * n2).div_ceil(2))).split_at_mut(single);
         (memory, &mut bytemuck::cast_slice_mut(rest)[..n1 * n2])
     }

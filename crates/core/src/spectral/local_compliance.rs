@@ -40,7 +40,7 @@ impl LocalCompliance {
         self.on_lines.as_ref().map(times).unwrap_or_default()
     }
 
-    /// The same for a window that is padded to a grid of `points`.
+    /// Components as in [`Self::of_lines`], for a window that is padded to a grid of `points`.
     pub fn of_lines_padded(&self, points: [usize; 2]) -> Vec<([usize; 2], f64)> {
         let times = |(factor, mean): &(f64, SlidingMean)| scaled(*factor, &mean.padded(points));
         self.on_lines.as_ref().map(times).unwrap_or_default()

@@ -24,7 +24,7 @@ pub struct Multiplier {
     added: Added,
 }
 
-/// What is added to a multiplier for a while.
+/// Terms that are added to a multiplier for a while.
 #[derive(Debug, Clone, Default)]
 struct Added {
     /// u/(N₁N₂), added to every value of the table.
@@ -35,7 +35,7 @@ struct Added {
 }
 
 impl Multiplier {
-    /// With the values K/(N₁N₂) of `table`, N₁ `rows`.
+    /// The multiplier with the values K/(N₁N₂) of `table`, N₁ `rows`.
     pub(super) fn new(table: Vec<f64>, rows: usize, normalisation: f64) -> Self {
         Self { table, rows, normalisation, mean: None, added: Added::default() }
     }
@@ -56,8 +56,8 @@ impl Multiplier {
             self.added.table.push((index, self.table[index]));
             self.table[index] += value * self.normalisation;
         }
-        let own = few.iter().find(|(index, _)| *index == 0).map_or(0.0, |&(_, value)| value * self.normalisation);
-        self.mean = self.mean.map(|mean| mean + self.added.uniform + own);
+        let at_zero = few.iter().find(|(index, _)| *index == 0).map_or(0.0, |&(_, value)| value * self.normalisation);
+        self.mean = self.mean.map(|mean| mean + self.added.uniform + at_zero);
     }
 
     /// Takes off what was [added](Self::add): the multiplier is that of before, bit for bit.
@@ -146,7 +146,7 @@ impl Action<'_> {
     pub(super) fn multiply<T: Real>(self, multiplier: &Multiplier, tile: usize, first: usize, lines: &mut [T]) {
         let rows = lines.len() / line::<T>();
         let uniform = multiplier.added.uniform;
-        let own_mean = match self {
+        let mean_line = match self {
             Self::Multiply(factor) | Self::MultiplySkewed(factor, _) if tile == 0 && first == 0 => {
                 multiplier.mean.map(|mean| [lines[0], lines[T::WIDTH]].map(|x| product(x, mean * factor)))
             }
@@ -155,8 +155,8 @@ impl Action<'_> {
         for (number, lane) in (0..T::WIDTH).step_by(LANES).enumerate() {
             // Factors of eight columns.
             let whole = (tile * T::WIDTH / LANES + number) * multiplier.rows;
-            let own = (whole + first) * LANES..(whole + first + rows) * LANES;
-            let (table, normalisation) = (&multiplier.table[own.clone()], multiplier.normalisation);
+            let range = (whole + first) * LANES..(whole + first + rows) * LANES;
+            let (table, normalisation) = (&multiplier.table[range.clone()], multiplier.normalisation);
             match self {
                 Self::Multiply(factor) | Self::MultiplySkewed(factor, _) => {
                     vectorised!(simd => times(simd, factor, (table, uniform), lines, lane));
@@ -167,23 +167,23 @@ impl Action<'_> {
                     vectorised!(simd => over(simd, [numerator, common], (table, uniform), lines, lane));
                 }
                 Self::MultiplyComplex(factor, skew) => {
-                    let skew = &skew.table[own.clone()];
+                    let skew = &skew.table[range.clone()];
                     vectorised!(simd => times_complex(simd, factor, ([table, skew], uniform), lines, lane));
                 }
             }
             match self {
                 Self::Multiply(_) | Self::Divide(_) | Self::MultiplyComplex(..) => {}
                 Self::MultiplySkewed(_, ratio) => {
-                    let ratios = (&ratio.table[own], table, uniform);
+                    let ratios = (&ratio.table[range], table, uniform);
                     vectorised!(simd => multiply_skew(simd, ratios, lines, lane));
                 }
                 Self::DivideSkewed(_, ratio) => {
-                    let ratios = (&ratio.table[own], table, uniform);
+                    let ratios = (&ratio.table[range], table, uniform);
                     vectorised!(simd => divide_skew(simd, ratios, lines, lane));
                 }
             }
         }
-        if let Some([re, im]) = own_mean {
+        if let Some([re, im]) = mean_line {
             (lines[0], lines[T::WIDTH]) = (re, im);
         }
     }

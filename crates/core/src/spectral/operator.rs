@@ -25,7 +25,7 @@ impl Workspace {
     }
 }
 
-/// Which pressure the traction of coupled friction belongs to while the pressure changes.
+/// Pressure to which the traction of coupled friction belongs while the pressure changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TractionUpdate {
     /// The present one: the traction is updated in every step.
@@ -52,7 +52,7 @@ pub trait ElasticOperator {
     /// The blocks of the rows that sources and sinks belong to.
     fn blocks(&self) -> RowBlocks;
 
-    /// What lies around the samples.
+    /// Surroundings of the samples.
     fn surroundings(&self) -> Surroundings {
         Surroundings::Periodic
     }
@@ -252,13 +252,13 @@ mod tests {
         for method in [Method::Preconditioned, Method::PolonskyKeer] {
             for load in [Control::MeanPressure(0.02), Control::Penetration(0.01), Control::MeanPressure(2.0)] {
                 let before = layered.convolutions();
-                let (own, convolved) = solved(&mut layered, &gap, load, method);
+                let (report, convolved) = solved(&mut layered, &gap, load, method);
                 let (other, assembled) = solved(&mut dense, &gap, load, method);
-                assert_eq!((own.stop, other.stop), (Stop::Converged, Stop::Converged), "{own}; {other}");
+                assert_eq!((report.stop, other.stop), (Stop::Converged, Stop::Converged), "{report}; {other}");
                 let peak = convolved.pressure.iter().copied().fold(0.0, f64::max);
                 let pairs = convolved.pressure.iter().zip(&*assembled.pressure);
                 let error = pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
-                assert!(error < 1e-5 * peak, "{method:?}, {load}: {error:e} of {peak}; {own}; {other}");
+                assert!(error < 1e-5 * peak, "{method:?}, {load}: {error:e} of {peak}; {report}; {other}");
                 assert!(layered.convolutions() > before && dense.convolutions() > 0.0);
             }
         }

@@ -5,8 +5,8 @@
 //!
 //! ŵ = (C − iμK cos θ) p̂ = C(1 − iT) p̂,  T = μ (K/C) cos θ,
 //!
-//! θ between **q** and **e**: a skew part, which is odd in **q**, so that tied aliases are averaged and what is its own
-//! conjugate has none.
+//! θ between **q** and **e**: a skew part, which is odd in **q**, so that tied aliases are averaged and a component
+//! that is its own conjugate has none.
 //!
 //! The mean displacement of a half-space is infinite and left out; that of layers on a rigid base is the mean pressure times
 //! [`Bodies::mean_compliance`].
@@ -55,7 +55,7 @@ impl LayeredOperator {
         let at = |k: f64| compliances.iter().map(|(weight, compliance)| weight * compliance.at(k)).sum::<f64>();
         let unit = at(grid.least_wavenumber());
         let mean: f64 = compliances.iter().map(|(weight, compliance)| weight * compliance.mean()).sum();
-        // Where displacements have zero mean the inverse must stay positive: it takes the mean for a component of the least
+        // The inverse must stay positive where displacements have zero mean: it takes the mean for a component of the least
         // wavenumber.
         let compliance = transforms.double.multiplier(grid.cell().is_rectangular(), |first, values| {
             grid.wavenumbers(first, values);

@@ -246,15 +246,15 @@ mod tests {
         }
     }
 
-    /// Along a cell vector the samples of a line have one value, that of their own mean.
+    /// Along a cell vector all samples of a line have one value, the mean of the pressure on that line.
     #[test]
     fn along_a_cell_vector_the_mean_is_that_of_the_samples_of_a_line() {
         let grid = Grid::new(Cell::hexagonal(1.0).unwrap(), [7, 10]).unwrap();
         let p = noise(70);
         let mean = SlidingMean::new(&grid, [2.0, 0.0]).unwrap().of(&p);
-        for (k, own) in mean.iter().enumerate() {
+        for (k, value) in mean.iter().enumerate() {
             let line = (0..7).map(|i| p[i * 10 + k % 10]).sum::<f64>() / 7.0;
-            assert!((own - line).abs() < 1e-15 && *own == mean[k % 10]);
+            assert!((value - line).abs() < 1e-15 && *value == mean[k % 10]);
         }
     }
 

@@ -37,9 +37,9 @@ const JOINING_WEIGHT: f64 = 2.0;
 pub struct Solver {
     problem: Arc<Problem>,
     settings: Settings,
-    /// From the finest grid to the coarsest.
+    /// Levels from the finest grid to the coarsest.
     pub(super) levels: Vec<GridLevel>,
-    /// What sliding has worn off.
+    /// Depths that sliding has worn off; `None` before any wear.
     pub(super) worn: Option<Worn>,
 }
 
@@ -102,8 +102,8 @@ impl Solver {
             level.give_mask(&mask);
         }
         // A grid too coarse for the mask, and those below it, take no part.
-        let own = self.levels.iter().take_while(|level| level.has_admissible()).count();
-        self.levels.truncate(own);
+        let count = self.levels.iter().take_while(|level| level.has_admissible()).count();
+        self.levels.truncate(count);
         Ok(self)
     }
 
@@ -133,7 +133,7 @@ impl Solver {
     /// Least mean pressure of complete contact on the finest grid: that of the pressure which displaces the surface by
     /// mean f − f.
     ///
-    /// It grows with the grid for shapes with ridges, whose complete contact takes an infinite pressure.
+    /// The pressure grows with the grid for shapes with ridges, whose complete contact takes an infinite pressure.
     pub fn full_contact_pressure(&mut self) -> f64 {
         self.levels[0].full_contact_pressure()
     }
@@ -255,16 +255,16 @@ impl Solver {
     /// [tangent](Self::tangent). The error is that by which S steps where samples join the contact, or by which it changes from the coarser
     /// grids.
     pub fn stiffness(&mut self, step: &Step) -> Option<[f64; 2]> {
-        let own = self.tangent()?;
+        let tangent = self.tangent()?;
         let levels = self.levels.iter_mut().skip(1).zip(step.coarser()).zip(STIFFNESS_WEIGHTS);
         let change = |((level, contact), weight): ((&mut GridLevel, &Contact), f64)| {
             let coarse = level.tangent_of(contact)?;
-            Some(weight * (coarse.stiffness() - own.stiffness()).abs())
+            Some(weight * (coarse.stiffness() - tangent.stiffness()).abs())
         };
         // On a bare half-space S grows as the root of the area in contact, on soft layers that keep their volume up to its square.
         let weight = if self.problem.bodies().is_bare() { 1.0 } else { JOINING_WEIGHT };
-        let error = rayon::scope(|_| levels.filter_map(change).fold(weight * own.stiffness_error(), f64::max));
-        Some([own.stiffness(), error])
+        let error = rayon::scope(|_| levels.filter_map(change).fold(weight * tangent.stiffness_error(), f64::max));
+        Some([tangent.stiffness(), error])
     }
 
     /// Drops all pressures: those of a failed step are no start for the next one.

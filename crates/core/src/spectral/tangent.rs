@@ -32,7 +32,7 @@ pub struct Tangent {
     rate: Vec<f64>,
     /// S = ∂P/∂δ, a force per length.
     stiffness: f64,
-    /// By how much S steps where samples join the contact, a force per length.
+    /// Step of S where samples join the contact, a force per length.
     step: f64,
     iterations: usize,
 }
@@ -67,11 +67,12 @@ impl Tangent {
     pub fn penetration(&self, contact: &Contact, problems: &[(f64, &Problem)]) -> f64 {
         let (grid, p) = (contact.grid(), contact.pressures());
         assert!(problems.iter().all(|(_, other)| other.cell() == grid.cell()), "problems on other cells");
-        let bodies: Vec<(f64, &Bodies)> = problems.iter().map(|&(weight, own)| (weight, own.bodies())).collect();
+        let bodies: Vec<(f64, &Bodies)> =
+            problems.iter().map(|&(weight, problem)| (weight, problem.bodies())).collect();
         let mut displaced = p.to_vec();
         LayeredOperator::of_bodies(grid, &bodies).displace(&mut displaced, &mut Workspace::default());
-        let gaps = |&(weight, own): &(f64, &Problem)| {
-            let surface = own.loaded_by().surface(grid.points()).expect("the grid of a contact has samples");
+        let gaps = |&(weight, problem): &(f64, &Problem)| {
+            let surface = problem.loaded_by().surface(grid.points()).expect("the grid of a contact has samples");
             (weight, surface)
         };
         let gaps: Vec<(f64, Surface)> = problems.iter().map(gaps).collect();

@@ -170,7 +170,7 @@ impl Solver {
     /// [interrupted](super::Stop::Interrupted).
     ///
     /// # Errors
-    /// As for [`Self::wear`].
+    /// [`WearError`] as for [`Self::wear`].
     pub fn wear_with_progress(
         &mut self,
         load: Load,
@@ -203,8 +203,8 @@ impl Solver {
         distance: f64,
     ) {
         let mut worn = self.worn.take().unwrap_or_else(|| Worn::none(self.grid()));
-        for (number, (level, own)) in self.levels.iter_mut().zip(on_grids).enumerate() {
-            let depths = own.displacements(&pressures(number, level));
+        for (number, (level, compliance)) in self.levels.iter_mut().zip(on_grids).enumerate() {
+            let depths = compliance.displacements(&pressures(number, level));
             let whole = depths.iter().flatten().cloned().reduce(|all, depth| all + depth);
             let recession = whole.map_or(0.0, |whole| level.wear_by(&whole));
             if number == 0 {
@@ -322,8 +322,8 @@ mod tests {
             let mut operator = LayeredOperator::new(&grid, bodies);
             operator.soften(&wear);
             let mut p = noise(grid.len());
-            let own = p.iter().sum::<f64>() / p.len() as f64;
-            p.iter_mut().for_each(|p| *p += mean - own);
+            let average = p.iter().sum::<f64>() / p.len() as f64;
+            p.iter_mut().for_each(|p| *p += mean - average);
             let mut back = p.clone();
             operator.displace(&mut back, &mut Workspace::default());
             operator.symmetric_pressure(&mut back, &mut Workspace::default());
@@ -342,7 +342,7 @@ mod tests {
                 {
                     let wear = Wear::new(k[0], k[1], direction).unwrap();
                     let wear = stroke.map_or(wear, |stroke| wear.with_stroke(stroke).unwrap());
-                    let own = wear.compliance(0.5, &grid).unwrap();
+                    let compliance = wear.compliance(0.5, &grid).unwrap();
                     for mut operator in [
                         LayeredOperator::in_free_space(&grid, coated()),
                         LayeredOperator::sliding_in_free_space(
@@ -351,12 +351,12 @@ mod tests {
                             &Friction::new(0.5, direction).unwrap(),
                         ),
                     ] {
-                        check(&mut operator, &grid, &own);
+                        check(&mut operator, &grid, &compliance);
                     }
                     // k_b (Δs/L) ∫p dx of a single sample, on its line.
                     let mut p = vec![0.0; grid.len()];
                     p[3 * points[1] + 4] = 2.0;
-                    let [body, counterbody] = own.displacements(&p);
+                    let [body, counterbody] = compliance.displacements(&p);
                     let axis = usize::from(direction[0] == 0.0);
                     let length = stroke.unwrap_or(sides[axis]);
                     let expected = k[0] * 0.5 / length * 2.0 * sides[axis] / points[axis] as f64;

@@ -17,7 +17,7 @@ pub struct WearState {
     worn: Option<Worn>,
 }
 
-/// That of a grid.
+/// State of one grid.
 #[derive(Debug, Clone)]
 struct LevelState {
     surface: Arc<Surface>,
@@ -33,7 +33,7 @@ impl WearState {
 }
 
 impl Solver {
-    /// What sliding has worn off both surfaces; `None` before the first step of [wear](Self::wear).
+    /// Depths that sliding has worn off both surfaces; `None` before the first step of [wear](Self::wear).
     pub fn worn(&self) -> Option<&Worn> {
         self.worn.as_ref()
     }
@@ -68,11 +68,11 @@ impl Solver {
     /// negative) under each.
     ///
     /// # Errors
-    /// As for [`Self::wear_by`].
+    /// [`WearError`] as for [`Self::wear_by`].
     pub fn depth_by(&self, moments: &[(&WearState, f64)], wear: &Wear) -> Result<Array2<f64>, WearError> {
-        let own = wear.compliance(1.0, self.grid())?;
+        let compliance = wear.compliance(1.0, self.grid())?;
         let mut depth = Array2::zeros(self.grid().points());
-        own.displacements(&weighted(moments, 0)).iter().flatten().for_each(|own| depth += own);
+        compliance.displacements(&weighted(moments, 0)).iter().flatten().for_each(|worn| depth += worn);
         Ok(depth)
     }
 
@@ -82,8 +82,8 @@ impl Solver {
     /// When they are those of a solver on other grids.
     pub fn return_to(&mut self, state: WearState) {
         self.return_to_surfaces(&state);
-        for (level, own) in self.levels.iter_mut().zip(state.levels) {
-            level.set_unknowns(own.unknowns);
+        for (level, level_state) in self.levels.iter_mut().zip(state.levels) {
+            level.set_unknowns(level_state.unknowns);
         }
     }
 
@@ -93,9 +93,9 @@ impl Solver {
     /// When they are those of a solver on other grids.
     pub fn return_to_surfaces(&mut self, state: &WearState) {
         assert_eq!(state.levels.len(), self.levels.len(), "surfaces of another solver");
-        for (level, own) in self.levels.iter_mut().zip(&state.levels) {
-            assert_eq!(own.surface.grid().points(), level.points(), "surfaces of another solver");
-            level.set_surface(Arc::clone(&own.surface), own.indented.clone());
+        for (level, level_state) in self.levels.iter_mut().zip(&state.levels) {
+            assert_eq!(level_state.surface.grid().points(), level.points(), "surfaces of another solver");
+            level.set_surface(Arc::clone(&level_state.surface), level_state.indented.clone());
         }
         self.worn = state.worn.clone();
     }
@@ -103,7 +103,8 @@ impl Solver {
 
 /// Σ s p of moments on one grid, a pressure times a length.
 fn weighted(moments: &[(&WearState, f64)], level: usize) -> Vec<f64> {
-    let len = moments.first().map_or(0, |(own, _)| own.levels[level].unknowns.pressure.len());
-    let of = |i: usize| moments.iter().map(|(own, distance)| distance * own.levels[level].unknowns.pressure[i]).sum();
+    let len = moments.first().map_or(0, |(state, _)| state.levels[level].unknowns.pressure.len());
+    let of =
+        |i: usize| moments.iter().map(|(state, distance)| distance * state.levels[level].unknowns.pressure[i]).sum();
     (0..len).map(of).collect()
 }

@@ -56,7 +56,7 @@ impl Worn {
         self.distance
     }
 
-    /// By how much the bodies come nearer until their worn surfaces touch first, a length.
+    /// Approach of the bodies until their worn surfaces touch first, a length.
     pub fn recession(&self) -> f64 {
         self.recession
     }

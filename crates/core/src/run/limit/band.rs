@@ -219,7 +219,7 @@ mod tests {
         }
     }
 
-    /// With no load between the doublings solved, the ends are the outer loads: 51.2 below 75.1, and 204.8 above 137.2.
+    /// Ends of intervals are the outer loads where no load between the doublings is solved: 51.2 below 75.1, and 204.8 above 137.2.
     #[test]
     fn an_interval_that_is_not_narrowed_yet_holds_both_ends() {
         let band = UtilisationBand::new((0..12).map(|k| {

@@ -13,12 +13,12 @@ use std::cmp::Ordering;
 /// Relative error above which the ends of the interval of a limit are shown in place of the error.
 const WIDE: f64 = 0.3;
 
-/// What ends a search of limits at its largest load.
+/// Reason for which a search of limits ends at its largest load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SearchEnd {
     /// Contact is complete there.
     CompleteContact,
-    /// It is [`SearchEnd::OF_HARDNESS`] of the most that the hardness bears.
+    /// The load is [`SearchEnd::OF_HARDNESS`] of the most that the hardness bears.
     Hardness,
     /// Contact has no room under higher loads, or no more of them are tried.
     LargestLoad,
@@ -27,14 +27,14 @@ pub enum SearchEnd {
 /// How a limit is reached, or its bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum At {
-    /// By residual stress alone, everywhere in the material.
+    /// Reached by residual stress alone, everywhere in the material.
     Rest,
-    /// Under a tip of the highest level, whose stress is infinite however small the load.
+    /// Reached under a tip of the highest level, whose stress is infinite however small the load.
     Tip {
         /// x, y, z of the tip; lengths.
         position: [f64; 3],
     },
-    /// At a load.
+    /// Reached at a load.
     Load {
         /// The load, in the quantity of the limit.
         load: f64,
@@ -61,7 +61,7 @@ pub enum At {
     Never {
         /// Load up to which the criterion holds.
         up_to: f64,
-        /// What ends the search there.
+        /// Reason for which the search ends there.
         end: SearchEnd,
         /// The largest utilisation, to a hundredth where it is more than a half and has its top between the loads.
         utilisation: f64,
@@ -79,7 +79,7 @@ pub enum At {
         up_to: f64,
         /// The largest utilisation u.
         utilisation: f64,
-        /// Its estimated error e.
+        /// Estimated error e of the largest utilisation.
         error: Option<f64>,
         /// Load of the largest utilisation.
         at: f64,
@@ -95,7 +95,7 @@ pub struct Limit {
     pub criterion: Criterion,
     /// The quantity of its loads: pressures in the unit of Young's modulus, or forces, pressures times areas.
     pub quantity: LoadQuantity,
-    /// How it is reached.
+    /// How the limit is reached, or its bound.
     pub at: At,
 }
 
@@ -117,7 +117,7 @@ pub struct Limits {
     /// that under which the highest value of a given pressure is the hardness. No higher one is solved. Infinite without hardness and
     /// for an isolated contact.
     pub hardness_load: f64,
-    /// Sides of the largest window in which loads were solved, lengths; `None` where an isolated contact had room in its own in all.
+    /// Sides of the largest window in which loads were solved, lengths; `None` where the window of the problem was enough.
     pub window: Option<[f64; 2]>,
     /// Whether the search ended because an isolated contact had no room under higher loads.
     pub ends_at_border: bool,
@@ -262,7 +262,7 @@ impl SearchEnd {
         }
     }
 
-    /// It in words after the largest load.
+    /// Words for the reason, which follow the largest load.
     pub(super) fn in_words(self) -> String {
         match self {
             Self::CompleteContact => ", where contact is complete".to_owned(),
@@ -321,8 +321,8 @@ impl Limits {
             "the search ends where contact has no room in its window any more: enlarge lattice.size to look further"
                 .to_owned()
         });
-        let own = warnings::of_judged(problem, &all, &judged, self.end, self.change);
-        own.into_iter().chain(room).collect()
+        let warnings = warnings::of_judged(problem, &all, &judged, self.end, self.change);
+        warnings.into_iter().chain(room).collect()
     }
 
     /// Whether all loads were solved, and the accuracy, if one was prescribed, is reached.

@@ -10,18 +10,18 @@
 //! Utilisations are not monotone: the tension at an edge and the opening of an interface rise and fall again. Between two
 //! loads u lies below lines of the steepest slope of that interval and its neighbours, times 1.5; where these reach 1 below the
 //! first crossing, the interval is halved until they do not, or its ends are 5 % apart (10 % for u + e). The remaining uncertainty is
-//! part of the limit's interval. Where a level of a shape of its own begins to touch, loads are divided until its own
-//! load grows by a factor of four at most. A topography has spots that begin to touch at any load: a hump that is narrower than
+//! part of the limit's interval. Where a level of a shape of its own begins to touch, loads are divided until the load on it
+//! grows by a factor of four at most. A topography has spots that begin to touch at any load: a hump that is narrower than
 //! the slopes between the loads suggest is not found.
 //!
-//! Where an isolated contact of indenters has no room in its window any more, higher loads are solved in a window twice as large, up to
-//! six times one after another. A topography ends with its window.
+//! Loads for which an isolated contact of indenters has no room in its window are solved in a window twice as large, up to six times
+//! one after another. A topography ends with its window.
 //!
 //! Beyond complete contact the shape adds nothing, and stresses grow by those of a uniform pressure: no limit is searched for
 //! there. Shapes with ridges between them come into complete contact under an infinite pressure only; on a grid under a finite
 //! one, where the search ends.
 //!
-//! With a hardness H no contact bears a mean pressure of H, and the search ends at 0.999 H where contact is not complete before. A given
+//! Under a hardness H no contact bears a mean pressure of H, and the search ends at 0.999 H where contact is not complete before. A given
 //! pressure grows until its highest value is 0.999 H.
 
 mod band;
@@ -83,7 +83,7 @@ impl Run {
     /// # }
     /// ```
     ///
-    /// With [`Sampling::Accuracy`] the search is repeated on finer grids until the limits change by less. The run's loads are not used,
+    /// The search is repeated under [`Sampling::Accuracy`] on finer grids until the limits change by less. The run's loads are not used,
     /// and of its stress request only the convention for the mean lateral stress is.
     ///
     /// # Errors

@@ -33,7 +33,7 @@ struct Keys {
     #[serde(flatten)]
     criterion: Criterion,
     mean_pressure: Option<f64>,
-    /// Of a limit in force the load is here, and the mean pressure null.
+    /// Load of a limit in force, whose mean pressure is null.
     #[serde(default, deserialize_with = "present", skip_serializing_if = "Option::is_none")]
     force: Option<Option<f64>>,
     error: Option<f64>,
@@ -78,7 +78,7 @@ impl From<Limit> for Keys {
         let finite = |x: f64| Some(x).filter(|x| x.is_finite());
         let [x, y, z] = limit.position().map_or([None; 3], |position| position.map(Some));
         let interval = Some(limit.interval().map(finite));
-        let own = Self {
+        let keys = Self {
             criterion: limit.criterion,
             mean_pressure: None,
             force: (limit.quantity == LoadQuantity::Force).then_some(None),
@@ -95,8 +95,8 @@ impl From<Limit> for Keys {
             utilisation_at: None,
         };
         let with_load = |load: f64| match limit.quantity {
-            LoadQuantity::MeanPressure => Self { mean_pressure: Some(load), ..own.clone() },
-            LoadQuantity::Force => Self { force: Some(Some(load)), ..own.clone() },
+            LoadQuantity::MeanPressure => Self { mean_pressure: Some(load), ..keys.clone() },
+            LoadQuantity::Force => Self { force: Some(Some(load)), ..keys.clone() },
         };
         let no_load = |reached| Self { error: Some(0.0), reached, ..with_load(0.0) };
         match limit.at {
@@ -107,7 +107,7 @@ impl From<Limit> for Keys {
                 reached: Reached::ContactOfFewSamples,
                 below: Some(load),
                 utilisation: Some(finite(utilisation)),
-                ..own
+                ..keys
             },
             At::Never { up_to, end, utilisation, error, at } => Self {
                 interval: None,
@@ -120,14 +120,14 @@ impl From<Limit> for Keys {
                 utilisation: Some(Some(utilisation)),
                 utilisation_error: Some(error),
                 utilisation_at: Some(at),
-                ..own
+                ..keys
             },
             At::Undecided { up_to, utilisation, error, at, .. } => Self {
                 up_to: Some(up_to),
                 utilisation: Some(Some(utilisation)),
                 utilisation_error: Some(error),
                 utilisation_at: Some(at),
-                ..own
+                ..keys
             },
         }
     }

@@ -130,7 +130,11 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             let record = search.solve_for(limit.load(), Loading::Limit)?.clone();
             // Rounding decides between places that are equal by symmetry: the place is that of the step that is shown.
             let limit = limit.moved_to(search.utilisation(&record, limit.criterion).position);
-            limits.limits.iter_mut().filter(|own| own.criterion == limit.criterion).for_each(|own| *own = limit);
+            limits
+                .limits
+                .iter_mut()
+                .filter(|before| before.criterion == limit.criterion)
+                .for_each(|before| *before = limit);
             limits.shown.extend(search.last.take().map(|step| LimitStep { limit, record, step }));
         }
         Ok(Limits { steps: search.steps, ..limits })
@@ -161,7 +165,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         Ok(&self.steps[place])
     }
 
-    /// Sides of the largest window in which loads were solved, where it is not the problem's own.
+    /// Sides of the largest window in which loads were solved, where that is not the window of the problem.
     fn largest_window(&self) -> Option<[f64; 2]> {
         let last = self.windows.of(self.load_of(self.steps.len().checked_sub(1)?));
         let [[width, _], [_, height]] = self.windows.problem(last).cell().vectors();
@@ -220,7 +224,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         }
         let mut highest = lowest;
         for _ in 0..DOUBLINGS {
-            // Where contact is complete under any load, loads are halved until everything holds.
+            // Loads are halved until everything holds where contact is complete under any load.
             let holds = |search: &Self| {
                 let failed = |&criterion: &Criterion| search.band(criterion).upper.first_failure() == Some(0);
                 search.filling.is_infinite() && !sought.iter().any(failed)
@@ -256,7 +260,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
 
     /// Whether the contact of the best resolved level, or that of a topography, has enough samples for its stresses.
     fn is_readable(&self, reading: &Reading) -> bool {
-        // What is given does not grow with the load.
+        // A given contact does not grow with the load.
         if self.run.problem.kind().is_given {
             return true;
         }
@@ -292,17 +296,17 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         }
         let Some(indenters) = self.run.problem.indenters() else { return false };
         let (levels, drops) = (indenters.levels(), indenters.drops());
-        let is_new = |own: usize| {
+        let is_new = |level: usize| {
             (0..levels.len()).all(|other| {
-                let is_higher = drops[other] < drops[own] || drops[other] == drops[own] && other < own;
-                !is_higher || levels[other].shape() != levels[own].shape()
+                let is_higher = drops[other] < drops[level] || drops[other] == drops[level] && other < level;
+                !is_higher || levels[other].shape() != levels[level].shape()
             })
         };
-        let grows = |own: usize| {
-            let [low, high] = [before, after].map(|reading| &reading.levels[own]);
+        let grows = |level: usize| {
+            let [low, high] = [before, after].map(|reading| &reading.levels[level]);
             high.resolution >= 2.0 * LEAST_SAMPLES && high.load > GROWTH * low.load
         };
-        (0..levels.len()).any(|own| drops[own] > 0.0 && is_new(own) && grows(own))
+        (0..levels.len()).any(|level| drops[level] > 0.0 && is_new(level) && grows(level))
     }
 
     /// The load of a solved step by its index.

@@ -53,9 +53,9 @@ impl Filon {
 fn scaled_legendre(x: f64, weight: f64, count: usize) -> Vec<f64> {
     let (mut before, mut value) = (0.0, 1.0);
     let next = |a: usize| {
-        let (own, k) = (value, a as f64);
+        let (legendre, k) = (value, a as f64);
         (before, value) = (value, ((2.0 * k + 1.0) * x * value - k * before) / (k + 1.0));
-        FRAC_PI_2 * weight * (2.0 * k + 1.0) * own
+        FRAC_PI_2 * weight * (2.0 * k + 1.0) * legendre
     };
     (0..count).map(next).collect()
 }

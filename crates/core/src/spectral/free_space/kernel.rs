@@ -6,7 +6,7 @@
 //! the bodies alone, never on the window, and is what the periodic operator tends to in a large cell at the same spacings.
 //! ⟨p, Kp⟩ = d₁d₂/(2π)² ∫_Z Ĉ|p̂|² d²k > 0.
 //!
-//! With c(k) = kĈ(k), finite at k = 0, and the [cut](super::cut) φ of the circle k_N inscribed in the zone,
+//! Written by c(k) = kĈ(k), finite at k = 0, and the [cut](super::cut) φ of the circle k_N inscribed in the zone,
 //!
 //! K_{mn}/(d₁d₂) = (1/2π) ∫₀^{k_N} c φ J₀(kr) dk + (1/π²) ∫₀^{π/d₁}∫₀^{π/d₂} (c/k)(1 − φ) cos(k_x m d₁) cos(k_y n d₂) d²k:
 //!
@@ -202,9 +202,9 @@ mod tests {
             let direction = [angle.cos(), angle.sin()];
             let border = sides[side] / direction[side];
             let mut sums = vec![[0.0; 3]; offsets.len()];
-            for [s, own] in graded(border * reach) {
-                let (k, own) = (s * border, area * weight * border * own);
-                let (c, b) = (own * c(k), own * b(k));
+            for [s, w] in graded(border * reach) {
+                let (k, w) = (s * border, area * weight * border * w);
+                let (c, b) = (w * c(k), w * b(k));
                 for (sums, offset) in sums.iter_mut().zip(offsets) {
                     let [x, y] = [0, 1].map(|axis| (k * direction[axis] * place(offset)[axis]).sin_cos());
                     sums[0] += c * x.1 * y.1;
@@ -230,9 +230,9 @@ mod tests {
     fn the_displacement_of_a_sample_by_its_own_pressure_is_known() {
         for d in [1.0, 1.0 / 400.0, 7.3] {
             let window = Window { spacings: [d, d], points: [3, 3] };
-            let own = window.kernel(&|_| 2.0)[[0, 0]];
+            let displacement = window.kernel(&|_| 2.0)[[0, 0]];
             let exact = 4.0 / PI * (1.0 + 2f64.sqrt()).ln() * d;
-            assert!((own / exact - 1.0).abs() < 1e-14, "{own} {exact}");
+            assert!((displacement / exact - 1.0).abs() < 1e-14, "{displacement} {exact}");
         }
     }
 
@@ -244,12 +244,12 @@ mod tests {
             for (name, half_space) in bodies(h) {
                 let (c, b) = (c(&half_space), b(&half_space));
                 let (even, odd) = (window.kernel(&c), [0, 1].map(|axis| window.coupling_kernel(&b, axis)));
-                let own = even[[0, 0]];
+                let at_zero = even[[0, 0]];
                 let (mut worst, mut worst_odd) = (0.0f64, 0.0f64);
                 for (offset, exact) in OFFSETS.iter().zip(polar(&window, [&c, &b], &OFFSETS)) {
-                    worst = worst.max((even[*offset] - exact[0]).abs() / own);
+                    worst = worst.max((even[*offset] - exact[0]).abs() / at_zero);
                     for axis in [0, 1] {
-                        worst_odd = worst_odd.max((odd[axis][*offset] - exact[1 + axis]).abs() / own);
+                        worst_odd = worst_odd.max((odd[axis][*offset] - exact[1 + axis]).abs() / at_zero);
                     }
                 }
                 assert!(worst < 1e-14 && worst_odd < 1e-14, "{name}, {spacings:?}, h {h}: {worst:e}, {worst_odd:e}");

@@ -111,7 +111,7 @@ mod tests {
                 [peak(&found.pressure) / (2.0 * a / PI), third, sphere.radius(&found.pressure) / a].map(|x| x - 1.0)
             });
             let [p, third, a] = [0, 1, 2].map(|kind| rms(errors.iter().map(|errors| errors[kind])));
-            // Of the load 1.5 times that of δ: P ~ δ^{3/2}.
+            // The error of the load is 1.5 times that of δ: P ~ δ^{3/2}.
             assert!(p < 1.1 * 4.5e-5 && third < 1.1 * 1.5 * 2.0e-5 && a < 1.1 * 2.1e-3, "{p:e} {third:e} {a:e}");
         }
     }
@@ -156,8 +156,8 @@ mod tests {
         ];
         for (body, counterbody, [a, load, penetration, p0], known) in rows {
             let c = |k: f64| {
-                let own = |body: &HalfSpace| k * body.response().compliance(k);
-                own(&body) + counterbody.map_or(0.0, own)
+                let of_body = |body: &HalfSpace| k * body.response().compliance(k);
+                of_body(&body) + counterbody.map_or(0.0, of_body)
             };
             let errors = [24.1, 24.37, 24.71].map(|samples| {
                 let sphere = Sphere::new(a / samples, [64, 64]);
@@ -205,10 +205,10 @@ mod tests {
                 (inside.collect::<Vec<f64>>(), found.penetration)
             });
             let (first, penetration) = &found[0];
-            for (other, own) in &found[1..] {
+            for (other, other_penetration) in &found[1..] {
                 let difference = first.iter().zip(other).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
                 assert!(difference < 1e-11 * peak(first), "{difference:e}");
-                assert!((own / penetration - 1.0).abs() < 1e-13, "{own} {penetration}");
+                assert!((other_penetration / penetration - 1.0).abs() < 1e-13, "{other_penetration} {penetration}");
             }
         }
     }
@@ -223,12 +223,13 @@ mod tests {
                 let sphere = Sphere::new(64.0 / n as f64, [n, n]);
                 let mut free = LayeredOperator::in_free_space(&sphere.grid, &body);
                 let mut periodic = LayeredOperator::new(&sphere.grid, &body);
-                let (own, found) = sphere.solved(&mut free, sphere.mean(8000.0), Settings::default());
+                let (isolated, found) = sphere.solved(&mut free, sphere.mean(8000.0), Settings::default());
                 let (images, _) = sphere.solved(&mut periodic, sphere.mean(8000.0), Settings::default());
-                assert!(2 * own.iterations <= 3 * images.iterations, "{own}; {images}");
+                assert!(2 * isolated.iterations <= 3 * images.iterations, "{isolated}; {images}");
                 // From no pressure, under the penetration of this load, the first active set is twice the contact.
-                let (own, _) = sphere.solved(&mut free, Control::Penetration(found.penetration), Settings::default());
-                assert!(2 * own.iterations <= 3 * images.iterations, "{own}; {images}");
+                let (isolated, _) =
+                    sphere.solved(&mut free, Control::Penetration(found.penetration), Settings::default());
+                assert!(2 * isolated.iterations <= 3 * images.iterations, "{isolated}; {images}");
             }
         }
     }
@@ -310,7 +311,7 @@ mod tests {
         }
         let ([u, v], peak) = slid(friction([0.6, 0.8]));
         assert!((0.6 * u + 0.8 * v - x).abs() < 2e-4 && (0.6 * v - 0.8 * u).abs() < 1e-3 && (peak - top).abs() < 2e-4);
-        // Where the traction displaces much it lags behind.
+        // A traction that displaces much lags behind.
         let ([strong, _], _) = slid(Friction::new(1.0, [1.0, 0.0]).unwrap());
         assert!(strong < 2.0 * x, "{strong}");
         let ([none, _], top) = slid(friction([1.0, 0.0]).uncoupled());

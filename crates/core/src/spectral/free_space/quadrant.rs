@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// Columns that are gathered at a time.
 const GATHERED: usize = 8;
 
-/// What a change of sign of an offset does to a kernel.
+/// Parity of a kernel under a change of sign of an offset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Parity {
     Even,
@@ -26,7 +26,7 @@ struct Line {
 }
 
 impl Line {
-    /// Of `points` samples.
+    /// A line that is transformed with `points` samples.
     fn new(points: usize, parity: Parity) -> Self {
         Self { plan: RealFftPlanner::new().plan_fft_forward(points), parity }
     }
@@ -62,8 +62,8 @@ pub(super) fn transformed(quadrant: &Array2<f64>, points: [usize; 2], parities: 
     let columns = values.as_slice_mut().expect("made row by row").par_chunks_mut(GATHERED * half1).enumerate();
     columns.for_each(|(group, columns)| {
         let first = group * GATHERED;
-        let own = rows.slice_axis(Axis(1), Slice::from(first..half2.min(first + GATHERED)));
-        let gathered = own.reversed_axes().as_standard_layout().into_owned();
+        let slice = rows.slice_axis(Axis(1), Slice::from(first..half2.min(first + GATHERED)));
+        let gathered = slice.reversed_axes().as_standard_layout().into_owned();
         for (column, offsets) in columns.chunks_exact_mut(half1).zip(gathered.rows()) {
             down.transform(offsets.iter().copied(), |k, x| column[k] = x);
         }

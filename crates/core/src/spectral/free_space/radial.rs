@@ -21,7 +21,7 @@ const TERMS: usize = 20;
 /// Length of the panels of ρ near zero, and where they begin to grow.
 const PANEL: f64 = 4.0;
 const NEAR: f64 = 56.0;
-/// Where the octaves of s end.
+/// Least s of the octaves.
 const FLOOR: f64 = 1e-10;
 /// Nodes on a panel of s across which the phase πρs does not change (16 reach rounding).
 const NODES: usize = 20;

@@ -196,7 +196,7 @@ impl<S: Simd> BoundLanes<S> {
         pressure.max(self.zero)
     }
 
-    /// Where p < H.
+    /// Lanes with p < H.
     #[inline(always)]
     pub fn is_below(self, pressure: f64x8<S>) -> mask64x8<S> {
         pressure.simd_lt(self.most)
@@ -209,19 +209,19 @@ impl<S: Simd> BoundLanes<S> {
         Parts { free: below.select(pressure, self.zero), full: below.select(self.zero, self.one) }
     }
 
-    /// Where p is H, or rounding alone keeps it from there.
+    /// Lanes with p = H, but for rounding.
     #[inline(always)]
     pub fn is_nearly_full(self, pressure: f64x8<S>) -> mask64x8<S> {
         pressure.simd_gt(self.nearly)
     }
 
-    /// Where 0 < p < H.
+    /// Lanes with 0 < p < H.
     #[inline(always)]
     pub fn is_free(self, pressure: f64x8<S>) -> mask64x8<S> {
         pressure.simd_gt(self.zero) & pressure.simd_lt(self.most)
     }
 
-    /// Where p is above the least one, p > 0.
+    /// Lanes with p above the least one, p > 0.
     #[inline(always)]
     pub fn is_pressed(self, pressure: f64x8<S>) -> mask64x8<S> {
         pressure.simd_gt(self.zero)
@@ -353,7 +353,7 @@ mod tests {
         }
     }
 
-    /// From a pressure between the bounds, and from either, beyond both and to none.
+    /// Steps from a pressure between the bounds, and from either, beyond both and to none.
     #[test]
     fn a_step_ends_at_the_bound_that_it_would_pass() {
         #[inline(always)]

@@ -29,9 +29,9 @@ const FAR: f64 = 1e30;
 /// Continuation of the residual beyond the active set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Continuation {
-    /// By a fading mean (E): fewer iterations.
+    /// Continuation by a fading mean (E): fewer iterations.
     Fading,
-    /// By zero: C⁻¹ on the active set itself.
+    /// Continuation by zero: C⁻¹ on the active set itself.
     Zero,
 }
 
@@ -54,7 +54,7 @@ pub(super) struct LastDirection {
 }
 
 impl LastDirection {
-    /// None: the first step is next.
+    /// No iteration before: the first step is next.
     pub const NONE: Self = Self { norm: 0.0, mean: 0.0, is_first: true };
 }
 
@@ -219,7 +219,7 @@ impl InnerIteration {
                 advance.slope *= scale;
             }
             if let Some(total) = total.filter(|_| is_full) {
-                // Where pressures are H the load is restored by a shift of the active set.
+                // A shift of the active set restores the load where pressures are H.
                 update::retreat(p, step, unit, bounds);
                 let shift = shift_to(total, p, [direction, residual], [-tau, unit], bounds);
                 advance = update::advance(p, along, [-tau, shift, unit], bounds, step);
@@ -302,14 +302,14 @@ fn shift_to(
         } else {
             high = shift
         };
-        // Where no sample moves, a step as large as H reaches some.
+        // A step as large as H reaches some samples where none moves.
         let step = if moves > 0.0 { missing / moves } else { missing.signum() * bounds.largest() };
         let next = shift + step / unit;
         let middle = 0.5 * (low + high);
         shift = match low < next && next < high {
             true => next,
             false if middle.is_finite() => middle,
-            // What is missing is less than the shift resolves.
+            // The missing load is less than the shift resolves.
             false => break,
         };
     }

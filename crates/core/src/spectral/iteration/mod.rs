@@ -32,7 +32,7 @@
 //! Σ pg = 0, the gap is |min g| Σp, and ½⟨p, Cp⟩ ≤ ½ δ Σp: the first line then holds |min g|, in contact too, to the
 //! third line's 10 tolerance · δ. That is where the 20 comes from.
 //!
-//! Where an iteration stalls and rounding alone keeps it from these, it has converged to rounding (`stopping`).
+//! An iteration that stalls, and that rounding alone keeps from these, has converged to rounding (`stopping`).
 
 mod admissible;
 mod bounds;

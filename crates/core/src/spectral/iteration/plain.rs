@@ -289,7 +289,7 @@ mod tests {
         compare_with(cell, points, is_rough, load, friction, variant, f64::INFINITY);
     }
 
-    /// The same with a hardness over the pressure that displaces by the largest f.
+    /// [`compare`] with a hardness, over the pressure that displaces by the largest f.
     fn compare_with(
         cell: Cell,
         points: [usize; 2],

@@ -46,7 +46,7 @@ pub struct ContactProblem<'a, O> {
     pub working: &'a mut Working,
     /// f ≥ 0, a length, one value per sample, a₂ fastest, measured from first touch.
     pub initial_gap: &'a [f64],
-    /// Its largest value.
+    /// Largest value of the initial gap, a length.
     pub largest_gap: f64,
     /// The admissible pressures.
     pub admissible: AdmissibleSet<'a>,

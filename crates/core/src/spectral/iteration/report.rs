@@ -16,7 +16,7 @@ pub enum Stop {
     /// Over the last window of iterations the mean of what must fall below the tolerance was not below 0.9 of that over
     /// the window before, half as long; or the load is no finite number.
     Stalled,
-    /// As many iterations as allowed, tolerance not reached.
+    /// Tolerance not reached in as many iterations as allowed.
     #[serde(alias = "iteration limit")]
     IterationLimit,
     /// Nothing to solve: the load or the penetration is not above zero, or that of the first touch of what earlier loads have pressed in.
@@ -86,7 +86,7 @@ pub enum Route {
         /// Mean pressures tried.
         trials: usize,
     },
-    /// None: the pressure is given.
+    /// No iteration: the pressure is given.
     Given,
 }
 

@@ -96,8 +96,7 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
     }
 }
 
-/// What the `direct` iteration reports, unless it has stalled: then the report of a search for the load that continues from
-/// there.
+/// Report of the `direct` iteration, unless it has stalled: then that of a search for the load that continues from there.
 fn unless_found<O: ElasticOperator>(
     problem: &mut ContactProblem<'_, O>,
     penetration: f64,

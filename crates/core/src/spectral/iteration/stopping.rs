@@ -3,7 +3,7 @@
 //! **Rounding.** In double precision the gap g = w + f − δ has the rounding errors of the convolution w = C p and of the
 //! pressure itself. Where a large pressure causes small displacements (in complete contact, where most of it is uniform; under a
 //! stiff coating, whose short waves take large pressures) they may exceed the tolerance, which no iteration then reaches.
-//! They are measured: w is computed again as C(λp)/λ, λ = 0.7, with other rounding errors. With the difference d of both gaps,
+//! Rounding is measured: w is computed again as C(λp)/λ, λ = 0.7, with other rounding errors. With the difference d of both gaps,
 //!
 //! Σ p|d| / (δ Σp),  Σ p (|d| + max |d|) / ½⟨p, Cp⟩,  max |d| / δ
 //!
@@ -73,10 +73,10 @@ pub(super) fn unless_rounding<O: ElasticOperator>(
 /// Whether rounding alone keeps a pressure from the tolerance; sets its gap in `unknowns`.
 fn is_at_rounding<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> bool {
     let check = ConvergenceCheck::new(problem, unknowns);
-    let own = rounding(problem, unknowns, &check);
+    let roundings = rounding(problem, unknowns, &check);
     let tolerance = problem.settings.tolerance;
     let is_met = |(criterion, rounding): (f64, f64)| criterion < tolerance.max(ROUNDING_MARGIN * rounding);
-    check.criteria().into_iter().zip(own).all(is_met)
+    check.criteria().into_iter().zip(roundings).all(is_met)
 }
 
 /// The criteria of the difference of the gap and the gap computed again.

@@ -172,7 +172,7 @@ fn advance_block<S: Simd>(
         }
         for at in (run..last).step_by(LANES) {
             let pressure = f64::group(simd, p, at, 0.0);
-            // As it is stored: a retreat takes back what was added (to 6e-8 where p ends at zero).
+            // The increment as it is stored: a retreat takes back what was added (to 6e-8 where p ends at zero).
             let along = f32::group(simd, direction, at, 0.0) * factor;
             let along =
                 if shift == 0.0 { along } else { along + shifted(simd, f32::group(simd, residual, at, 0.0), shift) };
@@ -238,7 +238,7 @@ fn shifted_load_of<S: Simd>(
     Totals { sums: [total(load), total(moves)], least: [] }
 }
 
-/// To single precision and back.
+/// The numbers rounded to single precision.
 #[inline(always)]
 fn rounded<S: Simd>(simd: S, group: f64x8<S>) -> f64x8<S> {
     let mut single = [0.0f32; LANES];
