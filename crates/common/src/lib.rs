@@ -1,5 +1,5 @@
-//! What the crates of percoat around its numerical core share: [plain text](plain), [units](mod@unit) with their prefixes, and the
-//! memory, disk and threads of the [machine]. No physics, no files.
+//! Tools that the crates of percoat around its numerical core share: [plain text](plain), [units](mod@unit) with their prefixes, and
+//! the memory, disk and threads of the [machine]. No physics, no files.
 
 pub mod machine;
 pub mod plain;

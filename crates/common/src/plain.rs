@@ -55,7 +55,7 @@ fn replaced(text: &str, unwanted: impl Fn(char, &str) -> bool) -> Cow<'_, str> {
     let mut plain = String::with_capacity(text.len() + 16);
     for (at, c) in text.char_indices() {
         if is_hidden(c) && unwanted(c, &text[at + c.len_utf8()..]) {
-            // As JSON has them: two of them make a character beyond U+FFFF.
+            // Escapes as in JSON: two of them make a character beyond U+FFFF.
             c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| plain += &format!("\\u{unit:04X}"));
         } else {
             plain.push(c);
@@ -72,7 +72,7 @@ mod tests {
     fn what_is_seen_as_itself_stays() {
         for text in ["", "a title", "p̄/E₂ in % – µm, Å, °, ≤", "Стали и покрытия", "日本語", "a\u{a0}b", "❤\u{fe0f}"]
         {
-            assert!(matches!(line(text), Cow::Borrowed(own) if own == text), "{text}");
+            assert!(matches!(line(text), Cow::Borrowed(borrowed) if borrowed == text), "{text}");
         }
         assert_eq!(lines("a\tb\r\nc\n"), "a\tb\r\nc\n");
     }

@@ -1,6 +1,6 @@
 //! A unit by its name, and with the prefix that suits a number.
 //!
-//! Of an SI unit with its prefix (m, mm, µm, nm; Pa … TPa) axes, tables and captions take the prefix with which their numbers
+//! For an SI unit with its prefix (m, mm, µm, nm; Pa … TPa) axes, tables and captions take the prefix with which their numbers
 //! read well, 2.1·10¹¹ Pa as 210 GPa. Any other name is written behind unchanged numbers.
 
 use std::ops::RangeInclusive;
@@ -22,7 +22,7 @@ pub enum Unit {
     Named(String),
     /// An SI unit times a power of ten.
     Si {
-        /// Its symbol without prefix.
+        /// Symbol of the unit without prefix.
         base: &'static str,
         /// The power of ten.
         exponent: i32,
@@ -34,7 +34,7 @@ pub enum Unit {
 /// A unit with the prefix that suits numbers of some size.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Prefixed {
-    /// Its name; empty where there is none.
+    /// Name of the unit; empty where there is none.
     pub name: String,
     /// The numbers shown are those of the case times ten to this power.
     pub exponent: i32,
@@ -59,7 +59,7 @@ pub fn is_pressure(name: &str) -> bool {
 pub fn pascals(name: &str) -> Option<f64> {
     match Unit::called(name, "Pa") {
         Unit::Si { exponent, .. } => Some(10f64.powi(exponent)),
-        _ => PRESSURES.iter().find(|(own, _)| *own == name).map(|(_, pascals)| *pascals),
+        _ => PRESSURES.iter().find(|(known, _)| *known == name).map(|(_, pascals)| *pascals),
     }
 }
 
@@ -92,13 +92,13 @@ impl Unit {
     pub fn called(name: &str, base: &'static str) -> Self {
         // The letters mu and u are written for the sign.
         let prefix = name.strip_suffix(base).map(|prefix| if ["u", "μ"].contains(&prefix) { "µ" } else { prefix });
-        match prefix.and_then(|prefix| PREFIXES.iter().position(|own| *own == prefix)) {
+        match prefix.and_then(|prefix| PREFIXES.iter().position(|known| *known == prefix)) {
             Some(place) => Self::Si { base, exponent: 3 * place as i32 - 12 },
             None => Self::Named(name.to_owned()),
         }
     }
 
-    /// Its name, if it has one.
+    /// Name of the unit; `None` for numbers without one and for strains.
     pub fn name(&self) -> Option<String> {
         match self {
             Self::None | Self::Relative(_) | Self::Strain => None,
@@ -109,21 +109,21 @@ impl Unit {
         }
     }
 
-    /// With the prefix for numbers up to `size`: its own while they are from 0.01 to 9999, which stand as they are. A strain is one of
-    /// microstrain below 0.2 %.
+    /// The unit with the prefix for numbers up to `size`: unchanged for those from 0.01 to 9999. A strain is one of microstrain below
+    /// 0.2 %.
     pub fn prefixed(&self, size: f64) -> Prefixed {
-        let own = || Prefixed { name: self.name().unwrap_or_default(), exponent: 0 };
+        let unprefixed = || Prefixed { name: self.name().unwrap_or_default(), exponent: 0 };
         let Self::Si { base, exponent } = *self else {
             return match (self, size.abs() < MOST_MICROSTRAIN) {
                 (Self::Strain, true) => Prefixed { name: "µε".to_owned(), exponent: 6 },
                 (Self::Strain, false) => Prefixed { name: "%".to_owned(), exponent: 2 },
-                _ => own(),
+                _ => unprefixed(),
             };
         };
         let reads_well = !size.is_normal() || (0.01..9999.5).contains(&size.abs());
         // A force of small units may lie below all prefixes.
         if reads_well && exponent.abs() <= 12 {
-            return own();
+            return unprefixed();
         }
         let size = if size.is_normal() { size.abs() } else { 1.0 };
         let magnitude = (size * (1.0 + 1e-12)).log10().floor() as i32 + exponent;
@@ -131,7 +131,7 @@ impl Unit {
         Prefixed { name: si(base, prefix), exponent: exponent - prefix }
     }
 
-    /// With the prefix for all of these numbers, of which the largest decides.
+    /// The unit with the prefix for all of these numbers, of which the largest decides.
     pub fn suited(&self, numbers: impl IntoIterator<Item = f64>) -> Prefixed {
         self.prefixed(numbers.into_iter().map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max))
     }

@@ -106,7 +106,7 @@ impl Bar {
 
     fn unit(&self) -> Prefixed {
         let [low, high] = self.span.map(f64::abs);
-        // As on an axis.
+        // The same number decides as on an axis.
         self.label.unit(if self.scale == Scale::Log { (low * high).sqrt() } else { low.max(high) })
     }
 

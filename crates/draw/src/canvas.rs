@@ -29,7 +29,7 @@ pub enum Anchor {
 /// The pattern of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dash {
-    /// Without gaps.
+    /// A line without gaps.
     Solid,
     /// Dashes with gaps of about half their length.
     Dashed,

@@ -123,9 +123,9 @@ fn shown_ends(curves: &[Curve], scale: Scale) -> impl Iterator<Item = f64> {
     let points = || curves.iter().flat_map(|curve| (0..curve.points.len()).map(move |index| (curve, index)));
     let value = |(curve, index): (&Curve, usize)| curve.points[index][1].abs();
     let largest = points().map(value).filter(|y| y.is_finite()).fold(0.0, f64::max);
-    let is_shown = move |own: &(&Curve, usize)| {
-        let most = if scale == Scale::Log { 0.5 * value(*own) } else { largest };
-        own.0.error(own.1) <= most
+    let is_shown = move |point: &(&Curve, usize)| {
+        let most = if scale == Scale::Log { 0.5 * value(*point) } else { largest };
+        point.0.error(point.1) <= most
     };
     let ends = |(curve, index): (&Curve, usize)| {
         let [low, high] = curve.bar(index)?;
@@ -142,7 +142,7 @@ fn bar(curve: &Curve, frame: &Frame, index: usize) -> Option<[[f64; 2]; 2]> {
     Some([top, frame.place([x, low]).unwrap_or([top[0], below])])
 }
 
-/// All of them.
+/// Error bars of all points of a curve that have one.
 fn bars(curve: &Curve, frame: &Frame) -> Vec<[[f64; 2]; 2]> {
     (0..curve.points.len()).filter_map(|index| bar(curve, frame, index)).collect()
 }

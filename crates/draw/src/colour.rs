@@ -72,9 +72,9 @@ impl Colour {
 /// A map from values to colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColourMap {
-    /// For values from zero up.
+    /// Colours for values from zero up.
     Sequential,
-    /// For values of both signs: white is zero.
+    /// Colours for values of both signs: white is zero.
     Diverging,
 }
 

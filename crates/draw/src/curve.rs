@@ -22,9 +22,9 @@ pub struct Curve {
 /// The colour of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ink {
-    /// By its index: 0 black, then 1 blue, 2 vermilion, 3 green, 4 purple, 5 orange, 6 sky blue, and again from 1.
+    /// Colour by the index of the curve: 0 black, then 1 blue, 2 vermilion, 3 green, 4 purple, 5 orange, 6 sky blue, and again from 1.
     Number(usize),
-    /// By depth, from 0 at the surface (dark) to 1 (light): for more curves than numbered colours.
+    /// Colour by depth, from 0 at the surface (dark) to 1 (light): for more curves than numbered colours.
     Depth(f64),
 }
 

@@ -66,8 +66,8 @@ impl Curve {
             let error = (first..=last).map(|index| self.error(index)).fold(0.0, f64::max);
             let change = (y(last) - y(first)).abs();
             if change > 0.0 && change <= error {
-                for (own, index) in leads[first..last].iter_mut().zip(first..) {
-                    *own = !is_seen(index) && !is_seen(index + 1);
+                for (lead, index) in leads[first..last].iter_mut().zip(first..) {
+                    *lead = !is_seen(index) && !is_seen(index + 1);
                 }
             }
             first = last;
@@ -140,12 +140,15 @@ mod tests {
     #[test]
     fn no_line_leads_through_a_zigzag_within_the_errors() {
         // Up by 1 with 0.3; down by 0.5 with 0.6; up by 0.4 with 0.6; down by 0.9 with 0.1.
-        let own = curve(&[1.0, 2.0, 1.5, 1.9, 1.0], &[0.2, 0.3, 0.6, 0.1, f64::NAN]);
-        assert_eq!(own.leads(|_| true), [true, false, false, true]);
-        // What cannot be seen interrupts nothing.
-        assert_eq!(own.leads(|_| false), [true; 4]);
-        assert_eq!(own.leads(|index| index == 3), [true, true, false, true]);
-        assert_eq!((0..5).map(|index| own.bar(index).is_some()).collect::<Vec<_>>(), [true, true, true, true, false]);
+        let zigzag = curve(&[1.0, 2.0, 1.5, 1.9, 1.0], &[0.2, 0.3, 0.6, 0.1, f64::NAN]);
+        assert_eq!(zigzag.leads(|_| true), [true, false, false, true]);
+        // Hidden points interrupt nothing.
+        assert_eq!(zigzag.leads(|_| false), [true; 4]);
+        assert_eq!(zigzag.leads(|index| index == 3), [true, true, false, true]);
+        assert_eq!(
+            (0..5).map(|index| zigzag.bar(index).is_some()).collect::<Vec<_>>(),
+            [true, true, true, true, false]
+        );
         let asymmetry = curve(&[0.010, 0.012, 0.009, 0.011], &[0.004; 4]);
         assert_eq!(asymmetry.leads(|_| true), [false; 3]);
     }
@@ -162,8 +165,8 @@ mod tests {
 
     #[test]
     fn a_missing_value_ends_a_stretch() {
-        let own = curve(&[1.0, 1.1, f64::NAN, 1.15, 2.0], &[0.2; 5]);
-        let leads = own.leads(|_| true);
+        let interrupted = curve(&[1.0, 1.1, f64::NAN, 1.15, 2.0], &[0.2; 5]);
+        let leads = interrupted.leads(|_| true);
         assert!(!leads[0] && leads[3], "{leads:?}");
     }
 }

@@ -183,9 +183,9 @@ impl Frame {
             canvas.dashed(&[[origin[0] + x, top], [origin[0] + x, bottom]], 0.7, Dash::Dotted, Colour::GREY);
             let width = text::width(word, NUMBERS) + NUMBERS;
             match words.last_mut() {
-                Some(([_, last], own)) if x - *last < width => {
+                Some(([_, last], joined)) if x - *last < width => {
                     *last = x;
-                    own.push_str(&format!(", {word}"));
+                    joined.push_str(&format!(", {word}"));
                 }
                 _ => words.push(([x, x], word.to_owned())),
             }

@@ -6,7 +6,7 @@ use super::typeface::{self, Glyph, Segment};
 /// A letter of a line of text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Letter {
-    /// Its glyph in the typeface.
+    /// Glyph of the letter in the typeface.
     pub glyph: Glyph,
     /// Distance of its origin from the beginning of the line, in units of the size.
     pub x: f64,
@@ -36,7 +36,7 @@ impl Piece {
 
 /// The letters of a line of text that have an outline.
 pub fn letters(text: &str) -> Vec<Letter> {
-    let letters = placed(text).0.into_iter().map(|own| Letter { glyph: own.glyph, x: own.x });
+    let letters = placed(text).0.into_iter().map(|letter| Letter { glyph: letter.glyph, x: letter.x });
     letters.filter(|letter| typeface::bounds(letter.glyph).is_some()).collect()
 }
 

@@ -52,9 +52,9 @@ pub enum Over {
 /// The colours of a field.
 #[allow(missing_debug_implementations, reason = "functions have no text")]
 pub enum Fill<'a> {
-    /// By values and a colour bar; places without a value have [`Bar::without`].
+    /// Values with a colour bar; places without a value have [`Bar::without`].
     Values(Bar, &'a (dyn Fn([f64; 2]) -> Option<f64> + Sync)),
-    /// By colours without a scale.
+    /// Colours without a scale.
     Colours(&'a (dyn Fn([f64; 2]) -> Colour + Sync)),
 }
 
@@ -134,9 +134,9 @@ impl Map<'_> {
                 let mut sum = [0u32; 3];
                 for (i, j) in (0..PARTS).flat_map(|i| (0..PARTS).map(move |j| (i, j))) {
                     let shift = |k: u8| (f64::from(k) + 0.5) / f64::from(PARTS) - 0.5;
-                    let Colour(own) =
+                    let Colour(rgb) =
                         colour(place((index / columns) as f64 + shift(i), (index % columns) as f64 + shift(j)));
-                    sum = [0, 1, 2].map(|k| sum[k] + u32::from(own[k]));
+                    sum = [0, 1, 2].map(|k| sum[k] + u32::from(rgb[k]));
                 }
                 (index, sum.map(|c| (c / u32::from(PARTS * PARTS)) as u8))
             })
@@ -158,8 +158,8 @@ impl Panel for Map<'_> {
             Fill::Values(bar, _) => (bar.width(), bar.factor().is_some()),
             Fill::Colours(_) => (GAP, false),
         };
-        let own = Frame::margins([&self.x, &self.y], self.ranges(), [width, right], self.aspect, true);
-        Margins { top: own.top.max(if has_factor { 1.5 * NUMBERS } else { 0.0 }), ..own }
+        let margins = Frame::margins([&self.x, &self.y], self.ranges(), [width, right], self.aspect, true);
+        Margins { top: margins.top.max(if has_factor { 1.5 * NUMBERS } else { 0.0 }), ..margins }
     }
 
     fn height(&self, width: f64, margins: Margins) -> f64 {

@@ -1,6 +1,6 @@
 //! Numbers in pictures, in the style of a journal: on axes, on colour bars and in captions.
 //!
-//! With a true minus sign, and powers of ten as 2×10⁻⁵; tables on the terminal have 2e-5, which other programs read.
+//! Numbers have a true minus sign, and powers of ten as 2×10⁻⁵; tables on the terminal have 2e-5, which other programs read.
 
 /// A number with up to five digits.
 pub fn short(x: f64) -> String {

@@ -160,12 +160,13 @@ mod tests {
         canvas
     }
 
-    /// Offsets of the cross-reference table are those of the objects, and the end names the table's own.
+    /// Offsets of the cross-reference table are those of the objects, and the end of the file names the offset of the table.
     #[test]
     fn the_table_of_the_file_points_at_its_objects() {
         let file = pdf(&sheet());
-        let find =
-            |word: &[u8], from: usize| file[from..].windows(word.len()).position(|own| own == word).unwrap() + from;
+        let find = |word: &[u8], from: usize| {
+            file[from..].windows(word.len()).position(|window| window == word).unwrap() + from
+        };
         let number = |at: usize| {
             let digits: String = file[at..].iter().take_while(|c| c.is_ascii_digit()).map(|&c| char::from(c)).collect();
             digits.parse::<usize>().unwrap()

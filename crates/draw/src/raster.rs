@@ -62,8 +62,8 @@ fn put(sheet: &mut Pixmap, mark: &Mark) -> Option<()> {
             let [x, y] = corner.map(|c| (c * PIXELS).round() as usize);
             let across = 4 * sheet.width() as usize;
             let lines = sheet.data_mut().chunks_exact_mut(across).skip(y);
-            for (line, own) in lines.zip(colours.chunks_exact(3 * columns)) {
-                for (pixel, colour) in line.chunks_exact_mut(4).skip(x).zip(own.chunks_exact(3)) {
+            for (line, row) in lines.zip(colours.chunks_exact(3 * columns)) {
+                for (pixel, colour) in line.chunks_exact_mut(4).skip(x).zip(row.chunks_exact(3)) {
                     pixel[..3].copy_from_slice(colour);
                 }
             }
@@ -96,8 +96,8 @@ fn blend(sheet: &mut Pixmap, [column, row]: [i32; 2], part: f32, Colour(colour):
     let (width, height) = (sheet.width() as i32, sheet.height() as i32);
     if (0..width).contains(&column) && (0..height).contains(&row) {
         let pixel = &mut sheet.data_mut()[4 * (row * width + column) as usize..][..3];
-        for (own, new) in pixel.iter_mut().zip(colour.map(f32::from)) {
-            *own = (f32::from(*own) + part.min(1.0) * (new - f32::from(*own))).round() as u8;
+        for (old, new) in pixel.iter_mut().zip(colour.map(f32::from)) {
+            *old = (f32::from(*old) + part.min(1.0) * (new - f32::from(*old))).round() as u8;
         }
     }
 }
@@ -155,9 +155,9 @@ mod tests {
         let pixels: Vec<u8> = (0..3 * 40 * 30).map(|k| (k * k % 253) as u8).collect();
         for compression in [Compression::Balanced, Compression::Fast] {
             let file = encode([40, 30], &pixels, compression);
-            let mut own = vec![0; pixels.len()];
-            png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap().next_frame(&mut own).unwrap();
-            assert_eq!(own, pixels);
+            let mut decoded = vec![0; pixels.len()];
+            png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap().next_frame(&mut decoded).unwrap();
+            assert_eq!(decoded, pixels);
         }
     }
 

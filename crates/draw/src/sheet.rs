@@ -54,22 +54,22 @@ pub fn sheet(caption: &str, panels: &[&dyn Panel]) -> Canvas {
     let columns = panels.len().clamp(1, 2);
     let width = COLUMN * columns as f64;
     let inner = width - 2.0 * MARGIN;
-    let own = (inner - 2.0 * MARGIN * (columns - 1) as f64) / columns as f64;
+    let panel_width = (inner - 2.0 * MARGIN * (columns - 1) as f64) / columns as f64;
     let mut canvas = Canvas::new([width, 0.0]);
     let mut y = MARGIN;
     // All plots of a sheet are aligned.
-    let all = panels.iter().map(|panel| panel.margins(own)).fold(Margins::default(), Margins::union);
+    let all = panels.iter().map(|panel| panel.margins(panel_width)).fold(Margins::default(), Margins::union);
     for row in panels.chunks(columns) {
-        let top = row.iter().map(|panel| panel.margins(own).top).fold(0.0, f64::max);
+        let top = row.iter().map(|panel| panel.margins(panel_width).top).fold(0.0, f64::max);
         let margins = Margins { top, ..all };
-        let lines = |text: &str| wrapped(text, TITLES, own).len() as f64;
+        let lines = |text: &str| wrapped(text, TITLES, panel_width).len() as f64;
         let head = row.iter().map(|panel| lines(panel.title())).fold(0.0, f64::max) * LEADING * TITLES;
         let mut deepest: f64 = 0.0;
         for (column, panel) in row.iter().enumerate() {
-            let x = MARGIN + column as f64 * (own + 2.0 * MARGIN);
-            paragraph(&mut canvas, panel.title(), [x, y], TITLES, own, Colour::BLACK);
-            panel.draw(&mut canvas, [x, y + head], own, margins);
-            deepest = deepest.max(y + head + panel.height(own, margins));
+            let x = MARGIN + column as f64 * (panel_width + 2.0 * MARGIN);
+            paragraph(&mut canvas, panel.title(), [x, y], TITLES, panel_width, Colour::BLACK);
+            panel.draw(&mut canvas, [x, y + head], panel_width, margins);
+            deepest = deepest.max(y + head + panel.height(panel_width, margins));
         }
         y = deepest + MARGIN;
     }

@@ -18,10 +18,10 @@ pub struct Ticks {
 impl Ticks {
     /// The ticks with their values converted from a unit to that of the case.
     pub fn in_unit(self, unit: &Prefixed) -> Self {
-        let own = Prefixed { exponent: -unit.exponent, name: String::new() };
+        let inverse = Prefixed { exponent: -unit.exponent, name: String::new() };
         Self {
-            numbered: self.numbered.into_iter().map(|(x, number)| (own.shown(x), number)).collect(),
-            plain: self.plain.into_iter().map(|x| own.shown(x)).collect(),
+            numbered: self.numbered.into_iter().map(|(x, number)| (inverse.shown(x), number)).collect(),
+            plain: self.plain.into_iter().map(|x| inverse.shown(x)).collect(),
             ..self
         }
     }
@@ -60,9 +60,9 @@ fn linear_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
     let mut step = f64::INFINITY;
     let mut parts = 1;
     'search: for _ in 0..3 {
-        for (factor, own_parts) in [(1.0, 5), (2.0, 4), (5.0, 5)] {
+        for (factor, divisions) in [(1.0, 5), (2.0, 4), (5.0, 5)] {
             step = factor * 10f64.powi(power);
-            parts = own_parts;
+            parts = divisions;
             let slack = 1e-9 * step;
             let count = ((high + slack) / step).floor() - ((low - slack) / step).ceil() + 1.0;
             if count <= most as f64 {
@@ -140,7 +140,7 @@ fn log_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
         return linear_ticks([low, high], most);
     };
     let numbered: Vec<(f64, String)> = all(factors).map(named).collect();
-    let taken = |x: &f64| !numbered.iter().any(|(own, _)| (own / x - 1.0).abs() < 1e-9);
+    let taken = |x: &f64| !numbered.iter().any(|(value, _)| (value / x - 1.0).abs() < 1e-9);
     let plain = all(choices[0]).map(|(_, _, x)| x).filter(taken).collect();
     Ticks { numbered, plain, exponent: 0 }
 }

@@ -48,7 +48,7 @@ pub fn advance(glyph: Glyph) -> f64 {
     f64::from(TABLE.glyphs[usize::from(glyph.0)].0) / EM
 }
 
-/// What is added to the advance of a glyph before another: negative for pairs like AV.
+/// Addition to the advance of a glyph before another: negative for pairs like AV.
 pub fn kerning(glyph: Glyph, next: Glyph) -> f64 {
     let pairs = &TABLE.pairs;
     let found = pairs.binary_search_by_key(&[glyph, next], |&(pair, _)| pair);
@@ -150,11 +150,11 @@ impl Table {
     }
 }
 
-/// What is left of a row of numbers.
+/// The rest of a row of numbers.
 struct Numbers(&'static [u8]);
 
 impl Numbers {
-    /// The next number: seven bits a byte, the lowest first; its own lowest bit is the sign.
+    /// The next number: seven bits a byte, the lowest first; the lowest bit of all is the sign.
     fn number(&mut self) -> i32 {
         let (mut bits, mut shift) = (0, 0);
         loop {
@@ -168,12 +168,12 @@ impl Numbers {
         }
     }
 
-    /// As many rows as the next number says.
+    /// The next rows; the next number is their count.
     fn rows<T>(&mut self, mut row: impl FnMut(&mut Self) -> T) -> Vec<T> {
         (0..self.number()).map(|_| row(self)).collect()
     }
 
-    /// As many bytes as the next number says.
+    /// The next bytes; the next number is their count.
     fn bytes(&mut self) -> &'static [u8] {
         let length = usize::try_from(self.number()).expect(WHOLE);
         let (bytes, rest) = self.0.split_at(length);

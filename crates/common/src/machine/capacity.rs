@@ -37,7 +37,7 @@ fn disk(folder: &Path) -> Option<u64> {
     (space.total_space() > 0).then(|| space.available_space())
 }
 
-/// There is no disk.
+/// Free disk space: `None`, there is no disk.
 #[cfg(target_family = "wasm")]
 fn disk(_folder: &Path) -> Option<u64> {
     None
@@ -73,8 +73,8 @@ pub fn addresses_left() -> Option<u64> {
 
 /// Memory left in the control groups of this process and their parents (versions 1 and 2), bytes.
 fn groups() -> Option<u64> {
-    let own = fs::read_to_string("/proc/self/cgroup").ok()?;
-    let folders = own.lines().filter_map(|line| {
+    let cgroups = fs::read_to_string("/proc/self/cgroup").ok()?;
+    let folders = cgroups.lines().filter_map(|line| {
         let [_, controllers, path] = line.splitn(3, ':').collect::<Vec<_>>()[..] else { return None };
         let root = match controllers {
             "" => "/sys/fs/cgroup",

@@ -35,7 +35,7 @@ pub fn twice(what: impl std::fmt::Display) -> Fault {
 /// Bytes that are read from their start.
 #[derive(Debug, Clone)]
 pub struct Bytes<'a> {
-    /// What is not read yet.
+    /// Bytes that are not read yet.
     pub rest: &'a [u8],
 }
 
@@ -65,9 +65,9 @@ impl<'a> Bytes<'a> {
     /// The next text, which ends with a NUL.
     pub fn text(&mut self) -> Result<Cow<'a, str>, Fault> {
         let end = self.rest.iter().position(|byte| *byte == 0).ok_or_else(ended)?;
-        let own = text(self.take(end)?);
+        let decoded = text(self.take(end)?);
         self.take(1)?;
-        Ok(own)
+        Ok(decoded)
     }
 
     /// The text of a field of `count` bytes, up to a NUL, without blanks around it.
@@ -134,8 +134,8 @@ impl Number {
 
     /// Number `k` of a list of them.
     pub fn at(self, bytes: &[u8], k: usize) -> f64 {
-        let own = &bytes[k * self.size()..][..self.size()];
-        match (self, own) {
+        let chunk = &bytes[k * self.size()..][..self.size()];
+        match (self, chunk) {
             (Self::I8, [a]) => f64::from(i8::from_le_bytes([*a])),
             (Self::U16, [a, b]) => f64::from(u16::from_le_bytes([*a, *b])),
             (Self::I16, [a, b]) => f64::from(i16::from_le_bytes([*a, *b])),
@@ -143,7 +143,7 @@ impl Number {
             (Self::I32, [a, b, c, d]) => f64::from(i32::from_le_bytes([*a, *b, *c, *d])),
             (Self::F32, [a, b, c, d]) => f64::from(f32::from_le_bytes([*a, *b, *c, *d])),
             (Self::F64, [a, b, c, d, e, f, g, h]) => f64::from_le_bytes([*a, *b, *c, *d, *e, *f, *g, *h]),
-            (_, own) => f64::from(own[0]),
+            (_, chunk) => f64::from(chunk[0]),
         }
     }
 }

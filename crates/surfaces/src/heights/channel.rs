@@ -9,9 +9,9 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(untagged)]
 pub enum WantedChannel {
-    /// By its name.
+    /// Name of the channel.
     Named(String),
-    /// By its number, from 1.
+    /// Number of the channel, from 1.
     Number(usize),
 }
 
@@ -35,7 +35,7 @@ impl Channel {
         matches!(self.unit, Some(HeightsUnit::Known(_)))
     }
 
-    /// Its name in a message, with its number.
+    /// Words for the channel in a message: its number, name and unit.
     fn described(&self, number: usize) -> String {
         let name: String = plain::line(&self.name).chars().take(LONGEST).collect();
         let name = if name.is_empty() { String::new() } else { format!(" \"{name}\"") };

@@ -70,7 +70,7 @@ fn datum(text: &str) -> Option<(&str, &str)> {
     if is_empty {
         return Some(("", rest));
     }
-    let (own, rest) = rest.split_once('<')?;
+    let (text, rest) = rest.split_once('<')?;
     let (closing, rest) = rest.strip_prefix('/')?.split_once('>')?;
-    (closing.trim_end() == name).then_some((own.trim(), rest))
+    (closing.trim_end() == name).then_some((text.trim(), rest))
 }

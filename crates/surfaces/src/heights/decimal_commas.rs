@@ -1,11 +1,12 @@
 //! Decimal commas in a text whose numbers are separated by commas: "0,5,0,3" is two heights or four.
 //!
-//! With decimal commas every second number is the digits behind a comma: it has no sign, may have leading zeros, and exponents
+//! Every second number of decimal commas is the digits behind a comma: it has no sign, may have leading zeros, and exponents
 //! follow only these numbers. Where the spelling is not conclusive the values are compared: along a line of a surface the numbers at
 //! even and odd places have similar differences and similar means.
 //!
 //! A comma may also separate thousands, "5,234.50": between commas pairs of one to three digits and of three digits with a point.
-//! Where other characters separate the numbers, "5,234" is 5.234 or 5234: three digits behind every comma, and no zero before one.
+//! Numbers that other characters separate are ambiguous too, "5,234" is 5.234 or 5234: three digits behind every comma, and no
+//! zero before one.
 
 use super::fault::{Fault, Heights};
 
@@ -114,10 +115,10 @@ const HELP: &str = "write decimal points, or part the numbers by semicolons, tab
 /// Whether the numbers at even and odd places differ as different quantities do.
 fn halves_differ(heights: &Heights) -> bool {
     let columns = heights.points[1];
-    let (mut own, mut risen, mut across, mut between, mut count) = ([0.0; 2], [0.0; 2], 0.0, 0.0, 0.0);
+    let (mut changes, mut risen, mut across, mut between, mut count) = ([0.0; 2], [0.0; 2], 0.0, 0.0, 0.0);
     for line in heights.values.chunks_exact(columns) {
         for (j, three) in line.windows(3).enumerate() {
-            own[j % 2] += (three[2] - three[0]).powi(2);
+            changes[j % 2] += (three[2] - three[0]).powi(2);
             risen[j % 2] += f64::from(u8::from(three[2] != three[0]));
             // A value less the mean of its neighbours: slope and curvature of the surface cancel.
             let bend = three[1] - 0.5 * (three[0] + three[2]);
@@ -127,9 +128,9 @@ fn halves_differ(heights: &Heights) -> bool {
         }
     }
     let (mean, rms): (f64, f64) = (across / count, f64::sqrt(between / count));
-    let livelier = usize::from(own[1] > own[0]);
+    let livelier = usize::from(changes[1] > changes[0]);
     // A few peaks in one half are possible on a surface.
-    let are_unlike = own[livelier] > UNLIKE * own[1 - livelier] && risen[livelier] > 0.25 * count;
+    let are_unlike = changes[livelier] > UNLIKE * changes[1 - livelier] && risen[livelier] > 0.25 * count;
     are_unlike || mean.abs() > APART * rms
 }
 
@@ -139,7 +140,7 @@ mod tests {
 
     fn table(heights: &[f64], columns: usize, digits: usize) -> String {
         let line = |line: &[f64]| line.iter().map(|h| format!("{h:.digits$}").replace('.', ",")).collect::<Vec<_>>();
-        heights.chunks(columns).map(|own| line(own).join(",") + "\n").collect()
+        heights.chunks(columns).map(|row| line(row).join(",") + "\n").collect()
     }
 
     fn found(text: &str) -> (bool, bool) {

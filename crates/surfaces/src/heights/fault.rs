@@ -31,11 +31,11 @@ pub struct Heights {
 /// Why a file is refused, without its name and that of the key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
-    /// What is wrong.
+    /// Words for what is wrong.
     pub what: String,
     /// Label at the excerpt of the case.
     pub label: String,
-    /// What to do.
+    /// Advice what to do, if any.
     pub help: Option<String>,
 }
 

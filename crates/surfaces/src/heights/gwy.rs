@@ -32,7 +32,7 @@ type Component<'a> = (u8, &'a [u8]);
 /// A field of numbers.
 #[derive(Debug)]
 struct DataField<'a> {
-    /// Its numbers of a line and lines, or why it is no surface.
+    /// Numbers of a line and lines of the field, or why it is no surface.
     image: Result<Image, Fault>,
     /// Sides, none where it has the length 1 a number.
     sides: [Option<f64>; 2],
@@ -42,7 +42,7 @@ struct DataField<'a> {
     data: &'a [u8],
 }
 
-/// What belongs to a channel of the container.
+/// Objects of a channel of the container.
 #[derive(Debug, Default)]
 struct Parts<'a> {
     data: Option<&'a [u8]>,
@@ -56,13 +56,13 @@ pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, 
     bytes.take(MAGIC.len())?;
     let parts = channels(object(&mut bytes, "GwyContainer")?)?;
     let mut fields: Vec<(DataField<'_>, &Parts<'_>)> = Vec::new();
-    for own in parts.values() {
-        if let Some(data) = own.data {
-            fields.push((DataField::read(data)?, own));
+    for channel in parts.values() {
+        if let Some(data) = channel.data {
+            fields.push((DataField::read(data)?, channel));
         }
     }
-    let described = |(field, own): &(DataField<'_>, &Parts<'_>)| Channel {
-        name: own.title.map(text).unwrap_or_default().into_owned(),
+    let described = |(field, channel): &(DataField<'_>, &Parts<'_>)| Channel {
+        name: channel.title.map(text).unwrap_or_default().into_owned(),
         unit: field.heights_unit(),
     };
     let all: Vec<Channel> = fields.iter().map(described).collect();
@@ -70,8 +70,8 @@ pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, 
         return Err(Fault::new("holds no channel with an image", "no heights").help("save one of heights in Gwyddion"));
     }
     let index = choose(&all, wanted)?;
-    let (field, own) = fields.swap_remove(index);
-    let mask = own.mask.map(DataField::read).transpose()?;
+    let (field, channel) = fields.swap_remove(index);
+    let mask = channel.mask.map(DataField::read).transpose()?;
     field.stored(mask)
 }
 
@@ -123,11 +123,11 @@ fn channels(mut container: Bytes<'_>) -> Result<BTreeMap<u32, Parts<'_>>, Fault>
         let (name, (kind, value)) = component(&mut container)?;
         let Some((number, key)) = name.strip_prefix('/').and_then(|name| name.split_once('/')) else { continue };
         let Ok(number) = number.parse() else { continue };
-        let own = parts.entry(number).or_default();
+        let channel = parts.entry(number).or_default();
         let before = match (key, kind) {
-            ("data", b'o') => own.data.replace(value),
-            ("mask", b'o') => own.mask.replace(value),
-            ("data/title", b's') => own.title.replace(value),
+            ("data", b'o') => channel.data.replace(value),
+            ("mask", b'o') => channel.mask.replace(value),
+            ("data/title", b's') => channel.title.replace(value),
             _ => None,
         };
         if before.is_some() {

@@ -22,11 +22,11 @@ pub struct Length {
 }
 
 impl Length {
-    /// It in the unit `length` of a case, without a unit of its own times `factor`; `None` where one unit is not known.
+    /// The length in the unit `length` of a case; times `factor` where it has no unit. `None` where one unit is not known.
     pub fn in_unit(&self, length: Option<&str>, factor: f64) -> Option<f64> {
         match &self.unit {
             None => Some(self.value * factor),
-            Some(own) => Some(self.value * unit::factor(own, length?).ok()?),
+            Some(unit) => Some(self.value * unit::factor(unit, length?).ok()?),
         }
     }
 
@@ -163,11 +163,11 @@ impl Header {
                 let Some(value) = amount.filter(|x| x.is_finite() && *x > 0.0) else {
                     return Err(unreadable("a side of the image that is no length greater than 0"));
                 };
-                let own = known(unit);
-                if own.is_none() && !unit.is_empty() {
+                let length_unit = known(unit);
+                if length_unit.is_none() && !unit.is_empty() {
                     return Err(unreadable("a side of the image in a unit of length that is not known"));
                 }
-                let length = Length { value, unit: own };
+                let length = Length { value, unit: length_unit };
                 match about {
                     About::Side(axis) => set(&mut self.sides[axis], length, number)?,
                     _ => set(&mut self.pixel, length, number)?,
@@ -180,8 +180,8 @@ impl Header {
             // A factor precedes the unit that applies after it.
             About::Heights if self.heights == Some(HeightsUnit::Other) => {}
             About::Heights => {
-                let own = known(in_brackets(value)).map_or(HeightsUnit::Other, HeightsUnit::Known);
-                set(&mut self.heights, own, number)?;
+                let heights_unit = known(in_brackets(value)).map_or(HeightsUnit::Other, HeightsUnit::Known);
+                set(&mut self.heights, heights_unit, number)?;
             }
             About::Factor => self.heights = Some(HeightsUnit::Other),
         }

@@ -64,7 +64,7 @@ impl Head {
         Some(Self { kind: kind?, fortran: fortran?, shape: shape? })
     }
 
-    /// Its type in words: as written for the short names of NumPy, since a head may have any content.
+    /// Type of the numbers in words: as written for the short names of NumPy, since a head may have any content.
     fn kind_in_words(&self) -> String {
         let short =
             self.kind.len() <= 6 && self.kind.chars().all(|c| c.is_ascii_alphanumeric() || "<>|='\"".contains(c));

@@ -10,7 +10,7 @@
 //! 42  NumPoints, u16                                                            81  heights, profile by profile
 //! ```
 //!
-//! As text: lines `Name = value ; comment` with the same names, a line `*`, the heights, a line `*`. A text may follow the heights, also binary
+//! Text form: lines `Name = value ; comment` with the same names, a line `*`, the heights, a line `*`. A text may follow the heights, also binary
 //! ones. Data types: 0 u8, 1 u16, 2 u32, 3 f32, 4 i8, 5 i16, 6 i32, 7 f64; ISO has none without a sign. What the versions do not share:
 //!
 //! ```text
@@ -172,7 +172,7 @@ impl Header {
             let parts = line.split_once('=').or_else(|| line.split_once(char::is_whitespace));
             let Some((name, value)) = parts else { continue };
             let name = name.trim().to_lowercase();
-            if let Some(index) = NAMES.iter().position(|own| *own == name) {
+            if let Some(index) = NAMES.iter().position(|known| *known == name) {
                 let value = number(value.trim()).ok_or_else(|| broken("a number of its header is none"))?;
                 if found[index].replace(value).is_some() {
                     return Err(twice("a number of its header"));

@@ -8,7 +8,7 @@
 //! # y-length = 4500
 //! ```
 //!
-//! With void pixels as many lines follow as there are heights, of 1 at a place without a measurement and 0 elsewhere. Gwyddion writes
+//! Void pixels make as many lines follow as there are heights, of 1 at a place without a measurement and 0 elsewhere. Gwyddion writes
 //! `Bit2nm = 1.0` also beside a `z-unit`, which then holds alone. Sources: Gwyddion's `spip-asc.c`, and the reader of SurfaceTopography 1.27.
 
 use super::fault::{Fault, Heights};

@@ -125,9 +125,9 @@ impl Stored {
         stored.only(wanted)?.checked()
     }
 
-    fn measured(mut own: Measured) -> Result<Self, Fault> {
-        own.doubts.extend(own.implausible());
-        let Measured { heights, sides, unit, doubts } = own;
+    fn measured(mut measured: Measured) -> Result<Self, Fault> {
+        measured.doubts.extend(measured.implausible());
+        let Measured { heights, sides, unit, doubts } = measured;
         Self { heights, sides: Some(sides), unit, is_measured: true, lines_along_a1: false, doubts }.checked()
     }
 
@@ -136,7 +136,7 @@ impl Stored {
         npy::of_array(array).and_then(of_array)?.only(wanted)?.checked()
     }
 
-    /// It with sides along a₁ and a₂ in a unit, which is that of the heights too.
+    /// The heights with sides along a₁ and a₂, lengths in a unit, which is that of the heights too.
     pub fn sized(self, sides: [f64; 2], unit: Option<&str>) -> Result<Self, Fault> {
         if sides.iter().any(|side| !side.is_finite() || *side <= 0.0) {
             let what = format!("says that it is {} × {} large", sides[0], sides[1]);

@@ -108,11 +108,11 @@ impl<'a> Object<'a> {
         let name = [field(20, 30)?, field(164, 16)?].join(" ");
         let spacings = [120, 124, 128];
         let unit = |axis: usize| -> Result<String, Fault> {
-            let [own, of_lengths] = [field(180 + 16 * axis, 16)?, field(228 + 16 * axis, 16)?];
-            match own.is_empty() && !of_lengths.is_empty() {
+            let [of_spacing, of_lengths] = [field(180 + 16 * axis, 16)?, field(228 + 16 * axis, 16)?];
+            match of_spacing.is_empty() && !of_lengths.is_empty() {
                 true if at(276 + 4 * axis, Number::F32)? == 1.0 => Ok(of_lengths),
                 true => Err(broken("a spacing of its header has no unit")),
-                false => Ok(own),
+                false => Ok(of_spacing),
             }
         };
         let bad = (at(86, Number::I16)? == 1.0).then_some(at(100, Number::I32)? - 2.0);
@@ -196,12 +196,12 @@ impl<'a> Points<'a> {
         fits(2 * length as u64)?;
         let mut points = Vec::with_capacity(length);
         for (before, bytes) in streams {
-            let own =
+            let unpacked =
                 decompress_to_vec_zlib_with_limit(bytes, before).map_err(|_| broken("its points do not unpack"))?;
-            if own.len() != before {
+            if unpacked.len() != before {
                 return Err(broken("its compressed points are not as many as its header states"));
             }
-            points.extend(own);
+            points.extend(unpacked);
         }
         Ok(Cow::Owned(points))
     }

@@ -98,8 +98,8 @@ fn rising(heights: &Heights, axis: usize) -> Option<String> {
         return None;
     }
     let is_even = |k: &usize| {
-        let mut own = line(heights, axis, *k);
-        let (first, last) = (own.next().unwrap_or_default(), line(heights, axis, *k).last().unwrap_or_default());
+        let mut values = line(heights, axis, *k);
+        let (first, last) = (values.next().unwrap_or_default(), line(heights, axis, *k).last().unwrap_or_default());
         let step = (last - first) / (count - 1) as f64;
         step != 0.0
             && line(heights, axis, *k)
@@ -202,10 +202,10 @@ fn three(heights: &Heights) -> Option<String> {
     let [lines, 3] = heights.points else { return None };
     let column = |k: usize| line(heights, 0, k);
     let alike = |a: usize, b: usize| {
-        let [[mean_a, own_a], [mean_b, own_b]] = [a, b].map(|k| deviation(column(k)));
+        let [[mean_a, deviation_a], [mean_b, deviation_b]] = [a, b].map(|k| deviation(column(k)));
         let products = column(a).zip(column(b)).map(|(x, y)| (x - mean_a) * (y - mean_b));
         let both: f64 = products.filter(|product| !product.is_nan()).sum();
-        both >= 0.5 * own_a * own_b * lines as f64
+        both >= 0.5 * deviation_a * deviation_b * lines as f64
     };
     (lines >= 16 && !alike(0, 1) && !alike(1, 2)).then(|| {
         format!(

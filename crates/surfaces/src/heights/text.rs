@@ -46,7 +46,7 @@ impl Separator {
 
     fn number(self, part: &str) -> Option<f64> {
         if self != Self::Mark(',') && part.contains(',') {
-            // With a point too, one of them separates thousands.
+            // Comma and point in one number: one of them separates thousands.
             return part.replacen(',', ".", 1).parse().ok().filter(|_| !part.contains('.'));
         }
         part.parse().ok()
@@ -75,8 +75,8 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<NumberTable, Fault> {
     let (mut values, mut rows, mut columns, mut separator) = (Vec::new(), 0, 0, None);
     let (mut commas, mut numbers, mut blocks) = (Commas::default(), Vec::new(), vec![0_usize]);
     while let Some(Line { number, text, is_apart }) = lines.next_line()? {
-        let own = *separator.get_or_insert_with(|| Separator::of(&text));
-        let parts = own.split(&text);
+        let separator = *separator.get_or_insert_with(|| Separator::of(&text));
+        let parts = separator.split(&text);
         if rows == 0 {
             columns = parts.len();
             let expected = bytes / (text.len() as u64 + 1) + 1;
@@ -86,9 +86,9 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<NumberTable, Fault> {
             blocks.push(0);
         }
         for (column, part) in parts.iter().enumerate() {
-            let value = own.number(part).ok_or_else(|| no_number(number, column, part, rows == 0))?;
+            let value = separator.number(part).ok_or_else(|| no_number(number, column, part, rows == 0))?;
             push(&mut values, value)?;
-            if own == Separator::Mark(',') {
+            if separator == Separator::Mark(',') {
                 commas.note(column, part);
             } else {
                 commas.note_decimal(part);
@@ -97,7 +97,7 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<NumberTable, Fault> {
         if parts.len() != columns {
             let what = format!("line {number} holds {} numbers, those before {columns}", parts.len());
             let fault = Fault::new(what, format!("line {number}"));
-            let may_be_decimal = own == Separator::Mark(',') && !text.contains('.');
+            let may_be_decimal = separator == Separator::Mark(',') && !text.contains('.');
             return Err(if may_be_decimal { fault.help(DECIMAL) } else { fault });
         }
         if columns <= FEW {

@@ -24,8 +24,8 @@ pub struct UnknownUnit(pub String);
 /// A unit of length in metres.
 fn metres(name: &str) -> Result<f64, UnknownUnit> {
     // The micro sign of Latin-1 is not UTF-8, and read as U+FFFD.
-    let own = name.trim().replace('\u{fffd}', "µ");
-    let known = UNITS.iter().find(|(names, _)| names.contains(&&own[..]));
+    let cleaned = name.trim().replace('\u{fffd}', "µ");
+    let known = UNITS.iter().find(|(names, _)| names.contains(&&cleaned[..]));
     known.map(|(_, metres)| *metres).ok_or_else(|| UnknownUnit(name.to_owned()))
 }
 

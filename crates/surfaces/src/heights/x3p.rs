@@ -43,7 +43,7 @@ const ROTATED: f64 = 1e-6;
 /// Most layers of a matrix.
 const MOST_LAYERS: f64 = 1000.0;
 
-/// What `main.xml` states.
+/// Matrix as `main.xml` states it.
 #[derive(Debug)]
 struct Matrix {
     image: Image,
@@ -120,7 +120,7 @@ impl Matrix {
         let axis =
             |name: &str| at(root, &["Record1", "Axes", name])?.ok_or_else(|| broken("its main.xml lacks an axis"));
         let axes = [axis("CX")?, axis("CY")?, axis("CZ")?];
-        let kind_of = |axis: Node<'_, '_>| text_at(axis, &["AxisType"]).map(|own| own.unwrap_or_default().to_owned());
+        let kind_of = |axis: Node<'_, '_>| text_at(axis, &["AxisType"]).map(|text| text.unwrap_or_default().to_owned());
         if [kind_of(axes[0])?, kind_of(axes[1])?, kind_of(axes[2])?] != ["I", "I", "A"] {
             let what = "holds points with coordinates of their own, not heights on a regular grid";
             let fault = Fault::new(what, "no regular grid");
@@ -140,8 +140,8 @@ impl Matrix {
             _ => return Err(broken("its heights are of a type that the format does not have")),
         };
         let size = |name: &str| -> Result<f64, Fault> {
-            let own = text_at(root, &["Record3", "MatrixDimension", name])?.and_then(|own| own.parse().ok());
-            own.ok_or_else(|| broken("its main.xml lacks a size of its matrix"))
+            let parsed = text_at(root, &["Record3", "MatrixDimension", name])?.and_then(|text| text.parse().ok());
+            parsed.ok_or_else(|| broken("its main.xml lacks a size of its matrix"))
         };
         let image = Image::new([size("SizeX")?, size("SizeY")?], false)?;
         let layers = size("SizeZ")?;
@@ -178,15 +178,15 @@ impl Matrix {
 fn increments(axes: [Node<'_, '_>; 3]) -> Result<[f64; 3], Fault> {
     // Heights without an increment are in metres; a spacing has no default.
     let mut increments = [f64::NAN, f64::NAN, 1.0];
-    for (own, axis) in increments.iter_mut().zip(axes) {
+    for (increment, axis) in increments.iter_mut().zip(axes) {
         if let Some(written) = text_at(axis, &["Increment"])? {
-            *own = written.parse().map_err(|_| broken("an increment of an axis is no number"))?;
-        } else if own.is_nan() {
+            *increment = written.parse().map_err(|_| broken("an increment of an axis is no number"))?;
+        } else if increment.is_nan() {
             return Err(broken("its main.xml lacks the increment of x or y"));
         }
     }
     let [x, y, z] = increments;
-    if x > 0.0 && y > 0.0 && z != 0.0 && increments.iter().all(|own| own.is_finite()) {
+    if x > 0.0 && y > 0.0 && z != 0.0 && increments.iter().all(|increment| increment.is_finite()) {
         return Ok(increments);
     }
     Err(broken("an increment of an axis is no length greater than 0"))
@@ -197,8 +197,8 @@ fn is_rotated(rotation: Node<'_, '_>) -> Result<bool, Fault> {
     for k in 1..=9 {
         let (row, column) = ((k + 2) / 3, (k + 2) % 3 + 1);
         let identity = f64::from(u8::from(row == column));
-        let is_it = |own: &str| own.parse().is_ok_and(|own: f64| (own - identity).abs() <= ROTATED);
-        if text_at(rotation, &[&format!("r{row}{column}")])?.is_some_and(|own| !is_it(own)) {
+        let is_it = |text: &str| text.parse().is_ok_and(|element: f64| (element - identity).abs() <= ROTATED);
+        if text_at(rotation, &[&format!("r{row}{column}")])?.is_some_and(|text| !is_it(text)) {
             return Ok(true);
         }
     }
@@ -221,5 +221,5 @@ fn at<'a, 'input>(from: Node<'a, 'input>, path: &[&str]) -> Result<Option<Node<'
 
 /// The text of the element at a path, without blanks around it; `None` where it is empty.
 fn text_at<'a>(from: Node<'a, '_>, path: &[&str]) -> Result<Option<&'a str>, Fault> {
-    Ok(at(from, path)?.and_then(|own| own.text()).map(str::trim).filter(|own| !own.is_empty()))
+    Ok(at(from, path)?.and_then(|element| element.text()).map(str::trim).filter(|text| !text.is_empty()))
 }
