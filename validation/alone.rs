@@ -1,4 +1,4 @@
-//! One indenter alone in its window, under the load of a table: what is read of it, and what the grid may leave.
+//! One indenter alone in its window, under the load of a table: readings, and errors that the grid may leave.
 //!
 //! The errors are of second order in spacing over radius. A Hertz contact of 47 samples to the radius leaves 3·10⁻⁵ of its penetration;
 //! where a layer bends the pressure within a part of the radius, ten times that is allowed. The stiffness is that of the samples
@@ -49,7 +49,7 @@ pub struct Alone {
 }
 
 impl Alone {
-    /// Under the force that makes a contact of this radius.
+    /// The contact under the force that makes one of this radius.
     pub fn new(
         shape: Shape,
         bodies: impl Into<Bodies>,
@@ -67,7 +67,7 @@ impl Alone {
 
 /// The worst of each quantity of a table with columns like `delta` and `delta_exact`, in rows that are wanted, in the order of radii.
 pub fn checks(what: &str, data: &Data, wanted: impl Fn(&[f64]) -> bool) -> Vec<Check> {
-    let column = |name: &str| data.columns.iter().position(|own| own == name);
+    let column = |name: &str| data.columns.iter().position(|column| column == name);
     let rows: Vec<&Vec<f64>> = data.rows.iter().filter(|row| wanted(row)).collect();
     let check = |(name, tolerance): (&str, f64)| {
         let (found, exact, radius) = (column(name)?, column(&format!("{name}_exact"))?, column("a_exact")?);
@@ -78,8 +78,9 @@ pub fn checks(what: &str, data: &Data, wanted: impl Fn(&[f64]) -> bool) -> Vec<C
             "a" => Check::worst(format!("{what}: radius a"), pairs, Tolerance::Relative(tolerance)),
             _ => {
                 let exponents = exponents(rows.iter().map(|row| [row[radius], row[exact]]).collect());
-                let pairs =
-                    pairs.zip(exponents).map(|((found, exact), own)| ((found / exact - 1.0) / own.max(1.0), 0.0));
+                let pairs = pairs
+                    .zip(exponents)
+                    .map(|((found, exact), exponent)| ((found / exact - 1.0) / exponent.max(1.0), 0.0));
                 let name = format!("{what}: error of dP/dδ over d ln S/d ln a");
                 Check::worst(name, pairs, Tolerance::Absolute(tolerance))
             }
@@ -91,7 +92,7 @@ pub fn checks(what: &str, data: &Data, wanted: impl Fn(&[f64]) -> bool) -> Vec<C
 /// d ln y/d ln x at points (x, y): the larger of both sides.
 fn exponents(points: Vec<[f64; 2]>) -> Vec<f64> {
     let slopes: Vec<f64> =
-        points.windows(2).map(|own| (own[1][1] / own[0][1]).ln() / (own[1][0] / own[0][0]).ln()).collect();
+        points.windows(2).map(|pair| (pair[1][1] / pair[0][1]).ln() / (pair[1][0] / pair[0][0]).ln()).collect();
     let side = |k: Option<usize>| k.and_then(|k| slopes.get(k).copied()).unwrap_or(f64::NEG_INFINITY);
     (0..points.len()).map(|i| side(i.checked_sub(1)).max(side(Some(i)))).collect()
 }

@@ -22,7 +22,7 @@ pub enum Tolerance {
 pub enum Evidence {
     /// Independent of the program: a closed form, a multiprecision table, another program.
     Reference,
-    /// From the program itself: another mesh, another of its methods, its orders and iterations.
+    /// The program itself: another mesh, another of its methods, its orders and iterations.
     Refinement,
     /// An earlier result of the program about the paper, within the error of the mesh.
     Finding,
@@ -58,13 +58,13 @@ impl Check {
         Self { quantity: quantity.into(), value, reference, tolerance, evidence }
     }
 
-    /// With a reference from the program itself.
+    /// The check with a reference from the program itself.
     #[must_use]
     pub fn of_refinement(self) -> Self {
         Self { evidence: Evidence::Refinement, ..self }
     }
 
-    /// With an earlier result as the reference.
+    /// The check with an earlier result as the reference.
     #[must_use]
     pub fn as_finding(self) -> Self {
         Self { evidence: Evidence::Finding, ..self }
@@ -85,12 +85,12 @@ impl Check {
         Self::new(quantity, value, expected, Tolerance::Order(slack))
     }
 
-    /// Not above `bound`.
+    /// A value not above `bound`.
     pub fn at_most(quantity: impl Into<String>, value: f64, bound: f64) -> Self {
         Self::new(quantity, value, bound, Tolerance::AtMost)
     }
 
-    /// Not below `bound`.
+    /// A value not below `bound`.
     pub fn at_least(quantity: impl Into<String>, value: f64, bound: f64) -> Self {
         Self::new(quantity, value, bound, Tolerance::AtLeast)
     }
@@ -203,8 +203,8 @@ mod tests {
     fn bounds_and_orders_are_the_programs_own_and_other_references_independent() {
         assert_eq!(Check::relative("x", 1.0, 1.0, 0.1).evidence, Evidence::Reference);
         assert_eq!(Check::worst("x", [(1.0, 1.0)], Tolerance::Absolute(0.1)).evidence, Evidence::Reference);
-        for own in [Check::order("x", 2.0, 2.0, 0.1), Check::at_most("x", 1.0, 2.0), Check::at_least("x", 2.0, 1.0)] {
-            assert_eq!(own.evidence, Evidence::Refinement);
+        for check in [Check::order("x", 2.0, 2.0, 0.1), Check::at_most("x", 1.0, 2.0), Check::at_least("x", 2.0, 1.0)] {
+            assert_eq!(check.evidence, Evidence::Refinement);
         }
         assert_eq!(Check::relative("x", 1.0, 1.0, 0.1).of_refinement().evidence, Evidence::Refinement);
         assert_eq!(Check::absolute("x", 1.0, 1.0, 0.1).as_finding().evidence, Evidence::Finding);

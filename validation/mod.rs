@@ -1,9 +1,9 @@
 //! Studies with verdicts: results of percoat against closed forms, multiprecision references and other programs.
 //!
 //! A [`Study`] computes its quantities afresh and compares each with its reference: a [`Check`] that holds or fails.
-//! Its equation, source and tolerances are in `validation/<study>/README.md`; reference numbers and case files beside it are
-//! embedded in the program, so that `percoat validate` works without the repository. A [`Report`] has the verdicts as a table and as
-//! Markdown, and the differences from another report.
+//! The equation of a study, its source and tolerances are in `validation/<study>/README.md`; reference numbers and case
+//! files beside it are embedded in the program, so that `percoat validate` works without the repository. A [`Report`]
+//! has the verdicts as a table and as Markdown, and the differences from another report.
 //!
 //! ```
 //! let study = percoat_validation::find("kernel").expect("a study");

@@ -47,13 +47,13 @@ impl Outcome {
         }
     }
 
-    /// Its tables by the names of their files, published ones rounded.
+    /// Tables by the names of their files, published ones rounded.
     pub fn tables(&self) -> impl Iterator<Item = (String, Data)> {
         let data = self.data.iter().map(|data| (format!("{}.data.csv", data.name), data.clone()));
         data.chain(self.published.iter().map(|data| (format!("{}.csv", data.name), data.rounded())))
     }
 
-    /// Names of all its files, sorted.
+    /// Names of all files, sorted.
     pub fn files(&self) -> Vec<String> {
         let figures = self.figures.iter().map(|(name, _)| format!("{name}.png"));
         let mut files: Vec<String> = figures.chain(self.tables().map(|(name, _)| name)).collect();
@@ -84,7 +84,7 @@ impl Data {
         Self { name, columns: columns.iter().map(|&column| column.to_owned()).collect(), rows: Vec::new() }
     }
 
-    /// As CSV, every number with all its digits.
+    /// The table as CSV, every number with all its digits.
     pub fn csv(&self) -> String {
         let mut text = self.columns.join(",") + "\n";
         for row in &self.rows {
@@ -128,9 +128,9 @@ impl Data {
     /// Reads a CSV table in which the number of one of these `names` stands for each cell that is one.
     ///
     /// # Errors
-    /// Those of [`Self::parse`].
+    /// The errors of [`Self::parse`].
     pub fn parse_named(name: &'static str, text: &str, names: &[&str]) -> Result<Self, String> {
-        let number = |cell: &str| names.iter().position(|own| *own == cell).map(|number| number.to_string());
+        let number = |cell: &str| names.iter().position(|name| *name == cell).map(|number| number.to_string());
         let mut lines = text.lines();
         let header = lines.by_ref().find(|line| !line.starts_with('#')).unwrap_or_default().to_owned();
         let row = |line: &str| {

@@ -40,13 +40,15 @@ impl Report {
 
     /// Number of checks of each kind, and the verdict, in words.
     pub fn summary(&self) -> String {
-        let [references, own, findings] = Evidence::ALL.map(|evidence| self.count(evidence));
+        let [references, refined, findings] = Evidence::ALL.map(|evidence| self.count(evidence));
         let verdict = match self.failures() {
             0 => "all hold".to_owned(),
             1 => "1 fails".to_owned(),
             failures => format!("{failures} fail"),
         };
-        format!("{references} independent references, {own} of own refinement, {findings} findings pinned: {verdict}")
+        format!(
+            "{references} independent references, {refined} of own refinement, {findings} findings pinned: {verdict}"
+        )
     }
 
     /// The checks of each study as a table of at most `width` letters.
@@ -84,10 +86,10 @@ impl Report {
             self.summary()
         );
         for (study, result) in &self.results {
-            let [references, own, findings] = Evidence::ALL.map(|evidence| count(result, evidence));
+            let [references, refined, findings] = Evidence::ALL.map(|evidence| count(result, evidence));
             let verdict = if result.as_ref().is_ok_and(Outcome::holds) { HOLDS } else { FAILS };
             text += &format!(
-                "| [{0}]({0}/README.md) | {1} | {references} | {own} | {findings} | {verdict} |\n",
+                "| [{0}]({0}/README.md) | {1} | {references} | {refined} | {findings} | {verdict} |\n",
                 study.name, study.title
             );
         }
@@ -139,8 +141,8 @@ fn rows(study: &Study, result: &Result<Outcome, StudyError>) -> Vec<Vec<String>>
     }
 }
 
-/// What differs between two Markdown reports in evidence or verdict: rows that changed, are missing or are new. With `studies`
-/// only theirs are compared.
+/// Differences of two Markdown reports in evidence or verdict: rows that changed, are missing or are new; of these
+/// `studies` alone where given.
 pub fn differences(expected: &str, found: &str, studies: Option<&[&str]>) -> Vec<String> {
     let known = verdicts(found);
     let missing = verdicts(expected).into_iter().filter(|(row, _)| is_of(studies, row) && !known.contains_key(row));

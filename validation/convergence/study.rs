@@ -39,10 +39,10 @@ const RADIUS: f64 = 0.1;
 const SIZES: [usize; 7] = [64, 96, 128, 192, 256, 384, 512];
 /// Places of the site in steps of the grid.
 const SHIFTS: [[f64; 2]; 6] = [[0.0, 0.0], [0.37, 0.21], [0.5, 0.5], [0.13, 0.77], [1.0 / 3.0, 1.0 / 3.0], [0.9, 0.45]];
-/// Where stresses are compared inside: on the axis, z/a.
+/// Depth z/a on the axis at which stresses are compared.
 const DEPTH: f64 = 0.5;
 
-/// What is measured: name, order to be seen and how far the fit may be from it, largest error at N = 512.
+/// Quantities measured: name, order to be seen and how far the fit may be from it, largest error at N = 512.
 const QUANTITIES: [(&str, f64, f64, f64); 5] = [
     ("peak pressure", 2.5, 0.3, 2e-5),
     ("contact radius", 2.0, 0.4, 2e-4),

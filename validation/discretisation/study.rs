@@ -28,7 +28,7 @@ const FINER: usize = 4;
 /// Part that has to hold.
 const HELD: f64 = 0.95;
 
-/// What is estimated, in the order of [`quantities`].
+/// Names of the estimated quantities, in the order of [`quantities`].
 const QUANTITIES: [&str; 11] = [
     "mean pressure",
     "penetration",
@@ -55,16 +55,16 @@ fn run() -> Result<Outcome, StudyError> {
     }
     let mut checks = Vec::new();
     for (number, name) in (0..).zip(QUANTITIES) {
-        // What is prescribed, and the share of a single level, is exact and said to be.
-        let own = || data.rows.iter().filter(|row| row[1] == f64::from(number) && row[3].max(row[4]) > 0.0);
-        let held = own().filter(|row| row[4] <= row[3]).count() as f64 / own().count() as f64;
+        // A prescribed quantity, and the share of a single level, is exact and said to be.
+        let rows = || data.rows.iter().filter(|row| row[1] == f64::from(number) && row[3].max(row[4]) > 0.0);
+        let held = rows().filter(|row| row[4] <= row[3]).count() as f64 / rows().count() as f64;
         checks.push(Check::at_least(
             format!("{name}: part of the cases whose error is below the stated one"),
             held,
             HELD,
         ));
         // An estimate a thousand times the error would hold as well and say nothing.
-        let mut excess: Vec<f64> = own().filter(|row| row[4] > 1e-6 * row[2]).map(|row| row[3] / row[4]).collect();
+        let mut excess: Vec<f64> = rows().filter(|row| row[4] > 1e-6 * row[2]).map(|row| row[3] / row[4]).collect();
         excess.sort_by(f64::total_cmp);
         let median = excess.get(excess.len() / 2).copied().unwrap_or(f64::NAN);
         checks.push(Check::at_most(format!("{name}: median of stated over true error"), median, 30.0));
@@ -135,8 +135,8 @@ fn figure(data: &Data) -> Figure {
     let mut curves: Vec<_> = (0..)
         .zip(QUANTITIES)
         .map(|(number, name)| {
-            let own = data.rows.iter().filter(|row| row[1] == f64::from(number) && row[3].max(row[4]) > 0.0);
-            let relative = own.map(|row| [row[3] / row[2], (row[4] / row[2]).max(least)]);
+            let rows = data.rows.iter().filter(|row| row[1] == f64::from(number) && row[3].max(row[4]) > 0.0);
+            let relative = rows.map(|row| [row[3] / row[2], (row[4] / row[2]).max(least)]);
             curve(name, Style::Markers, number as usize + 1, relative.filter(|[x, _]| *x > least))
         })
         .collect();

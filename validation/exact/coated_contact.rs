@@ -1,7 +1,7 @@
 //! One paraboloid r²/(2R) alone on a coated half-space: the integral equation of the contact.
 //!
-//! With P̃(q) = ∫ p r J₀(qr) dr = ∫₀ᵃ φ(t) cos(qt) dt, Abel's transformation of w(r) = δ − r²/(2R), r < a, gives (Sneddon
-//! 1965 for T = 1; Lebedev & Ufliand 1958 for a layer)
+//! For P̃(q) = ∫ p r J₀(qr) dr = ∫₀ᵃ φ(t) cos(qt) dt, Abel's transformation of w(r) = δ − r²/(2R), r < a, gives
+//! (Sneddon 1965 for T = 1; Lebedev & Ufliand 1958 for a layer)
 //!
 //! φ(x) + (2/π) ∫₀ᵃ K(x,t) φ(t) dt = (E₁*/π)(δ − x²/R),  K = ∫₀^∞ [T(qh) − 1] cos(qx) cos(qt) dq,
 //!
@@ -57,9 +57,9 @@ impl Density {
         let scale = coating.modulus() / PI;
         // φ = δ φ₁ − φ₂ with the right-hand sides 1 and x².
         let row = |i: usize| {
-            let own = weighted(&inside[i]);
+            let weighted_cosines = weighted(&inside[i]);
             let entry = |(t, &[_, weight]): (usize, &[f64; 2])| {
-                f64::from(u8::from(i == t)) + 2.0 / PI * weight * dot(&own, &inside[t])
+                f64::from(u8::from(i == t)) + 2.0 / PI * weight * dot(&weighted_cosines, &inside[t])
             };
             rule.iter().enumerate().map(entry).collect()
         };

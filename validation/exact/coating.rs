@@ -31,7 +31,7 @@ impl Coating {
         Ok(Self { chi, poisson, thickness, half_space })
     }
 
-    /// The same body for the solver.
+    /// The coated body for the solver.
     pub fn half_space(&self) -> &HalfSpace {
         &self.half_space
     }

@@ -51,7 +51,7 @@ pub struct Stresses {
 }
 
 impl Stresses {
-    /// At the radius r ≥ 0 and the depth z ≥ 0, both over a, for Poisson's ratio ν.
+    /// Stresses at the radius r ≥ 0 and the depth z ≥ 0, both over a, for Poisson's ratio ν.
     pub fn at(r: f64, z: f64, nu: f64) -> Self {
         let s = r * r + z * z - 1.0;
         let root = (s * s + 4.0 * z * z).sqrt();

@@ -4,7 +4,7 @@
 //!
 //! πE* w = 1/r + S₁ + S₃ r²/4 + 9 S₅ r⁴/64 + …,  S_n = Σ' 1/|R|ⁿ (S₁ without its uniform background).
 //!
-//! They are Epstein zeta functions: 6 ζ(n/2) L(χ₋₃, n/2) for the triangular lattice, 4 ζ(n/2) L(χ₋₄, n/2) for the
+//! The sums are Epstein zeta functions: 6 ζ(n/2) L(χ₋₃, n/2) for the triangular lattice, 4 ζ(n/2) L(χ₋₄, n/2) for the
 //! square one. A coating replaces E* by its own E₁* and adds the smooth part of its layer (Poisson's summation):
 //! S₁ + Σ(2π/A₀G)(T−1), S₃ − Σ(2πG/A₀)(T−1), S₅ + Σ(2πG³/9A₀)(T−1) over the reciprocal vectors G ≠ 0.
 
@@ -24,15 +24,15 @@ pub const TRIANGULAR: Sums = Sums([-4.213422636136906890, 11.03417573491480977, 
 pub const SQUARE: Sums = Sums([-3.900264920001955883, 9.033621683100950306, 5.090258233665482946]);
 
 impl Sums {
-    /// Those of the same lattice with `period` times the period.
+    /// Sums of the lattice with `period` times the period.
     pub fn scaled(self, period: f64) -> Self {
         let [s1, s3, s5] = self.0;
         Self([s1 / period, s3 / period.powi(3), s5 / period.powi(5)])
     }
 
-    /// From one of three equal sublattices of a lattice with these sums to each of the others: (whole − own)/2.
-    pub fn other_sublattice(self, own: Self) -> Self {
-        Self([0, 1, 2].map(|n| 0.5 * (self.0[n] - own.0[n])))
+    /// Sums from one of three equal sublattices of a lattice with these sums to each of the others: (whole − same)/2.
+    pub fn other_sublattice(self, same: Self) -> Self {
+        Self([0, 1, 2].map(|n| 0.5 * (self.0[n] - same.0[n])))
     }
 
     fn minus(self, other: Self) -> Self {
@@ -83,8 +83,8 @@ pub fn moment(correction: impl Fn(f64) -> f64, n: i32) -> f64 {
 pub fn coated_images(coating: &Coating, period: f64) -> Sums {
     let moment = |n| moment(|x| coating.correction(x), n);
     let h = coating.thickness();
-    let own = Sums([-moment(0) / h, moment(2) / h.powi(3), -moment(4) / (9.0 * h.powi(5))]);
-    coated_triangular(coating, period).minus(own)
+    let layer = Sums([-moment(0) / h, moment(2) / h.powi(3), -moment(4) / (9.0 * h.powi(5))]);
+    coated_triangular(coating, period).minus(layer)
 }
 
 #[cfg(test)]

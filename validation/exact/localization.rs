@@ -1,4 +1,4 @@
-//! What a circle leaves out, by sums over the indenters inside it.
+//! The part of the lattice that a circle leaves out, by sums over the indenters inside it.
 //!
 //! With n neighbours of one level in the circle and p̄ outside, the surface under the indenter feels
 //!
@@ -19,7 +19,7 @@ use super::lattice_sums::Sums;
 use percoat_core::numeric::linear;
 use std::f64::consts::PI;
 
-/// What an indenter of one level feels of its images.
+/// Effect of its images on an indenter of one level, with a circle of neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Localization {
     /// S₁, S₃, S₅, lengths to the power −n.
@@ -77,8 +77,8 @@ pub fn shifts(radii: &[f64], sums: &[Vec<f64>], modulus: f64, errors: &[f64]) ->
     let mut rows = vec![vec![0.0; count + 1]; count + 1];
     for m in 0..count {
         for c in 0..count {
-            let own = if c == m { 0.5 * PI / radii[m] } else { 0.0 };
-            rows[m][c] = own + sums[m][c];
+            let diagonal = if c == m { 0.5 * PI / radii[m] } else { 0.0 };
+            rows[m][c] = diagonal + sums[m][c];
         }
         // Δδ in units of a force per length, as the loads are.
         (rows[m][count], rows[count][m]) = (-1.0, 1.0);

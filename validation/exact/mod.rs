@@ -1,7 +1,7 @@
 //! Closed forms of contact mechanics that percoat is held against.
 //!
-//! They share nothing with the solver: each is an equation of its own source, written down once for the studies, for the
-//! tests and for whoever needs a number without a grid.
+//! The forms share nothing with the solver: each is an equation of its own source, written down once for the studies,
+//! for the tests and for whoever needs a number without a grid.
 
 pub mod coated_contact;
 pub mod coating;

@@ -33,12 +33,12 @@ impl System {
         Self { modulus, sums: vec![vec![sums]], profiles: vec![profile], drops: vec![0.0] }
     }
 
-    /// Three levels of equal paraboloids with the drops 0, `step`, 2 `step`; `own` from a sublattice to itself, `other`
-    /// to each other one.
-    pub fn three_levels(modulus: f64, own: Sums, other: Sums, radius: f64, step: f64) -> Self {
+    /// Three levels of equal paraboloids with the drops 0, `step`, 2 `step`; `same` from a sublattice to itself,
+    /// `other` to each other one.
+    pub fn three_levels(modulus: f64, same: Sums, other: Sums, radius: f64, step: f64) -> Self {
         Self {
             modulus,
-            sums: (0..3).map(|m| (0..3).map(|j| if m == j { own } else { other }).collect()).collect(),
+            sums: (0..3).map(|m| (0..3).map(|j| if m == j { same } else { other }).collect()).collect(),
             profiles: vec![vec![paraboloid(radius)]; 3],
             drops: vec![0.0, step, 2.0 * step],
         }

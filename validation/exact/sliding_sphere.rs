@@ -45,7 +45,7 @@ pub fn stresses(nu: f64, [x, y, z]: [f64; 3]) -> [Stress; 2] {
     [normal, tangential]
 }
 
-/// What the images add to either, over (a/l)³S₃.
+/// Part of the images in the normal and the tangential stresses, over (a/l)³S₃.
 pub fn images(nu: f64, [x, y, z]: [f64; 3]) -> [Stress; 2] {
     let lateral = -(1.0 + nu) * z / 3.0;
     let [along, across, shear] = [(4.0 + nu) * x, 3.0 * nu * x, (2.0 - nu) * y].map(|part| part / 12.0);

@@ -6,9 +6,9 @@
 //! p = 2p* cos(πη) sin(ψ+ψ₁)^{½+η} sin(ψ₂−ψ)^{½−η} cos(ψ+σ),
 //! ½[e^{2iσ} − (½+η)e^{2iψ₁} − (½−η)e^{−2iψ₂}] = (1 + if) p̄/p*.
 //!
-//! Without friction it is Westergaard's; contact is complete at p̄ = p* cos(atan f). In contact the slope of the surface is
-//! that of the wave, w′ = (2/E*) (𝓗p + f(p − p̄)) with 𝓗p ↔ i sgn(k) p̂, and the traction's part of σ_xx on the surface is
-//! 2μ 𝓗p: at the trailing edge, where p = 0, σ_xx is p̄ and its mean besides 2μp* [sin 2ψ₁ + f p̄/p*].
+//! Without friction it is Westergaard's; contact is complete at p̄ = p* cos(atan f). In contact the surface has the
+//! slope of the wave, w′ = (2/E*) (𝓗p + f(p − p̄)) with 𝓗p ↔ i sgn(k) p̂, and the traction's part of σ_xx on the
+//! surface is 2μ 𝓗p: at the trailing edge, where p = 0, σ_xx is p̄ and its mean besides 2μp* [sin 2ψ₁ + f p̄/p*].
 
 use percoat_core::numeric::search::golden_maximum;
 use std::f64::consts::PI;
@@ -27,7 +27,8 @@ pub struct SlidingWave {
 }
 
 impl SlidingWave {
-    /// Under p̄ = `fraction` · p*, below complete contact: Newton's method from Westergaard's contact on, f growing.
+    /// Contact under p̄ = `fraction` · p*, below complete contact: Newton's method from Westergaard's contact on, f
+    /// growing.
     pub fn new(coupling: f64, fraction: f64) -> Self {
         const STEPS: usize = 50;
         let half = fraction.sqrt().asin();

@@ -23,7 +23,7 @@ pub enum Wavy {
     EggBox,
     /// cos 2πs + cos 2πt + cos 2π(s+t) on the hexagonal cell: one crest, two hollows.
     Peaks,
-    /// The same upside down: two crests, one hollow.
+    /// [`Self::Peaks`] upside down: two crests, one hollow.
     Holes,
 }
 

@@ -15,12 +15,12 @@ const NAMES: [&str; 4] = ["above", "below", "hard", "soft"];
 /// Samples along a window, and their spacing over a.
 const POINTS: usize = 128;
 pub const SPACING: f64 = 0.025;
-/// What the grid may leave of a range over p₀: of given tractions from four spacings on and above, and of contacts, whose pressure on
-/// coatings errs by as much.
+/// Error of a range over p₀ that the grid may leave: of given tractions from four spacings on and above, and of
+/// contacts, whose pressure on coatings errs by as much.
 const DEEP: f64 = 3e-4;
 const SHALLOW: f64 = 2e-3;
 const OF_CONTACT: f64 = 1e-3;
-/// Of ranges of interfaces over p₀: that and the places of the table.
+/// Error of ranges of interfaces over p₀: by the grid and the places of the table.
 const OF_INTERFACE: f64 = 1e-3;
 
 /// The pressure √(1 − r²), as the grid has it.
@@ -30,10 +30,10 @@ pub fn hertz() -> Result<Step, StudyError> {
     solved(body, 0.0, FORCE, POINTS, SPACING)
 }
 
-/// What is read below the pressure of a step and its traction on a body.
+/// Peaks below the pressure of a step and its traction on a body.
 pub fn under(step: &Step, body: &HalfSpace, mu: f64) -> Result<PathPeaks, StudyError> {
-    let own = friction(mu)?;
-    let sliding = (mu > 0.0).then_some(&own);
+    let friction = friction(mu)?;
+    let sliding = (mu > 0.0).then_some(&friction);
     let field = StressField::under(step.grid(), step.pressure(), body, sliding, MeanStress::HalfSpace)?;
     peaks(&field, 1.0, PathSought::ALL)
 }
@@ -51,19 +51,19 @@ fn of_interface(peaks: &PathPeaks) -> f64 {
     peaks.interfaces.iter().flatten().next().map_or(f64::NAN, |peak| peak.value)
 }
 
-/// Under tractions of Hertz' shape.
+/// Ranges under tractions of Hertz' shape.
 pub fn given(outcome: &mut Outcome) -> Result<Data, StudyError> {
     let (table, interface) = (Data::parse_named("coated", COATED, &SIDES)?, Data::parse("interface", INTERFACE)?);
     let mut data = Data::new("coated", &["E1", "h", "mu", "y", "z", "is_below", "range", "range_exact"]);
     let (step, mut shears) = (hertz()?, Vec::new());
     for [modulus, h] in [[4.0, 1.0], [0.5, 1.0], [4.0, 0.3], [0.5, 0.3]] {
-        let own = || table.rows.iter().filter(move |row| row[0] == modulus && row[1] == h);
+        let rows = || table.rows.iter().filter(move |row| row[0] == modulus && row[1] == h);
         let law = fatigue_durability()?;
         let parts = Parts { coating: Some([h, modulus, 0.3]), substrate: [1.0, 0.3] };
-        let body = parts.cut(&depths(own(), 4), |_| law)?;
+        let body = parts.cut(&depths(rows(), 4), |_| law)?;
         for mu in [0.0, 0.1, 0.3] {
             let found = under(&step, &body, mu)?;
-            for row in own().filter(|row| row[2] == mu) {
+            for row in rows().filter(|row| row[2] == mu) {
                 let &[_, _, _, y, z, is_below, exact, _] = &row[..] else { return Err("a row too short".into()) };
                 let value = range(&found.planes, y, z, is_below == 1.0)?;
                 data.rows.push(vec![modulus, h, mu, y, z, is_below, value, exact]);
@@ -73,8 +73,8 @@ pub fn given(outcome: &mut Outcome) -> Result<Data, StudyError> {
         }
     }
     let pairs = |is_shallow: bool| {
-        let own = data.rows.iter().filter(move |row| (row[4] < 3.0 * SPACING) == is_shallow);
-        own.map(|row| (row[6], row[7]))
+        let rows = data.rows.iter().filter(move |row| (row[4] < 3.0 * SPACING) == is_shallow);
+        rows.map(|row| (row[6], row[7]))
     };
     outcome.checks.extend([
         Check::worst("coated, Hertz' tractions: Δτ₁/p₀ from z = 0.1a on", pairs(false), Tolerance::Absolute(DEEP)),
@@ -88,24 +88,24 @@ pub fn given(outcome: &mut Outcome) -> Result<Data, StudyError> {
     Ok(data)
 }
 
-/// Under a rigid paraboloid of contact radius 0.6, whose traction does not change the pressure.
+/// Ranges under a rigid paraboloid of contact radius 0.6, whose traction does not change the pressure.
 pub fn contact(outcome: &mut Outcome) -> Result<Data, StudyError> {
     let table = Data::parse_named("contact", CONTACT, &NAMES)?;
     let interface = Data::parse_named("interface", CONTACT_INTERFACE, &NAMES)?;
     let mut data = Data::new("contact", &["body", "mu", "y", "z", "is_below", "range", "range_exact"]);
     let mut shears = Vec::new();
     for body in [2.0, 3.0] {
-        let own = || table.rows.iter().filter(move |row| row[0] == body);
-        let &[_, h, modulus, poisson, radius, force, axis, ..] = &own().next().ok_or("no rows")?[..] else {
+        let rows = || table.rows.iter().filter(move |row| row[0] == body);
+        let &[_, h, modulus, poisson, radius, force, axis, ..] = &rows().next().ok_or("no rows")?[..] else {
             return Err("a row too short".into());
         };
         let law = fatigue_durability()?;
         let parts = Parts { coating: Some([h, modulus, poisson]), substrate: [1.0, 0.3] };
-        let half_space = parts.cut(&depths(own(), 9), |_| law)?;
+        let half_space = parts.cut(&depths(rows(), 9), |_| law)?;
         for mu in [0.0, 0.3] {
             let step = solved(half_space.clone(), mu, force, POINTS, SPACING * radius)?;
             let found = peaks(&StressField::new(step.finest(), MeanStress::HalfSpace), radius, PathSought::ALL)?;
-            for row in own().filter(|row| row[7] == mu) {
+            for row in rows().filter(|row| row[7] == mu) {
                 let (y, z, is_below, exact) = (row[8], row[9], row[10], row[11]);
                 let value = range(&found.planes, y, z, is_below == 1.0)?;
                 data.rows.push(vec![body - 2.0, mu, y, z, is_below, value / axis, exact / axis]);

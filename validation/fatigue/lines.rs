@@ -58,8 +58,8 @@ impl Parts {
         Ok(Material::from_young(young, poisson)?)
     }
 
-    /// It with faces at these depths, ascending, that of the coating's interface among them. Layers of their numbers, from 1 on, have a
-    /// durability; the coating's interface has a law.
+    /// The body with faces at these depths, ascending, that of the coating's interface among them. Layers of their
+    /// numbers, from 1 on, have a durability; the coating's interface has a law.
     pub fn cut(&self, depths: &[f64], durability: impl Fn(usize) -> Durability) -> Result<HalfSpace, StudyError> {
         let mut top = 0.0;
         let mut layers = Vec::new();
@@ -85,12 +85,12 @@ pub fn endurance_durability(limits: Endurance) -> Durability {
     Durability { endurance: Some(limits), ..Durability::default() }
 }
 
-/// What is read along x under contacts of a radius.
+/// Peaks along x under contacts of a radius.
 pub fn peaks(field: &StressField, radius: f64, sought: PathSought) -> Result<PathPeaks, StudyError> {
     peaks_with_errors(field, None, radius, sought)
 }
 
-/// What is read along x under contacts of a radius, with errors by the field of a coarser grid.
+/// Peaks along x under contacts of a radius, with errors by the field of a coarser grid.
 pub fn peaks_with_errors(
     field: &StressField,
     coarser: Option<&StressField>,
@@ -104,9 +104,9 @@ pub fn peaks_with_errors(
 
 /// The range at y on the plane of a depth in the material above it or below it.
 pub fn range(planes: &[RangePlane], y: f64, z: f64, is_below: bool) -> Result<f64, StudyError> {
-    let own = planes.iter().filter(|plane| (plane.depth.z - z).abs() < 1e-9);
+    let at_depth = planes.iter().filter(|plane| (plane.depth.z - z).abs() < 1e-9);
     let by_material = |plane: &&RangePlane| plane.depth.material;
-    let plane = if is_below { own.max_by_key(by_material) } else { own.min_by_key(by_material) };
+    let plane = if is_below { at_depth.max_by_key(by_material) } else { at_depth.min_by_key(by_material) };
     let lines = &plane.ok_or_else(|| format!("no plane at {z}"))?.lines;
     let next = lines.partition_point(|line| line[0] < y - 1e-9).clamp(1, lines.len() - 2);
     // The middle of three lines is the one nearest to y.

@@ -1,4 +1,4 @@
-//! Where in a coated body the range is largest, with the same law of fatigue in all of it.
+//! Place of the largest range in a coated body with the same law of fatigue in all of it.
 
 use super::coated::{hertz, under};
 use super::lines::{Parts, fatigue_durability};
@@ -7,12 +7,12 @@ use crate::{Check, Data, Outcome, StudyError, Tolerance};
 const PLACES: &str = include_str!("places.csv");
 /// Friction of the rows.
 const FRICTIONS: [f64; 2] = [0.1, 0.3];
-/// By how much the largest place exceeds the next one.
+/// Least factor by which the range of the largest place exceeds that of the next one.
 const MARGIN: f64 = 1.1;
 /// Parts of the thickness that belong to the surface and to the interface.
 const NEAR: f64 = 0.1;
 const DEEP: f64 = 0.8;
-/// Of the ranges: depths of the table are up to 0.15h apart.
+/// Tolerance of the ranges: depths of the table are up to 0.15h apart.
 const VALUE: f64 = 2e-2;
 /// Surface, inside the coating, at its side of the interface, substrate.
 const SURFACE: usize = 0;
@@ -36,8 +36,8 @@ fn place(row: &[f64]) -> Result<(usize, f64, f64), StudyError> {
         return Err("a row too short".into());
     };
     let mut values = [surface, 0.0, above, below_interface.max(below)];
-    let own = part(z, h);
-    values[own] = inside.max(values[own]);
+    let part = part(z, h);
+    values[part] = inside.max(values[part]);
     let largest = (0..4).fold(0, |best, k| if values[k] > values[best] { k } else { best });
     let next = (0..4).filter(|&k| k != largest).map(|k| values[k]).fold(0.0, f64::max);
     Ok((largest, values[largest], values[largest] / next))
@@ -56,15 +56,16 @@ pub fn places(outcome: &mut Outcome) -> Result<Data, StudyError> {
         let parts = Parts { coating: Some([h, modulus, 0.3]), substrate: [1.0, 0.3] };
         let body = parts.cut(&[h], |_| law)?.with_substrate_durability(law)?;
         let found = under(&step, &body, mu)?;
-        let [coating, substrate] =
-            [0, 1].map(|k| found.materials.get(k).and_then(|own| own.range)).map(|own| own.ok_or("no range"));
+        let [coating, substrate] = [0, 1]
+            .map(|k| found.materials.get(k).and_then(|material| material.range))
+            .map(|range| range.ok_or("no range"));
         let (coating, substrate) = (coating?, substrate?);
-        let own = if coating.value >= substrate.value { part(coating.position[2], h) } else { SUBSTRATE };
+        let part = if coating.value >= substrate.value { part(coating.position[2], h) } else { SUBSTRATE };
         data.rows.push(vec![
             modulus,
             h,
             mu,
-            own as f64,
+            part as f64,
             known as f64,
             coating.value.max(substrate.value),
             exact,

@@ -20,14 +20,15 @@ const EXPONENT: f64 = 500.0;
 const SPACING: f64 = 2.7 / 128.0;
 /// Depths of the table, and those that are read: at least 8 spacings deep, and at two spacings.
 const DEPTHS: [f64; 6] = [0.05, 0.2, 0.48, 0.8, 1.5, 3.0];
-/// What the grid may leave of stresses over p₀ from 0.2a on (two stresses of 10⁻⁴), two spacings deep below the edge, on the surface.
+/// Errors of stresses over p₀ that the grid may leave: from 0.2a on (two stresses of 10⁻⁴), two spacings deep below the
+/// edge, on the surface.
 const INSIDE: f64 = 2e-4;
 const SHALLOW: f64 = 2e-3;
 const SURFACE: f64 = 1e-2;
 /// Largest |y| of the lines on the surface that cross its edge at an angle.
 const CROSSING: f64 = 0.7;
-/// Of the largest ranges, relative: the pressure at 47 samples a radius (3·10⁻⁴) with what the search leaves open (2·10⁻⁴), and that in
-/// contact.
+/// Errors of the largest ranges, relative: the pressure at 47 samples a radius (3·10⁻⁴) with what the search leaves
+/// open (2·10⁻⁴), and that in contact.
 const LARGEST_INSIDE: f64 = 5e-4;
 const LARGEST_IN_CONTACT: f64 = 5e-4;
 /// Thickness over a of the layers whose endurance is read: a stress changes by 5·10⁻⁵ across them.
@@ -53,8 +54,8 @@ pub fn sliding(outcome: &mut Outcome) -> Result<Data, StudyError> {
             let step = solved(body.cut(&DEPTHS, |_| law)?, mu, FORCE, points, spacing)?;
             let field = StressField::new(step.finest(), MeanStress::HalfSpace);
             let found = peaks(&field, 1.0, PathSought::ALL)?;
-            let own = |row: &&Vec<f64>| row[0] == nu && row[1] == mu && (least..most).contains(&row[2]);
-            for row in table.rows.iter().filter(own) {
+            let in_window = |row: &&Vec<f64>| row[0] == nu && row[1] == mu && (least..most).contains(&row[2]);
+            for row in table.rows.iter().filter(in_window) {
                 let (y, z) = (row[2], row[3]);
                 data.rows.push(vec![nu, mu, y, z, range(&found.planes, y, z, false)?, row[4]]);
             }
@@ -136,7 +137,7 @@ pub fn endurance(outcome: &mut Outcome) -> Result<Data, StudyError> {
         let torsion = 0.2;
         let ratio = alpha / 3.0 + 0.5;
         let limits = Endurance::new(torsion, torsion / ratio)?;
-        for ((points, spacing, _), mu) in WINDOWS.into_iter().flat_map(|own| [(own, 0.0), (own, 0.3)]) {
+        for ((points, spacing, _), mu) in WINDOWS.into_iter().flat_map(|window| [(window, 0.0), (window, 0.3)]) {
             let nu = 0.3;
             let body = Parts { coating: None, substrate: [young(nu), nu] };
             // Layers of even numbers are the thin ones.
@@ -150,14 +151,14 @@ pub fn endurance(outcome: &mut Outcome) -> Result<Data, StudyError> {
             let coarser = step.coarser().first().map(on);
             let found = peaks_with_errors(&on(step.finest()), coarser.as_ref(), 1.0, PathSought::ALL)?;
             for (number, &z) in depths.iter().enumerate() {
-                let own = found.materials[2 * number + 1];
+                let material = found.materials[2 * number + 1];
                 let row = table.rows.iter().find(|row| row[1] == mu && row[2] == z).ok_or("no such row")?;
                 let crossland = row[3] + (3.0 * ratio - 3f64.sqrt()) * row[5];
                 let value =
                     |peak: Option<percoat_core::stress::PathPeak>| peak.map_or(f64::NAN, |peak| peak.value * torsion);
                 let side = points as f64 * spacing;
-                let stated = torsion * own.crossland.and_then(|peak| peak.error).unwrap_or(f64::NAN);
-                let found = [value(own.crossland), crossland, value(own.dang_van), row[column], stated];
+                let stated = torsion * material.crossland.and_then(|peak| peak.error).unwrap_or(f64::NAN);
+                let found = [value(material.crossland), crossland, value(material.dang_van), row[column], stated];
                 data.rows.push([&[side, mu, z, alpha], &found[..]].concat());
             }
         }
@@ -166,10 +167,10 @@ pub fn endurance(outcome: &mut Outcome) -> Result<Data, StudyError> {
     let on_axis = |row: &&Vec<f64>| row[3] == ALPHAS[0].0 || row[2] == DEEPEST;
     for (points, spacing, _) in WINDOWS {
         let side = points as f64 * spacing;
-        let own = || data.rows.iter().filter(move |row| row[0] == side);
+        let rows = || data.rows.iter().filter(move |row| row[0] == side);
         // Under friction σ_H is largest beyond the small window.
-        let crossland = own().filter(|row| side > 4.0 || row[1] == 0.0).map(|row| (row[4], row[5]));
-        let dang_van = own().filter(on_axis).map(|row| (row[6], row[7]));
+        let crossland = rows().filter(|row| side > 4.0 || row[1] == 0.0).map(|row| (row[4], row[5]));
+        let dang_van = rows().filter(on_axis).map(|row| (row[6], row[7]));
         outcome.checks.extend([
             Check::worst(
                 format!("Crossland, window of {side:.1}a: utilisation times τ₋₁/p₀"),

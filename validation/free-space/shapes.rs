@@ -40,7 +40,7 @@ pub fn ellipse(outcome: &mut Outcome) -> Result<Data, StudyError> {
     for row in Data::parse("ellipse", ELLIPSE)?.rows {
         let &[r1, a, b, delta, _] = &row[..] else { return Err("a row too short".into()) };
         let sides = [WINDOW * a, WINDOW * b];
-        // As many samples to the shorter half axis as to the other radii, and about as many a length along the longer one.
+        // The shorter half axis has as many samples as the other radii, the longer one about as many a length.
         let points = [
             if r1 > 5.0 {
                 4 * POINTS
@@ -73,7 +73,7 @@ pub fn ellipse(outcome: &mut Outcome) -> Result<Data, StudyError> {
     Ok(data)
 }
 
-/// The same spacing in windows of which the contact fills 90 and 50 %.
+/// One spacing in windows of which the contact fills 90 and 50 %.
 pub fn windows(outcome: &mut Outcome) -> Result<(), StudyError> {
     let table = Data::parse("indentation", INDENTATION)?;
     let (number, radius) = (3, 1.0);

@@ -79,8 +79,8 @@ pub fn stresses(outcome: &mut Outcome) -> Result<Data, StudyError> {
         }
     }
     let mut check = |name: &str, first: usize, wanted: &dyn Fn(&[f64]) -> bool, tolerance| {
-        let own = data.rows.iter().filter(|row| wanted(row));
-        let pairs: Vec<(f64, f64)> = own.flat_map(|row| (0..6).map(|k| (row[first + k], row[10 + k]))).collect();
+        let rows = data.rows.iter().filter(|row| wanted(row));
+        let pairs: Vec<(f64, f64)> = rows.flat_map(|row| (0..6).map(|k| (row[first + k], row[10 + k]))).collect();
         outcome.checks.push(Check::worst(format!("sliding, {name}"), pairs, Tolerance::Absolute(tolerance)));
     };
     for (name, [low, high], tolerance) in SURFACE {
@@ -94,8 +94,8 @@ pub fn stresses(outcome: &mut Outcome) -> Result<Data, StudyError> {
         check(&format!("{name}: stresses over p₀"), 4, &wanted, tolerance);
         check(&format!("{name}: those of the counterbody"), 16, &wanted, tolerance);
     }
-    let own = data.rows.iter().filter(|row| row[3] == 0.0 && (AT_EDGE[0]..AT_EDGE[1]).contains(&row[1].hypot(row[2])));
-    let left_out = own.flat_map(|row| {
+    let rows = data.rows.iter().filter(|row| row[3] == 0.0 && (AT_EDGE[0]..AT_EDGE[1]).contains(&row[1].hypot(row[2])));
+    let left_out = rows.flat_map(|row| {
         let root = (1.0 + 2.0 * row[0]) * (1.0 - row[1].powi(2) - row[2].powi(2)).abs().sqrt();
         (0..6).map(move |k| ((row[4 + k] - row[10 + k]) / root, 0.0))
     });

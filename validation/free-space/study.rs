@@ -64,8 +64,8 @@ fn indentation(bodies: &[usize], outcome: &mut Outcome) -> Result<(Data, Data), 
             let (radius, force) = (row[1], row[2]);
             let alone = Alone::new(BALL, body(number)?, [radius, force], POINTS)?;
             data.rows.push([&row[..], &alone.found].concat());
-            let own = |row: &&Vec<f64>| row[0] == number as f64 && row[1] == radius;
-            let known: Vec<f64> = profiles.rows.iter().filter(own).map(|row| row[3]).collect();
+            let of_contact = |row: &&Vec<f64>| row[0] == number as f64 && row[1] == radius;
+            let known: Vec<f64> = profiles.rows.iter().filter(of_contact).map(|row| row[3]).collect();
             if !known.is_empty() {
                 read_pressure(&mut pressure, number, radius, &alone, &known);
             }
@@ -75,7 +75,10 @@ fn indentation(bodies: &[usize], outcome: &mut Outcome) -> Result<(Data, Data), 
         for (range, [low, high], tolerance) in PRESSED {
             let within = |row: &&Vec<f64>| is_own(row) && (low..high).contains(&(row[2] / row[1]));
             let pairs = pressure.rows.iter().filter(within).map(|row| {
-                let peak = rows(&pressure, number).filter(|own| own[1] == row[1]).map(|own| own[4]).fold(0.0, f64::max);
+                let peak = rows(&pressure, number)
+                    .filter(|other| other[1] == row[1])
+                    .map(|other| other[4])
+                    .fold(0.0, f64::max);
                 (row[3] / peak, row[4] / peak)
             });
             let name = format!("{name}: p over its maximum, {range}");
@@ -136,23 +139,23 @@ fn figure(indentation: &Data, pressure: &Data, order: &Data, stress: &Data) -> R
     for (colour, number) in (1..).zip([0, 1, 2, 3]) {
         let mean = rows(indentation, number).find(|row| row[1] == DRAWN);
         let Some(mean) = mean.map(|row| row[2] / (std::f64::consts::PI * DRAWN * DRAWN)) else { continue };
-        let own = || rows(pressure, number).filter(|row| row[1] == DRAWN);
-        pressures.push(curve("", Style::Line, colour, own().map(|row| [row[2] / DRAWN, row[4] / mean])));
-        let found = own().step_by(3).map(|row| [row[2] / DRAWN, row[3] / mean]);
+        let drawn = || rows(pressure, number).filter(|row| row[1] == DRAWN);
+        pressures.push(curve("", Style::Line, colour, drawn().map(|row| [row[2] / DRAWN, row[4] / mean])));
+        let found = drawn().step_by(3).map(|row| [row[2] / DRAWN, row[3] / mean]);
         pressures.push(curve(BODIES[number].0, Style::Markers, colour, found));
     }
     let mut errors = Vec::new();
     for (colour, (number, (name, _))) in (1..).zip(BODIES.into_iter().enumerate()) {
-        let own = rows(indentation, number).map(|row| [row[1], (row[6] / row[3] - 1.0).abs()]);
-        errors.push(curve(name, Style::LineMarkers, colour, own));
+        let points = rows(indentation, number).map(|row| [row[1], (row[6] / row[3] - 1.0).abs()]);
+        errors.push(curve(name, Style::LineMarkers, colour, points));
     }
     let mut orders = Vec::new();
     for (colour, (number, radius)) in (1..).zip(FOLLOWED) {
-        let own: Vec<[f64; 2]> = rows(order, number).map(|row| [row[2], row[3].abs()]).collect();
+        let points: Vec<[f64; 2]> = rows(order, number).map(|row| [row[2], row[3].abs()]).collect();
         if colour == 1 {
-            orders.push(slope("slope −2", -2.0, 0, &own));
+            orders.push(slope("slope −2", -2.0, 0, &points));
         }
-        orders.push(curve(format!("{}, a/h = {radius}", BODIES[number].0), Style::LineMarkers, colour, own));
+        orders.push(curve(format!("{}, a/h = {radius}", BODIES[number].0), Style::LineMarkers, colour, points));
     }
     let chart = |title: &str, x: Axis, y: Axis, curves| Chart { title: title.to_owned(), x, y, curves };
     let panels = vec![

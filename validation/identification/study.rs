@@ -31,7 +31,7 @@ const DERIVATIVES: &str = include_str!("indentation_derivatives.csv");
 const BALL: Shape = Shape::Paraboloid { radius: 10.0 };
 /// Moduli of coating and substrate, and the thickness.
 const KNOWN: [f64; 3] = [300.0, 70.0, 1.0];
-/// Where the search begins with noise.
+/// Start of the search with noise.
 const START: [f64; 3] = [270.0, 75.0, 1.1];
 const NAMES: [&str; 3] = ["E_c", "E_s", "h"];
 /// Standard deviation of the noise, µm.
@@ -124,7 +124,7 @@ fn derivatives(outcome: &mut Outcome) -> Result<Data, StudyError> {
             let [two, one] = [2.0, 1.0].map(|k| Ok::<_, StudyError>([at(k)?, at(-k)?]));
             let ([two, back_two], [one, back_one]) = (two?, one?);
             let weights = [(-1.0, &two), (8.0, &one), (-8.0, &back_one), (1.0, &back_two)];
-            let quotient = weights.map(|(weight, own)| (weight / (12.0 * 0.02), own));
+            let quotient = weights.map(|(weight, perturbed)| (weight / (12.0 * 0.02), perturbed));
             values.extend([tangent.penetration(step.finest(), &quotient), *exact]);
         }
         data.rows.push(values);
@@ -145,39 +145,41 @@ fn derivatives(outcome: &mut Outcome) -> Result<Data, StudyError> {
 /// The moduli from the exact curve.
 fn exact(data: &mut Data, outcome: &mut Outcome) -> Result<(), StudyError> {
     let [forces, penetrations] = columns(EXACT)?;
-    let own = found(&[150.0, 140.0], &Measurement::new(forces, penetrations, None)?, COARSE)?;
-    for (estimate, known) in own.estimates.iter().zip(KNOWN) {
+    let fit = found(&[150.0, 140.0], &Measurement::new(forces, penetrations, None)?, COARSE)?;
+    for (estimate, known) in fit.estimates.iter().zip(KNOWN) {
         let name = format!("exact curve: {}", estimate.parameter.name);
         outcome.checks.push(Check::relative(name, estimate.value, known, 3e-3));
     }
-    data.rows.push(row(0.0, &own));
+    data.rows.push(row(0.0, &fit));
     Ok(())
 }
 
 /// Moduli and thickness from the noisy curve.
 fn noisy(data: &mut Data, outcome: &mut Outcome) -> Result<Data, StudyError> {
     let ([forces, penetrations], [_, measured]) = (columns(EXACT)?, columns(NOISY)?);
-    let own = found(&START, &Measurement::new(forces.clone(), measured.clone(), None)?, COARSE)?;
-    outcome.checks.push(within("noisy curve: E_c, E_s, h, off by standard errors", &own));
+    let fit = found(&START, &Measurement::new(forces.clone(), measured.clone(), None)?, COARSE)?;
+    outcome.checks.push(within("noisy curve: E_c, E_s, h, off by standard errors", &fit));
     // The standard deviation of s is s/√(2·57).
-    outcome.checks.push(Check::relative("noisy curve: residual, nm", 1e3 * own.rms, 1e3 * NOISE, 0.25));
-    data.rows.push(row(NOISE, &own));
+    outcome.checks.push(Check::relative("noisy curve: residual, nm", 1e3 * fit.rms, 1e3 * NOISE, 0.25));
+    data.rows.push(row(NOISE, &fit));
     let mut curve = Data::new("curve", &["force", "penetration", "noisy", "fitted", "band"]);
     for (i, force) in forces.into_iter().enumerate() {
-        curve.rows.push(vec![force, penetrations[i], measured[i], own.fitted[i], own.band[i]]);
+        curve.rows.push(vec![force, penetrations[i], measured[i], fit.fitted[i], fit.band[i]]);
     }
     Ok(curve)
 }
 
-fn within(name: &str, own: &Identification) -> Check {
-    let pairs = own.estimates.iter().zip(KNOWN);
+fn within(name: &str, fit: &Identification) -> Check {
+    let pairs = fit.estimates.iter().zip(KNOWN);
     let pairs = pairs.map(|(estimate, known)| ((estimate.value - known) / estimate.error, 0.0));
     Check::worst(name, pairs, Tolerance::Absolute(3.0))
 }
 
-fn row(noise: f64, own: &Identification) -> Vec<f64> {
+fn row(noise: f64, fit: &Identification) -> Vec<f64> {
     let mut row = vec![noise];
-    row.extend((0..3).flat_map(|k| own.estimates.get(k).map_or([f64::NAN; 2], |own| [own.value, own.error])));
+    row.extend(
+        (0..3).flat_map(|k| fit.estimates.get(k).map_or([f64::NAN; 2], |estimate| [estimate.value, estimate.error])),
+    );
     row
 }
 
@@ -189,8 +191,8 @@ fn standard_errors(outcome: &mut Outcome) -> Result<(), StudyError> {
     let measured = Measurement::new(forces, penetrations, deviations)?;
     let jacobian: Vec<[f64; 3]> = table.rows.iter().map(|row| [row[3], row[4], row[5]].map(|x| x / NOISE)).collect();
     let expected = deviations_of(&jacobian);
-    let own = found(&KNOWN, &measured, COARSE)?;
-    for ((estimate, known), expected) in own.estimates.iter().zip(KNOWN).zip(expected) {
+    let fit = found(&KNOWN, &measured, COARSE)?;
+    for ((estimate, known), expected) in fit.estimates.iter().zip(KNOWN).zip(expected) {
         let name = format!("five loads: relative standard error of {}", estimate.parameter.name);
         outcome.checks.push(Check::relative(name, estimate.error / known, expected, 0.05));
     }
@@ -202,17 +204,18 @@ fn deviations_of(jacobian: &[[f64; 3]]) -> [f64; 3] {
     let m = |i: usize, j: usize| jacobian.iter().map(|row| row[i] * row[j]).sum::<f64>();
     let minor = |i: usize, j: usize, k: usize, l: usize| m(i, k) * m(j, l) - m(i, l) * m(j, k);
     let determinant = m(0, 0) * minor(1, 2, 1, 2) - m(0, 1) * minor(1, 2, 0, 2) + m(0, 2) * minor(1, 2, 0, 1);
-    [minor(1, 2, 1, 2), minor(0, 2, 0, 2), minor(0, 1, 0, 1)].map(|own| (own / determinant).sqrt())
+    [minor(1, 2, 1, 2), minor(0, 2, 0, 2), minor(0, 1, 0, 1)].map(|cofactor| (cofactor / determinant).sqrt())
 }
 
 /// Light loads do not contain all three, with the noise as their deviation: the error that is refused, over the value.
 fn light(outcome: &mut Outcome) -> Result<(), StudyError> {
     let [forces, penetrations] = columns(EXACT)?;
     let count = forces.iter().filter(|force| **force <= LIGHT).count();
-    let own = Measurement::new(forces[..count].to_vec(), penetrations[..count].to_vec(), Some(vec![NOISE; count]))?;
-    let error = match found(&KNOWN, &own, COARSE) {
+    let measured =
+        Measurement::new(forces[..count].to_vec(), penetrations[..count].to_vec(), Some(vec![NOISE; count]))?;
+    let error = match found(&KNOWN, &measured, COARSE) {
         Ok(_) => f64::NAN,
-        Err(IdentificationError::Undetermined(own)) => own.error / own.value,
+        Err(IdentificationError::Undetermined(estimate)) => estimate.error / estimate.value,
         Err(error) => return Err(error.to_string().into()),
     };
     let name = format!("loads up to {LIGHT} mN: refused, largest relative standard error");
@@ -223,9 +226,9 @@ fn light(outcome: &mut Outcome) -> Result<(), StudyError> {
 fn figure(derivatives: &Data, measured: &Data) -> Figure {
     let mut slopes = Vec::new();
     for (colour, (name, column)) in (1..).zip([("θ = E_c", 5), ("θ = E_s", 7), ("θ = h", 9)]) {
-        let own = |column: usize| derivatives.rows.iter().map(move |row| [row[0], -row[column] / row[2]]);
-        slopes.push(curve("", Style::Line, colour, own(column + 1)));
-        slopes.push(curve(name, Style::Markers, colour, own(column)));
+        let points = |column: usize| derivatives.rows.iter().map(move |row| [row[0], -row[column] / row[2]]);
+        slopes.push(curve("", Style::Line, colour, points(column + 1)));
+        slopes.push(curve(name, Style::Markers, colour, points(column)));
     }
     let over = |of: fn(&[f64]) -> f64| measured.rows.iter().map(move |row| [row[0], 1e3 * (of(row) - row[1])]);
     let curves = vec![

@@ -59,7 +59,7 @@ struct Alone {
 }
 
 impl Alone {
-    /// Under `load`, which makes a contact of about the radius `radius`.
+    /// The contact under `load`, which makes a contact of about the radius `radius`.
     fn new(chi: f64, nu1: f64, load: f64, radius: f64) -> Result<Self, StudyError> {
         let coating = Coating::new(chi, [nu1, 0.3], 1.0)?;
         let side = SIDE * radius;
@@ -156,7 +156,7 @@ fn power_laws(outcome: &mut Outcome) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// What a coating does to Hertz' contact of the same radius: load over 4E₂*a³/3 and pressure over 2E₂*a/π.
+/// Effect of a coating on Hertz' contact of the same radius: load over 4E₂*a³/3 and pressure over 2E₂*a/π.
 fn figure(found: &Data) -> Result<Figure, StudyError> {
     let mut curves = Vec::new();
     let substrate = 1.0 / (1.0 - 0.09);

@@ -101,9 +101,9 @@ fn plates() -> Result<Data, StudyError> {
                 Err(format!("plate of {thickness} at N = {points}: {}", step.report).into())
             }
         };
-        let (own, baseline) = (solved(Method::Preconditioned)?, solved(Method::PolonskyKeer)?);
-        let iterations = own.report.iterations as f64;
-        data.rows.push(vec![points as f64, thickness, iterations, own.convolutions, baseline.convolutions]);
+        let (preconditioned, baseline) = (solved(Method::Preconditioned)?, solved(Method::PolonskyKeer)?);
+        let iterations = preconditioned.report.iterations as f64;
+        data.rows.push(vec![points as f64, thickness, iterations, preconditioned.convolutions, baseline.convolutions]);
     }
     Ok(data)
 }

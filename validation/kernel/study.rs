@@ -118,8 +118,8 @@ impl Reference {
         let Amplitudes { szz, sqz, sqq, stt, uz, uq } = transfer.interior(InPlane::Along, self.wavenumber).at(depth);
         let Antiplane { stz, sqt, ut } = transfer.antiplane(self.wavenumber, depth);
         let across = &self.surface["across"];
-        let own = |name: &str| Ok::<f64, StudyError>(number(&point[name])?.abs());
-        let (in_plane, lateral) = (own("sqq")?.max(1.0), own("sqt")?.max(1.0));
+        let magnitude = |name: &str| Ok::<f64, StudyError>(number(&point[name])?.abs());
+        let (in_plane, lateral) = (magnitude("sqq")?.max(1.0), magnitude("sqt")?.max(1.0));
         let largest_along = largest(self.along()?.map(f64::abs));
         let error = |name: &str, value: f64, scale: f64| -> Result<f64, StudyError> {
             Ok((value - number(&point[name])?).abs() / scale)

@@ -125,10 +125,10 @@ fn run() -> Result<Outcome, StudyError> {
         let (points, width) = if thickness < 0.2 { (288, 0.01) } else { (144, 0.025) };
         let [Sums([s1, s3, s5]), _] = Response::new(Cell::hexagonal(1.0)?, points, &half_space, width)?.sums();
         let cell = Cell::hexagonal(3f64.sqrt())?;
-        let [Sums([own, ..]), Sums([other1, other3, _])] =
+        let [Sums([same, ..]), Sums([other1, other3, _])] =
             Response::new(cell, 5 * points / 3, &half_space, width)?.sums();
         let Sums([closed1, closed3, closed5]) = closed;
-        data.rows.push(vec![thickness, chi, nu1, s1, s3, s5, own, other1, other3, closed1, closed3, closed5]);
+        data.rows.push(vec![thickness, chi, nu1, s1, s3, s5, same, other1, other3, closed1, closed3, closed5]);
     }
     let mut checks = Vec::new();
     for (name, quantity, tolerance) in [

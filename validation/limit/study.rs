@@ -59,7 +59,7 @@ const WHOLE: Points = Points { bare: None, coated: &[(0.0, &RESIDUAL, &INTERFACE
 /// Every place at which a half-space yields, and every criterion of a layer.
 const QUICK: Points = Points { bare: Some(&[0.2, 0.5, 1.0]), coated: &[(0.0, &[0.3], &[]), (0.5, &[-0.3], &[0.8])] };
 
-/// What slides on what, at the load at which it shall fail.
+/// Paraboloids that slide on a half-space, at the load at which it shall fail.
 struct Slider {
     system: System,
     material: Material,
@@ -82,9 +82,9 @@ impl Slider {
     fn stress(&self, radius: f64, place: [f64; 3]) -> Stress {
         let Sums([_, s3, _]) = TRIANGULAR;
         let scale = radius.powi(3) * s3;
-        let own = together(stresses(POISSON, place), self.friction);
+        let isolated = together(stresses(POISSON, place), self.friction);
         let images = together(images(POISSON, place), self.friction);
-        std::array::from_fn(|k| own[k] + scale * images[k])
+        std::array::from_fn(|k| isolated[k] + scale * images[k])
     }
 
     /// The largest of a quantity of the stress over p₀ down to [`THICK`], by the plane y = 0.
@@ -126,7 +126,7 @@ impl Slider {
         if limits.converged() { Ok(limits.limits) } else { Err("a load was not solved".into()) }
     }
 
-    /// What is found of a criterion, against the contact that the closed form fails under.
+    /// The limit found by a criterion, against the contact that the closed form fails under.
     fn found(&self, limits: &[Limit], wanted: Criterion, exact: &Contact) -> Result<Found, StudyError> {
         let limit = limits.iter().find(|limit| limit.criterion == wanted).ok_or("a limit of each criterion")?;
         let At::Load { load: mean_pressure, error, position: [x, y, z], .. } = limit.at else {
@@ -236,8 +236,9 @@ fn run(points: &Points) -> Result<Outcome, StudyError> {
         of(2.0).map(|row| (row[3], row[4])),
         Tolerance::Relative(1e-3),
     ));
-    let own = Data::parse("yield", YIELD)?.rows.into_iter().filter(|row| row[0] == POISSON).map(|row| [row[1], row[2]]);
-    let mut yields: Vec<[f64; 2]> = own.chain(switches).map(|[mu, stress]| [mu, 1.0 / stress]).collect();
+    let tabulated =
+        Data::parse("yield", YIELD)?.rows.into_iter().filter(|row| row[0] == POISSON).map(|row| [row[1], row[2]]);
+    let mut yields: Vec<[f64; 2]> = tabulated.chain(switches).map(|[mu, stress]| [mu, 1.0 / stress]).collect();
     yields.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let cracks = linear(0.0, 1.0, 101).into_iter().map(|mu| [mu, 1.0 / trailing_tension(POISSON, mu)]).collect();
     outcome.figures.push(("figure", figure(&bare, [yields, cracks])));
@@ -276,10 +277,10 @@ fn bare(points: &Points) -> Result<Data, StudyError> {
         "cracking_z",
     ];
     let mut data = Data::new("bare", &columns);
-    let own = |table: Data| table.rows.into_iter().filter(|row| row[0] == POISSON);
-    let tensions = own(Data::parse("tension", TENSION)?);
+    let of_poisson = |table: Data| table.rows.into_iter().filter(|row| row[0] == POISSON);
+    let tensions = of_poisson(Data::parse("tension", TENSION)?);
     let wanted = |mu: f64| points.bare.is_none_or(|frictions| frictions.contains(&mu));
-    let rows = own(Data::parse("yield", YIELD)?).zip(tensions).filter(|(worst, _)| wanted(worst[1]));
+    let rows = of_poisson(Data::parse("yield", YIELD)?).zip(tensions).filter(|(worst, _)| wanted(worst[1]));
     for (worst, tension) in rows {
         let slider = Slider::new(worst[1])?;
         let [yielding, tensile] = [worst[2], tension[2]].map(|stress| stress * slider.contact(RADIUS).axis);

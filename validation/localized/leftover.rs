@@ -1,4 +1,4 @@
-//! What the circles of three levels leave out, predicted from point forces.
+//! The part of the lattice that the circles of three levels leave out, predicted from point forces.
 //!
 //! Around level m a circle of radius R displaces the surface by more than the lattice does by
 //!
@@ -32,7 +32,7 @@ pub struct Leftover<'a> {
     mean_pressure: f64,
 }
 
-/// What a circle changes.
+/// Changes by a circle.
 pub struct Shift {
     /// Load shares, absolute, level by level.
     pub shares: Vec<f64>,
@@ -40,16 +40,16 @@ pub struct Shift {
     pub penetration: f64,
 }
 
-/// What load-balanced circles change, shell by shell.
+/// Changes by load-balanced circles, shell by shell.
 pub struct Shells {
-    /// Indenters, largest change of a load share and of a level's own load, for every whole shell.
+    /// Indenters, largest change of a load share and largest relative one of a level's load, for every whole shell.
     pub every: Vec<[f64; 3]>,
-    /// Largest change of an own load over the shells asked for.
+    /// Largest relative change of a level's load over the shells asked for.
     pub worst: f64,
 }
 
 impl<'a> Leftover<'a> {
-    /// For circles of up to `most` indenters; the spectral solution's `answer` under the mean pressure.
+    /// Prediction for circles of up to `most` indenters; the spectral solution's `answer` under the mean pressure.
     pub fn new(
         lattice: &'a Lattice,
         half_space: &HalfSpace,
@@ -60,11 +60,11 @@ impl<'a> Leftover<'a> {
         let transfer = half_space.response();
         let layer = half_space.layers().first().ok_or("a coating is needed")?;
         let triangular = |period| layered_triangular(|q| transfer.correction(q), layer.thickness(), period);
-        let own = triangular(3f64.sqrt());
-        let other = triangular(1.0).other_sublattice(own);
+        let same = triangular(3f64.sqrt());
+        let other = triangular(1.0).other_sublattice(same);
         let kernel = PointKernel::new(half_space, 2.0 * ((most as f64).sqrt() + 2.0));
         // The indenter's own layer is no image.
-        let images = own.0[0] - kernel.correction(0.0);
+        let images = same.0[0] - kernel.correction(0.0);
         let sum = |m: usize, c: usize| if m == c { images } else { other.0[0] };
         Ok(Self {
             lattice,
@@ -76,7 +76,7 @@ impl<'a> Leftover<'a> {
         })
     }
 
-    /// What load-balanced circles of at least so many indenters change.
+    /// Changes by load-balanced circles of at least so many indenters.
     pub fn of(&self, indenters: usize) -> Result<Shift, StudyError> {
         let loads: Vec<f64> = self.answer.levels.iter().map(|level| level.load).collect();
         let radii: Vec<f64> = self.answer.levels.iter().map(radius).collect();
@@ -102,8 +102,8 @@ impl<'a> Leftover<'a> {
             let inside = self.indenters(asked);
             let shares = self.of(inside)?.shares;
             let largest = |of: &dyn Fn(usize) -> f64| (0..shares.len()).map(|m| of(m).abs()).fold(0.0, f64::max);
-            let own = largest(&|m| shares[m] / self.answer.levels[m].load_share);
-            every.push([inside as f64, largest(&|m| shares[m]), own]);
+            let relative = largest(&|m| shares[m] / self.answer.levels[m].load_share);
+            every.push([inside as f64, largest(&|m| shares[m]), relative]);
             asked = inside + 1;
         }
         let among = every.iter().filter(|shell| shell[0] >= least as f64);

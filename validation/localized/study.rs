@@ -163,7 +163,7 @@ fn coated(
 /// Load shares less the spectral ones, with what point forces predict of it.
 type Pairs = Vec<(f64, f64)>;
 
-/// What changes hands between the levels, load-balanced circle by circle, found and predicted; and what is left of it
+/// Exchange of load between the levels, load-balanced circle by circle, found and predicted; and what is left of it
 /// with the lattice sum.
 fn exchange(key: &'static str, compared: &Comparison, leftover: &Leftover) -> Result<(Data, Pairs), StudyError> {
     let columns = [
@@ -183,8 +183,9 @@ fn exchange(key: &'static str, compared: &Comparison, leftover: &Leftover) -> Re
         for (m, (level, spectral)) in circle.answer.levels.iter().zip(&compared.spectral.reading.levels).enumerate() {
             let pair = (level.load_share - spectral.load_share, expected.shares[m]);
             let number = [circle.indenters, level.level].map(|n| n as f64);
-            let [own, whole] = [level.load, lattice_sum.answer.levels[m].load].map(|load| load / spectral.load - 1.0);
-            let rest = [pair.0, pair.1, penetration, expected.penetration, own, whole];
+            let [balanced, whole] =
+                [level.load, lattice_sum.answer.levels[m].load].map(|load| load / spectral.load - 1.0);
+            let rest = [pair.0, pair.1, penetration, expected.penetration, balanced, whole];
             data.rows.push([&number[..], &rest[..]].concat());
             pairs.push(pair);
         }
@@ -192,8 +193,8 @@ fn exchange(key: &'static str, compared: &Comparison, leftover: &Leftover) -> Re
     Ok((data, pairs))
 }
 
-/// What the meshes leave in a load share, in the whole load, in a peak, and in a radius, relatively: a fiftieth of the 2.2/32
-/// of the radius that an element has.
+/// Errors of the meshes in a load share, in the whole load, in a peak, and in a radius, relatively: a fiftieth of the
+/// 2.2/32 of the radius that an element has.
 const SHARE: f64 = 1e-4;
 const MESH: f64 = 5e-4;
 const RADIUS_MESH: f64 = 2.2 / 32.0 / 50.0;

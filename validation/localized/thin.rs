@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// Elements along the contacts and samples along the cell.
 const ELEMENTS: usize = 48;
 const POINTS: usize = 512;
-/// Of the radius: a fiftieth of an element, …
+/// Relative error of the radius: a fiftieth of an element, …
 const THIN: f64 = 1e-3;
 /// … and where the coating is as thin as an element, whose pressure is even, or heaps the pressure on the outermost ones, a
 /// fifteenth and a fifth.

@@ -1,4 +1,4 @@
-//! What several figures are held against, and the errors of the mesh in what they show.
+//! References of several figures, and the errors of the mesh in what they show.
 
 use super::model::Model;
 use crate::{Check, Outcome, StudyError, Tolerance};
@@ -7,7 +7,7 @@ use percoat_core::reading::{self, LevelReading, Reading};
 
 /// Error of the mesh in the asymmetry of a spot: from 256 to 384 points it moves by up to 1.3e-4.
 pub const ASYMMETRY: f64 = 1e-4;
-/// The same in the relative change from one pressure or penetration to another, each good to 2e-4.
+/// Error of the mesh in the relative change from one pressure or penetration to another, each good to 2e-4.
 pub const CHANGE: f64 = 4e-4;
 
 /// Samples along the cell to find first touches on.

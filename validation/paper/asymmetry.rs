@@ -1,4 +1,4 @@
-//! Where could an asymmetry of 12 % of the third level's contact come from? Every load, the other arrangement of three
+//! Possible causes of an asymmetry of 12 % of the third level's contact: every load, the other arrangement of three
 //! levels on a hexagonal lattice, other meanings of "distance", and the raster of square elements.
 
 use super::model::Model;
@@ -43,7 +43,7 @@ pub struct Course {
 }
 
 impl Course {
-    /// From `first`, a load soon after the first touch of level 3.
+    /// The course from `first` on, a load soon after the first touch of level 3.
     pub fn new(model: &Model, first: f64) -> Result<Self, StudyError> {
         let mut steps = model.steps_as_dense(POINTS)?;
         let mut rows: Vec<[f64; 4]> = Vec::new();
@@ -86,7 +86,7 @@ pub struct Touch {
     pub shift: f64,
 }
 
-/// From the gap shortly before the touch.
+/// The touch of level 3 from the gap shortly before it.
 pub fn at_touch(model: &Model) -> Result<Touch, StudyError> {
     let mut steps = model.steps_as_dense(POINTS)?;
     let touch = first_touches(&mut steps.solver)[2].ok_or("level 3 is hidden")?.mean_pressure;
@@ -115,13 +115,13 @@ impl Touch {
 
 /// Asymmetry of level 3 at one load, read in different ways.
 pub struct Readings {
-    /// From the axis, over the largest distance: the paper's words.
+    /// Asymmetry from the axis, over the largest distance: the paper's words.
     pub plain: f64,
-    /// Over the mean distance.
+    /// Asymmetry over the mean distance.
     pub over_mean: f64,
-    /// From the centre of the contact's area.
+    /// Asymmetry from the centre of the contact's area.
     pub from_centroid: f64,
-    /// Of the line where the pressure is half of its peak.
+    /// Asymmetry of the line where the pressure is half of its peak.
     pub contour: f64,
 }
 

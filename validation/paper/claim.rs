@@ -8,7 +8,7 @@
 
 use crate::Check;
 
-/// What a number must be for a statement to hold.
+/// Bound or value that a number must have for a statement to hold.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rule {
     /// Greater than this.
@@ -27,13 +27,13 @@ pub enum Rule {
 /// One number against what the statement makes of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Test {
-    /// What was measured.
+    /// Words for the measured quantity.
     pub what: String,
     /// The number.
     pub value: f64,
-    /// What it must be.
+    /// Rule that the number must follow.
     pub rule: Rule,
-    /// Where it was found, and the error of the mesh in it.
+    /// Number found before, and the error of the mesh in it.
     pin: Option<[f64; 2]>,
 }
 
@@ -94,11 +94,11 @@ impl Test {
 /// How a statement fares.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Verdict {
-    /// With the parameters and words as they stand.
+    /// Holds with the parameters and words as they stand.
     AsPrinted,
-    /// With another reading.
+    /// Holds with another reading.
     Otherwise(&'static str),
-    /// With none that was tried.
+    /// Holds with no reading that was tried.
     Fails,
     /// Not in any sense of its words, but this would have given what is printed.
     Explained(&'static str),
@@ -107,9 +107,9 @@ pub enum Verdict {
 /// One statement of the paper.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Claim {
-    /// Where it stands.
+    /// Place of the statement in the paper.
     pub place: &'static str,
-    /// A few of its words.
+    /// A few words of the statement.
     pub quote: &'static str,
     /// Name for its checks.
     label: &'static str,
@@ -138,7 +138,7 @@ impl Claim {
         Self { explanation: Some((what, tests)), ..self }
     }
 
-    /// What else there is to say.
+    /// The claim with a remark.
     #[must_use]
     pub fn remark(self, remark: &'static str) -> Self {
         Self { remark, ..self }
@@ -169,7 +169,7 @@ impl Claim {
         printed.chain(readings).collect()
     }
 
-    /// Its row of the table: place, quote, measured numbers, verdict, command.
+    /// Row of the table: place, quote, measured numbers, verdict, command.
     pub fn row(&self, study: &str) -> String {
         let list = |tests: &[Test]| {
             let one = |test: &Test| format!("{}: {}", test.what, test.told());

@@ -137,12 +137,12 @@ impl Model {
         Ok((method, solution))
     }
 
-    /// The same as an answer.
+    /// The answer of [`Self::localized_solution`].
     pub fn localized(&self, mean_pressure: f64, indenters: usize, elements: usize) -> Result<Answer, StudyError> {
         Ok((&self.localized_solution(mean_pressure, indenters, elements)?.1).into())
     }
 
-    /// Without mutual effect under the nominal pressure.
+    /// Answer without mutual effect under the nominal pressure.
     pub fn apart(&self, mean_pressure: f64) -> Result<Answer, StudyError> {
         Ok(apart::solve(self.law()?, &self.indenters()?, mean_pressure * self.area(), self.period()))
     }

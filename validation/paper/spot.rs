@@ -28,14 +28,14 @@ fn samples(step: &Step, level: usize, reach: f64) -> Vec<Polar> {
     let reduced = grid.cell().reduced();
     let Some(site) = surface.site_of(level) else { return Vec::new() };
     let (pressure, owners) = (contact.pressures(), surface.owners());
-    let own = |index: &usize| owners[*index] as usize == site;
-    let counted = (0..grid.len()).filter(own).filter(|&index| pressure[index] > 0.0).count() as f64;
+    let is_owned = |index: &usize| owners[*index] as usize == site;
+    let counted = (0..grid.len()).filter(is_owned).filter(|&index| pressure[index] > 0.0).count() as f64;
     let reach = reach * (counted * grid.sample_area() / PI).sqrt();
     let polar = |index: usize| {
         let [x, y] = surface.offset(&reduced, site as u32, index);
         Polar { r: x.hypot(y), theta: y.atan2(x), p: pressure[index] }
     };
-    (0..grid.len()).filter(own).map(polar).filter(|sample| sample.r < reach).collect()
+    (0..grid.len()).filter(is_owned).map(polar).filter(|sample| sample.r < reach).collect()
 }
 
 /// Boundary of the contact of a level around its axis.
@@ -83,8 +83,8 @@ pub fn from_centroid(boundary: &Boundary) -> Vec<f64> {
         .collect()
 }
 
-/// The contour p = `part` of the peak around a level's axis: its radii in the directions of the samples that straddle
-/// it.
+/// Radii of the contour p = `part` of the peak around a level's axis, in the directions of the samples that
+/// straddle it.
 pub fn contour(step: &Step, level: usize, part: f64) -> Vec<f64> {
     let around = samples(step, level, 1.2);
     let peak = around.iter().map(|sample| sample.p).fold(0.0, f64::max);
@@ -127,7 +127,7 @@ pub fn staircase(radius: f64, raster: Raster) -> f64 {
     outline(radius.ceil() as i32 + 2, shift, inside)
 }
 
-/// The same of the elements in contact of a localized solution.
+/// Asymmetry as in [`staircase`] of the elements in contact of a localized solution.
 pub fn counted(spot: &Spot) -> f64 {
     let middle = (spot.mesh.width / 2) as i32;
     let inside = |i: i32, j: i32| {
@@ -138,7 +138,7 @@ pub fn counted(spot: &Spot) -> f64 {
     outline(middle, 0.0, inside)
 }
 
-/// Of the elements `inside` among those up to `reach` from the middle, whose centres are shifted by `shift`.
+/// Asymmetry of the elements `inside` among those up to `reach` from the middle, whose centres are shifted by `shift`.
 fn outline(reach: i32, shift: f64, inside: impl Fn(i32, i32) -> bool) -> f64 {
     let (mut least, mut most) = (f64::INFINITY, 0.0f64);
     for (i, j) in (-reach..=reach).flat_map(|i| (-reach..=reach).map(move |j| (i, j))) {

@@ -14,9 +14,9 @@ const POINTS: usize = 320;
 /// 7e-7, on the surface by 1.5e-6.
 pub const INSIDE: f64 = 2e-6;
 pub const SURFACE: f64 = 5e-6;
-/// The same at the edge of the contact, relative: there they move by 5 %.
+/// Error of the mesh at the edge of the contact, relative: stresses move there by 5 %.
 pub const EDGE: f64 = 0.06;
-/// From level 1 toward the neighbouring level 2, as a direction.
+/// Direction from level 1 toward the neighbouring level 2.
 const TOWARD: [f64; 2] = [0.866_025_403_784_438_6, 0.5];
 /// Intervals of a section across, and down in each material.
 const COLUMNS: usize = 120;
@@ -27,7 +27,7 @@ const LINE: usize = 161;
 /// σ_r and τ₁ on a line from the axis: distance, σ_r, τ₁.
 pub type Profile = Vec<[f64; 3]>;
 
-/// What the stresses under level 1 are like.
+/// Stresses under level 1.
 pub struct Under {
     /// Contact radius a over r₁.
     pub radius: f64,
@@ -37,7 +37,7 @@ pub struct Under {
     pub period: f64,
     /// Levels that touch.
     pub levels: usize,
-    /// At the surface, at the interface in the coating and in the substrate.
+    /// Profiles at the surface, at the interface in the coating and in the substrate.
     pub profiles: [Profile; 3],
     field: StressField,
 }

@@ -1,7 +1,7 @@
 //! The homogeneous cases against Tamaas, a program of others (Frérot, Anciaux, Rey, Pham-Ba & Molinari, J. Open Source
 //! Softw. 5 (2020) 2121).
 //!
-//! Its numbers come from `validation/peer/tamaas_homogeneous.py`, on rectangular cells: a hexagonal lattice is there a
+//! The numbers come from `validation/peer/tamaas_homogeneous.py`, on rectangular cells: a hexagonal lattice is there a
 //! cell 1 × √3 with two indenters, here a rhombus with one.
 
 use super::draw::{self, curve};
@@ -62,7 +62,7 @@ fn run() -> Result<Outcome, StudyError> {
         for (index, quantity, tolerance) in [
             (0, "penetration", Tolerance::Relative(1e-4)),
             (1, "peak pressure", Tolerance::Relative(1e-4)),
-            // What counted samples are good for.
+            // Counted samples are good for no more.
             (2, "fraction in contact", Tolerance::Absolute(2e-3)),
         ] {
             let pairs = found.iter().zip(&rows).map(|(found, row)| (found[index], row[2 + index]));

@@ -103,13 +103,13 @@ fn one_level(outcome: &mut Outcome) -> Result<(), StudyError> {
 }
 
 fn three_levels(outcome: &mut Outcome) -> Result<(), StudyError> {
-    let own = TRIANGULAR.scaled(3f64.sqrt());
-    let other = TRIANGULAR.other_sublattice(own);
+    let same = TRIANGULAR.scaled(3f64.sqrt());
+    let other = TRIANGULAR.other_sublattice(same);
     let (mut against_series, mut against_solver) = (Pairs::default(), Pairs::default());
     for row in Data::parse("three-levels", THREE_LEVELS)?.rows {
         let &[mean_pressure, step, ref rest @ ..] = &row[..] else { return Err("a row too short".into()) };
         let found = steps_of(step, &[])?.loaded(mean_pressure)?;
-        let system = System::three_levels(1.0, own, other, RADIUS, step);
+        let system = System::three_levels(1.0, same, other, RADIUS, step);
         against_series.add(&found, &system, mean_pressure)?;
         against_solver.penetrations.push((found.penetration, rest[6]));
         for (m, level) in found.levels.iter().enumerate() {
@@ -158,16 +158,16 @@ fn coated(outcome: &mut Outcome) -> Result<(), StudyError> {
 fn three_coated_levels(outcome: &mut Outcome) -> Result<(), StudyError> {
     let (mean_pressure, step) = (0.01, 0.003);
     let coating = Coating::new(2.0, [0.2, 0.3], 0.5)?;
-    let own = coated_triangular(&coating, 3f64.sqrt());
-    let other = coated_triangular(&coating, 1.0).other_sublattice(own);
+    let same = coated_triangular(&coating, 3f64.sqrt());
+    let other = coated_triangular(&coating, 1.0).other_sublattice(same);
     let found = steps_of(step, &layer(2.0, 0.2))?.loaded(mean_pressure)?;
     let mut pairs = Pairs::default();
-    pairs.add(&found, &System::three_levels(coating.modulus(), own, other, RADIUS, step), mean_pressure)?;
+    pairs.add(&found, &System::three_levels(coating.modulus(), same, other, RADIUS, step), mean_pressure)?;
     pairs.check("three coated levels", "series", [3e-4, 2e-4, 1e-3], outcome);
     Ok(())
 }
 
-/// What was found and what was expected, quantity by quantity.
+/// Found and expected values, quantity by quantity.
 #[derive(Default)]
 struct Pairs {
     peaks: Vec<(f64, f64)>,

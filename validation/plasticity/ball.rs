@@ -38,7 +38,8 @@ const SIDE: f64 = 3.2;
 const FINE: usize = 256;
 /// Greatest h/a of thin layers.
 const THINNEST: f64 = 0.2;
-/// What the grid may leave: of δ, and of depths over δ, the bound of a pressure that bends within a part of the radius.
+/// Error that the grid may leave of δ, and of depths over δ: the bound of a pressure that bends within a part of the
+/// radius.
 const LENGTH: f64 = 3e-4;
 /// Radii, over the spacing: where the elastic ring has samples, and where it has none.
 const RADII: [f64; 2] = [0.1, 0.5];
@@ -73,7 +74,7 @@ fn read(step: &Step) -> Result<[f64; 5], StudyError> {
     Ok([radius(reading.contact_area), radius(plastic.area), step.penetration(), plastic.depth, plastic.volume])
 }
 
-/// On the bare body and on coatings in free space, on the thin layer in a periodic cell.
+/// Balls on the bare body and on coatings in free space, on the thin layer in a periodic cell.
 pub fn balls(outcome: &mut Outcome) -> Result<Data, StudyError> {
     let mut data = Data::new("balls", &COLUMNS);
     for row in Data::parse("paraboloid", PARABOLOID)?.rows {
@@ -129,8 +130,8 @@ fn checks(what: &str, rows: &[&Vec<f64>]) -> Vec<Check> {
         rows.iter().map(|row| (row[found] / scale(row), row[exact] / scale(row))).collect::<Vec<_>>()
     };
     let radii = |ring: bool| {
-        let own = rows.iter().filter(move |row| has_ring(row) == ring);
-        own.flat_map(|row| [(row[8] / row[13], row[3] / row[13]), (row[9] / row[13], row[4] / row[13])])
+        let rows = rows.iter().filter(move |row| has_ring(row) == ring);
+        rows.flat_map(|row| [(row[8] / row[13], row[3] / row[13]), (row[9] / row[13], row[4] / row[13])])
             .collect::<Vec<_>>()
     };
     let mut checks = vec![
@@ -162,28 +163,28 @@ pub fn unloading(outcome: &mut Outcome) -> Result<Data, StudyError> {
     let mut steps: Option<(f64, Steps, f64, f64)> = None;
     for row in &table.rows {
         let &[hardness, part, radius, delta] = &row[..] else { return Err("a row too short".into()) };
-        if steps.as_ref().is_none_or(|(own, ..)| *own != hardness) {
+        if steps.as_ref().is_none_or(|(current, ..)| *current != hardness) {
             let bodies = with_hardness(half_space(&[], [1.0, 0.0])?, hardness * AXIS)?;
             // A tenth more than the radius under nine tenths of the load.
             let side = 1.1 * WINDOW * radius;
-            let mut own = Steps::to(problem(BALL, bodies, side)?, [POINTS; 2], TOLERANCE)?;
-            let full = own.step(Load::Force(LOAD))?;
-            own.solver.keep_indentation();
-            steps = Some((hardness, own, side / POINTS as f64, full.penetration()));
+            let mut loading = Steps::to(problem(BALL, bodies, side)?, [POINTS; 2], TOLERANCE)?;
+            let full = loading.step(Load::Force(LOAD))?;
+            loading.solver.keep_indentation();
+            steps = Some((hardness, loading, side / POINTS as f64, full.penetration()));
         }
-        let Some((_, own, spacing, full)) = steps.as_mut() else { return Err("no load".into()) };
+        let Some((_, loading, spacing, full)) = steps.as_mut() else { return Err("no load".into()) };
         let found = if part > 0.0 {
-            let [radius, _, penetration, ..] = read(&own.step(Load::Force(part * LOAD))?)?;
+            let [radius, _, penetration, ..] = read(&loading.step(Load::Force(part * LOAD))?)?;
             [radius, penetration]
         } else {
             // The least of what is left of the gap.
-            [0.0, own.solver.surface().initial_gap().iter().copied().fold(f64::INFINITY, f64::min)]
+            [0.0, loading.solver.surface().initial_gap().iter().copied().fold(f64::INFINITY, f64::min)]
         };
         data.rows.push(vec![hardness, part, radius, delta, found[0], found[1], *spacing, *full]);
     }
     let approaches = |jumps: bool| {
-        let own = data.rows.iter().filter(move |row| has_jump(row[0]) == jumps);
-        own.map(|row| (row[5] / row[7], row[3] / row[7])).collect::<Vec<_>>()
+        let rows = data.rows.iter().filter(move |row| has_jump(row[0]) == jumps);
+        rows.map(|row| (row[5] / row[7], row[3] / row[7])).collect::<Vec<_>>()
     };
     let radii = data.rows.iter().filter(|row| row[1] > 0.0).map(|row| (row[4] / row[6], row[2] / row[6]));
     outcome.checks.extend([

@@ -68,7 +68,7 @@ struct Contact {
 }
 
 impl Contact {
-    /// That of a row of `periodic.csv`.
+    /// The contact of a row of `periodic.csv`.
     fn of(row: &[f64]) -> Result<Self, StudyError> {
         let &[cell, surface, material, hardness, ..] = row else { return Err("a row too short".into()) };
         let points = CELLS[cell as usize].0;
@@ -82,7 +82,7 @@ impl Contact {
         Ok(Some(step).filter(|step| step.report.stop.solved()))
     }
 
-    /// The same bodies with the gap max f − f.
+    /// The contact of the bodies with the gap max f − f.
     fn mirrored(&self) -> Self {
         let top = self.top();
         Self { gap: self.gap.mapv(|f| top - f), bodies: self.bodies.clone(), ..*self }
@@ -100,10 +100,14 @@ fn tabulated(row: &[f64], contact: &Contact) -> Result<Option<Array2<f64>>, Stud
     if surface != ROUGH || control == APPROACH {
         return Ok(None);
     }
-    let own = Data::parse("pressures", PRESSURES[contact.cell])?;
+    let pressures = Data::parse("pressures", PRESSURES[contact.cell])?;
     let share = (mean / hardness * 100.0).round() / 100.0;
     let name = format!("{}_{}_{hardness}_{share}", WORDS[contact.cell], WORDS[material as usize]);
-    if own.columns.contains(&name) { Ok(Some(field(&own, &name, contact.gap.dim().into())?)) } else { Ok(None) }
+    if pressures.columns.contains(&name) {
+        Ok(Some(field(&pressures, &name, contact.gap.dim().into())?))
+    } else {
+        Ok(None)
+    }
 }
 
 /// Pairs of what is found and what it has to be, of all rows.
@@ -135,7 +139,8 @@ impl Pairs {
             return Ok([f64::NAN; 3]);
         };
         let p = step.pressure().to_owned();
-        // Where no sample is between 0 and H, an interval of δ solves the load; of the depths what is left after δ is known.
+        // If no sample is between 0 and H, an interval of δ solves the load; of the depths what is left after δ is
+        // known.
         let mut free = 0.0;
         if control == APPROACH {
             self.means.push((p.sum() / p.len() as f64 / hardness, mean / hardness));
@@ -225,10 +230,10 @@ pub fn path(outcome: &mut Outcome) -> Result<Data, StudyError> {
             }
             depths.extend([(found[2] / size, depth / size), (found[3] / size, pressed / size)]);
             if number == 3.0 {
-                let own = Data::parse("residual", RESIDUALS[cell])?;
-                let own = field(&own, name, points)?;
+                let residual = Data::parse("residual", RESIDUALS[cell])?;
+                let residual = field(&residual, name, points)?;
                 let found = step.indentation().ok_or("no hardness")?;
-                residuals.push((difference(&found, &own) / size, 0.0));
+                residuals.push((difference(&found, &residual) / size, 0.0));
                 loaded = Some(step.pressure().to_owned());
             }
             if let (true, Some(before)) = (number == 6.0, &loaded) {

@@ -41,10 +41,10 @@ fn run() -> Result<Outcome, StudyError> {
 fn figure(wave: &Data, profiles: &Data, balls: &Data, unloading: &Data) -> Figure {
     let mut along = Vec::new();
     for (index, (hardness, mean)) in wave::DRAWN.into_iter().enumerate() {
-        let own = || profiles.rows.iter().filter(move |row| row[0] == hardness && row[1] == mean);
-        along.push(curve("", Style::Line, index + 1, own().map(|row| [row[2], row[4]])));
+        let rows = || profiles.rows.iter().filter(move |row| row[0] == hardness && row[1] == mean);
+        along.push(curve("", Style::Line, index + 1, rows().map(|row| [row[2], row[4]])));
         let label = format!("H/p* = {hardness}, p̄/p* = {mean}");
-        along.push(curve(label, Style::Markers, index + 1, own().map(|row| [row[2], row[3]])));
+        along.push(curve(label, Style::Markers, index + 1, rows().map(|row| [row[2], row[3]])));
     }
     let rms: Vec<[f64; 2]> = wave::rms(wave);
     let orders = vec![
@@ -52,8 +52,8 @@ fn figure(wave: &Data, profiles: &Data, balls: &Data, unloading: &Data) -> Figur
         slope("N⁻²", -2.0, 0, &rms),
         slope("N^(−3/2)", -1.5, 0, &rms),
     ];
-    let own = || balls.rows.iter().filter(|row| row[0] == ball::BARE);
-    let ball = |k: usize| own().map(move |row| [row[1], row[k]]).collect::<Vec<_>>();
+    let bare = || balls.rows.iter().filter(|row| row[0] == ball::BARE);
+    let ball = |k: usize| bare().map(move |row| [row[1], row[k]]).collect::<Vec<_>>();
     let mut radii = Vec::new();
     for (colour, (label, [found, exact])) in
         (1..).zip([("a", [8, 3]), ("c", [9, 4]), ("δ", [10, 5]), ("depth", [11, 6])])
@@ -63,9 +63,9 @@ fn figure(wave: &Data, profiles: &Data, balls: &Data, unloading: &Data) -> Figur
     }
     let mut curves = Vec::new();
     for (index, hardness) in [0.9, 0.7, 0.5, 0.3].into_iter().enumerate() {
-        let own = || unloading.rows.iter().filter(move |row| row[0] == hardness);
-        curves.push(curve("", Style::Line, index + 1, own().map(|row| [row[3], row[1]])));
-        curves.push(curve(format!("H/p₀ = {hardness}"), Style::Markers, index + 1, own().map(|row| [row[5], row[1]])));
+        let rows = || unloading.rows.iter().filter(move |row| row[0] == hardness);
+        curves.push(curve("", Style::Line, index + 1, rows().map(|row| [row[3], row[1]])));
+        curves.push(curve(format!("H/p₀ = {hardness}"), Style::Markers, index + 1, rows().map(|row| [row[5], row[1]])));
     }
     let chart = |title: &str, x: Axis, y: Axis, curves| Chart { title: title.to_owned(), x, y, curves };
     let panels = vec![

@@ -79,8 +79,8 @@ pub fn wave(outcome: &mut Outcome) -> Result<Data, StudyError> {
 /// Number of samples and root of the mean square of the errors of δ/D, without p̄ = H/2, where symmetry has δ = D.
 pub fn rms(data: &Data) -> Vec<[f64; 2]> {
     let of = |samples: f64| {
-        let own = data.rows.iter().filter(|row| row[0] == samples && 2.0 * row[2] != row[1]);
-        let squares: Vec<f64> = own.map(|row| (row[7] - row[8]).powi(2)).collect();
+        let rows = data.rows.iter().filter(|row| row[0] == samples && 2.0 * row[2] != row[1]);
+        let squares: Vec<f64> = rows.map(|row| (row[7] - row[8]).powi(2)).collect();
         [samples, (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()]
     };
     SAMPLES.map(|samples| of(samples as f64)).to_vec()
@@ -90,8 +90,8 @@ pub fn rms(data: &Data) -> Vec<[f64; 2]> {
 fn slope(points: &[[f64; 2]]) -> f64 {
     let n = points.len() as f64;
     let logs: Vec<[f64; 2]> = points.iter().map(|point| point.map(f64::ln)).collect();
-    let mean = [0, 1].map(|k| logs.iter().map(|own| own[k]).sum::<f64>() / n);
-    let product = |k: usize| logs.iter().map(|own| (own[0] - mean[0]) * (own[k] - mean[k])).sum::<f64>();
+    let mean = [0, 1].map(|k| logs.iter().map(|point| point[k]).sum::<f64>() / n);
+    let product = |k: usize| logs.iter().map(|point| (point[0] - mean[0]) * (point[k] - mean[k])).sum::<f64>();
     product(1) / product(0)
 }
 
@@ -100,13 +100,13 @@ pub fn profiles(outcome: &mut Outcome) -> Result<Data, StudyError> {
     let (table, strips) = (Data::parse("wave-pressure", PRESSURE)?, Data::parse("wave", WAVE)?);
     let mut data = Data::new("wave-pressure", &["H", "mean", "x", "p", "p_exact", "samples"]);
     for strip in &strips.rows {
-        let own: Vec<&Vec<f64>> = table.rows.iter().filter(|row| row[..2] == strip[..2]).collect();
-        if own.is_empty() {
+        let rows: Vec<&Vec<f64>> = table.rows.iter().filter(|row| row[..2] == strip[..2]).collect();
+        if rows.is_empty() {
             continue;
         }
         let step = solved(strip[0], strip[1], FINEST)?;
         let (p, most) = (step.pressure(), step.finest().hardness());
-        for row in own {
+        for row in rows {
             // x/π of half a wavelength is x of a cell over a half.
             let place = 0.5 * row[2] * FINEST as f64;
             let (before, part) = (place.floor() as usize, place.fract());

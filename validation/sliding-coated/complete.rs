@@ -18,9 +18,10 @@ const WAVES: [[f64; 2]; 3] = [[3.0, 4.0], [-8.0, 6.0], [20.0, 0.0]];
 const POINTS: usize = 64;
 const COEFFICIENT: f64 = 1.0;
 const AMPLITUDE: f64 = 1e-3;
-/// What the solver is asked for.
+/// Tolerance of the solver.
 pub const TOLERANCE: f64 = 1e-12;
-/// Along the first wave and across the second, across the first and along the second, and elsewhere, degrees.
+/// Directions along the first wave and across the second, across the first and along the second, and elsewhere,
+/// degrees.
 pub fn directions() -> Vec<f64> {
     let along = 4f64.atan2(3.0).to_degrees();
     let mut all: Vec<f64> = (0..12).map(|k| 15.0 * f64::from(k)).collect();

@@ -1,9 +1,9 @@
 //! Small loads: under a wave that slides on a half-space, what is in contact is a cylinder of the radius R = λ²/(4π²Δ).
 //!
-//! p ~ (x+b)^{½+η}(a−x)^{½−η}, 2c = a + b, a/b = (1+2η)/(1−2η), P = πE*c²(1−4η²)/(4R); its centre of pressure lies at 8ηc/3,
-//! its variance is c²(9/4 − η²)/9. The mean of the traction tilts nothing in a periodic contact: the slope 2fp̄/E* that it would
-//! give stays, and moves the contact forward by 2fRp̄/E*, which falls against c as the root of the load. What is left
-//! of the wave falls as the load.
+//! p ~ (x+b)^{½+η}(a−x)^{½−η}, 2c = a + b, a/b = (1+2η)/(1−2η), P = πE*c²(1−4η²)/(4R); the centre of pressure is 8ηc/3,
+//! the variance c²(9/4 − η²)/9. The mean of the traction tilts nothing in a periodic contact: the slope 2fp̄/E* that it
+//! would give stays, and moves the contact forward by 2fRp̄/E*, which falls against c as the root of the load. What is
+//! left of the wave falls as the load.
 
 use super::super::steps::{Steps, topography};
 use super::super::{Data, StudyError};

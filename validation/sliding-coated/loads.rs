@@ -110,7 +110,7 @@ pub fn inside() -> Result<Data, StudyError> {
     Ok(data)
 }
 
-/// What three sides, each twice the one before, tell of the limit when errors are made of L⁻³ and L⁻⁴.
+/// Limit from three sides L, each twice the one before, when errors are made of L⁻³ and L⁻⁴.
 fn extrapolated([a, b, c]: [f64; 3]) -> f64 {
     let [ab, bc] = [[a, b], [b, c]].map(|[coarse, fine]| fine + (fine - coarse) / 7.0);
     bc + (bc - ab) / 15.0

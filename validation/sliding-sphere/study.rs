@@ -30,7 +30,7 @@ pub const STUDY: Study = Study {
 const CASE: &str = include_str!("case.toml");
 const REFERENCE: &str = include_str!("reference.csv");
 const POISSON: [f64; 3] = [0.0, 0.3, 0.5];
-/// That of the drawn stresses, and of the quick form.
+/// Poisson's ratio of the drawn stresses, and of the quick form.
 const DRAWN: f64 = 0.3;
 /// Contact radius over period, and samples along the radius, where stresses are compared.
 const RADIUS: f64 = 0.05;
@@ -81,7 +81,7 @@ impl Solved {
         Ok((crest, crest.error(coarser) * crest.scale))
     }
 
-    /// What the images' first terms add.
+    /// Part of the images' first terms in the stresses.
     fn images(&self, nu: f64, place: [f64; 3]) -> [Stress; 2] {
         let Sums([_, s3, _]) = TRIANGULAR;
         images(nu, place).map(|stress| stress.map(|part| self.radius.powi(3) * s3 * part))
@@ -166,9 +166,9 @@ fn numbers_only(text: &str) -> String {
 
 /// Stresses at the places of the table, in the axes of the sliding.
 fn read_inside(data: &mut Data, solved: &Solved, field: &StressField, nu: f64, reference: &Data) {
-    let own = || reference.rows.iter().filter(|row| row[0] == nu && row[3] >= LEAST_DEPTH);
-    for normal in own().filter(|row| row[4] == 0.0) {
-        let Some(tangential) = own().find(|row| row[4] == 1.0 && row[1..4] == normal[1..4]) else { continue };
+    let rows = || reference.rows.iter().filter(|row| row[0] == nu && row[3] >= LEAST_DEPTH);
+    for normal in rows().filter(|row| row[4] == 0.0) {
+        let Some(tangential) = rows().find(|row| row[4] == 1.0 && row[1..4] == normal[1..4]) else { continue };
         let place @ [x, y, z] = [normal[1], normal[2], normal[3]];
         let loads = [normal, tangential].map(|row| std::array::from_fn(|k| row[5 + k]));
         let [exact, images] = [loads, solved.images(nu, place)].map(|loads| together(loads, FRICTION));
@@ -262,8 +262,9 @@ fn edges(ratios: &[f64]) -> Result<Data, StudyError> {
 
 /// Root mean squares of the error over p₀ at the trailing edge and of the stated one, over all directions and ν.
 fn typical_errors(edge: &Data, samples: usize, mu: f64) -> [f64; 2] {
-    let own = || edge.rows.iter().filter(|row| row[1] == samples as f64 && row[2] == mu);
-    let mean = |of: fn(&Vec<f64>) -> f64| (own().map(|row| of(row).powi(2)).sum::<f64>() / own().count() as f64).sqrt();
+    let rows = || edge.rows.iter().filter(|row| row[1] == samples as f64 && row[2] == mu);
+    let mean =
+        |of: fn(&Vec<f64>) -> f64| (rows().map(|row| of(row).powi(2)).sum::<f64>() / rows().count() as f64).sqrt();
     [mean(|row| row[4] - row[5]), mean(|row| row[6])]
 }
 

@@ -31,13 +31,13 @@ const COUPLINGS: [f64; 3] = [0.1, 0.3, 1.2];
 /// p̄/p*.
 const FRACTIONS: [f64; 3] = [0.1, 0.5, 0.75];
 const POINTS: usize = 2048;
-/// How far an edge may be off, samples.
+/// Largest error of an edge, samples.
 const EDGE: f64 = 1.5;
 /// Grids of the order of convergence, and the wave it is measured on.
 const GRIDS: [usize; 5] = [256, 512, 1024, 2048, 4096];
 const ORDER: (f64, f64) = (0.3, 0.5);
 
-/// What is found on one grid.
+/// Results on one grid.
 struct Found {
     /// p/p* at the samples, from x = −λ/2 on.
     profile: Vec<[f64; 2]>,
@@ -53,7 +53,7 @@ struct Found {
 fn solve(coupling: f64, fraction: f64, points: usize) -> Result<Found, StudyError> {
     let material = Material::from_young(1.0, POISSON)?;
     let unit = PI * material.contact_modulus() * AMPLITUDE;
-    // As dense across as along.
+    // Samples are as dense across as along.
     let cell = Cell::new([1.0, 0.0], [0.0, 4.0 / points as f64])?;
     let surface = topography(cell, [points, 4], |s, _| AMPLITUDE * (TAU * s).cos())?;
     let problem =

@@ -30,7 +30,7 @@ const SIDE: f64 = 12.6;
 /// Samples along the radius, error of the radius, and largest stated error.
 const GRIDS: [(usize, f64, f64); 2] = [(20, 1.5e-3, 2e-2), (40, 6e-4, 8e-3)];
 
-/// One solved contact of radius 1: what is read of it, relative to the truth, and what it says of its own error.
+/// One solved contact of radius 1: its reading, relative to the truth, and its stated error.
 struct Found {
     error: f64,
     stated: f64,
@@ -58,8 +58,8 @@ impl Contact {
         self.young > 100.0
     }
 
-    /// c₂ of what the images add to the displacement around the axis, c₂r²: ¼∇²w of a hexagonal lattice of loads less
-    /// that of one, each a Gaussian with the pressure's second moment (that of Galin's on a half-space),
+    /// c₂ of what the images add to the displacement around the axis, c₂r²: ¼∇²w of a hexagonal lattice of loads
+    /// less that of one, each a Gaussian with the pressure's second moment (that of Galin's on a half-space),
     ///
     /// c₂ = −(P/2E*) [ (1/A) Σ g T(gh) e^{−g²s²/2} − (1/2π) ∫ q² T(qh) e^{−q²s²/2} dq ],  2s² = (2/3)(n+1)/(n+3).
     fn curvature_of_images(&self, side: f64) -> f64 {
@@ -155,7 +155,7 @@ fn run(grids: &[(usize, f64, f64)]) -> Result<Outcome, StudyError> {
             }
         }
         let largest = |wanted: &dyn Fn(bool, &Contact) -> bool, of: &dyn Fn(&Found) -> f64| {
-            let wanted = solved.iter().filter(|(own, contact, _)| wanted(*own, contact));
+            let wanted = solved.iter().filter(|(as_topography, contact, _)| wanted(*as_topography, contact));
             wanted.map(|(_, _, found)| of(found)).fold(0.0, f64::max)
         };
         for (name, topographies, plates) in [
@@ -163,14 +163,17 @@ fn run(grids: &[(usize, f64, f64)]) -> Result<Outcome, StudyError> {
             ("as topographies, cones and r⁴ too", true, false),
             ("paraboloids on plates, E₁/E₂ = 1000", false, true),
         ] {
-            let worst = largest(&|own, contact| own == topographies && contact.is_plate() == plates, &|found| {
-                found.error.abs()
-            });
+            let worst = largest(
+                &|as_topography, contact| as_topography == topographies && contact.is_plate() == plates,
+                &|found| found.error.abs(),
+            );
             outcome.checks.push(Check::absolute(format!("radius, {samples} samples: {name}"), worst, 0.0, goal));
         }
         if samples == 40 {
             let resolved =
-                largest(&|own, contact| !own && contact.thickness * 40.0 >= 10.0, &|found| found.error.abs());
+                largest(&|as_topography, contact| !as_topography && contact.thickness * 40.0 >= 10.0, &|found| {
+                    found.error.abs()
+                });
             outcome.checks.push(Check::absolute("radius, h of ten samples and more", resolved, 0.0, 1e-3));
         }
         let held = solved.iter().filter(|(_, _, found)| found.error.abs() <= found.stated).count();

@@ -34,7 +34,7 @@ const BALL: Shape = Shape::Paraboloid { radius: 1.0 };
 const SAMPLES: usize = 48;
 /// Radius of the paraboloids on the cell.
 const RADIUS: f64 = 0.5;
-/// What may be left of pressures over the largest one, and of penetrations: the solver's tolerance is 10⁻¹².
+/// Error of pressures over the largest one, and of penetrations: the solver's tolerance is 10⁻¹².
 const SOLVED: f64 = 1e-8;
 /// Mean pressure of the drawn pressures.
 const DRAWN: f64 = 0.03;
@@ -129,18 +129,18 @@ fn periodic(outcome: &mut Outcome) -> Result<(Data, Data), StudyError> {
             let exact = |i: usize, j: usize| pressures.rows[tabulated(i, j)][2 + index];
             let peak = pressures.rows.iter().map(|row| row[2 + index]).fold(0.0, f64::max);
             let pressure = step.pressure();
-            let own: Vec<(f64, f64)> =
+            let pairs: Vec<(f64, f64)> =
                 pressure.indexed_iter().map(|((i, j), p)| (p / peak, exact(i, j) / peak)).collect();
-            let touching = own.iter().filter(|(p, _)| *p > 0.0).count() as f64 / own.len() as f64;
+            let touching = pairs.iter().filter(|(p, _)| *p > 0.0).count() as f64 / pairs.len() as f64;
             shares.push((touching, fraction));
-            let worst = own.iter().map(|(p, exact)| (p - exact).abs()).fold(0.0, f64::max);
+            let worst = pairs.iter().map(|(p, exact)| (p - exact).abs()).fold(0.0, f64::max);
             data.rows.push([&[two, mean, step.penetration(), delta], &found[..], &[worst]].concat());
             if !is_own {
                 let on_it = (0..=SAMPLES / 2)
                     .map(|i| vec![two, mean, i as f64 / SAMPLES as f64, pressure[[i, i]], exact(i, i)]);
                 diagonal.rows.extend(on_it);
             }
-            samples.extend(own);
+            samples.extend(pairs);
         }
         let checks = [
             Check::worst(
@@ -165,14 +165,14 @@ fn figure(indentation: &Data, diagonal: &Data) -> Figure {
     for (colour, (label, [found, exact])) in
         (1..).zip([("δ", [5, 2]), ("p₀", [6, 3]), ("a", [7, 0]), ("dP/dδ", [8, 4])])
     {
-        let own = indentation.rows.iter().map(|row| [row[0], (row[found] / row[exact] - 1.0).abs()]);
-        errors.push(curve(label, Style::LineMarkers, colour, own));
+        let points = indentation.rows.iter().map(|row| [row[0], (row[found] / row[exact] - 1.0).abs()]);
+        errors.push(curve(label, Style::LineMarkers, colour, points));
     }
     let mut along = Vec::new();
     for (colour, (label, two)) in (1..).zip([("rigid counterbody", 0.0), ("elastic counterbody", 1.0)]) {
-        let own = || diagonal.rows.iter().filter(|row| row[0] == two && row[1] == DRAWN);
-        along.push(curve("", Style::Line, colour, own().map(|row| [row[2], row[4]])));
-        along.push(curve(label, Style::Markers, colour, own().map(|row| [row[2], row[3]])));
+        let rows = || diagonal.rows.iter().filter(|row| row[0] == two && row[1] == DRAWN);
+        along.push(curve("", Style::Line, colour, rows().map(|row| [row[2], row[4]])));
+        along.push(curve(label, Style::Markers, colour, rows().map(|row| [row[2], row[3]])));
     }
     let chart = |title: &str, x: Axis, y: Axis, curves| Chart { title: title.to_owned(), x, y, curves };
     let panels = vec![

@@ -21,7 +21,7 @@ const LAYERS: [LayerOf; 3] = [(0.1, 5.0, 0.2, Bonded), (0.2, 0.1, 0.3, Bonded), 
 const WAVES: [(f64, [f64; 2]); 3] = [(1.0, [1.0, 0.0]), (2.0, [1.0, 1.0]), (9.0, [3.0, 0.0])];
 const POINTS: [usize; 2] = [24, 24];
 const AMPLITUDE: f64 = 0.01;
-/// What rounding and the solver's tolerance, 10⁻¹³, may leave of a factor of at most 1, and of a compliance.
+/// Error by rounding and the solver's tolerance, 10⁻¹³, of a factor of at most 1, and of a compliance.
 const ROUNDING: f64 = 1e-12;
 /// Path and numbers of steps of the orders.
 const PATH: f64 = 0.02;
@@ -35,7 +35,7 @@ fn body(number: usize) -> Result<HalfSpace, StudyError> {
 
 fn wave(q: f64) -> Result<[f64; 2], StudyError> {
     let square = (q / TAU).powi(2).round();
-    WAVES.iter().find(|(own, _)| *own == square).map(|(_, wave)| *wave).ok_or_else(|| "no such wave".into())
+    WAVES.iter().find(|(known, _)| *known == square).map(|(_, wave)| *wave).ok_or_else(|| "no such wave".into())
 }
 
 /// The amplitude of a wave in a field.
@@ -57,7 +57,7 @@ fn unit() -> Result<Wear, StudyError> {
     Ok(Wear::new(0.0, 1.0, [1.0, 0.0])?)
 }
 
-/// What n implicit steps over a distance leave of the wave in the shape and in the pressure.
+/// Parts of the wave that n implicit steps over a distance leave in the shape and in the pressure.
 fn left(number: usize, q: f64, compliance: f64, path: f64, n: u32) -> Result<[f64; 2], StudyError> {
     let wave = wave(q)?;
     let (mut steps, load) = contact(number, wave, compliance)?;
@@ -71,22 +71,22 @@ fn left(number: usize, q: f64, compliance: f64, path: f64, n: u32) -> Result<[f6
     Ok([shape, pressure])
 }
 
-/// What n equal steps of a path leave of the wave in the shape.
+/// Part of the wave that n equal steps of a path leave in the shape.
 fn left_by_path(number: usize, q: f64, compliance: f64, path: f64, n: u32) -> Result<f64, StudyError> {
     let wave = wave(q)?;
     let (mut steps, load) = contact(number, wave, compliance)?;
     let wear = unit()?;
     for _ in 0..n {
-        let own = WearPath::new(load, wear, path / f64::from(n), ONE_STEP)?;
-        let own = own.slide(&mut steps.solver, &mut |_, _| ControlFlow::Continue(()))?;
-        if own.end != PathEnd::Complete || own.steps.len() != 1 {
-            return Err(format!("not one step: {own:?}").into());
+        let wear_path = WearPath::new(load, wear, path / f64::from(n), ONE_STEP)?;
+        let worn = wear_path.slide(&mut steps.solver, &mut |_, _| ControlFlow::Continue(()))?;
+        if worn.end != PathEnd::Complete || worn.steps.len() != 1 {
+            return Err(format!("not one step: {worn:?}").into());
         }
     }
     Ok(amplitude(&steps.solver.surface().initial_gap().to_owned(), wave) / -AMPLITUDE)
 }
 
-/// What a step of a path, TR-BDF2, leaves of a wave in closed form; x = k Δs/Ĉ.
+/// Part of a wave that a step of a path, TR-BDF2, leaves, in closed form; x = k Δs/Ĉ.
 fn of_path(x: f64) -> f64 {
     (1.0 - (SQRT_2 - 1.0) * x) / (1.0 + (1.0 - FRAC_1_SQRT_2) * x).powi(2)
 }
@@ -130,7 +130,8 @@ pub fn orders(outcome: &mut Outcome) -> Result<Data, StudyError> {
         first.push((order(0), 1.0));
         second.push((order(1), 2.0));
         if (q - TAU).abs() < 1e-9 {
-            data.rows.extend(STEPS.iter().zip(&errors).map(|(n, own)| vec![number, f64::from(*n), own[0], own[1], q]));
+            data.rows
+                .extend(STEPS.iter().zip(&errors).map(|(n, error)| vec![number, f64::from(*n), error[0], error[1], q]));
         }
     }
     // ½ (ks/Ĉ)²/n and 0.04 (ks/Ĉ)³/n², and terms of the next power of 1/n: a tenth with 16 and 32 steps and ks/Ĉ up to 1.

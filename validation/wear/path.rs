@@ -10,7 +10,7 @@ use percoat_core::body::Side;
 use percoat_core::load::Load;
 use percoat_core::spectral::{Step, Wear, Worn};
 
-/// What rounding may leave of [`volume`].
+/// Error of [`volume`] by rounding.
 pub const VOLUME: f64 = 1e-12;
 
 /// A contact at the end of a part of a path.
@@ -37,7 +37,7 @@ impl Place {
         })
     }
 
-    /// Without the error of first order of the steps, of which this place has twice as many as the `coarser`.
+    /// Place without the error of first order of the steps, of which it has twice as many as the `coarser`.
     fn extrapolated(self, coarser: Self) -> Self {
         let [body, counterbody] = self.worn;
         let [coarser_body, coarser_counterbody] = coarser.worn;

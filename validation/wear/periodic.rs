@@ -105,8 +105,8 @@ pub fn levels(outcome: &mut Outcome) -> Result<Data, StudyError> {
     Ok(data)
 }
 
-/// The same by steps of controlled length, which are of second order: the largest error of the depth over the stated one, the accumulated
-/// errors of all parts of the path times the largest depth.
+/// Wear by steps of controlled length, which are of second order: the largest error of the depth over the stated one,
+/// the accumulated errors of all parts of the path times the largest depth.
 fn controlled(shapes: &Data, outcome: &mut Outcome) -> Result<(), StudyError> {
     let (load, wear) = (Load::MeanPressure(LEVEL_LOAD), Wear::new(0.0, 1.0, [1.0, 0.0])?);
     let mut steps = levelled()?;

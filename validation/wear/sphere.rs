@@ -17,7 +17,7 @@ const SIDE: f64 = 4.6;
 const POINTS: usize = 100;
 /// Ends of the parts of the path, and the equal steps of each, which are doubled and extrapolated.
 const PARTS: [(f64, usize); 5] = [(0.1, 20), (0.3, 20), (1.0, 30), (3.0, 30), (10.0, 40)];
-/// What 22 samples a radius, steps and table may leave of δ, of the pressure on the axis and the depth worn off there.
+/// Errors by 22 samples a radius, steps and table: of δ, of the pressure on the axis and the depth worn off there.
 const APPROACH: f64 = 5e-4;
 const AXIS: f64 = 1e-3;
 

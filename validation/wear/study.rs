@@ -40,15 +40,15 @@ fn figure(orders: &Data, levels: &Data, bodies: &Data, sphere: &Data) -> Figure 
     let points = |data: &Data, [x, y]: [usize; 2]| data.rows.iter().map(|row| [row[x], row[y]]).collect::<Vec<_>>();
     let mut errors = Vec::new();
     for (index, name) in decay::NAMES.into_iter().enumerate() {
-        let own = |k: usize| {
+        let column = |k: usize| {
             let rows = orders.rows.iter().filter(|row| row[0] == index as f64);
             rows.map(|row| [row[1], row[k].abs()]).collect::<Vec<_>>()
         };
-        errors.push(curve(name, Style::LineMarkers, index + 1, own(2)));
-        errors.push(curve("", Style::Markers, index + 1, own(3)));
+        errors.push(curve(name, Style::LineMarkers, index + 1, column(2)));
+        errors.push(curve("", Style::Markers, index + 1, column(3)));
         if index == 0 {
-            errors.push(slope("1/n", -1.0, 0, &own(2)));
-            errors.push(slope("1/n²", -2.0, 0, &own(3)));
+            errors.push(slope("1/n", -1.0, 0, &column(2)));
+            errors.push(slope("1/n²", -2.0, 0, &column(3)));
         }
     }
     let mut shares = Vec::new();
@@ -66,12 +66,12 @@ fn figure(orders: &Data, levels: &Data, bodies: &Data, sphere: &Data) -> Figure 
     .into_iter()
     .enumerate()
     {
-        let own = |k: usize| {
+        let column = |k: usize| {
             let rows = bodies.rows.iter().filter(|row| row[0] == cell && row[1] == k1);
             rows.map(|row| [row[3], row[k]]).collect::<Vec<_>>()
         };
-        worn.push(curve("", Style::Line, index + 1, own(5)));
-        worn.push(curve(name, Style::Markers, index + 1, own(4)));
+        worn.push(curve("", Style::Line, index + 1, column(5)));
+        worn.push(curve(name, Style::Markers, index + 1, column(4)));
     }
     let mut ball = Vec::new();
     for (colour, (name, [found, exact])) in

@@ -22,7 +22,7 @@ const WAVE: Wave = Wave { amplitude: 0.02, wavelength: 1.0, modulus: 1.0 };
 const POINTS: [usize; 2] = [2048, 4];
 /// p̄/p*.
 const FRACTIONS: [f64; 7] = [0.01, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9];
-/// Those whose pressure is drawn.
+/// Values of p̄/p* whose pressure is drawn.
 const DRAWN: [f64; 3] = [0.1, 0.5, 0.9];
 
 fn run() -> Result<Outcome, StudyError> {

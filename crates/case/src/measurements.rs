@@ -2,8 +2,8 @@
 //!
 //! The first line names the columns: `force` and `penetration` in the units of the case, or with a unit behind the name as in
 //! `force_mN`, `penetration_nm`, which is converted where the case names its units; `penetration_error` is the standard deviation
-//! of each penetration, in the unit of the penetration unless it names its own. Other columns are left out. Lines that begin with `#`, and empty ones, are comments. Columns that stand in no
-//! table but in memory are read alike.
+//! of each penetration, in the unit of the penetration unless it names its own. Other columns are left out. Lines that
+//! begin with `#`, and empty ones, are comments. Columns that stand in no table but in memory are read alike.
 
 use crate::units::{Unit, Units};
 use percoat_common::plain;
@@ -58,9 +58,9 @@ pub enum Fault {
     Cells {
         /// The line, from 1.
         line: usize,
-        /// Its cells.
+        /// Number of cells of the line.
         found: usize,
-        /// The columns.
+        /// Number of columns.
         expected: usize,
     },
     /// A cell that is no number.
@@ -131,7 +131,7 @@ pub fn read(text: &str, units: &Units) -> Result<Measurement, Fault> {
         };
         forces.push(number(force)?);
         penetrations.push(number(penetration)?);
-        deviation.map_or(Ok(()), |own| number(own).map(|x| deviations.push(x)))?;
+        deviation.map_or(Ok(()), |column| number(column).map(|x| deviations.push(x)))?;
         numbers.push(line);
     }
     Measurement::new(forces, penetrations, deviation.map(|_| deviations)).map_err(|error| {
@@ -179,9 +179,9 @@ impl Columns {
         let force = column(&FORCE)?.ok_or_else(|| missing(&FORCE))?;
         let penetration = column(&PENETRATION)?.ok_or_else(|| missing(&PENETRATION))?;
         // Without a unit of its own it has that of the penetration.
-        let deviation = column(&DEVIATION)?.map(|own| match names[own.place] == DEVIATION.name {
-            true => Column { factor: penetration.factor, ..own },
-            false => own,
+        let deviation = column(&DEVIATION)?.map(|column| match names[column.place] == DEVIATION.name {
+            true => Column { factor: penetration.factor, ..column },
+            false => column,
         });
         Ok(Self { force, penetration, deviation })
     }
@@ -199,9 +199,9 @@ fn column(names: &[&str], kind: &Kind, line: Option<usize>, units: &Units) -> Re
         let unit = rest.strip_prefix('_').filter(|_| !is_other(rest)).map(|unit| Some(unit.to_owned()));
         if rest.is_empty() { Some(None) } else { unit }
     };
-    let mut own = names.iter().enumerate().filter_map(|(place, name)| Some((place, unit(name)?)));
-    let Some((place, unit)) = own.next() else { return Ok(None) };
-    if let Some((again, _)) = own.next() {
+    let mut found = names.iter().enumerate().filter_map(|(place, name)| Some((place, unit(name)?)));
+    let Some((place, unit)) = found.next() else { return Ok(None) };
+    if let Some((again, _)) = found.next() {
         return Err(Fault::Twice(line, plain::line(names[again]).to_string()));
     }
     let Some(unit) = unit else { return Ok(Some(Column { place, factor: 1.0 })) };
@@ -210,10 +210,10 @@ fn column(names: &[&str], kind: &Kind, line: Option<usize>, units: &Units) -> Re
         return Err(Fault::Unit { line, unit, quantity: kind.quantity, example: kind.example });
     };
     let of_case = if kind.base == "N" { units.force() } else { units.length().clone() };
-    let Unit::Si { exponent: own, .. } = of_case else {
+    let Unit::Si { exponent: case_exponent, .. } = of_case else {
         return Err(Fault::Unnamed(line, plain::line(names[place]).to_string(), kind.name));
     };
-    Ok(Some(Column { place, factor: power_of_ten(exponent - own) }))
+    Ok(Some(Column { place, factor: power_of_ten(exponent - case_exponent) }))
 }
 
 /// 10ⁿ, exact as far as it is: division where it is not above 1.
@@ -233,13 +233,19 @@ mod tests {
     fn columns_are_found_by_name_and_converted() {
         let text =
             "# measured\ntime_s, force_µN ,penetration_nm,penetration_error_nm\n0,2000,15,0.5\n\n1,4e3,\"24\",1\n";
-        let own = read(text, &units()).unwrap();
-        assert_eq!(own.forces(), [2.0, 4.0]);
-        assert!((own.penetrations()[1] - 0.024).abs() < 1e-17 && own.deviations().unwrap()[0] == 0.5 / 1000.0);
-        let own = read("force,penetration_nm,penetration_error\n2,15,0.5\n", &units()).unwrap();
-        assert_eq!(own.deviations().unwrap(), [0.5 / 1000.0], "in the unit of the penetration");
-        let own = read("penetration,force\n0.1,3\n", &Units::unknown()).unwrap();
-        assert_eq!((own.forces(), own.penetrations(), own.deviations()), (&[3.0][..], &[0.1][..], None));
+        let measurement = read(text, &units()).unwrap();
+        assert_eq!(measurement.forces(), [2.0, 4.0]);
+        assert!(
+            (measurement.penetrations()[1] - 0.024).abs() < 1e-17
+                && measurement.deviations().unwrap()[0] == 0.5 / 1000.0
+        );
+        let measurement = read("force,penetration_nm,penetration_error\n2,15,0.5\n", &units()).unwrap();
+        assert_eq!(measurement.deviations().unwrap(), [0.5 / 1000.0], "in the unit of the penetration");
+        let measurement = read("penetration,force\n0.1,3\n", &Units::unknown()).unwrap();
+        assert_eq!(
+            (measurement.forces(), measurement.penetrations(), measurement.deviations()),
+            (&[3.0][..], &[0.1][..], None)
+        );
     }
 
     #[test]
@@ -266,9 +272,9 @@ mod tests {
     #[test]
     fn columns_in_memory_are_those_of_a_table() {
         let columns = |names: [&str; 2]| names.map(|name| (name.to_owned(), vec![2000.0, 4e3]));
-        let own = of_columns(&columns(["penetration_nm", "force_µN"]), &units()).unwrap();
+        let measurement = of_columns(&columns(["penetration_nm", "force_µN"]), &units()).unwrap();
         let table = read("force_µN,penetration_nm\n2000,2000\n4000,4000\n", &units()).unwrap();
-        assert_eq!(own, table);
+        assert_eq!(measurement, table);
         let fault = |names| of_columns(&columns(names), &units()).unwrap_err().to_string();
         assert!(fault(["force", "depth"]).starts_with("no column `penetration` among force, depth"));
         assert!(fault(["force", "force_N"]).starts_with("`force_N` is there twice"));

@@ -185,9 +185,9 @@ mod tests {
     fn numbers_of_an_si_unit_take_the_prefix_with_which_they_read_well() {
         let shown = |length: &str, pressure: &str, sizes: [f64; 3]| {
             let units = units(1.0, 1.0, 1.0).named(Some(length), Some(pressure));
-            let own = [units.length.clone(), units.pressure.clone(), units.force()];
+            let units = [units.length.clone(), units.pressure.clone(), units.force()];
             [0, 1, 2].map(|k| {
-                let prefixed = own[k].prefixed(sizes[k]);
+                let prefixed = units[k].prefixed(sizes[k]);
                 // 2.0999999 is 2.1.
                 prefixed.behind(&format!("{}", (1e6 * prefixed.shown(sizes[k])).round() / 1e6)).replace('\u{a0}', " ")
             })

@@ -29,13 +29,13 @@ const PEAKS: [f64; 3] = [0.42169, 0.39448, 0.36528];
 const SHARES: [f64; 3] = [0.41085, 0.33067, 0.25848];
 const PENETRATION: f64 = 0.055395;
 const TOUCHES: [f64; 2] = [0.00094, 0.00365];
-/// Without mutual effect, by an independent integral equation: peaks, w_a.
+/// Peaks and w_a without mutual effect, by an independent integral equation.
 const APART: [f64; 3] = [0.3964, 0.3791, 0.3607];
 const APART_PENETRATION: f64 = 0.10462;
 /// Points of an outline.
 const OUTLINE: usize = 361;
 
-/// What the claims and the figure rest on.
+/// Results that the claims and the figure rest on.
 struct Found {
     early: Reading,
     late: Reading,
@@ -193,7 +193,7 @@ fn picture(found: &Found, outlines: &Data) -> Figure {
     let line = |x: usize, y: usize| outlines.rows.iter().map(move |row| [row[x], row[y]]);
     let spots = Chart {
         title: "(b)".to_owned(),
-        // As wide as high on the sheet.
+        // The chart is as wide as high on the sheet.
         x: Axis::linear("x/l").from_to(-reach / 0.68, reach / 0.68),
         y: Axis::linear("y/l").from_to(-reach, reach),
         curves: vec![

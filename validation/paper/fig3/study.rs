@@ -174,7 +174,7 @@ fn twelve_percent(
     let (a, b) = (a?, b?);
     let twelve = |what: &str, value: f64| Test::printed(what, value, 0.12, 0.01);
     let across = |data: &Data| data.rows.iter().find(|row| row[0] == 23.0).cloned().ok_or("no 23 elements");
-    let (circle, own) = (across(elements)?, across(counted)?);
+    let (circle, solution) = (across(elements)?, across(counted)?);
     let (touch, radius) = (at_touch(&Model::new("fig3a", &ROWS)?)?, found.levels[2].contact_radius.ok_or("merged")?);
     let [threefold_a, rows_a] = [&courses[0][0], &courses[0][1]].map(Course::largest);
     let threefold_b = courses[1][0].largest();
@@ -236,12 +236,12 @@ fn twelve_percent(
                 twelve("level 3", circle[3]),
                 Test::below("level 2", circle[2], circle[3]),
                 Test::below("level 1", circle[1], circle[2]),
-                Test::above("level 3 of the localized solution itself, its elements counted", own[3], 0.11),
-                Test::below("its level 2", own[2], own[3]),
-                Test::below("its level 1", own[1], own[2]),
+                Test::above("level 3 of the localized solution itself, its elements counted", solution[3], 0.11),
+                Test::below("its level 2", solution[2], solution[3]),
+                Test::below("its level 1", solution[1], solution[2]),
             ],
             [0.122, 0.1085, 0.0961, 0.1257, 0.1111, 0.0922],
-            // Of a circle of another radius within 1e-3; of a solution with an element more or less in contact.
+            // A circle of another radius differs by less than 1e-3, a solution by an element more or less in contact.
             [1e-3, 1e-3, 1e-3, 5e-3, 5e-3, 5e-3],
         ),
     ))

@@ -16,7 +16,7 @@ pub const STUDY: Study = Study {
 };
 
 const POINTS: usize = 192;
-/// The same for the curves.
+/// Points along the cell for the curves.
 const CURVE_POINTS: usize = 128;
 /// The text gives no range: this one reaches from below the touch of the third level on.
 const LOADS: [f64; 2] = [0.0005, 0.02];
@@ -26,7 +26,7 @@ const LOAD: f64 = 0.0095;
 /// Errors of the mesh: of the difference of two w_a, each good to 2e-4 of 0.06, and of the difference of two such.
 const DIFFERENCE: f64 = 2.4e-5;
 const DIFFERENCES: f64 = 4.8e-5;
-/// The same in a ratio of two w_a where the first level alone touches, with five samples to its radius.
+/// Error of the mesh in a ratio of two w_a where the first level alone touches, with five samples to its radius.
 const RATIO: f64 = 2e-3;
 const THICKNESSES: [&str; 2] = ["layers.0.thickness=0.12", "layers.0.thickness=0.24"];
 const ONE_LEVEL: [&str; 2] = ["levels.0.height=0", "levels.1.height=0"];
@@ -75,7 +75,7 @@ impl Curves {
         [0, 1].map(|k| self.three[k][self.place()] - self.one[k][self.place()])
     }
 
-    /// The same over that of one level.
+    /// w_a of three levels over that of one level, less 1, thin and thick.
     fn relative(&self) -> [f64; 2] {
         [0, 1].map(|k| self.three[k][self.place()] / self.one[k][self.place()] - 1.0)
     }

@@ -18,7 +18,7 @@ pub const STUDY: Study = Study {
     quick: None,
 };
 
-/// As printed, ν₁ = 0.45 and 0.2: with mutual effect, isolated; levels 1 to 3.
+/// Peaks as printed, ν₁ = 0.45 and 0.2: with mutual effect, isolated; levels 1 to 3.
 const PRINTED: [[[f64; 3]; 2]; 2] =
     [[[0.356, 0.298, 0.191], [0.312, 0.289, 0.232]], [[0.320, 0.288, 0.213], [0.311, 0.287, 0.230]]];
 /// An independent periodic solver on 756 points along three periods: peaks, load shares, w_a, first touches; isolated
@@ -28,7 +28,7 @@ const SHARES: [[f64; 3]; 2] = [[0.49490, 0.32258, 0.18252], [0.46069, 0.32652, 0
 const PENETRATIONS: [f64; 2] = [0.037197, 0.043233];
 const TOUCHES: [[f64; 2]; 2] = [[0.00037, 0.00147], [0.00025, 0.00099]];
 const ISOLATED: [[f64; 3]; 2] = [[0.11630, 0.10047, 0.08284], [0.08844, 0.07862, 0.06798]];
-/// Without mutual effect, by the same equation: peaks, w_a.
+/// Peaks and w_a without mutual effect, by the same equation.
 const APART: [[f64; 3]; 2] = [[0.1149, 0.1008, 0.0849], [0.0875, 0.0788, 0.0692]];
 const APART_PENETRATIONS: [f64; 2] = [0.04641, 0.05673];
 
@@ -44,9 +44,9 @@ struct Peaks {
     model: Model,
     found: Reading,
     mutual: [f64; 3],
-    /// Isolated under the same forces.
+    /// Peaks isolated under the same forces.
     same_forces: [f64; 3],
-    /// Without mutual effect: isolated at one penetration, under the same nominal pressure.
+    /// Answer without mutual effect: isolated at one penetration, under the same nominal pressure.
     apart: Answer,
     same_nominal: [f64; 3],
 }
@@ -72,15 +72,15 @@ fn run() -> Result<Outcome, StudyError> {
     let mut outcome = Outcome::default();
     let peaks = [Peaks::new("fig3a", &[], LOAD)?, Peaks::new("fig3b", &[], LOAD)?];
     for (k, (nu, peaks)) in ["ν₁ = 0.45", "ν₁ = 0.2"].iter().zip(&peaks).enumerate() {
-        let mut own = Outcome::default();
-        super::against::independent_solver(&mut own, &peaks.found, PEAKS[k], SHARES[k], PENETRATIONS[k]);
-        super::against::first_touches(&mut own, &peaks.model, TOUCHES[k])?;
-        super::against::isolated_law(&mut own, &peaks.apart, APART[k], APART_PENETRATIONS[k]);
+        let mut part = Outcome::default();
+        super::against::independent_solver(&mut part, &peaks.found, PEAKS[k], SHARES[k], PENETRATIONS[k]);
+        super::against::first_touches(&mut part, &peaks.model, TOUCHES[k])?;
+        super::against::isolated_law(&mut part, &peaks.apart, APART[k], APART_PENETRATIONS[k]);
         let isolated = peaks.same_forces.into_iter().zip(ISOLATED[k]);
         let tolerance = crate::Tolerance::Relative(2e-4);
-        own.checks.push(Check::worst("isolated peaks, independent integral equation", isolated, tolerance));
+        part.checks.push(Check::worst("isolated peaks, independent integral equation", isolated, tolerance));
         let named = |check: Check| Check { quantity: format!("{nu}: {}", check.quantity), ..check };
-        outcome.checks.extend(own.checks.into_iter().map(named));
+        outcome.checks.extend(part.checks.into_iter().map(named));
     }
     let thin = "layers.0.thickness=0.05";
     let thin = [Peaks::new("fig3a", &[thin], LOAD)?, Peaks::new("fig3b", &[thin], LOAD)?];
@@ -123,7 +123,7 @@ fn numbers(peaks: &[Peaks; 2], thin: &[Peaks; 2]) -> Vec<Claim> {
     claims
 }
 
-/// What the numbers are said, or seen, to show.
+/// Patterns that the numbers are said, or seen, to show.
 fn patterns(peaks: &[Peaks; 2], thin: &[Peaks; 2]) -> [Claim; 5] {
     let [[forces_a, nominal_a], [forces_b, nominal_b]] = [peaks[0].changes(), peaks[1].changes()];
     let [[thin_forces_a, thin_nominal_a], [thin_forces_b, thin_nominal_b]] = [thin[0].changes(), thin[1].changes()];

@@ -40,7 +40,7 @@ impl CompositeHardnessSection {
             return refuse(message.to_owned(), "leave the section out, or set lattice.kind = \"isolated\"");
         }
         let size = |load: &Load| match *load {
-            Load::MeanPressure(own) | Load::Force(own) | Load::Penetration(own) => own,
+            Load::MeanPressure(value) | Load::Force(value) | Load::Penetration(value) => value,
         };
         let loads = load.loads();
         if loads.windows(2).any(|two| size(&two[1]) < size(&two[0])) {

@@ -45,9 +45,9 @@ section! {
 }
 
 /// Refuses a limit of bending that is too far above that of torsion.
-fn tension_does_no_good(own: &EnduranceSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+fn tension_does_no_good(limits: &EnduranceSection, section: &TableAt<'_>) -> Result<(), Refusal> {
     let bending = section.value("bending")?;
-    own.endurance().map(drop).map_err(|error| {
+    limits.endurance().map(drop).map_err(|error| {
         Refusal::new(bending.node.span, format!("`{}`: {error}", bending.path), "too large beside `torsion`")
             .help("√3 is that of a ductile material by von Mises, and others have less")
     })
@@ -72,8 +72,8 @@ pub(super) fn durability(
     fatigue: Option<FatigueSection>,
     endurance: Option<EnduranceSection>,
 ) -> Result<Durability, MaterialError> {
-    let fatigue = fatigue.map(|own| own.fatigue()).transpose()?;
-    let endurance = endurance.map(|own| own.endurance()).transpose()?;
+    let fatigue = fatigue.map(|section| section.fatigue()).transpose()?;
+    let endurance = endurance.map(|section| section.endurance()).transpose()?;
     Ok(Durability { hardness, wear, fatigue, endurance })
 }
 
@@ -95,9 +95,9 @@ mod tests {
     #[test]
     fn every_sublayer_has_the_durability_of_its_layer_and_the_last_one_the_fatigue_of_the_lower_face() {
         let graded = "graded = { young = [3, 2], poisson = [0.2, 0.3], sublayers = 3 }";
-        let own = "hardness = 0.3, wear = 1e-6, endurance = { torsion = 0.03, bending = 0.05 }";
+        let keys = "hardness = 0.3, wear = 1e-6, endurance = { torsion = 0.03, bending = 0.05 }";
         let case = read(&format!(
-            "layers = [{{ thickness = 1, {graded}, {own}, fatigue = {LAW}, interface_fatigue = {LAW} }}]\n\
+            "layers = [{{ thickness = 1, {graded}, {keys}, fatigue = {LAW}, interface_fatigue = {LAW} }}]\n\
              substrate = {{ young = 1, poisson = 0.3, fatigue = {LAW} }}\n"
         ));
         let law = Fatigue::new(0.4, 1e6, 8.0).unwrap();
@@ -120,24 +120,25 @@ mod tests {
     fn a_rigid_counterbody_with_a_surface_is_rigid() {
         let substrate = "substrate = { young = 1, poisson = 0.3, hardness = 0.3 }\n";
         let plain = read(substrate);
-        for (own, hardness, wear) in [
+        for (key, hardness, wear) in [
             ("hardness = 0.1", (0.1, Side::Counterbody), 0.0),
             ("hardness = 0.4", (0.3, Side::Body), 0.0),
             ("wear = 1e-6", (0.3, Side::Body), 1e-6),
         ] {
-            let case = read(&format!("{substrate}counterbody = {{ rigid = true, {own} }}\n"));
+            let case = read(&format!("{substrate}counterbody = {{ rigid = true, {key} }}\n"));
             let bodies = case.problem().bodies();
             assert_eq!((bodies.hardness(), bodies.wear(Side::Counterbody)), (Some(hardness), wear));
             assert_eq!((bodies.counterbody(), bodies.body()), (None, plain.half_space()));
-            assert!(case.counterbody.as_ref().is_some_and(|own| !own.is_elastic()));
+            assert!(case.counterbody.as_ref().is_some_and(|counterbody| !counterbody.is_elastic()));
         }
     }
 
     #[test]
     fn a_life_without_keys_has_its_defaults() {
         let substrate = "substrate = { young = 1, poisson = 0.3 }\n";
-        let life =
-            |own: &str| read(&format!("{substrate}{own}")).life.map(|own| (own.passes, own.distance, own.tolerance));
+        let life = |text: &str| {
+            read(&format!("{substrate}{text}")).life.map(|life| (life.passes, life.distance, life.tolerance))
+        };
         assert_eq!((life(""), life("life = {}")), (None, Some((None, None, 1e-2))));
         assert_eq!(life("life = { passes = 1e7, distance = 4, tolerance = 1e-3 }"), Some((Some(1e7), Some(4.0), 1e-3)));
     }

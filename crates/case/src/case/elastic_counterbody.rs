@@ -72,10 +72,10 @@ impl KeyValue for Coating {
 
 /// Refuses a rigid counterbody with keys of a material, hardness and wear of one below a coating, and an elastic one without
 /// moduli.
-fn elastic_or_rigid(own: &CounterbodySection, section: &TableAt<'_>) -> Result<(), Refusal> {
-    layers::modulus_or_rigid(own.rigid.0, ELASTIC, section)?;
+fn elastic_or_rigid(counterbody: &CounterbodySection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    layers::modulus_or_rigid(counterbody.rigid.0, ELASTIC, section)?;
     let of_surface = ["hardness", "wear"].into_iter().find_map(|key| section.optional(key));
-    match of_surface.filter(|_| own.rigid.0 && own.is_elastic()) {
+    match of_surface.filter(|_| counterbody.rigid.0 && counterbody.is_elastic()) {
         Some(value) => {
             let message =
                 format!("`{}` has no meaning: a layer is at the surface of the rigid counterbody", value.path);
@@ -91,7 +91,7 @@ impl CounterbodySection {
         !self.rigid.0 || !self.layers.0.is_empty()
     }
 
-    /// Its material below the layers.
+    /// Material below the layers, with the keys of a substrate.
     pub fn substrate(&self) -> SubstrateSection {
         SubstrateSection {
             material: self.material.clone(),
@@ -108,7 +108,7 @@ impl CounterbodySection {
         }
     }
 
-    /// It with twice the sublayers in graded layers; `None` without graded layers.
+    /// Half-space with twice the sublayers in graded layers; `None` without graded layers.
     pub fn refined(&self) -> Option<HalfSpace> {
         layers::refined(&self.layers.0, &self.substrate())
     }
@@ -123,7 +123,7 @@ pub(super) enum Above<'a> {
 }
 
 impl<'a> Above<'a> {
-    /// Its layers and substrate; `None` where it is rigid and uncoated.
+    /// Layers and substrate; `None` of a rigid and uncoated counterbody.
     pub(super) fn body(&self) -> Option<&Body<'a>> {
         match self {
             Self::Elastic(body) => Some(body),
@@ -146,13 +146,13 @@ const UNCOATED: &str =
 
 /// Reads `[counterbody]`, with the half-space and the sections of its layers.
 pub(super) fn read<'a>(section: &TableAt<'a>) -> Result<(CounterbodySection, Above<'a>), Refusal> {
-    let own = CounterbodySection::read_table(section)?;
-    let durability = Durability { hardness: own.hardness, wear: own.wear, ..Durability::default() };
-    if !own.is_elastic() && durability != Durability::default() {
-        return Ok((own, Above::Rigid(durability)));
+    let counterbody = CounterbodySection::read_table(section)?;
+    let durability = Durability { hardness: counterbody.hardness, wear: counterbody.wear, ..Durability::default() };
+    if !counterbody.is_elastic() && durability != Durability::default() {
+        return Ok((counterbody, Above::Rigid(durability)));
     }
     let sections = section.sections("layers")?;
-    let body = layers::build_body(own.layers.0.clone(), sections, own.substrate(), section)
-        .map_err(|refusal| if own.is_elastic() { refusal } else { refusal.help(UNCOATED) })?;
-    Ok((own, Above::Elastic(Box::new(body))))
+    let body = layers::build_body(counterbody.layers.0.clone(), sections, counterbody.substrate(), section)
+        .map_err(|refusal| if counterbody.is_elastic() { refusal } else { refusal.help(UNCOATED) })?;
+    Ok((counterbody, Above::Elastic(Box::new(body))))
 }

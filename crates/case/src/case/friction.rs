@@ -52,7 +52,7 @@ impl FrictionSection {
         }
         let refuse = |error: FrictionError| {
             let layer = match error {
-                FrictionError::Unheld(own) => layers[usize::from(own.is_counterbody())].get(own.number - 1),
+                FrictionError::Unheld(place) => layers[usize::from(place.is_counterbody())].get(place.number - 1),
                 _ => None,
             };
             let interface = layer.and_then(|layer| layer.optional("interface"));

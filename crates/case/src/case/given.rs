@@ -78,8 +78,8 @@ impl KeyValue for GivenSection {
     }
 }
 
-fn one_value_each(own: &DiscsSection, section: &TableAt<'_>) -> Result<(), Refusal> {
-    let (discs, values) = (own.disc.len(), own.value.0.len());
+fn one_value_each(given: &DiscsSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    let (discs, values) = (given.disc.len(), given.value.0.len());
     if values == 1 || values == discs {
         return Ok(());
     }
@@ -96,7 +96,7 @@ pub(super) fn read(
 ) -> Result<Option<(GivenPressure, Vec<String>)>, Refusal> {
     let load = root.section("load")?;
     let Some(value) = load.and_then(|load| load.optional("pressure")) else { return Ok(None) };
-    let own = GivenSection::read(&value)?;
+    let form = GivenSection::read(&value)?;
     for other in ["levels", "surface", "counterbody"] {
         if let Some(other) = root.optional(other) {
             let message = format!("`{}` is given beside `load.pressure`, which needs nothing that presses", other.path);
@@ -108,11 +108,11 @@ pub(super) fn read(
     let lattice_section = root.required_section("lattice")?;
     let cell = build_cell(&LatticeSection::read_table(&lattice_section)?, &lattice_section)?;
     let refuse = |error: CounterbodyError, key: Option<ValueAt<'_>>| {
-        let own = key.as_ref().unwrap_or(&value);
-        Refusal::new(own.node.span, format!("`{}`: {error}", own.path), "this pressure")
+        let value = key.as_ref().unwrap_or(&value);
+        Refusal::new(value.node.span, format!("`{}`: {error}", value.path), "this pressure")
     };
     let mut doubts = Vec::new();
-    let given = match own {
+    let given = match form {
         GivenSection::Discs(DiscsSection { disc, value: Pressures(pressures) }) => {
             let loaded = |(index, [x, y, radius]): (usize, [f64; 3])| {
                 let pressure = pressures[if pressures.len() == 1 { 0 } else { index }];
@@ -148,10 +148,10 @@ fn doubts_of(stored: &Stored, path: &str, cell: Cell, length: Option<&str>) -> V
     let sides = stored.sides.as_ref().map(|sides| sides.each_ref().map(|side| side.in_unit(length, 1.0)));
     let sides = sides.and_then(|[one, two]| Some([one?, two?]));
     let of_cell = cell.vectors().map(|[x, y]| x.hypot(y));
-    let differs = |own: &[f64; 2]| (0..2).any(|axis| (own[axis] / of_cell[axis] - 1.0).abs() > 0.01);
-    let stretched = sides.filter(differs).map(|own| {
-        let [own, cell] = [own, of_cell].map(|sides| sides.map(number).join(" × "));
-        format!("`{path}`: its file says that it is {own} large, and is laid on the cell, {cell}: make both equal")
+    let differs = |stated: &[f64; 2]| (0..2).any(|axis| (stated[axis] / of_cell[axis] - 1.0).abs() > 0.01);
+    let stretched = sides.filter(differs).map(|stated| {
+        let [stated, cell] = [stated, of_cell].map(|sides| sides.map(number).join(" × "));
+        format!("`{path}`: its file says that it is {stated} large, and is laid on the cell, {cell}: make both equal")
     });
     let unit = match &stored.unit {
         Some(HeightsUnit::Known(unit)) => Some(format!(
@@ -163,7 +163,7 @@ fn doubts_of(stored: &Stored, path: &str, cell: Cell, length: Option<&str>) -> V
 }
 
 impl GivenSection {
-    /// It with the absolute path of its file.
+    /// The section with the absolute path of its file.
     pub(super) fn located(self, source: &Source) -> Self {
         match self {
             Self::File(name) => Self::File(source.path(&name).map_or(name, |path| path.to_string_lossy().into_owned())),
@@ -185,7 +185,7 @@ mod tests {
             let side = |value: f64| Length { value, unit: Some("mm".to_owned()) };
             Stored { sides: Some(sides.map(side)), unit, ..Stored::of(&array, None).unwrap() }
         };
-        let doubts = |own: &Stored| doubts_of(own, "load.pressure", cell, Some("µm"));
+        let doubts = |file: &Stored| doubts_of(file, "load.pressure", cell, Some("µm"));
         assert_eq!(doubts(&stored([0.01, 0.005], None)), Vec::<String>::new());
         assert_eq!(
             doubts(&stored([0.004, 0.005], Some(HeightsUnit::Known("nm".to_owned())))),

@@ -1,8 +1,8 @@
 //! `graded`: a layer whose moduli change with depth, divided into homogeneous bonded sublayers.
 //!
-//! Of n sublayers of one thickness the k-th has the moduli of its middle, at the part t = (k − ½)/n of the layer's depth:
-//! E = E₀ + (E₁ − E₀) t, or E₀ (E₁/E₀)ᵗ; ν = ν₀ + (ν₁ − ν₀) t. The response at a wavenumber q depends on means of the moduli over
-//! depth; the error of the midpoint rule is of second order in 1/n while qh < n.
+//! The k-th of n sublayers of one thickness has the moduli of its middle, at the part t = (k − ½)/n of the layer's
+//! depth: E = E₀ + (E₁ − E₀) t, or E₀ (E₁/E₀)ᵗ; ν = ν₀ + (ν₁ − ν₀) t. The response at a wavenumber q depends on means
+//! of the moduli over depth; the error of the midpoint rule is of second order in 1/n while qh < n.
 
 use super::error::Refusal;
 use super::keys::{Form, Key, Range, Unit};
@@ -51,7 +51,7 @@ fn one_stiffness(_: &Grading, section: &TableAt<'_>) -> Result<(), Refusal> {
 }
 
 impl Grading {
-    /// This grading with another number of sublayers.
+    /// The grading with another number of sublayers.
     pub(super) fn of(self, sublayers: usize) -> Self {
         Self { sublayers, ..self }
     }

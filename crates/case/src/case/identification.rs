@@ -68,12 +68,12 @@ pub fn known_instrument(texts: &[String]) -> Result<Instrument, NotKnown> {
         let none = || NotKnown::NoValue(text.clone());
         let (name, value) = text.split_once('=').ok_or_else(none)?;
         let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(none)?;
-        let own = match name.trim() {
+        let number = match name.trim() {
             OFFSET => &mut offset,
             FRAME => &mut frame,
             _ => return Err(none()),
         };
-        if own.replace(value).is_some() {
+        if number.replace(value).is_some() {
             return Err(NotKnown::Twice(name.trim().to_owned()));
         }
     }
@@ -104,7 +104,7 @@ impl<'a> IdentificationTask<'a> {
         }
         let (whole, mut parameters) = (json!(case), Vec::<Parameter>::new());
         for name in free.iter().map(|name| name.trim()) {
-            if parameters.iter().any(|own| own.name == name) {
+            if parameters.iter().any(|parameter| parameter.name == name) {
                 return Err(NotFree::Twice(name.to_owned()));
             }
             let (quantity, start) = match name {
@@ -129,22 +129,22 @@ impl<'a> IdentificationTask<'a> {
         for (name, quantity) in [(OFFSET, Quantity::Offset), (FRAME, Quantity::FrameCompliance)] {
             fixed.push(Parameter { name: name.to_owned(), quantity, start: 0.0 });
         }
-        fixed.retain(|own| parameters.iter().all(|free| free.name != own.name));
+        fixed.retain(|parameter| parameters.iter().all(|free| free.name != parameter.name));
         Ok(Self { document, case, parameters, fixed, instrument: Instrument::default() })
     }
 
     /// The task for an instrument that is known to add this; where it is free as well, the search starts from it.
     #[must_use]
     pub fn with_instrument(mut self, instrument: Instrument) -> Self {
-        for own in self.parameters.iter_mut().chain(&mut self.fixed) {
-            match own.quantity {
-                Quantity::Offset => own.start = instrument.offset,
-                Quantity::FrameCompliance => own.start = instrument.frame_compliance,
+        for parameter in self.parameters.iter_mut().chain(&mut self.fixed) {
+            match parameter.quantity {
+                Quantity::Offset => parameter.start = instrument.offset,
+                Quantity::FrameCompliance => parameter.start = instrument.frame_compliance,
                 _ => {}
             }
         }
         let known = |quantity: Quantity, of: f64| {
-            if self.parameters.iter().any(|own| own.quantity == quantity) { 0.0 } else { of }
+            if self.parameters.iter().any(|parameter| parameter.quantity == quantity) { 0.0 } else { of }
         };
         self.instrument = Instrument {
             offset: known(Quantity::Offset, instrument.offset),
@@ -167,16 +167,18 @@ impl<'a> IdentificationTask<'a> {
         let model = Model { problem: &problem, points: points(self.case), settings: self.case.solver };
         let measured = measured.clone().with_instrument(self.instrument);
         let found = Identification::with_fixed(&model, (&self.parameters, &self.fixed), &measured, progress)?;
-        let values: Vec<f64> = found.estimates.iter().map(|own| own.value).collect();
+        let values: Vec<f64> = found.estimates.iter().map(|estimate| estimate.value).collect();
         let best = self.with(&values).map_err(IdentificationError::Model)?;
         Ok((found, best))
     }
 
     /// The case with these values of the parameters, and of the fixed numbers where there are more values.
     fn with(&self, values: &[f64]) -> Result<Case, CaseError> {
-        let of_case = |(own, _): &(&Parameter, &f64)| matches!(own.quantity, Quantity::Positive | Quantity::Bounded(_));
+        let of_case = |(parameter, _): &(&Parameter, &f64)| {
+            matches!(parameter.quantity, Quantity::Positive | Quantity::Bounded(_))
+        };
         let free = self.parameters.iter().chain(&self.fixed).zip(values).filter(of_case);
-        let settings: Vec<String> = free.map(|(own, value)| format!("{}={value:e}", own.name)).collect();
+        let settings: Vec<String> = free.map(|(parameter, value)| format!("{}={value:e}", parameter.name)).collect();
         self.document.changed(&settings)
     }
 }

@@ -141,8 +141,8 @@ section! {
 }
 
 /// Refuses a rigid base with keys of a material, and an elastic substrate without moduli.
-fn elastic_or_rigid(own: &SubstrateSection, section: &TableAt<'_>) -> Result<(), Refusal> {
-    modulus_or_rigid(own.rigid.0, BELOW, section)
+fn elastic_or_rigid(substrate: &SubstrateSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    modulus_or_rigid(substrate.rigid.0, BELOW, section)
 }
 
 /// Refuses what is rigid with `young` or one of the `keys` of a material, and what is elastic without moduli.
@@ -185,7 +185,7 @@ fn consistent(layer: &LayerSection, section: &TableAt<'_>) -> Result<(), Refusal
 }
 
 impl SubstrateSection {
-    /// Its material without a name; `None` for a rigid base.
+    /// Material without a name; `None` for a rigid base.
     fn material(&self) -> Option<Result<Material, MaterialError>> {
         (!self.rigid.0).then(|| Material::from_young(demanded(self.young), demanded(self.poisson)))
     }
@@ -212,7 +212,7 @@ impl LayerSection {
         }
     }
 
-    /// Its materials from the upper face down, one a sublayer.
+    /// Materials from the upper face down, one a sublayer.
     fn materials(&self, substrate: Option<Material>) -> Result<Vec<Material>, MaterialError> {
         if let Some(graded) = self.graded {
             return graded.materials(substrate).collect();
@@ -225,16 +225,16 @@ impl LayerSection {
         material.map(|material| vec![material])
     }
 
-    /// It, or its sublayers from the upper one down, bonded to each other; its lower face is that of the last. Its material has
-    /// this name.
+    /// The layer, or its sublayers from the upper one down, bonded to each other; the last one has the lower face of
+    /// the layer. The material has this `name`.
     fn build(&self, name: Option<&str>, substrate: Option<Material>) -> Result<Vec<Layer>, MaterialError> {
         let materials = self.materials(substrate)?;
         let count = materials.len();
-        let own = Strength { yielding: self.yield_strength, tensile: self.tensile_strength };
+        let layer_strength = Strength { yielding: self.yield_strength, tensile: self.tensile_strength };
         let lower =
             self.interface_strength.as_ref().map_or(InterfaceStrength::default(), InterfaceStrengthSection::strength);
         let durability = durability(self.hardness, self.wear, self.fatigue, self.endurance)?;
-        let fatigue = self.interface_fatigue.map(|own| own.fatigue()).transpose()?;
+        let fatigue = self.interface_fatigue.map(|section| section.fatigue()).transpose()?;
         let layer = |(index, material): (usize, Material)| {
             let (interface, strength, fatigue) = if index + 1 == count {
                 (self.interface.interface(), lower, fatigue)
@@ -247,7 +247,7 @@ impl LayerSection {
             });
             Layer::new(material.with_name(name), self.thickness / count as f64, interface)?
                 .with_residual_stress(self.residual_stress)?
-                .with_strengths(own, strength)?
+                .with_strengths(layer_strength, strength)?
                 .with_durability(durability, fatigue)
         };
         materials.into_iter().enumerate().map(layer).collect()

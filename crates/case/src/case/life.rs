@@ -27,8 +27,8 @@ section! {
 }
 
 /// Refuses a distance beside a stroke.
-fn one_length(own: &LifeSection, section: &TableAt<'_>) -> Result<(), Refusal> {
-    if own.distance.is_none() || own.stroke.is_none() {
+fn one_length(life: &LifeSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    if life.distance.is_none() || life.stroke.is_none() {
         return Ok(());
     }
     let stroke = section.value("stroke")?;

@@ -67,9 +67,9 @@ section! {
 words! {
     /// Spacing of the values of a range.
     pub enum Spacing {
-        /// By equal amounts.
+        /// Equal differences.
         Linear = "linear",
-        /// By equal factors.
+        /// Equal factors.
         Log = "log",
     }
 }

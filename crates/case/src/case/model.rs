@@ -136,8 +136,9 @@ impl Case {
 
     /// Units of lengths and pressures: their names, or quantities of the problem where they have none.
     pub fn units(&self) -> Units {
-        let name = |of: fn(&UnitsSection) -> &Option<String>| self.units.as_ref().and_then(|own| of(own).as_deref());
-        let units = Units::of(&self.problem).named(name(|own| &own.length), name(|own| &own.pressure));
+        let name =
+            |of: fn(&UnitsSection) -> &Option<String>| self.units.as_ref().and_then(|units| of(units).as_deref());
+        let units = Units::of(&self.problem).named(name(|units| &units.length), name(|units| &units.pressure));
         if self.load.force.is_some() { units.with_loads_in(LoadQuantity::Force) } else { units }
     }
 
@@ -196,10 +197,10 @@ impl Case {
             sampling: self.grid,
             settings: self.solver,
             mean: self.mean_stress(),
-            passes: self.life.and_then(|own| own.passes),
-            distance: self.life.and_then(|own| own.distance),
-            stroke: self.life.and_then(|own| own.stroke),
-            tolerance: self.life.map_or(LIFE_TOLERANCE, |own| own.tolerance),
+            passes: self.life.and_then(|life| life.passes),
+            distance: self.life.and_then(|life| life.distance),
+            stroke: self.life.and_then(|life| life.stroke),
+            tolerance: self.life.map_or(LIFE_TOLERANCE, |life| life.tolerance),
         })
     }
 
@@ -217,7 +218,7 @@ impl Case {
         source.read(&[], |source| {
             let root = source.tree(&CASE)?;
             let root = TableAt::root(&root, &CASE, Span::NOWHERE);
-            let sliding = self.friction.map(|own| own.direction);
+            let sliding = self.friction.map(|friction| friction.direction);
             let base = base_depth(self.problem.bodies());
             let section = StressSection::read_in(&root.required_section("stress")?, &self.problem, sliding, base)?;
             Ok(section.request(&self.problem))
@@ -249,8 +250,8 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
     let elastic_section = root.section("counterbody")?;
     let elastic = elastic_section.as_ref().map(elastic_counterbody::read).transpose()?;
     let above = elastic.as_ref().and_then(|(_, above)| above.body());
-    for own in [&body].into_iter().chain(above) {
-        magnitude::layers(&own.half_space, &own.places(), loaded_by.cell())?;
+    for body in [&body].into_iter().chain(above) {
+        magnitude::layers(&body.half_space, &body.places(), loaded_by.cell())?;
     }
     let bodies = match (&elastic, &elastic_section) {
         (Some((_, above)), Some(section)) => above
@@ -278,17 +279,17 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
     let mut problem = Problem::new(loaded_by, bodies);
     let mut friction = None;
     if let Some(section) = root.section("friction")? {
-        let own = FrictionSection::read_table(&section)?;
+        let keys = FrictionSection::read_table(&section)?;
         let places = [body.places(), above.map_or(Vec::new(), Body::places)];
-        problem = own.slide(&section, &places, (problem, settings), &solver_section)?;
-        friction = Some(own);
+        problem = keys.slide(&section, &places, (problem, settings), &solver_section)?;
+        friction = Some(keys);
     }
     let composite_hardness = root.section("composite_hardness")?;
     let composite_hardness = match composite_hardness {
         Some(section) => {
-            let own = CompositeHardnessSection::read_table(&section)?;
-            problem = own.harden(&section, &load, problem)?;
-            Some(own)
+            let hardness = CompositeHardnessSection::read_table(&section)?;
+            problem = hardness.harden(&section, &load, problem)?;
+            Some(hardness)
         }
         None => None,
     };
@@ -305,7 +306,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         stress: root
             .section("stress")?
             .map(|section| {
-                let (sliding, base) = (friction.map(|own| own.direction), base_depth(problem.bodies()));
+                let (sliding, base) = (friction.map(|friction| friction.direction), base_depth(problem.bodies()));
                 StressSection::read_in(&section, &problem, sliding, base)
             })
             .transpose()?,
@@ -315,7 +316,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         surface,
         layers: body.layers,
         substrate: body.substrate,
-        counterbody: elastic.map(|(own, _)| own),
+        counterbody: elastic.map(|(counterbody, _)| counterbody),
         load,
         file_doubts,
         problem: Arc::new(problem),

@@ -20,7 +20,7 @@ impl PartialEq for Pipes {
 
 /// Whether `path` exists and is neither a file nor a folder.
 pub(super) fn is_pipe(path: &Path) -> bool {
-    fs::metadata(path).is_ok_and(|own| !own.is_file() && !own.is_dir())
+    fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
 }
 
 impl Pipes {
@@ -30,7 +30,7 @@ impl Pipes {
         if let Some(bytes) = known.get(path) {
             return Ok(Arc::clone(bytes));
         }
-        // Its length is not known in advance, and its numbers take more memory than its text.
+        // The length of a pipe is not known in advance, and numbers take more memory than their text.
         let most = available_memory() / 8;
         let mut bytes = Vec::new();
         fs::File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;

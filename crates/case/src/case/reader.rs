@@ -19,7 +19,7 @@ pub(super) struct TableAt<'a> {
     keys: &'static Keys,
     /// The keys of the whole case.
     all: &'static Keys,
-    /// Its place in the text.
+    /// Place of the table in the text.
     pub(super) span: Span,
     path: String,
 }
@@ -148,7 +148,7 @@ impl<'a> TableAt<'a> {
     pub(super) fn one_of<const N: usize>(&self, keys: [&str; N]) -> Result<(usize, ValueAt<'a>), Refusal> {
         let mut given = keys.iter().enumerate().filter_map(|(index, key)| Some((index, self.optional(key)?)));
         match (given.next(), given.next()) {
-            (Some(own), None) => Ok(own),
+            (Some(only), None) => Ok(only),
             (Some((first, _)), Some((second, value))) => Err(self.both([keys[first], keys[second]], value.node.span)),
             (None, _) => {
                 let paths: Vec<String> = keys.iter().map(|key| format!("`{}`", self.path(key))).collect();

@@ -63,7 +63,7 @@ impl Source {
     /// Reads a case from standard input; a surface's file is relative to the working folder.
     ///
     /// # Errors
-    /// Those of [`Source::file`].
+    /// The errors of [`Source::file`].
     pub fn standard_input() -> io::Result<Self> {
         Self::of("standard input".to_owned(), PathBuf::new(), io::stdin().lock())
     }
@@ -90,7 +90,7 @@ impl Source {
         Ok(tree)
     }
 
-    /// What `read` makes of the source, or its refusal with the text in which it stands.
+    /// Result of `read` on the source, or its refusal with the text in which it stands.
     pub(super) fn read<T>(
         &self,
         overrides: &[String],

@@ -96,9 +96,9 @@ section! {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Origin {
-    /// At the axis of the first indenter of this level, from 1.
+    /// Axis of the first indenter of this level, from 1.
     Level(#[serde(serialize_with = "write_level")] usize),
-    /// At this place [x, y], lengths.
+    /// Place [x, y], lengths.
     Place([f64; 2]),
 }
 
@@ -106,9 +106,9 @@ pub enum Origin {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Toward {
-    /// Toward the nearest other indenter of this level, from 1.
+    /// Nearest other indenter of this level, from 1.
     Level(#[serde(serialize_with = "write_level")] usize),
-    /// Along this direction, of any length.
+    /// Direction [x, y], of any length.
     Direction([f64; 2]),
 }
 
@@ -137,19 +137,19 @@ impl StressSection {
         if let Some(cut) = section.optional("section") {
             check_levels(&cut, problem.levels().len())?;
         }
-        let own = Self::read_table(section)?;
+        let stress = Self::read_table(section)?;
         for key in ["planes", "points"] {
             within(section, key, base)?;
         }
-        if own.section.is_some_and(|cut| cut.toward.is_none()) && sliding.is_none() {
+        if stress.section.is_some_and(|cut| cut.toward.is_none()) && sliding.is_none() {
             return Err(section.value("section")?.table()?.missing("toward"));
         }
-        let own = Self { section: own.section.map(|cut| cut.completed(sliding)), ..own };
-        own.within(problem, section)?;
-        if own.mean == MeanStress::Line && problem.loaded_by().line().is_none() {
+        let stress = Self { section: stress.section.map(|cut| cut.completed(sliding)), ..stress };
+        stress.within(problem, section)?;
+        if stress.mean == MeanStress::Line && problem.loaded_by().line().is_none() {
             return Err(no_line(section)?);
         }
-        Ok(own)
+        Ok(stress)
     }
 
     /// Refuses points and cuts beyond the window of an isolated contact, where no stresses are computed.
@@ -226,7 +226,7 @@ impl CutSection {
         Self { toward, behind: self.behind.or(Some(behind)), ..self }
     }
 
-    /// Its line on the surface; `None` for levels without indenters.
+    /// Line of the cut on the surface; `None` for levels without indenters.
     fn line(&self, lattice: Option<&Lattice>) -> Option<SurfaceLine> {
         let first = |level: usize| Some(lattice?.sites()[level - 1][0]);
         let origin = match self.from {

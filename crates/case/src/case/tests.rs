@@ -32,9 +32,9 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
     let other = RICH.replace("mean_pressure =", "penetration =").replace("points = [24, 36]", "accuracy = 1e-3");
     let graded = "layers = [{ thickness = 1, graded = { shear_ratio = [2, 1], poisson = [0.2, 0.3], law = \"linear\" } },\n\
                   { thickness = 1, graded = { young = [2, 1], poisson = [0.2, 0.3], sublayers = 2 } }]\n";
-    let surface = |own: &str| {
+    let surface = |keys: &str| {
         format!(
-            "surface = {{ {own} }}\nsubstrate = {{ young = 1, poisson = 0.3 }}\nload = {{ mean_pressure = 1e-3 }}\ngrid = {{ points = 8 }}\n{graded}"
+            "surface = {{ {keys} }}\nsubstrate = {{ young = 1, poisson = 0.3 }}\nload = {{ mean_pressure = 1e-3 }}\ngrid = {{ points = 8 }}\n{graded}"
         )
     };
     let random = "hurst = 0.8, shortest = 0.25, longest = 1, rolloff = 0.5, seed = 1";
@@ -45,13 +45,13 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
         format!("period = 1, random = {{ {random}, rms_slope = 0.1 }}"),
         format!("period = 1, random = {{ {random}, rms_height = 0.1 }}"),
     ]
-    .map(|own| surface(&own));
+    .map(|keys| surface(&keys));
     // The layers of the rich case on its counterbody, and graded ones.
     let above = |layers: &str| {
         let mut case: toml::Table = RICH.parse().unwrap();
-        let mut own: toml::Table = case["substrate"].as_table().unwrap().clone();
-        own.insert("layers".to_owned(), layers.parse::<toml::Table>().unwrap()["layers"].clone());
-        case.insert("counterbody".to_owned(), toml::Value::Table(own));
+        let mut counterbody: toml::Table = case["substrate"].as_table().unwrap().clone();
+        counterbody.insert("layers".to_owned(), layers.parse::<toml::Table>().unwrap()["layers"].clone());
+        case.insert("counterbody".to_owned(), toml::Value::Table(counterbody));
         toml::to_string(&case).unwrap()
     };
     let bodies = [above(RICH), above(graded)];
@@ -221,8 +221,8 @@ fn values_that_are_set_are_read_as_overrides_are() {
     assert_eq!(set(&values[..2], &values[2..]), read(&fig2(), &values), "before the overrides");
     let deep = "a.".repeat(20) + "a=1";
     for wrong in ["substrate.poisson=0.6", "layers.7.poisson=0.3", "grid.pints=8", "=1", "a..b=1", &deep] {
-        let (own, typed) = (set(&[wrong], &[]).unwrap_err(), read(&fig2(), &[wrong]).unwrap_err());
-        assert_eq!(own.to_string(), typed.to_string());
+        let (fault, typed) = (set(&[wrong], &[]).unwrap_err(), read(&fig2(), &[wrong]).unwrap_err());
+        assert_eq!(fault.to_string(), typed.to_string());
         let told = set(&["title=\"x\""], &["title=y", wrong]).unwrap_err().to_string();
         assert_eq!(told, typed.to_string());
     }
@@ -251,9 +251,9 @@ fn a_section_is_that_of_a_case_with_this_key() {
         "{ from = \"level 1\", toward = \"level 2\", lenght = 1.0, depth = 0.5 }",
         "1",
     ] {
-        let (own, typed) = (asked(&fig2(), wrong).unwrap_err(), with(&fig2(), wrong).unwrap_err());
-        assert_eq!(own.message(), typed.message());
-        assert!(own.message().contains("`stress.section"), "{own}");
+        let (fault, typed) = (asked(&fig2(), wrong).unwrap_err(), with(&fig2(), wrong).unwrap_err());
+        assert_eq!(fault.message(), typed.message());
+        assert!(fault.message().contains("`stress.section"), "{fault}");
     }
 }
 

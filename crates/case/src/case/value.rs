@@ -161,9 +161,9 @@ impl<'a> ValueAt<'a> {
             _ => Vec::new(),
         };
         nodes.into_iter().enumerate().map(|(index, node)| {
-            let own = if forms.len() > 1 { index.min(forms.len() - 1) } else { 0 };
+            let form = if forms.len() > 1 { index.min(forms.len() - 1) } else { 0 };
             let path = format!("{}[{index}]", self.path);
-            ValueAt { node, key: self.key, forms: &forms[own..=own], all: self.all, path }
+            ValueAt { node, key: self.key, forms: &forms[form..=form], all: self.all, path }
         })
     }
 }

@@ -42,8 +42,9 @@ fn high_pressure(case: &Case, index: usize, radius: f64) -> Option<String> {
         return None;
     }
     let pressure = FRAC_2_PI * softer * highest_radius(case, shape, softer)? / radius;
-    let materials = |own: &HalfSpace| [Some(own.surface_material()), own.substrate().material()];
-    let young = bodies.each().flat_map(materials).flatten().map(|own| own.young()).fold(f64::INFINITY, f64::min);
+    let materials = |body: &HalfSpace| [Some(body.surface_material()), body.substrate().material()];
+    let young =
+        bodies.each().flat_map(materials).flatten().map(|material| material.young()).fold(f64::INFINITY, f64::min);
     let units = case.units();
     let is_hard = young * 10f64.powi(exponent(units.pressure())?) >= HARD;
     (is_hard && pressure > CRYSTAL * young).then(|| {

@@ -29,23 +29,23 @@ pub(super) fn doubts(case: &Case, materials: &[(Material, String)]) -> Vec<Strin
     let yielding = bodies.each().flat_map(HalfSpace::strengths).map(|strength| strength.yielding);
     let all = materials.iter().zip(bodies.each().flat_map(HalfSpace::durabilities)).zip(yielding);
     let mut doubts: Vec<String> = all
-        .flat_map(|(((material, name), own), yielding)| {
+        .flat_map(|(((material, name), durability), yielding)| {
             let young = material.young();
             [
-                hardness(name, own, young, yielding),
-                wear(name, own, own.hardness.unwrap_or(USUAL * young)),
-                own.fatigue.and_then(|law| fatigue("fatigue of", name, law, own.hardness)),
+                hardness(name, durability, young, yielding),
+                wear(name, durability, durability.hardness.unwrap_or(USUAL * young)),
+                durability.fatigue.and_then(|law| fatigue("fatigue of", name, law, durability.hardness)),
             ]
         })
         .flatten()
         .collect();
     if bodies.counterbody().is_none() {
-        let own = bodies.surface_durability(Side::Counterbody);
-        doubts.extend(own.hardness.and_then(|hardness| wear("the counterbody", own, hardness)));
+        let durability = bodies.surface_durability(Side::Counterbody);
+        doubts.extend(durability.hardness.and_then(|hardness| wear("the counterbody", durability, hardness)));
     }
-    let layers = bodies.each().flat_map(|own| {
-        let inside = own.layers().iter().map(Some);
-        inside.chain(own.substrate().material().map(|_| None))
+    let layers = bodies.each().flat_map(|body| {
+        let inside = body.layers().iter().map(Some);
+        inside.chain(body.substrate().material().map(|_| None))
     });
     doubts.extend(materials.iter().zip(layers).filter_map(|((_, name), layer): (_, Option<&Layer>)| {
         let layer = layer?;
@@ -55,8 +55,8 @@ pub(super) fn doubts(case: &Case, materials: &[(Material, String)]) -> Vec<Strin
 }
 
 /// A hardness that is implausible beside Young's modulus or the yield strength.
-fn hardness(name: &str, own: Durability, young: f64, yielding: Option<f64>) -> Option<String> {
-    let hardness = own.hardness?;
+fn hardness(name: &str, durability: Durability, young: f64, yielding: Option<f64>) -> Option<String> {
+    let hardness = durability.hardness?;
     let (part, of, bound) = match yielding {
         _ if hardness > HARDEST * young => {
             (hardness / young, format!("its Young's modulus {}", number(young)), "no more than a sixth of it")
@@ -75,9 +75,9 @@ fn hardness(name: &str, own: Durability, young: f64, yielding: Option<f64>) -> O
 }
 
 /// A coefficient of wear that is large in units of the hardness.
-fn wear(name: &str, own: Durability, hardness: f64) -> Option<String> {
-    let wear = own.wear?;
-    let of = match own.hardness {
+fn wear(name: &str, durability: Durability, hardness: f64) -> Option<String> {
+    let wear = durability.wear?;
+    let of = match durability.hardness {
         Some(_) => format!("its hardness {}", number(hardness)),
         None => format!("a hundredth of its Young's modulus, {},", number(hardness)),
     };

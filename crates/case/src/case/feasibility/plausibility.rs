@@ -63,10 +63,12 @@ fn pressures(case: &Case) -> Option<String> {
         (given.highest(), format!("the highest load.pressure, {},", number(given.highest())))
     } else {
         let loads = case.problem().cell().surroundings().per_cell(case.mean_pressures()?)?;
-        let (pressure, own) = (highest(&loads), number(highest(case.load.values())));
+        let (pressure, value) = (highest(&loads), number(highest(case.load.values())));
         match case.load.quantity() {
-            "force" => (pressure, format!("load.force = {own}, a mean pressure of {} on the cell,", number(pressure))),
-            quantity => (pressure, format!("load.{quantity} = {own}")),
+            "force" => {
+                (pressure, format!("load.force = {value}, a mean pressure of {} on the cell,", number(pressure)))
+            }
+            quantity => (pressure, format!("load.{quantity} = {value}")),
         }
     };
     let part = pressure / material.young();
@@ -82,11 +84,11 @@ fn pressures(case: &Case) -> Option<String> {
 
 /// Every material of both bodies with its name.
 fn materials(case: &Case) -> impl Iterator<Item = (Material, String)> {
-    let own = names(&case.layers, "").chain((!case.substrate.rigid.0).then(|| SUBSTRATE.to_owned()));
+    let below = names(&case.layers, "").chain((!case.substrate.rigid.0).then(|| SUBSTRATE.to_owned()));
     let above = case.counterbody.iter().flat_map(|above| names(&above.layers.0, "counterbody."));
     let is_elastic = case.counterbody.as_ref().is_some_and(|above| !above.rigid.0);
     let above = above.chain(is_elastic.then(|| COUNTERBODY.to_owned()));
-    case.problem().bodies().each().flat_map(HalfSpace::materials).zip(own.chain(above))
+    case.problem().bodies().each().flat_map(HalfSpace::materials).zip(below.chain(above))
 }
 
 /// Young's moduli whose largest ratio is implausible.

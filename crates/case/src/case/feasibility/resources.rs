@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 const MEBIBYTE: u64 = 1 << 20;
 /// The program before it solves anything, mostly its mapped code: of a build for tests, which is the largest.
 const PROGRAM: u64 = 31 * MEBIBYTE / 2;
-/// Of each thread: its stack and what the allocator keeps for it.
+/// Bytes of each thread: its stack and what the allocator keeps for it.
 const THREAD: u64 = MEBIBYTE / 2;
 /// Per sample: reading a step, after the memory of solving it is freed.
 const READING: u64 = 20;
@@ -232,11 +232,12 @@ fn of_life(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictu
     let series = of_series(case, samples);
     let elastic = case.problem().bodies().each().count() as u64;
     let stress = elastic * (STRESS + SEARCH) * series + of_shells(case, series);
-    let tire = case.problem().half_space().durabilities().filter(|own| own.fatigue.is_some()).count() as u64;
+    let tire =
+        case.problem().half_space().durabilities().filter(|durability| durability.fatigue.is_some()).count() as u64;
     let damage = DAMAGE.map(|bytes| bytes * tire * DAMAGE_LINES.min(samples));
     let contact = working.max(READING * samples).max(stress);
     // The way back has a contact and stresses of its own.
-    let back = case.life.is_some_and(|own| own.stroke.is_some());
+    let back = case.life.is_some_and(|life| life.stroke.is_some());
     let back = if back { grids + STEP * samples + stress } else { 0 };
     let solving = PROGRAM + grids + heights + (STEP + WORN) * samples + damage[0] + contact + back;
     let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
@@ -249,10 +250,10 @@ fn of_limits(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pic
     let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
     let elastic = case.problem().bodies().each().count() as u64;
     let series = of_series(case, samples);
-    let own = elastic * (STRESS * series + STATE * (MOST_ROWS * SECTION[1]) as u64);
+    let of_bodies = elastic * (STRESS * series + STATE * (MOST_ROWS * SECTION[1]) as u64);
     // The steps that are shown stay in memory while those at higher limits are solved.
     let shown = Criterion::all(case.problem().bodies()).len().clamp(1, EVENTS) as u64 - 1;
-    let stress = own + SEARCH * series + of_shells(case, series) + shown * SHOWN * samples;
+    let stress = of_bodies + SEARCH * series + of_shells(case, series) + shown * SHOWN * samples;
     let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
     let disk = COMPARISON + if pictures { (1 + EVENTS as u64) * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
@@ -308,12 +309,12 @@ fn of_shells(case: &Case, samples: u64) -> u64 {
         of_grid(samples) + of_grid(samples / 4)
     };
     let bodies = case.problem().bodies();
-    let far: u64 = bodies.each().map(|own| bytes_far(cell, own, slides) as u64).sum();
-    let kept = |together: f64| far + bodies.each().map(|own| of_body(own, together)).sum::<u64>();
+    let far: u64 = bodies.each().map(|body| bytes_far(cell, body, slides) as u64).sum();
+    let kept = |together: f64| far + bodies.each().map(|body| of_body(body, together)).sum::<u64>();
     let [a1, a2] = case.problem().cell().vectors();
-    let [own, other, product] = [(a1, a1), (a2, a2), (a1, a2)].map(|(u, v)| u[0] * v[0] + u[1] * v[1]);
-    let is = |x: f64, y: f64| (x - y).abs() <= 1e-9 * own;
-    if is(own, other) && (is(product, 0.0) || is(2.0 * product.abs(), own)) {
+    let [first, second, product] = [(a1, a1), (a2, a2), (a1, a2)].map(|(u, v)| u[0] * v[0] + u[1] * v[1]);
+    let is = |x: f64, y: f64| (x - y).abs() <= 1e-9 * first;
+    if is(first, second) && (is(product, 0.0) || is(2.0 * product.abs(), first)) {
         return kept(SYMMETRIC);
     }
     SHELLS * samples * if slides { 2 } else { 1 } + kept(1.0)
@@ -332,7 +333,7 @@ fn has_cut(case: &Case) -> bool {
 pub fn largest_points(case: &Case, points: [usize; 2], room: Capacity, job: Job) -> Option<[usize; 2]> {
     let most = points[0].max(points[1]);
     let shaped =
-        |n: usize| points.map(|own| fast_points((own as f64 * n as f64 / most as f64).round().max(4.0) as usize));
+        |n: usize| points.map(|count| fast_points((count as f64 * n as f64 / most as f64).round().max(4.0) as usize));
     let fits = |n: usize| needs(case, shaped(n), job).fit(room);
     // Needs grow with the grid.
     let (mut low, mut high) = (4, 32_768);

@@ -1,6 +1,6 @@
 //! Warnings about values that no material and no body has in the units of the case, mostly errors by 10³ⁿ.
 //!
-//! Where `[units]` names SI units, moduli lie between 1 kPa (a gel) and 1.3 TPa (diamond), lengths between 0.1 nm (an atom) and
+//! Under SI `[units]` moduli lie between 1 kPa (a gel) and 1.3 TPa (diamond), lengths between 0.1 nm (an atom) and
 //! 1 m. Interfaces bear no more than a third of the modulus beside them, whatever the unit.
 
 use crate::case::{Case, LayerSection};
@@ -40,8 +40,8 @@ pub(super) fn exponent(unit: &Unit) -> Option<i32> {
 
 /// Warnings about units of another quantity, and misspelt SI units.
 fn names(case: &Case) -> Vec<String> {
-    let Some(own) = &case.units else { return Vec::new() };
-    let [length, pressure] = [&own.length, &own.pressure].map(|name| name.as_deref().unwrap_or_default());
+    let Some(units) = &case.units else { return Vec::new() };
+    let [length, pressure] = [&units.length, &units.pressure].map(|name| name.as_deref().unwrap_or_default());
     let mut doubts = Vec::new();
     if is_pressure(length) {
         doubts.push(format!("units.length = \"{length}\" is a unit of pressure: are both names exchanged?"));
@@ -59,7 +59,7 @@ fn names(case: &Case) -> Vec<String> {
         ("length", length, is_length as fn(&str) -> bool, ["m", "mm", "µm", "nm", "pm"]),
         ("pressure", pressure, is_pressure as fn(&str) -> bool, ["Pa", "kPa", "MPa", "GPa", "TPa"]),
     ] {
-        let near = meant.iter().find(|own| own.to_lowercase() == name.to_lowercase());
+        let near = meant.iter().find(|unit| unit.to_lowercase() == name.to_lowercase());
         if let Some(near) = near.filter(|_| !is_known(name)) {
             doubts.push(format!("units.{key} = \"{name}\" is not a known unit: is it \"{near}\"?"));
         }
@@ -112,7 +112,9 @@ fn lengths(case: &Case) -> Vec<(String, f64)> {
     if high - low > LENGTHS[0].max(sides[0]) {
         all.push(("the largest difference of levels.height".to_owned(), high - low));
     }
-    all.extend(problem.topography().map(|own| ("the range of the surface's heights".to_owned(), range(own))));
+    all.extend(
+        problem.topography().map(|topography| ("the range of the surface's heights".to_owned(), range(topography))),
+    );
     let thickness = |prefix: &'static str| {
         move |(number, layer): (usize, &LayerSection)| (format!("{prefix}layers[{number}].thickness"), layer.thickness)
     };
@@ -129,17 +131,17 @@ fn range(topography: &Topography) -> f64 {
 /// Warnings about interface strengths that are implausible beside the softer material.
 fn interfaces(case: &Case, materials: &[(Material, String)]) -> Vec<String> {
     let mut rest = materials;
-    let layers = case.problem().bodies().each().flat_map(|own| {
-        let (own_materials, other) = rest.split_at(own.material_count());
+    let layers = case.problem().bodies().each().flat_map(|body| {
+        let (own_materials, other) = rest.split_at(body.material_count());
         rest = other;
         // On a rigid base the last layer alone.
         let beside = (0..).map(|number| &own_materials[number..own_materials.len().min(number + 2)]);
-        own.layers().iter().zip(beside)
+        body.layers().iter().zip(beside)
     });
     let strengths = layers.flat_map(|(layer, beside): (&Layer, _)| {
         let (softer, name) = beside.iter().min_by(|a, b| a.0.young().total_cmp(&b.0.young())).expect("the layer at least");
-        let own = layer.interface_strength();
-        let of = [("normal", own.normal), ("shear", own.shear)];
+        let strength = layer.interface_strength();
+        let of = [("normal", strength.normal), ("shear", strength.shear)];
         of.into_iter().filter_map(move |(key, value)| {
             let part = value? / softer.young();
             (part > HIGH).then(|| {

@@ -47,7 +47,7 @@ fn steep_ball(case: &Case) -> Option<String> {
         format!(
             "by Hertz the contact radius {} is as large as a ball of the radius {} hardly allows: strains are not small any more; is {}?",
             number(radius),
-            number(case.problem().topography().and_then(|own| own.ball()).unwrap_or_default()),
+            number(case.problem().topography().and_then(|topography| topography.ball()).unwrap_or_default()),
             measured(case, 0)
         )
     })
@@ -132,7 +132,7 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
     })
 }
 
-/// What else helps where the window of an isolated contact is many times as wide as the contact, as words that go on.
+/// Further advice where the window of an isolated contact is many times as wide as the contact, as words that go on.
 fn wide_window(case: &Case) -> Option<String> {
     let cell = case.problem().cell();
     let [[width, _], [_, height]] = cell.vectors();
@@ -152,7 +152,7 @@ fn wide_window(case: &Case) -> Option<String> {
 /// Number of indenters in the cell; one for a rough ball, `None` for another topography.
 fn sites(case: &Case) -> Option<usize> {
     let of_lattice = |lattice: &Lattice| lattice.sites().iter().map(Vec::len).sum();
-    let indenters = case.problem().indenters().map(|own| of_lattice(own.lattice()));
+    let indenters = case.problem().indenters().map(|indenters| of_lattice(indenters.lattice()));
     indenters.or_else(|| rough_ball(case).map(|_| 1))
 }
 
@@ -180,7 +180,8 @@ pub(super) fn highest_radius(case: &Case, shape: Shape, modulus: f64) -> Option<
 /// wide, 2/(q C). Of Hertz' contact on a coating the one at qa between 1.5 and 3 gives the radius; the larger of both ends is taken.
 fn layered_radius(case: &Case, shape: Shape) -> Option<f64> {
     let bodies = case.problem().bodies();
-    let [least, most] = [stiffer_modulus(bodies), softer_modulus(bodies)].map(|own| highest_radius(case, shape, own));
+    let [least, most] =
+        [stiffer_modulus(bodies), softer_modulus(bodies)].map(|modulus| highest_radius(case, shape, modulus));
     let widest = |phase: f64| {
         let exceeds = |a: f64| {
             let q = phase / a;
@@ -307,7 +308,7 @@ mod tests {
         // P = 4/3 E* a³: p̄ = 0.0014652 for a = 0.1.
         let told = foreseen(&of(50, "mean_pressure=0.0014652"), &[Some(0.0)]).join("");
         assert!(told.contains("about 5.0 samples"), "{told}");
-        // Of two levels the lower one takes half, nothing before it touches, and nothing where it is hidden.
+        // The lower one of two levels takes half, nothing before it touches, and nothing where it is hidden.
         let two = case(
             "lattice={kind=\"square\",period=1}\n\
              levels=[{shape=\"paraboloid\",radius=1,sites=[[0,0]]},\

@@ -1,6 +1,6 @@
 //! Error by the sublayers of graded layers: the surface compliance is compared with that of twice as many.
 //!
-//! At second order in 1/n a change by d from n to 2n sublayers is ¾ of the error at n. Compared are wavelengths from the longest of
+//! A change from n to 2n sublayers is ¾ of the error at n, at second order in 1/n. Compared are wavelengths from the longest of
 //! the cell to a sixteenth of its shorter side, about the size of a contact spot; a wave shorter than a sublayer would depend on
 //! the uppermost one alone.
 
@@ -35,9 +35,9 @@ pub fn sublayer_error(case: &Case) -> Option<f64> {
 }
 
 /// Largest relative difference of two surface compliances between two wavenumbers.
-fn difference(own: &Bodies, other: &Bodies, [least, most]: [f64; 2]) -> f64 {
+fn difference(coarse: &Bodies, fine: &Bodies, [least, most]: [f64; 2]) -> f64 {
     let wavenumbers = (0..COUNT).map(|k| least * (most / least).powf(k as f64 / (COUNT - 1) as f64));
-    largest(wavenumbers.map(|q| (own.compliance(q) / other.compliance(q) - 1.0).abs()))
+    largest(wavenumbers.map(|q| (coarse.compliance(q) / fine.compliance(q) - 1.0).abs()))
 }
 
 /// A warning where the sublayers are too few.
@@ -141,9 +141,9 @@ mod tests {
 
     #[test]
     fn a_graded_layer_is_written_as_it_was_read() {
-        let own = case("{ shear_ratio = [3, 1], poisson = [0.2, 0.4], sublayers = 3 }");
-        let source = Source { name: "case.toml".to_owned(), text: own.to_toml(), ..Source::default() };
-        assert_eq!(Case::read(&source, &[]).unwrap(), own);
-        assert!(own.to_toml().contains("law = \"linear\"") && !own.to_toml().contains("residual"));
+        let graded = case("{ shear_ratio = [3, 1], poisson = [0.2, 0.4], sublayers = 3 }");
+        let source = Source { name: "case.toml".to_owned(), text: graded.to_toml(), ..Source::default() };
+        assert_eq!(Case::read(&source, &[]).unwrap(), graded);
+        assert!(graded.to_toml().contains("law = \"linear\"") && !graded.to_toml().contains("residual"));
     }
 }

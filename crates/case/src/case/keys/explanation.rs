@@ -9,7 +9,7 @@ use crate::case::model::CASE;
 /// The explanation of a key. Displayed in lines of at most 80 letters.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Explanation {
-    /// Its path in a case, such as `layers.poisson`.
+    /// Path of the key in a case, such as `layers.poisson`.
     pub path: String,
     /// Meaning, a few words.
     pub what: String,
@@ -122,7 +122,7 @@ fn all() -> Vec<PlacedKey> {
 impl PlacedKey {
     fn explanation(&self) -> Explanation {
         let Self { path, key, table } = self;
-        let own = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect();
+        let owned = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect();
         let inside = |key: &'static Key| {
             PlacedKey { path: format!("{path}.{}", key.name), key, table: self.key.holds() }.explanation()
         };
@@ -139,9 +139,9 @@ impl PlacedKey {
                 Absent::Means(means) => Some(means.to_owned()),
             },
             rule: key.rule.map(str::to_owned),
-            kinds: own(key.kinds),
-            instead: own(&table.instead(key.name)),
-            excludes: own(&table.excluded(key.name)),
+            kinds: owned(key.kinds),
+            instead: owned(&table.instead(key.name)),
+            excludes: owned(&table.excluded(key.name)),
             example: self.example(),
             set: self.set(),
             keys: key.holds().all.iter().map(inside).collect(),
@@ -159,8 +159,8 @@ impl PlacedKey {
             false => format!("[{name}]"),
         };
         if let ([Form::Table(_)], false) = (self.key.forms, is_list(section)) {
-            let own = self.key.example_lines();
-            return own.replacen(&format!("[{}]", self.key.name), &format!("[{}]", self.path), 1);
+            let lines = self.key.example_lines();
+            return lines.replacen(&format!("[{}]", self.key.name), &format!("[{}]", self.path), 1);
         }
         if let [Form::Sections(..)] = self.key.forms {
             return self.key.example_lines().replacen(

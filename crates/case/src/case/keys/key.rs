@@ -191,13 +191,13 @@ impl Key {
 
 /// `keys` with their numbers in `unit`.
 pub(in crate::case) const fn measured_in<const N: usize>(keys: &[Key], unit: Unit) -> [Key; N] {
-    let mut own = [keys[0]; N];
+    let mut measured = [keys[0]; N];
     let mut index = 0;
     while index < N {
-        own[index] = keys[index].unit(unit);
+        measured[index] = keys[index].unit(unit);
         index += 1;
     }
-    own
+    measured
 }
 
 impl Keys {
@@ -253,7 +253,7 @@ impl Keys {
         let is = |other: &&Key| other.excludes(key);
         let stands = |other: &&'static Key| root(other) == root(key) || other.and_of.contains(&key.name);
         let mut names: Vec<&'static str> = self.all.iter().filter(is).filter(stands).map(|other| other.name).collect();
-        let fills = |other: &&Key| other.fills.iter().any(|own| *own == name || names.contains(own));
+        let fills = |other: &&Key| other.fills.iter().any(|filled| *filled == name || names.contains(filled));
         names.extend(self.all.iter().filter(fills).map(|other| other.name).collect::<Vec<_>>());
         names
     }
@@ -270,7 +270,7 @@ impl Keys {
         shown.into_iter()
     }
 
-    /// This table and all inside it, each with its path.
+    /// The table and all inside it, each with its path.
     pub(in crate::case) fn tables(&'static self, path: &str) -> Vec<(String, &'static Self)> {
         let inside = self.all.iter().flat_map(|key| match path {
             _ if key.holds().all.is_empty() => Vec::new(),

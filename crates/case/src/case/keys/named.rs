@@ -27,7 +27,7 @@ impl NamedKey {
         found(&path, material).unwrap_or(Self { words: path, unit: Unit::Pure })
     }
 
-    /// Its unit in a case with `units`; [`None`](units::Unit::None) of a pure number, and where it is unknown.
+    /// Unit of the key in a case with `units`; [`None`](units::Unit::None) of a pure number, and where it is unknown.
     pub fn unit(&self, units: &Units) -> units::Unit {
         let over = |text: &dyn Fn(String) -> String, unit: &units::Unit| {
             unit.name().map_or(units::Unit::None, |name| units::Unit::Named(text(name)))
@@ -46,7 +46,7 @@ impl NamedKey {
         }
     }
 
-    /// What stands in the place of a unit that is not known; `None` of a pure number.
+    /// Words in the place of a unit that is not known; `None` of a pure number.
     pub fn unknown_unit(&self) -> Option<String> {
         let is_pure = matches!(self.unit, Unit::Pure | Unit::LengthToOneMinusN);
         (!is_pure).then(|| format!("unit\u{a0}of\u{a0}{}", self.unit.quantity()))
@@ -54,11 +54,11 @@ impl NamedKey {
 }
 
 fn found(path: &str, material: impl Fn(&str) -> Option<String>) -> Option<NamedKey> {
-    let (mut keys, mut place, mut own): (&Keys, Vec<String>, Option<&'static Key>) = (&CASE, Vec::new(), None);
+    let (mut keys, mut place, mut last): (&Keys, Vec<String>, Option<&'static Key>) = (&CASE, Vec::new(), None);
     let mut walked = String::new();
     let mut parts = path.split('.');
     while let Some(part) = parts.next() {
-        let key = keys.get(part).or_else(|| own.filter(|_| part.parse::<usize>().is_ok()))?;
+        let key = keys.get(part).or_else(|| last.filter(|_| part.parse::<usize>().is_ok()))?;
         walked = format!("{walked}.{part}").trim_start_matches('.').to_owned();
         if let [Form::Sections(..)] = key.forms {
             let index: usize = parts.next()?.parse().ok()?;
@@ -68,9 +68,9 @@ fn found(path: &str, material: impl Fn(&str) -> Option<String>) -> Option<NamedK
         } else if ["substrate", "counterbody"].contains(&part) {
             place.insert(0, format!("the {part}"));
         }
-        (keys, own) = (key.holds(), Some(key));
+        (keys, last) = (key.holds(), Some(key));
     }
-    let key = own?;
+    let key = last?;
     let place = place.join(" of ");
     let meaning = first_words(key.what);
     let meaning = if meaning.chars().count() > LONG { key.name.replace('_', " ") } else { meaning };

@@ -37,7 +37,7 @@ impl Range {
     /// Numbers greater than 0, however large.
     pub(in crate::case) const POSITIVE: Self = Self::Within(Bound::Excluded(0.0), Bound::Unbounded);
 
-    /// From one number to another, both included.
+    /// The range from one number to another, both included.
     pub(in crate::case) const fn between(low: f64, high: f64) -> Self {
         Self::Within(Bound::Included(low), Bound::Included(high))
     }
@@ -64,7 +64,7 @@ impl Range {
         if carried { Ok(x) } else { Err(Beyond { wanted: wanted.to_owned(), help }) }
     }
 
-    /// How a fit searches for a number of it: by its logarithm, or between its bounds where it has two.
+    /// Way in which a fit searches for a number of the range: by its logarithm, or between two bounds.
     pub(in crate::case) fn quantity(self) -> Quantity {
         match self {
             Self::Within(Bound::Included(low), Bound::Included(high)) => Quantity::Bounded([low, high]),
@@ -72,7 +72,7 @@ impl Range {
         }
     }
 
-    /// Its bounds without those of double precision.
+    /// Bounds without those of double precision.
     fn bounds(self) -> (Bound<f64>, Bound<f64>) {
         match self {
             Self::Size => (Bound::Excluded(0.0), Bound::Unbounded),

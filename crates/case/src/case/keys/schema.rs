@@ -121,7 +121,7 @@ fn exclusions(keys: &'static Keys) -> Vec<Value> {
 /// Not both keys; a switch excludes others where it is on.
 fn exclusion(key: &Key, other: &Key) -> Value {
     let mut both = json!({ "required": [key.name, other.name] });
-    for switch in [key, other].into_iter().filter(|own| matches!(own.forms, [Form::Boolean])) {
+    for switch in [key, other].into_iter().filter(|key| matches!(key.forms, [Form::Boolean])) {
         both["properties"] = json!({ switch.name: { "const": true } });
     }
     json!({ "not": both })
@@ -133,12 +133,13 @@ fn kinds(keys: &'static Keys) -> Vec<Value> {
     let name = keys.all[0].name;
     let rule = |word: &&str| {
         let of_kind: Vec<&Key> = keys.all.iter().filter(|key| !key.kinds.is_empty()).collect();
-        let (own, others): (Vec<&Key>, Vec<&Key>) = of_kind.into_iter().partition(|key| key.kinds.contains(word));
-        let own: Vec<&str> = own.iter().filter(|key| key.absent == Absent::Refused).map(|key| key.name).collect();
+        let (allowed, others): (Vec<&Key>, Vec<&Key>) = of_kind.into_iter().partition(|key| key.kinds.contains(word));
+        let required: Vec<&str> =
+            allowed.iter().filter(|key| key.absent == Absent::Refused).map(|key| key.name).collect();
         let others: Map<String, Value> = others.iter().map(|key| (key.name.to_owned(), false.into())).collect();
         json!({
             "if": { "properties": { name: { "const": word } }, "required": [name] },
-            "then": { "required": own, "properties": others },
+            "then": { "required": required, "properties": others },
         })
     };
     if keys.all.iter().all(|key| key.kinds.is_empty()) { Vec::new() } else { words.iter().map(rule).collect() }
@@ -156,7 +157,7 @@ fn value(text: &str) -> Value {
 }
 
 fn extend(value: &mut Value, by: Value) {
-    if let (Some(own), Value::Object(by)) = (value.as_object_mut(), by) {
-        own.extend(by);
+    if let (Some(object), Value::Object(by)) = (value.as_object_mut(), by) {
+        object.extend(by);
     }
 }

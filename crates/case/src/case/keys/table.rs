@@ -11,9 +11,9 @@ const HEAD: &str = "| key | is | value | when not given |\n|---|---|---|---|\n";
 /// what holds without it.
 pub fn table() -> String {
     let whole = |key: &Key| row(&CASE, key, key.name);
-    let own = |key: &&Key| !key.holds().all.is_empty();
+    let is_section = |key: &&Key| !key.holds().all.is_empty();
     let section = |key: &Key| format!("\n## `{}`\n\n{HEAD}{}", key.name, rows(key.holds(), ""));
-    let sections: String = CASE.all.iter().filter(own).map(section).collect();
+    let sections: String = CASE.all.iter().filter(is_section).map(section).collect();
     format!("{HEAD}{}{sections}", CASE.all.iter().map(whole).collect::<String>())
 }
 
@@ -34,7 +34,7 @@ fn is(key: &Key) -> String {
 
 /// One row a key; those of a range are listed under the first key that admits one, those of a layer under `layers`.
 fn rows(keys: &Keys, path: &str) -> String {
-    let is_of_case = |key: &Key| CASE.all.iter().any(|own| std::ptr::eq(own.holds(), key.holds()));
+    let is_of_case = |key: &Key| CASE.all.iter().any(|section| std::ptr::eq(section.holds(), key.holds()));
     let names = |key: &Key| key.holds().all.iter().map(|key| key.name).collect::<Vec<_>>();
     let with_inside = |(index, key): (usize, &Key)| {
         let name = format!("{path}{}", key.name);

@@ -52,19 +52,19 @@ impl Form {
 
     /// The kind of value, with the items of brackets: "[upper, lower] of pressures > 0".
     pub(super) fn with_items(&self, quantity: &str) -> String {
-        let own = self.short(quantity);
+        let short = self.short(quantity);
         match self {
             Self::Tuple(_, [Self::Number(range), rest @ ..])
                 if rest.iter().all(|form| form.ranges() == [range.full()]) =>
             {
                 let items = format!("{quantity}s {}", range.short());
-                if items == "numbers " { own } else { format!("{own} of {}", items.trim_end()) }
+                if items == "numbers " { short } else { format!("{short} of {}", items.trim_end()) }
             }
-            _ => own,
+            _ => short,
         }
     }
 
-    /// Its type.
+    /// Type of the values.
     pub(super) fn kind(&self) -> String {
         match self {
             Self::Number(_) | Self::Integer(..) => self.singular(),

@@ -23,7 +23,7 @@ const SIZE_OR_NONE: Key = SIZE.otherwise("not known");
 words! {
     /// How well a number is known.
     pub enum Certainty {
-        /// Its source states it, or it follows from what the source states.
+        /// A number that its source states, or that follows from what the source states.
         Sourced = "sourced",
         /// A usual value that was not found in a source.
         Assumed = "assumed",
@@ -93,8 +93,8 @@ impl KeyValue for Property {
         let table = value.table()?;
         table.only()?;
         // Bounds are those of the material's key.
-        let own = table.value("value")?;
-        let number = ValueAt::new(Cow::Borrowed(&*own.node), value.key, value.all, own.path.clone()).number()?;
+        let inner = table.value("value")?;
+        let number = ValueAt::new(Cow::Borrowed(&*inner.node), value.key, value.all, inner.path.clone()).number()?;
         let range: Option<[f64; 2]> = KeyValue::of(&table, "range")?;
         if range.is_some_and(|[low, high]| !(low..=high).contains(&number)) {
             return Err(table.value("range")?.refuse(format!("[lowest, highest] around the value {number}")));
@@ -123,7 +123,7 @@ impl LibraryMaterial {
         property.map(|property| property.value)
     }
 
-    /// It as TOML, the form of a file of materials.
+    /// The material as TOML, the form of a file of materials.
     pub fn to_toml(&self) -> String {
         let file = MaterialFile { material: vec![self.clone()] };
         let text = crate::case::plain_toml::toml(&file).expect("numbers and texts under names");

@@ -29,7 +29,7 @@ pub(in crate::case) fn fill(tree: &mut Table, keys: &'static Keys, source: &Sour
     let pressure = root.section("units")?.and_then(|units| units.optional("pressure"));
     let pressure =
         pressure.as_ref().map(|value| value.name().map(|name| (name.to_owned(), value.node.span))).transpose()?;
-    Filling { source, file, pressure, own: None }.table(tree, keys, "")
+    Filling { source, file, pressure, materials: None }.table(tree, keys, "")
 }
 
 /// The absolute path of the file of materials of a case; the name of one in memory.
@@ -41,7 +41,7 @@ pub(in crate::case) fn path(root: &TableAt<'_>, source: &Source) -> Result<Optio
     root.optional(FILE).map(path).transpose()
 }
 
-/// What the sections of a case are filled from.
+/// Sources of the keys that the sections of a case leave out.
 struct Filling<'a> {
     source: &'a Source,
     /// Name of the file of materials, and its place in the case.
@@ -49,7 +49,7 @@ struct Filling<'a> {
     /// `units.pressure`, and its place in the case.
     pressure: Option<(String, Span)>,
     /// The materials of the file, once one was looked up.
-    own: Option<Vec<LibraryMaterial>>,
+    materials: Option<Vec<LibraryMaterial>>,
 }
 
 impl Filling<'_> {
@@ -87,9 +87,9 @@ impl Filling<'_> {
         // A switch that is off excludes nothing.
         let is_given = |entry: &Entry| entry.key == key.name || !matches!(entry.node.value, Value::Boolean(false));
         let is_absent = |key: &&Key| {
-            !std::iter::once(key.name).chain(keys.excluded(key.name)).any(|own| table.get(own).is_some_and(is_given))
+            !std::iter::once(key.name).chain(keys.excluded(key.name)).any(|name| table.get(name).is_some_and(is_given))
         };
-        let absent: Vec<&Key> = key.fills.iter().filter_map(|own| keys.get(own)).filter(is_absent).collect();
+        let absent: Vec<&Key> = key.fills.iter().filter_map(|name| keys.get(name)).filter(is_absent).collect();
         let material = match absent.iter().any(|key| key.absent == Absent::Refused) {
             true => Some((self.find(&name, path, span)?.clone(), self.factor(path, span)?)),
             false => None,
@@ -97,7 +97,7 @@ impl Filling<'_> {
         for key in absent {
             let value = match (key.name, &material) {
                 ("name", _) => Some(Value::Text(name.clone())),
-                (own, Some((material, factor))) => material.number(own).map(|x| match key.unit {
+                (property, Some((material, factor))) => material.number(property).map(|x| match key.unit {
                     Unit::Pressure => Value::Float(rounded(x * factor)),
                     _ => Value::Float(x),
                 }),
@@ -111,11 +111,11 @@ impl Filling<'_> {
 
     /// The material of a name: of the file, else of the library.
     fn find(&mut self, name: &str, path: &str, span: Span) -> Result<&LibraryMaterial, Refusal> {
-        if let (None, Some((file, at))) = (&self.own, &self.file) {
-            self.own = Some(own(self.source, file, *at)?);
+        if let (None, Some((file, at))) = (&self.materials, &self.file) {
+            self.materials = Some(materials(self.source, file, *at)?);
         }
-        let all = || self.own.iter().flatten().chain(library());
-        all().find(|own| own.name == name).ok_or_else(|| {
+        let all = || self.materials.iter().flatten().chain(library());
+        all().find(|material| material.name == name).ok_or_else(|| {
             let unknown = UnknownMaterial::among(name, all());
             let message = format!("`{path}.material`: there is no material \"{name}\"");
             Refusal::new(span, message, "unknown material").help(match unknown.near {
@@ -146,7 +146,7 @@ impl Filling<'_> {
 }
 
 /// The materials of the file `name` of a case, which stands at `span`; a fault of it is shown in its own text.
-fn own(source: &Source, name: &str, span: Span) -> Result<Vec<LibraryMaterial>, Refusal> {
+fn materials(source: &Source, name: &str, span: Span) -> Result<Vec<LibraryMaterial>, Refusal> {
     let file = source.text_of(name).map_err(|error| {
         let shown = source.path(name).map_or_else(|| name.to_owned(), |path| path.display().to_string());
         let message = format!("`{FILE}`: cannot read {shown}: {error}");
@@ -156,7 +156,7 @@ fn own(source: &Source, name: &str, span: Span) -> Result<Vec<LibraryMaterial>, 
     library::read(&file).map_err(|refusal| refusal.in_file(&file.name, &file.text))
 }
 
-/// To twelve digits, which no conversion spoils.
+/// `x` to twelve digits, which no conversion spoils.
 pub(super) fn rounded(x: f64) -> f64 {
     format!("{x:.11e}").parse().unwrap_or(x)
 }
@@ -169,18 +169,18 @@ mod tests {
                         load = { mean_pressure = 1 }\n";
 
     /// A case with these lines, and the file `own.toml`.
-    fn read(lines: &str, own: &str, set: &[&str]) -> Result<Case, CaseError> {
+    fn read(lines: &str, file: &str, set: &[&str]) -> Result<Case, CaseError> {
         let set: Vec<String> = set.iter().map(|&text| text.to_owned()).collect();
-        Case::read(&source(lines, own), &set)
+        Case::read(&source(lines, file), &set)
     }
 
-    fn source(lines: &str, own: &str) -> Source {
-        let files = [("own.toml".to_owned(), own.as_bytes().into())].into();
+    fn source(lines: &str, file: &str) -> Source {
+        let files = [("own.toml".to_owned(), file.as_bytes().into())].into();
         Source { name: "case.toml".to_owned(), text: format!("{lines}\n{CASE}"), files, ..Source::default() }
     }
 
-    fn valid(lines: &str, own: &str, set: &[&str]) -> Case {
-        read(lines, own, set).unwrap_or_else(|error| panic!("{error}"))
+    fn valid(lines: &str, file: &str, set: &[&str]) -> Case {
+        read(lines, file, set).unwrap_or_else(|error| panic!("{error}"))
     }
 
     const OWN: &str = "[[material]]\nname = \"mine\"\nyoung = 3.0\npoisson = { value = 0.4, range = [0.3, 0.45] }\n\
@@ -197,17 +197,20 @@ mod tests {
             ("bar", 193e4, 2150.0, 13_600.0),
         ] {
             let lines = format!("substrate = {{ material = \"AISI 304\" }}\nunits = {{ pressure = \"{unit}\" }}");
-            // In every unit below the hardness.
-            let own = valid(&lines, "", &["load.mean_pressure=1e-6"]).substrate;
+            // The load is below the hardness in every unit.
+            let substrate = valid(&lines, "", &["load.mean_pressure=1e-6"]).substrate;
             assert_eq!(
-                (own.young, own.poisson, own.yield_strength, own.hardness),
+                (substrate.young, substrate.poisson, substrate.yield_strength, substrate.hardness),
                 (Some(young), Some(0.29), Some(yielding), Some(hardness)),
                 "{unit}"
             );
-            assert_eq!((own.wear, own.fatigue, own.endurance), (None, None, None), "{unit}");
-            assert_eq!((own.name.as_deref(), own.material.as_deref()), (Some("AISI 304"), Some("AISI 304")));
+            assert_eq!((substrate.wear, substrate.fatigue, substrate.endurance), (None, None, None), "{unit}");
+            assert_eq!(
+                (substrate.name.as_deref(), substrate.material.as_deref()),
+                (Some("AISI 304"), Some("AISI 304"))
+            );
             // The ultimate strength of a ductile steel is none at which it cracks.
-            assert_eq!(own.tensile_strength, None);
+            assert_eq!(substrate.tensile_strength, None);
         }
     }
 
@@ -215,7 +218,7 @@ mod tests {
     fn any_key_beside_it_overrides() {
         let layer = "layers = [{ thickness = 1, material = \"SiC\", ";
         let units = "substrate = { young = 200, poisson = 0.3 }\nunits = { pressure = \"GPa\" }";
-        let of = |own: &str| valid(&format!("{layer}{own} }}]\n{units}"), "", &[]).layers.remove(0);
+        let of = |keys: &str| valid(&format!("{layer}{keys} }}]\n{units}"), "", &[]).layers.remove(0);
         let ratio = of("shear_ratio = 2, name = \"a\"");
         assert_eq!((ratio.young, ratio.shear_ratio, ratio.poisson), (None, Some(2.0), Some(0.16)));
         assert_eq!((ratio.name.as_deref(), ratio.tensile_strength), (Some("a"), Some(0.41)));
@@ -251,10 +254,10 @@ mod tests {
     #[test]
     fn another_material_takes_the_place_of_the_numbers_before_it() {
         let lines = "substrate = { young = 1, poisson = 0.3, yield_strength = 2, hardness = 3, name = \"a\" }\nunits = { pressure = \"GPa\" }";
-        let own = valid(lines, "", &["substrate.material=TiN"]).substrate;
-        assert_eq!((own.young, own.poisson, own.yield_strength), (Some(430.0), Some(0.25), None));
-        assert_eq!(own.hardness, Some(24.0));
-        assert_eq!(own.name.as_deref(), Some("TiN"));
+        let substrate = valid(lines, "", &["substrate.material=TiN"]).substrate;
+        assert_eq!((substrate.young, substrate.poisson, substrate.yield_strength), (Some(430.0), Some(0.25), None));
+        assert_eq!(substrate.hardness, Some(24.0));
+        assert_eq!(substrate.name.as_deref(), Some("TiN"));
         let later = valid(lines, "", &["substrate.material=TiN", "substrate.young=300"]).substrate;
         assert_eq!((later.young, later.poisson), (Some(300.0), Some(0.25)));
     }
@@ -271,8 +274,8 @@ mod tests {
     #[test]
     fn faults_of_a_file_are_told_with_its_line() {
         let lines = "materials = \"own.toml\"\nsubstrate = { material = \"mine\" }\nunits = { pressure = \"GPa\" }";
-        let entry = |own: &str| format!("[[material]]\nname = \"mine\"\n{own}");
-        for (own, words) in [
+        let entry = |keys: &str| format!("[[material]]\nname = \"mine\"\n{keys}");
+        for (file, words) in [
             (
                 entry("young = \"a\"\npoisson = 0.3\n"),
                 &["own.toml:3:9", "`material[0].young` must be a finite number greater than 0", "the text \"a\""][..],
@@ -292,7 +295,7 @@ mod tests {
             (String::new(), &["`material` is missing"]),
             ("young = \n".to_owned(), &["own.toml:1", "not valid TOML"]),
         ] {
-            let told = read(lines, &own, &[]).unwrap_err().to_string();
+            let told = read(lines, &file, &[]).unwrap_err().to_string();
             for words in words {
                 assert!(told.contains(words), "{words} does not stand in\n{told}");
             }

@@ -40,10 +40,10 @@ pub struct UnknownMaterial {
 impl UnknownMaterial {
     /// The error for a name that none of the materials has.
     pub fn among<'a>(name: &str, materials: impl IntoIterator<Item = &'a LibraryMaterial>) -> Self {
-        let names: Vec<&str> = materials.into_iter().map(|own| &own.name[..]).collect();
+        let names: Vec<&str> = materials.into_iter().map(|material| &material.name[..]).collect();
         let lower: Vec<String> = names.iter().map(|name| name.to_lowercase()).collect();
         let near = nearest(name, &lower.iter().map(String::as_str).collect::<Vec<_>>());
-        let near = near.and_then(|(near, _)| Some(names[lower.iter().position(|own| own == near)?].to_owned()));
+        let near = near.and_then(|(near, _)| Some(names[lower.iter().position(|listed| listed == near)?].to_owned()));
         Self { name: name.to_owned(), near }
     }
 }
@@ -60,10 +60,10 @@ pub fn materials_of_file(path: &Path) -> Result<Vec<LibraryMaterial>, MaterialsE
 /// Why a file of materials is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum MaterialsError {
-    /// It cannot be read.
+    /// A file that cannot be read.
     #[error(transparent)]
     File(#[from] NoCase),
-    /// It has a fault.
+    /// A fault in the file.
     #[error(transparent)]
     Fault(#[from] CaseError),
 }
@@ -77,12 +77,12 @@ pub(super) fn read(source: &Source) -> Result<Vec<LibraryMaterial>, Refusal> {
     root.value("material")?;
     let mut all: Vec<LibraryMaterial> = Vec::new();
     for section in root.sections("material")? {
-        let own = LibraryMaterial::read_table(&section)?;
-        if all.iter().any(|other| other.name == own.name) {
+        let material = LibraryMaterial::read_table(&section)?;
+        if all.iter().any(|other| other.name == material.name) {
             let refusal = section.value("name")?.refuse("a name that no other material of the file has");
             return Err(refusal);
         }
-        all.push(own);
+        all.push(material);
     }
     Ok(all)
 }
@@ -93,24 +93,28 @@ mod tests {
     use super::*;
     use percoat_core::body::Material;
 
-    fn properties(own: &LibraryMaterial) -> Vec<(&'static str, &Property)> {
+    fn properties(material: &LibraryMaterial) -> Vec<(&'static str, &Property)> {
         let strengths = [
-            ("hardness", &own.hardness),
-            ("yield_strength", &own.yield_strength),
-            ("tensile_strength", &own.tensile_strength),
-            ("ultimate_strength", &own.ultimate_strength),
+            ("hardness", &material.hardness),
+            ("yield_strength", &material.yield_strength),
+            ("tensile_strength", &material.tensile_strength),
+            ("ultimate_strength", &material.ultimate_strength),
         ];
         let given = strengths.into_iter().filter_map(|(key, property)| Some((key, property.as_ref()?)));
-        [("young", &own.young), ("poisson", &own.poisson)].into_iter().chain(given).collect()
+        [("young", &material.young), ("poisson", &material.poisson)].into_iter().chain(given).collect()
     }
 
     #[test]
     fn every_number_of_the_library_has_its_source_and_no_strength_is_assumed() {
         assert!(library().len() >= 40);
-        for own in library() {
-            assert!(own.kind.is_some() && own.about.as_ref().is_some_and(|text| text.ends_with('.')), "{}", own.name);
-            for (key, property) in properties(own) {
-                let of = format!("{key} of {}", own.name);
+        for material in library() {
+            assert!(
+                material.kind.is_some() && material.about.as_ref().is_some_and(|text| text.ends_with('.')),
+                "{}",
+                material.name
+            );
+            for (key, property) in properties(material) {
+                let of = format!("{key} of {}", material.name);
                 assert!(property.source.is_some() && property.certainty.is_some(), "{of}");
                 let is_modulus = ["young", "poisson"].contains(&key);
                 assert!(is_modulus || property.certainty == Some(Certainty::Sourced), "{of}");
@@ -121,26 +125,30 @@ mod tests {
 
     #[test]
     fn numbers_of_the_library_agree_with_each_other() {
-        for own in library() {
-            let young = own.young.value;
-            assert!(Material::from_young(young, own.poisson.value).is_ok() && (1e-3..1300.0).contains(&young));
-            let hardness = own.hardness.as_ref().map(|hardness| hardness.value);
-            assert!(hardness.is_none_or(|hardness| hardness < young / 6.0), "hardness of {}", own.name);
+        for material in library() {
+            let young = material.young.value;
+            assert!(Material::from_young(young, material.poisson.value).is_ok() && (1e-3..1300.0).contains(&young));
+            let hardness = material.hardness.as_ref().map(|hardness| hardness.value);
+            assert!(hardness.is_none_or(|hardness| hardness < young / 6.0), "hardness of {}", material.name);
             // Metals harden by strain, and a polymer yields at nearly half its hardness.
-            let yielding = own.yield_strength.as_ref().map(|own| own.value);
+            let yielding = material.yield_strength.as_ref().map(|strength| strength.value);
             assert!(
                 yielding.zip(hardness).is_none_or(|(yielding, hardness)| yielding < 0.45 * hardness),
                 "{}",
-                own.name
+                material.name
             );
-            let ultimate = own.ultimate_strength.as_ref().map(|own| own.value);
-            assert!(yielding.zip(ultimate).is_none_or(|(yielding, ultimate)| yielding <= ultimate), "{}", own.name);
+            let ultimate = material.ultimate_strength.as_ref().map(|strength| strength.value);
+            assert!(
+                yielding.zip(ultimate).is_none_or(|(yielding, ultimate)| yielding <= ultimate),
+                "{}",
+                material.name
+            );
         }
     }
 
     #[test]
     fn materials_are_sorted_by_kind() {
-        let mut kinds: Vec<_> = library().iter().map(|own| own.kind.as_deref()).collect();
+        let mut kinds: Vec<_> = library().iter().map(|material| material.kind.as_deref()).collect();
         kinds.dedup();
         let mut distinct = kinds.clone();
         distinct.sort_unstable();
@@ -150,9 +158,9 @@ mod tests {
 
     #[test]
     fn a_printed_material_is_a_file_of_one() {
-        for own in library() {
-            let source = Source { text: own.to_toml(), ..Source::default() };
-            assert_eq!(source.read(&[], read).unwrap(), std::slice::from_ref(own));
+        for material in library() {
+            let source = Source { text: material.to_toml(), ..Source::default() };
+            assert_eq!(source.read(&[], read).unwrap(), std::slice::from_ref(material));
         }
     }
 }

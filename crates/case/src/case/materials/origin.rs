@@ -23,7 +23,7 @@ pub struct LibraryStrength {
     pub range: Option<[f64; 2]>,
     /// Quantity measured, such as the kind of test.
     pub what: Option<&'static str>,
-    /// Where the number comes from.
+    /// Source of the number.
     pub source: Option<&'static str>,
 }
 
@@ -41,9 +41,9 @@ impl LibraryStrength {
         parts.extend(layers(counterbody));
         parts.push(counterbody.clone());
         let mut all: Vec<Self> = Vec::new();
-        for own in parts.iter().flat_map(|part| Self::of_section(part, factor)) {
-            if !all.contains(&own) {
-                all.push(own);
+        for origin in parts.iter().flat_map(|part| Self::of_section(part, factor)) {
+            if !all.contains(&origin) {
+                all.push(origin);
             }
         }
         all
@@ -52,15 +52,15 @@ impl LibraryStrength {
     /// Strengths of a section with a material; `factor` is a GPa in the pressure unit of the case.
     fn of_section(section: &Value, factor: f64) -> Vec<Self> {
         let Some(name) = section["material"].as_str() else { return Vec::new() };
-        let Some(material) = library().iter().find(|own| own.name == name) else { return Vec::new() };
-        let own = |(key, property): (&'static str, &'static Property)| {
+        let Some(material) = library().iter().find(|material| material.name == name) else { return Vec::new() };
+        let origin = |(key, property): (&'static str, &'static Property)| {
             let convert = |x: f64| rounded(x * factor);
             let value = section[key].as_f64().filter(|value| *value == convert(property.value))?;
             let Property { range, what, source, .. } = property;
             let (range, [what, source]) = (range.map(|ends| ends.map(convert)), [what, source].map(Option::as_deref));
             Some(Self { material: &material.name, key, value, range, what, source })
         };
-        strengths(material).into_iter().filter_map(own).collect()
+        strengths(material).into_iter().filter_map(origin).collect()
     }
 }
 

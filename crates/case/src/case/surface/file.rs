@@ -38,11 +38,11 @@ pub(super) struct Treatment {
 /// Sides of a surface as its file states them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Extent {
-    /// Not at all, or in a unit that cannot be converted to that of the case.
+    /// No sides, or sides in a unit that cannot be converted to that of the case.
     Unstated,
-    /// In no unit.
+    /// Sides in no unit.
     WithoutUnit,
-    /// Along a₁ and a₂, lengths of the case.
+    /// Sides along a₁ and a₂, lengths of the case.
     Stated([f64; 2]),
 }
 
@@ -63,29 +63,35 @@ pub(super) struct FromFile {
 
 impl Treatment {
     /// The conversion of a section, read from its `table`; `length` is the unit of the case, if any.
-    pub fn of(own: &SurfaceSection, table: &TableAt<'_>, length: Option<&str>) -> Result<Self, Refusal> {
+    pub fn of(surface: &SurfaceSection, table: &TableAt<'_>, length: Option<&str>) -> Result<Self, Refusal> {
         let unit = table.optional("unit").map_or(Ok(1.0), |value| unit_of(&value, length))?;
         Ok(Self {
-            scale: own.scale.unwrap_or(1.0) * unit,
+            scale: surface.scale.unwrap_or(1.0) * unit,
             unit,
-            own_scale: own.scale,
-            name: own.unit.clone(),
-            form: own.form.unwrap_or(if own.level == Some(true) { SurfaceForm::Plane } else { SurfaceForm::None }),
-            cutoff: own.cutoff,
-            window: own.window.and_then(|Taper(window)| window),
+            own_scale: surface.scale,
+            name: surface.unit.clone(),
+            form: surface.form.unwrap_or(if surface.level == Some(true) {
+                SurfaceForm::Plane
+            } else {
+                SurfaceForm::None
+            }),
+            cutoff: surface.cutoff,
+            window: surface.window.and_then(|Taper(window)| window),
         })
     }
 
-    /// The conversion with the unit `own` of a file; `length` is the unit of the case, if any.
-    fn of_file(self, own: Option<&HeightsUnit>, length: Option<&str>) -> Result<Self, Fault> {
-        let own = match (own, &self.name) {
+    /// The conversion with the `unit` of a file; `length` is the unit of the case, if any.
+    fn of_file(self, unit: Option<&HeightsUnit>, length: Option<&str>) -> Result<Self, Fault> {
+        let unit = match (unit, &self.name) {
             (None, _) => return Ok(self),
-            (Some(HeightsUnit::Known(own)), None) => own,
-            (Some(HeightsUnit::Known(own)), Some(name)) => {
-                return match unit::factor(own, name) {
+            (Some(HeightsUnit::Known(unit)), None) => unit,
+            (Some(HeightsUnit::Known(unit)), Some(name)) => {
+                return match unit::factor(unit, name) {
                     Ok(1.0) => Ok(self),
-                    _ => Err(Fault::new(format!("says that its heights are in {own}"), "another unit than the file's")
-                        .help("leave surface.unit out, or correct the header of the file")),
+                    _ => {
+                        Err(Fault::new(format!("says that its heights are in {unit}"), "another unit than the file's")
+                            .help("leave surface.unit out, or correct the header of the file"))
+                    }
                 };
             }
             (Some(HeightsUnit::Other), _) if self.own_scale.is_some() && self.name.is_none() => return Ok(self),
@@ -96,25 +102,25 @@ impl Treatment {
                 ));
             }
         };
-        match (length.and_then(|length| unit::factor(own, length).ok()), self.own_scale) {
+        match (length.and_then(|length| unit::factor(unit, length).ok()), self.own_scale) {
             (None, Some(_)) => Ok(self),
-            (None, None) => Err(Fault::new(format!("says that its heights are in {own}"), "to be converted to what?").help(
+            (None, None) => Err(Fault::new(format!("says that its heights are in {unit}"), "to be converted to what?").help(
                 "add [units] with length = \"µm\" or another, or give surface.scale, the factor to the case's lengths",
             )),
-            (Some(factor), None) => Ok(Self { scale: factor, unit: factor, name: Some(own.clone()), ..self }),
+            (Some(factor), None) => Ok(Self { scale: factor, unit: factor, name: Some(unit.clone()), ..self }),
             // The factor of the section is that of the unit, or the unit has the factor 1.
             (Some(factor), Some(scale)) if factor == 1.0 || (scale.abs() / factor - 1.0).abs() < 1e-9 => Ok(self),
             (Some(factor), Some(_)) => Err(Fault::new(
-                format!("says that its heights are in {own}, which makes a factor of {factor:?}, not that of surface.scale"),
+                format!("says that its heights are in {unit}, which makes a factor of {factor:?}, not that of surface.scale"),
                 "with the unit or without?",
             )
-            .help(format!("add surface.unit = \"{own}\": surface.scale is then a factor beside it; or leave surface.scale out"))),
+            .help(format!("add surface.unit = \"{unit}\": surface.scale is then a factor beside it; or leave surface.scale out"))),
         }
     }
 
     /// Refuses heights of an instrument in no unit, of which the case says none either.
-    fn in_a_unit(&self, own: Option<&HeightsUnit>) -> Result<(), Fault> {
-        if own.is_some() || self.name.is_some() || self.own_scale.is_some() {
+    fn in_a_unit(&self, unit: Option<&HeightsUnit>) -> Result<(), Fault> {
+        if unit.is_some() || self.name.is_some() || self.own_scale.is_some() {
             return Ok(());
         }
         Err(Fault::new("says no unit of its heights", "which unit?").help(

@@ -63,8 +63,7 @@ pub(super) struct Read {
     pub(super) doubts: Vec<String>,
 }
 
-/// Relative loss of rms slope above which there is a warning: under light loads the area of contact is inversely proportional to
-/// it.
+/// Relative loss of rms slope above which there is a warning: under light loads the area of contact goes as 1/slope.
 const LOSS: f64 = 0.01;
 
 /// Reads the section and its file, or generates its surface.
@@ -147,13 +146,13 @@ fn across([n1, n2]: [usize; 2], cell: Cell) -> Option<String> {
 }
 
 /// A warning where the sides of a file differ from the cell by more than a hundredth.
-fn squeezed(own: [f64; 2], cell: Cell) -> Option<String> {
+fn squeezed(stated: [f64; 2], cell: Cell) -> Option<String> {
     let sides = cell.vectors().map(|[x, y]| x.hypot(y));
-    let differs = (0..2).any(|axis| (own[axis] / sides[axis] - 1.0).abs() > 0.01);
+    let differs = (0..2).any(|axis| (stated[axis] / sides[axis] - 1.0).abs() > 0.01);
     differs.then(|| {
-        let [own, sides] = [own, sides].map(|sides| sides.map(number).join(" × "));
+        let [stated, sides] = [stated, sides].map(|sides| sides.map(number).join(" × "));
         format!(
-            "the surface's file says that it is {own} large; the case makes that {sides}: leave [lattice], surface.period and \
+            "the surface's file says that it is {stated} large; the case makes that {sides}: leave [lattice], surface.period and \
              surface.pixel out, or say the unit of the file"
         )
     })
@@ -170,8 +169,8 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
     let table = random.table_or("write it as a section, [surface.random]")?;
     let own_section = SurfaceSection::read_table(section)?;
     let (lattice, cell) = cell(&own_section, section, around, [1, 1], Extent::Unstated)?;
-    let own = RandomSection::read_in(&table, cell)?;
-    let surface = own.surface();
+    let random = RandomSection::read_in(&table, cell)?;
+    let surface = random.surface();
     let sampling = grid::read(&around.grid, None)?;
     let refuse = |error: String| Refusal::new(table.span, format!("`surface.random`: {error}"), "no such surface");
     let points = match sampling {
@@ -186,7 +185,7 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
     let lost = loss([spectrum.rms_slope(), whole], points);
     Ok(Read {
         topography: topography(section, own_section.radius, cell, spectrum.into_heights())?,
-        section: SurfaceSection { period: None, random: Some(own), ..own_section },
+        section: SurfaceSection { period: None, random: Some(random), ..own_section },
         lattice,
         sampling,
         doubts: lost.into_iter().collect(),
@@ -195,7 +194,7 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
 
 /// The cell: `[lattice]`, or the period in the section or its file.
 fn cell(
-    own: &SurfaceSection,
+    surface: &SurfaceSection,
     section: &TableAt<'_>,
     around: &Around<'_>,
     points: [usize; 2],
@@ -210,7 +209,7 @@ fn cell(
         let lattice = LatticeSection::read_table(table)?;
         return Ok((lattice, build_cell(&lattice, table)?));
     }
-    let sides = match (own.period, own.pixel) {
+    let sides = match (surface.period, surface.pixel) {
         (Some(_), Some(_)) => {
             return Err(section.both(["period", "pixel"], pixel.map_or(section.span, |pixel| pixel.node.span)));
         }

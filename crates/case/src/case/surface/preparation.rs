@@ -1,9 +1,9 @@
 //! Heights of a file as they are pressed: form, holes, short waves and border, in this order.
 //!
 //! The form comes first, by what is measured alone, so that what is filled has no part in it, and so that holes in a ball are filled along
-//! the ball. The filter of short waves needs a height everywhere, so it follows; before the window, which makes heights
-//! that were not measured. Without a window, in a periodic cell, the surface is declared to be one period, and the filter goes on beyond its
-//! border; otherwise it counts what is there.
+//! the ball. The filter of short waves needs a height everywhere, so it follows; before the window, which makes
+//! heights that were not measured. Without a window, in a periodic cell, the surface is declared to be one period, and
+//! the filter goes on beyond its border; otherwise it counts what is there.
 
 use super::super::error::Refusal;
 use super::super::reader::TableAt;
@@ -34,7 +34,7 @@ pub(super) struct Prepared {
     pub heights: Array2<f64>,
     /// Taper of the border, if any.
     pub run_out: Option<RunOut>,
-    /// What was done; empty where nothing was.
+    /// Stages of the preparation, in order; empty where nothing was done.
     pub stages: Vec<Stage>,
     /// Warnings, a sentence each.
     pub doubts: Vec<String>,
@@ -157,8 +157,8 @@ fn without_short_waves(
 /// A warning where the shortest waves are noise; none where memory does not hold their spectrum, which solving needs too.
 fn noise(cell: Cell, heights: &Array2<f64>, run_out: Option<&RunOut>) -> Option<String> {
     fits(32 * heights.len() as u64).ok()?;
-    let own = run_out.map_or(Cow::Borrowed(heights), |run_out| Cow::Owned(run_out.undone(heights.clone())));
-    let found = short_wave_noise(&Spectrum::of(cell, own.view()).ok()?)?;
+    let measured = run_out.map_or(Cow::Borrowed(heights), |run_out| Cow::Owned(run_out.undone(heights.clone())));
+    let found = short_wave_noise(&Spectrum::of(cell, measured.view()).ok()?)?;
     // Adding 0 takes the sign of a rounded zero away.
     let (from, exponent) = (TAU / found.from, (10.0 * found.exponent).round() / 10.0 + 0.0);
     Some(format!(

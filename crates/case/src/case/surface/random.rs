@@ -38,12 +38,12 @@ fn one_amplitude(_: &RandomSection, section: &TableAt<'_>) -> Result<(), Refusal
 impl RandomSection {
     /// Reads the section; `longest` defaults to the longest wave of `cell`.
     pub(super) fn read_in(section: &TableAt<'_>, cell: Cell) -> Result<Self, Refusal> {
-        let own = Self::read_table(section)?;
+        let random = Self::read_table(section)?;
         let [x, y] = cell.reduced().short();
         // The wave whose crests are the densest lines of the lattice, which are farthest apart.
         let of_cell = cell.area() / x.hypot(y);
-        let longest = own.longest.unwrap_or(of_cell);
-        let (rolloff, shortest) = (own.rolloff.unwrap_or(longest), own.shortest);
+        let longest = random.longest.unwrap_or(of_cell);
+        let (rolloff, shortest) = (random.rolloff.unwrap_or(longest), random.shortest);
         if !(shortest <= rolloff && rolloff <= longest) {
             let what = format!(
                 "`{}` ≤ `rolloff` ≤ `longest` must hold of the wavelengths, not {shortest} ≤ {rolloff} ≤ {longest}",
@@ -52,7 +52,7 @@ impl RandomSection {
             return Err(Refusal::new(section.value("shortest")?.node.span, what, "no band of wavelengths")
                 .help("`rolloff` is `longest` when not given, and that is the longest wave of the cell"));
         }
-        Ok(Self { longest: Some(longest), rolloff: Some(rolloff), ..own })
+        Ok(Self { longest: Some(longest), rolloff: Some(rolloff), ..random })
     }
 
     /// The section as a [`SelfAffine`].

@@ -75,7 +75,7 @@ section! {
     beside {
         /// Whether its file is a text whose lines run along a₁ by default.
         pub lines_along_a1: bool,
-        /// What was done to the heights of its file, in this order; empty where nothing was.
+        /// Stages of the preparation of the heights of its file, in order; empty where nothing was done.
         pub stages: Vec<Stage>,
     }
 }
@@ -101,8 +101,8 @@ impl KeyValue for WantedChannel {
 }
 
 /// Refuses a `level` that contradicts `form`.
-fn one_form(own: &SurfaceSection, section: &TableAt<'_>) -> Result<(), Refusal> {
-    let (Some(level), Some(form)) = (own.level, own.form) else { return Ok(()) };
+fn one_form(surface: &SurfaceSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    let (Some(level), Some(form)) = (surface.level, surface.form) else { return Ok(()) };
     let other = match (level, form) {
         (true, SurfaceForm::Plane) => return Ok(()),
         (true, _) => "subtracts the mean plane",

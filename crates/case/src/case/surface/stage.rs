@@ -1,4 +1,4 @@
-//! What is done to the heights of a file before they are pressed, and their rms values before and after.
+//! Stages of the preparation of the heights of a file before they are pressed, with rms values before and after.
 
 use percoat_core::counterbody::roughness::{MeasuredRms, SurfaceForm};
 use serde::Serialize;

@@ -161,7 +161,7 @@ fn a_grid_that_cannot_hold_the_slope_is_doubted() {
         plausibility::of_case(&case).join("\n")
     };
     assert!(doubts(12).is_empty(), "{}", doubts(12));
-    // What alternates from sample to sample is there on a finer grid too.
+    // Heights that alternate from sample to sample are there on a finer grid too.
     let alternating: Vec<f64> = (0..256).map(|k| if k / 16 % 2 == 0 { 1e-3 } else { -1e-3 }).collect();
     write(folder.path(), &[16, 16], Order::C, &alternating);
     assert!(doubts(48).is_empty(), "{}", doubts(48));
@@ -232,8 +232,11 @@ fn random(more: &str, grid: &str) -> Result<Case, CaseError> {
 #[test]
 fn a_random_surface_needs_no_file_and_is_the_same_on_every_grid_that_holds_it() {
     let case = random("", "[grid]\npoints = 24\n").unwrap();
-    let own = *case.surface.as_ref().and_then(SurfaceSection::random).unwrap();
-    assert_eq!((own.longest, own.rolloff, own.seed, own.rms_slope), (Some(1.0), Some(1.0), 0, Some(0.1)));
+    let section = *case.surface.as_ref().and_then(SurfaceSection::random).unwrap();
+    assert_eq!(
+        (section.longest, section.rolloff, section.seed, section.rms_slope),
+        (Some(1.0), Some(1.0), 0, Some(0.1))
+    );
     reads_back(&case);
     let finer = random("", "[grid]\npoints = 48\n").unwrap();
     let (coarse, fine) = (heights(&case), heights(&finer));

@@ -39,16 +39,16 @@ impl Bases {
         let values: Vec<u8> = (0..64u32).flat_map(|k| f64::from(k * k % 7).to_le_bytes()).collect();
         let npy = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &values].concat();
         std::fs::write(folder.path().join("surface.npy"), npy).unwrap();
-        // The same along one side of the cell.
+        // Heights along one side of the cell.
         let values: Vec<u8> = (0..64u32).flat_map(|k| f64::from((k / 8).pow(2) % 7).to_le_bytes()).collect();
         let npy = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &values].concat();
         std::fs::write(folder.path().join("lines.npy"), npy).unwrap();
-        let own = "[[material]]\nname = \"own\"\nyoung = 210.0\npoisson = 0.3\n";
-        std::fs::write(folder.path().join("own.toml"), own).unwrap();
+        let material = "[[material]]\nname = \"own\"\nyoung = 210.0\npoisson = 0.3\n";
+        std::fs::write(folder.path().join("own.toml"), material).unwrap();
         let linear = RICH.replace("\"log\"", "\"linear\"");
         let plain =
             "lattice = { kind = \"hexagonal\", period = 1.0 }\nlevels = [{ shape = \"paraboloid\", radius = 1.0 }]\n";
-        let layer = |own: &str| format!("layers = [{{ thickness = 1.0, {own} }}]\n");
+        let layer = |keys: &str| format!("layers = [{{ thickness = 1.0, {keys} }}]\n");
         let graded = layer("graded = { shear_ratio = [2, 1], poisson = [0.2, 0.3], sublayers = 5 }");
         let uniform = layer("shear_ratio = 2.0, poisson = 0.2");
         let window =
@@ -56,14 +56,14 @@ impl Bases {
         // The counterbody has the layers of the rich case, and a graded one.
         let rich: Table = linear.parse().unwrap();
         let above = |layers: Value| {
-            let mut own: Table =
+            let mut counterbody: Table =
                 "young = 2e11\npoisson = 0.3\nyield_strength = 1e9\ntensile_strength = 2e9\nname = \"ball\"\n\
                  fatigue = { amplitude = 4e8, passes = 1e6, exponent = 8 }\nendurance = { torsion = 4e8, bending = 6e8 }\n"
                     .parse()
                     .unwrap();
-            own.insert("layers".to_owned(), layers);
+            counterbody.insert("layers".to_owned(), layers);
             let mut case = rich.clone();
-            case.insert("counterbody".to_owned(), Value::Table(own));
+            case.insert("counterbody".to_owned(), Value::Table(counterbody));
             toml::to_string(&case).unwrap()
         };
         let elastic = above(rich["layers"].clone());
@@ -130,7 +130,7 @@ impl Bases {
     pub fn each(&self, path: &str) -> impl Iterator<Item = At<'_>> {
         let (home, name) = path.rsplit_once('.').unwrap_or(("", path));
         let parts: Vec<&str> = home.split('.').filter(|part| !part.is_empty()).collect();
-        let key = all_keys().into_iter().find(|(own, _)| own == path).unwrap().1;
+        let key = all_keys().into_iter().find(|(listed, _)| listed == path).unwrap().1;
         let fits = move |table: &Table| {
             let mut words = table.values().filter_map(Value::as_str);
             key.kinds.is_empty() || words.any(|word| key.kinds.contains(&word))
@@ -205,15 +205,15 @@ impl At<'_> {
         let mut case = Value::Table(self.cleared());
         let names = self.steps.iter().filter(|step| step.parse::<usize>().is_err());
         let keys = names.fold(&CASE, |keys, name| keys.within(name));
-        let own = table(&mut case, &self.steps);
+        let section = table(&mut case, &self.steps);
         let parse = |text: &str| format!("value = {text}").parse::<Table>().unwrap()["value"].clone();
-        own.insert(self.name().to_owned(), parse(value));
+        section.insert(self.name().to_owned(), parse(value));
         if keys.all[0].name == self.name() {
             let word = value.trim_matches('"');
             for key in keys.all.iter().filter(|key| !key.kinds.is_empty()) {
-                own.remove(key.name);
+                section.remove(key.name);
                 if key.kinds.contains(&word) {
-                    own.insert(key.name.to_owned(), parse(key.example));
+                    section.insert(key.name.to_owned(), parse(key.example));
                 }
             }
         }

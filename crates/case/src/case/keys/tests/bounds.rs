@@ -10,7 +10,7 @@ use std::ops::Bound;
 #[derive(Debug, Clone)]
 struct Probe {
     value: String,
-    /// Of the item that must be refused; the value itself.
+    /// Path of the item that must be refused, below the value; empty for the value itself.
     at: String,
     admitted: bool,
     /// A schema has bounds only.
@@ -31,7 +31,7 @@ fn of_number(range: Range) -> Vec<Probe> {
     let carried = |sign: &str| {
         [("1e60", true), ("1.000001e60", false), ("1e300", false)].map(|(x, is)| probe(format!("{sign}{x}"), is))
     };
-    let own = match range {
+    let probes = match range {
         Range::Size => [vec![probe("0", false), probe("9.9e-61", false), probe("1e-60", true)], carried("").into()],
         Range::SizeOrZero => [vec![probe("-1e-60", false), unseen("9.9e-61"), probe("0", true)], carried("").into()],
         Range::Coordinate => [carried("-").into(), carried("").into()],
@@ -54,7 +54,7 @@ fn of_number(range: Range) -> Vec<Probe> {
             [below, above]
         }
     };
-    [own.concat(), vec![unseen("nan"), unseen("inf"), unseen("-inf"), probe("1979-05-27", false)]].concat()
+    [probes.concat(), vec![unseen("nan"), unseen("inf"), unseen("-inf"), probe("1979-05-27", false)]].concat()
 }
 
 /// A value that every form of its kind admits.

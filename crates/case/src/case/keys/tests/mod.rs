@@ -81,9 +81,9 @@ fn every_example_is_a_case_in_some_surroundings() {
     for (path, key) in bases::all_keys() {
         let read = bases.each(&path).any(|at| at.set(key.example).is_ok());
         assert!(read, "{path} = {}: {:?}", key.example, bases.each(&path).map(|at| at.set(key.example).err()).last());
-        let own = explain(&path).unwrap().remove(0);
-        assert!(own.example.parse::<toml::Table>().is_ok(), "{}", own.example);
-        let Some(set) = own.set else { continue };
+        let explanation = explain(&path).unwrap().remove(0);
+        assert!(explanation.example.parse::<toml::Table>().is_ok(), "{}", explanation.example);
+        let Some(set) = explanation.set else { continue };
         // A key of one kind goes with the others of it.
         let kind = key.kinds.first().map(|kind| match path.starts_with("levels") {
             true => format!("levels.0.shape={kind}"),

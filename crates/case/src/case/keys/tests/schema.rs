@@ -35,8 +35,8 @@ fn follows(word: &str, rule: &Value, rules: &Map<String, Value>, value: &Value) 
         (Some(value), Some(bound)) => compare(&value, &bound),
         _ => true,
     };
-    let count = |compare: fn(&u64, &u64) -> bool, own: Option<usize>| {
-        own.is_none_or(|own| compare(&(own as u64), &rule.as_u64().unwrap()))
+    let count = |compare: fn(&u64, &u64) -> bool, size: Option<usize>| {
+        size.is_none_or(|size| compare(&(size as u64), &rule.as_u64().unwrap()))
     };
     let all = || rule.as_array().unwrap();
     let items = value.as_array().map(Vec::len);
@@ -62,18 +62,18 @@ fn follows(word: &str, rule: &Value, rules: &Map<String, Value>, value: &Value) 
         "maxItems" => count(u64::le, items),
         "minLength" => count(u64::ge, letters),
         "maxLength" => count(u64::le, letters),
-        "items" => value.as_array().is_none_or(|own| match rule {
-            Value::Array(each) => own.iter().zip(each).all(|(item, rule)| valid(rule, item)),
-            rule => own.iter().all(|item| valid(rule, item)),
+        "items" => value.as_array().is_none_or(|list| match rule {
+            Value::Array(each) => list.iter().zip(each).all(|(item, rule)| valid(rule, item)),
+            rule => list.iter().all(|item| valid(rule, item)),
         }),
         "properties" => value
             .as_object()
-            .is_none_or(|own| own.iter().all(|(key, value)| rule.get(key).is_none_or(|rule| valid(rule, value)))),
+            .is_none_or(|object| object.iter().all(|(key, value)| rule.get(key).is_none_or(|rule| valid(rule, value)))),
         "additionalProperties" => {
-            value.as_object().is_none_or(|own| own.keys().all(|key| rules["properties"].get(key).is_some()))
+            value.as_object().is_none_or(|object| object.keys().all(|key| rules["properties"].get(key).is_some()))
         }
         "required" => {
-            value.as_object().is_none_or(|own| all().iter().all(|key| own.contains_key(key.as_str().unwrap())))
+            value.as_object().is_none_or(|object| all().iter().all(|key| object.contains_key(key.as_str().unwrap())))
         }
         "allOf" => all().iter().all(|rule| valid(rule, value)),
         "anyOf" => all().iter().any(|rule| valid(rule, value)),
