@@ -1,8 +1,8 @@
 //! Error by the sublayers of graded layers: the surface compliance is compared with that of twice as many.
 //!
-//! A change from n to 2n sublayers is ¾ of the error at n, at second order in 1/n. Compared are wavelengths from the longest of
-//! the cell to a sixteenth of its shorter side, about the size of a contact spot; a wave shorter than a sublayer would depend on
-//! the uppermost one alone.
+//! A change from n to 2n sublayers is ¾ of the error at n, at second order in 1/n. Compared are wavelengths from the
+//! longest of the cell to a sixteenth of its shorter side, about the size of a contact spot; a wave shorter than a
+//! sublayer would depend on the uppermost one alone.
 
 use crate::case::{Case, layers};
 use percoat_core::body::Bodies;
