@@ -127,16 +127,16 @@ fn solve(case: &str, n: usize, tolerance: f64) -> Outcome<()> {
     })
 }
 
-fn convolution<C, T: FftNum + Into<f64>>(n: usize, own: C, run: impl Fn(&mut C, &mut [T])) -> Outcome<()> {
+fn convolution<C, T: FftNum + Into<f64>>(n: usize, method: C, run: impl Fn(&mut C, &mut [T])) -> Outcome<()> {
     // Any numbers: no bit pattern of them is faster.
     let pressure: Vec<T> =
         (0..n * n).map(|i| T::from_f64(((i * 7919) % 1009) as f64 / 1009.0).expect("a number")).collect();
-    let timed_run = |(own, field): &mut (C, Vec<T>)| {
+    let timed_run = |(method, field): &mut (C, Vec<T>)| {
         field.copy_from_slice(&pressure);
-        println!("{{\"seconds\": {:e}}}", timed(|| run(own, field)));
+        println!("{{\"seconds\": {:e}}}", timed(|| run(method, field)));
         Ok(())
     };
-    serve(n, (own, pressure.clone()), timed_run, |(_, field)| field.iter().map(|&value| value.into()).collect())
+    serve(n, (method, pressure.clone()), timed_run, |(_, field)| field.iter().map(|&value| value.into()).collect())
 }
 
 fn timed(run: impl FnOnce()) -> f64 {

@@ -57,8 +57,8 @@ fn named(text: &str, module: &str, is_folder: bool) -> Vec<String> {
     let above = above.map(|(at, word)| {
         let deeper = text[at + word.len()..].starts_with("super::");
         let up = |path: &str| path.rsplit_once("::").map_or(String::new(), |(up, _)| up.to_owned());
-        let own = if is_folder { up(parent) } else { parent.to_owned() };
-        if deeper { (at + 2 * word.len(), up(&own)) } else { (at + word.len(), own) }
+        let base = if is_folder { up(parent) } else { parent.to_owned() };
+        if deeper { (at + 2 * word.len(), up(&base)) } else { (at + word.len(), base) }
     });
     starts.chain(above).flat_map(|(at, base)| expanded(&base, &text[at..])).collect()
 }
@@ -111,9 +111,9 @@ fn every_module_uses_only_what_stands_to_its_left() {
         sources.keys().filter_map(|path| path.split("::").next().map(str::to_owned)).collect();
     assert_eq!(modules, order.iter().map(|name| (*name).to_owned()).collect(), "modules of the arrow");
     for (path, text) in &sources {
-        let own = path.split("::").next().and_then(place).unwrap();
+        let importer = path.split("::").next().and_then(place).unwrap();
         for used in named(text, path, false).iter().filter_map(|path| place(path.split("::").next()?)) {
-            assert!(used <= own, "{path} uses {}, which stands to the right of it", order[used]);
+            assert!(used <= importer, "{path} uses {}, which stands to the right of it", order[used]);
         }
     }
 }

@@ -71,7 +71,7 @@ fn defines(source: &str, item: &str) -> bool {
     let (owner, name) = item.split_once("::").map_or((None, item), |(owner, name)| (Some(owner), name));
     let kinds: &[&str] = if owner.is_some() { &["fn"] } else { &["fn", "struct", "enum", "trait", "type", "const"] };
     kinds.iter().any(|kind| has_word(source, &format!("{kind} {name}")))
-        && owner.is_none_or(|own| has_word(source, own))
+        && owner.is_none_or(|owner| has_word(source, owner))
 }
 
 /// Whether a source has a test of this name.

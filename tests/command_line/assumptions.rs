@@ -84,7 +84,7 @@ fn materials_without_a_strength_are_named_beside_strengths() {
         let page = words(&Folder(desk.path(folder)).text("report.html"));
         assert!(page.contains(&said.replacen('n', "N", 1)), "{command}");
     }
-    let all = ["layers.0.tensile_strength=1", "counterbody.yield_strength=2"].map(|own| format!("--set={own}"));
+    let all = ["layers.0.tensile_strength=1", "counterbody.yield_strength=2"].map(|setting| format!("--set={setting}"));
     let answer = desk.percoat(&["solve", "ball-on-disc", "--set=grid.points=48", "--no-pictures", &all[0], &all[1]]);
     assert!(!answer.out.contains("no strength is given"), "{}", answer.out);
 }

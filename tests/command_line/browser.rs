@@ -23,11 +23,11 @@ const PHONE: &str = r#"<!DOCTYPE html><meta charset="utf-8"><p id="found"></p>
 <script>
 document.getElementById("phone").onload = (event) => {
   const page = event.target.contentDocument, root = page.documentElement, images = [...page.images];
-  const loaded = event.target.contentWindow.performance.getEntriesByType("resource").filter((own) => !own.name.startsWith("data:"));
-  const small = [...page.querySelectorAll("p, td, th, li, dd")].filter((own) => parseFloat(event.target.contentWindow.getComputedStyle(own).fontSize) < 12);
+  const loaded = event.target.contentWindow.performance.getEntriesByType("resource").filter((resource) => !resource.name.startsWith("data:"));
+  const small = [...page.querySelectorAll("p, td, th, li, dd")].filter((element) => parseFloat(event.target.contentWindow.getComputedStyle(element).fontSize) < 12);
   document.getElementById("found").textContent = [
     `width ${event.target.contentWindow.innerWidth}`, `too wide ${root.scrollWidth - root.clientWidth}`, `images ${images.length}`,
-    `drawn ${images.filter((own) => own.complete && own.naturalWidth > 100).length}`, `loaded ${loaded.length}`,
+    `drawn ${images.filter((image) => image.complete && image.naturalWidth > 100).length}`, `loaded ${loaded.length}`,
     `small ${small.length}`, `styled ${page.styleSheets.length}`, `end`].join("; ");
 };
 </script>"#;

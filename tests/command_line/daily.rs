@@ -32,8 +32,8 @@ fn every_help_has_an_example_and_the_exit_codes_and_fits_a_terminal() {
         for words in ["Examples:\n  percoat ", "Exit codes: 0 "] {
             assert!(help.contains(words), "\"{words}\" does not stand in\n{help}");
         }
-        let own = help.split("Examples:").nth(1).unwrap();
-        assert!(own.lines().all(|line| line.chars().count() <= 80), "{own}");
+        let examples = help.split("Examples:").nth(1).unwrap();
+        assert!(examples.lines().all(|line| line.chars().count() <= 80), "{examples}");
     }
     let named = listed.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   ")).count();
     assert!(named >= COMMANDS.len() && listed.contains("Exit codes"), "{listed}");

@@ -86,7 +86,7 @@ fn a_step_whose_files_are_not_as_they_were_written_is_solved_again_with_all_othe
     let header = |from: &'static str, to: &'static str| {
         move |place: &Path| {
             let bytes = fs::read(place.join(file)).unwrap();
-            let at = bytes.windows(from.len()).position(|own| own == from.as_bytes()).unwrap();
+            let at = bytes.windows(from.len()).position(|window| window == from.as_bytes()).unwrap();
             fs::write(place.join(file), [&bytes[..at], to.as_bytes(), &bytes[at + to.len()..]].concat()).unwrap();
         }
     };

@@ -96,9 +96,9 @@ fn a_combination_that_is_damaged_is_solved_again_and_the_others_are_not() {
     for left in [&[][..], &["lock"]] {
         let answer = resumed(&|place| {
             relined(&place.join("sweep.jsonl"), |lines| drop(lines.remove(1)));
-            let own = place.join("combinations/0002/.percoat");
-            fs::create_dir(&own).unwrap();
-            left.iter().for_each(|name| fs::write(own.join(name), "process 1\n").unwrap());
+            let kept = place.join("combinations/0002/.percoat");
+            fs::create_dir(&kept).unwrap();
+            left.iter().for_each(|name| fs::write(kept.join(name), "process 1\n").unwrap());
         });
         assert!(answer.err.contains("2 of 3 combinations are done"), "{}", answer.err);
     }

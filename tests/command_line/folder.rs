@@ -167,8 +167,8 @@ fn gap_is_displacement_plus_shape_less_penetration() {
     let (radius, drops) = (0.8, [0.0, 0.01, 0.02]);
     let apexes: Vec<usize> = (1..=3)
         .map(|level| {
-            let own = (0..48 * 48).filter(|&i| owner[i] == level);
-            own.min_by(|&a, &b| shape(0, a).total_cmp(&shape(0, b))).unwrap()
+            let samples = (0..48 * 48).filter(|&i| owner[i] == level);
+            samples.min_by(|&a, &b| shape(0, a).total_cmp(&shape(0, b))).unwrap()
         })
         .collect();
     for index in 0..48 * 48 {

@@ -27,7 +27,7 @@ fn the_end_of_the_elastic_answer_stands_beside_the_numbers_once() {
     assert!(table.contains("reaches C45 beneath, of hardness"), "{}", answer.out);
     let folder = Folder(desk.path("run"));
     let summary = folder.summary();
-    assert!(summary["warnings"].as_array().unwrap().iter().any(|own| own.as_str().unwrap().starts_with(words)));
+    assert!(summary["warnings"].as_array().unwrap().iter().any(|warning| warning.as_str().unwrap().starts_with(words)));
     let beneath = &folder.steps()[1]["beneath"];
     assert_eq!((&beneath["material"], &beneath["name"]), (&2.into(), &"C45".into()), "{beneath}");
     let report = desk.percoat(&["report", "run"]);
@@ -67,15 +67,15 @@ fn a_composite_hardness_is_stated_with_its_law_and_depth() {
     let of = |step: usize, key: &str| steps[step]["plastic"][key].as_f64().unwrap();
     // By two loads the hardness of coating and substrate in the law, and the second one by hand.
     let part = |step: usize| 1.0 / (1.0 + 3.0 * (of(step, "hardness_depth") / 0.25).powi(2));
-    for (step, own) in steps.iter().enumerate() {
-        assert_eq!(own["penetration"].as_f64().unwrap(), of(step, "hardness_depth"));
-        assert!(of(step, "depth") > 0.0, "{own}");
+    for (step, record) in steps.iter().enumerate() {
+        assert_eq!(record["penetration"].as_f64().unwrap(), of(step, "hardness_depth"));
+        assert!(of(step, "depth") > 0.0, "{record}");
         // The largest pressure is the hardness, and errs with it.
-        let [error, of_peak] = [of(step, "hardness_error"), own["errors"]["max_pressure"].as_f64().unwrap()];
-        assert!(error > 0.0 && (of_peak / error - 1.0).abs() < 1e-9, "{own}");
+        let [error, of_peak] = [of(step, "hardness_error"), record["errors"]["max_pressure"].as_f64().unwrap()];
+        assert!(error > 0.0 && (of_peak / error - 1.0).abs() < 1e-9, "{record}");
         let [coating, substrate] = [24.0, 2.12];
         let known = substrate + part(step) * (coating - substrate);
-        assert!((of(step, "hardness") / known - 1.0).abs() < 1e-4, "{own}, {known}");
+        assert!((of(step, "hardness") / known - 1.0).abs() < 1e-4, "{record}, {known}");
     }
     assert!(of(1, "hardness") < of(0, "hardness"), "{}", answer.out);
     let report = desk.percoat(&["report", "run"]);

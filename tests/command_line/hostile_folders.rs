@@ -150,7 +150,7 @@ fn copy(from: &Path, to: &Path) {
 fn put(desk: &Desk, attack: Attack, place: &Path) {
     fs::create_dir_all(place.parent().unwrap()).unwrap();
     match fs::symlink_metadata(place) {
-        Ok(own) if own.is_dir() => fs::remove_dir_all(place).unwrap(),
+        Ok(found) if found.is_dir() => fs::remove_dir_all(place).unwrap(),
         Ok(_) => fs::remove_file(place).unwrap(),
         Err(_) => {}
     }
@@ -170,20 +170,20 @@ fn put(desk: &Desk, attack: Attack, place: &Path) {
 
 /// Whether a path is what was put there, or a folder that has it.
 fn has(desk: &Desk, attack: Attack, path: &Path) -> bool {
-    let own = fs::symlink_metadata(path).unwrap();
-    let links_to = |name: &str| own.is_symlink() && fs::read_link(path).unwrap() == desk.path(name);
-    let says = |text: &str| own.is_file() && fs::read(path).unwrap() == text.as_bytes();
+    let found = fs::symlink_metadata(path).unwrap();
+    let links_to = |name: &str| found.is_symlink() && fs::read_link(path).unwrap() == desk.path(name);
+    let says = |text: &str| found.is_file() && fs::read(path).unwrap() == text.as_bytes();
     let is = match attack {
         LinkToFile => links_to("mine/notes.txt"),
         LinkToFolder => links_to("mine/folder"),
         LinkToNothing => links_to("mine/nothing"),
-        Pipe => own.file_type().is_fifo(),
+        Pipe => found.file_type().is_fifo(),
         FolderWithFiles => says("thesis of mine"),
-        HardLink => own.ino() == fs::metadata(desk.path("mine/notes.txt")).unwrap().ino(),
+        HardLink => found.ino() == fs::metadata(desk.path("mine/notes.txt")).unwrap().ino(),
         File => says("a file of mine"),
     };
     let within = || fs::read_dir(path).unwrap().any(|entry| has(desk, attack, &entry.unwrap().path()));
-    is || own.is_dir() && within()
+    is || found.is_dir() && within()
 }
 
 /// Runs a command that must end; its exit code, and what it says.

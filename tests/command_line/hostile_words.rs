@@ -73,7 +73,10 @@ fn assert_well_formed(file: &str, what: &str) {
             _ => assert_eq!(tag.matches('"').count() % 2, 0, "{what}: {tag}"),
         }
         for reference in text.split('&').skip(1) {
-            assert!(["amp;", "lt;", "gt;", "quot;"].iter().any(|own| reference.starts_with(own)), "{what}: {text}");
+            assert!(
+                ["amp;", "lt;", "gt;", "quot;"].iter().any(|entity| reference.starts_with(entity)),
+                "{what}: {text}"
+            );
         }
     }
     assert_eq!(open, Vec::<&str>::new(), "{what}");

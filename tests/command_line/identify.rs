@@ -57,9 +57,9 @@ fn moduli_are_found_and_written_with_their_fit() {
     let found: Value =
         serde_json::from_str(&fs::read_to_string(desk.path("out/identification.json")).unwrap()).unwrap();
     for (index, known) in [300.0, 70.0].into_iter().enumerate() {
-        let own = |key: &str| number(&found, &format!("/parameters/{index}/{key}"));
-        assert!((own("value") - known).abs() < 3.0 * own("standard_error") + 5e-3 * known, "{found:#}");
-        assert!(own("interval_95/0") < own("value") && own("value") < own("interval_95/1"));
+        let read = |key: &str| number(&found, &format!("/parameters/{index}/{key}"));
+        assert!((read("value") - known).abs() < 3.0 * read("standard_error") + 5e-3 * known, "{found:#}");
+        assert!(read("interval_95/0") < read("value") && read("value") < read("interval_95/1"));
     }
     // The case of the result has the values found.
     assert_eq!(number(&found, "/case/substrate/young"), number(&found, "/parameters/1/value"));
@@ -125,18 +125,18 @@ fn what_the_fit_does_not_know_is_told() {
     }
     let file: Value = serde_json::from_str(&fs::read_to_string(desk.path("out/identification.json")).unwrap()).unwrap();
     let names: Vec<&str> =
-        file["sensitivities"].as_array().unwrap().iter().map(|own| own["name"].as_str().unwrap()).collect();
+        file["sensitivities"].as_array().unwrap().iter().map(|row| row["name"].as_str().unwrap()).collect();
     let known = ["levels.0.radius", "layers.0.thickness", "layers.0.young", "layers.0.poisson", "substrate.poisson"];
     assert!(known.iter().all(|name| names.contains(name)) && !names.contains(&"substrate.young"), "{names:?}");
-    assert!(file["warnings"].as_array().unwrap().iter().any(|own| own.as_str().unwrap().contains(zero)));
+    assert!(file["warnings"].as_array().unwrap().iter().any(|warning| warning.as_str().unwrap().contains(zero)));
     let known = ["--known", "offset=-0.01", "--set", "layers.0.hardness=2", "--no-pictures", "-o", "known"];
     let answer = desk.percoat(&[&free[..], &known].concat());
     assert!(answer.code == 0 && !answer.err.contains(zero), "{}", answer.err);
     assert!(answer.err.contains("exceeds the hardness 2.0000\u{a0}GPa of the body in 8 of 8 points"), "{}", answer.err);
     let file: Value =
         serde_json::from_str(&fs::read_to_string(desk.path("known/identification.json")).unwrap()).unwrap();
-    let own = |key: &str| number(&file, &format!("/parameters/0/{key}"));
-    assert!((own("value") - 70.0).abs() < 3.0 * own("standard_error") + 0.35, "{file:#}");
+    let read = |key: &str| number(&file, &format!("/parameters/0/{key}"));
+    assert!((read("value") - 70.0).abs() < 3.0 * read("standard_error") + 0.35, "{file:#}");
 }
 
 #[test]

@@ -27,8 +27,8 @@ fn without_a_case_a_coating_that_tires_is_followed_to_its_end() {
         first["kind"] == "delamination" && number(first, "/distance") == 40.0 * number(first, "/passes"),
         "{first}"
     );
-    for own in [&life["criteria"][2], &life["events"][1], &life["wear"][1]] {
-        assert!((number(own, "/distance") / number(own, "/passes") - 40.0).abs() < 1e-12, "{own}");
+    for record in [&life["criteria"][2], &life["events"][1], &life["wear"][1]] {
+        assert!((number(record, "/distance") / number(record, "/passes") - 40.0).abs() < 1e-12, "{record}");
     }
     assert_eq!(life["criteria"].as_array().unwrap().len(), 3);
     let events = life["events"].as_array().unwrap();
@@ -172,7 +172,7 @@ fn a_life_of_another_case_is_refused_and_a_damaged_one_is_kept_aside() {
     let before = killed.bytes(STATE);
     for change in ["friction.coefficient=0.2", "life.passes=1e7"] {
         let key = change.split('=').next();
-        let others = PIECES.into_iter().filter(|own| own.split('=').next() != key);
+        let others = PIECES.into_iter().filter(|piece| piece.split('=').next() != key);
         let refused = life(&desk, "killed", &others.chain([change]).collect::<Vec<_>>(), &["--resume"]);
         refused.complains(2, &["killed/unfinished-life is of another run", "same command", "leave --resume out"]);
         assert_eq!(killed.names(), ["unfinished-life".to_owned()].into());
@@ -315,7 +315,7 @@ fn a_ball_that_wears_needs_the_length_of_its_track_and_has_a_scar() {
     assert!(answer.err.contains("base is uncovered and has no `wear`"), "{}", answer.err);
     let csv = fs::read_to_string(desk.path("out/life.csv")).unwrap();
     for column in ["scar_diameter", "scar_depth", "scar_volume", "specific_rate", "groove", "distance"] {
-        assert!(csv.lines().next().unwrap().split(',').any(|own| own == column), "{column}");
+        assert!(csv.lines().next().unwrap().split(',').any(|head| head == column), "{column}");
     }
     let report = desk.percoat(&["report", "out"]);
     assert_eq!(report.code, 0, "{}", report.err);

@@ -28,11 +28,11 @@ fn without_a_case_a_coating_in_service_is_answered_with_what_fails_first() {
     assert!((2.0..=2.5).contains(&number(first, "/z")) && number(first, "/x").abs() < 1.0);
     let all = limits["limits"].as_array().unwrap();
     assert_eq!(all.len(), 6);
-    for own in all {
+    for limit in all {
         for key in ["criterion", "mean_pressure", "error", "x", "y", "z", "reached"] {
-            assert!(own.get(key).is_some(), "{key} is missing in {own}");
+            assert!(limit.get(key).is_some(), "{key} is missing in {limit}");
         }
-        assert!(own["mean_pressure"].is_null() || number(own, "/mean_pressure") >= number(first, "/mean_pressure"));
+        assert!(limit["mean_pressure"].is_null() || number(limit, "/mean_pressure") >= number(first, "/mean_pressure"));
     }
     let steps = limits["steps"].as_array().unwrap().len();
     assert_eq!(fs::read_to_string(desk.path("out/limit.csv")).unwrap().lines().count(), steps + 1);
@@ -85,22 +85,22 @@ fn what_the_errors_leave_open_is_said_to_be_open() {
     let text = fs::read_to_string(desk.path("out/summary.json")).unwrap();
     let summary: Value = serde_json::from_str(&text).unwrap();
     let step = &summary["steps"][0];
-    let taken = |own: &Value| [number(own, "/utilisation"), own["error"].as_f64().unwrap_or(0.0)];
+    let taken = |row: &Value| [number(row, "/utilisation"), row["error"].as_f64().unwrap_or(0.0)];
     let all = step["strength"].as_array().unwrap();
     let [first, error] = taken(all.iter().max_by(|a, b| taken(a)[0].total_cmp(&taken(b)[0])).unwrap());
     assert!(first - error < 1.0 && first + error >= 1.0, "{first} ± {error} decides it");
-    for own in all {
-        let [value, error] = taken(own);
+    for row in all {
+        let [value, error] = taken(row);
         let state = match () {
             () if value - error >= 1.0 => "fails",
             () if value + error < 1.0 => "holds",
             () => "undecided",
         };
-        assert_eq!(own["state"], state, "{own}");
+        assert_eq!(row["state"], state, "{row}");
     }
     let governing = &step["governing"];
     assert_eq!((&governing["criterion"], &governing["state"]), (&"cracking".into(), &"undecided".into()));
-    let rivals = all.iter().filter(|own| taken(own)[0] != first && taken(own).iter().sum::<f64>() >= first - error);
+    let rivals = all.iter().filter(|row| taken(row)[0] != first && taken(row).iter().sum::<f64>() >= first - error);
     assert_eq!(governing["rivals"].as_array().unwrap().len(), rivals.count());
     assert!(answer.out.contains("undecided by the errors whether anything fails"), "{}", answer.out);
 }

@@ -36,8 +36,8 @@ fn a_material_is_printed_as_a_file_of_materials() {
         assert!(printed.contains(words), "{words} does not stand in\n{printed}");
     }
     desk.write("own.toml", printed.replace("value = 200.0", "value = 150.0"));
-    let own = desk.percoat(&["materials", "DLC a-C:H", "--file", "own.toml"]).out;
-    assert!(own.contains("value = 150.0"), "{own}");
+    let changed = desk.percoat(&["materials", "DLC a-C:H", "--file", "own.toml"]).out;
+    assert!(changed.contains("value = 150.0"), "{changed}");
 }
 
 #[test]

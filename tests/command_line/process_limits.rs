@@ -17,7 +17,7 @@ fn answer(output: Output) -> Answer {
 fn under(desk: &Desk, limits: &str, arguments: &[&str]) -> Option<Answer> {
     let program = assert_cmd::cargo::cargo_bin!("percoat");
     let shell = ["bash", "-c", &format!("{limits}; exec \"$0\" \"$@\"")].map(str::to_owned);
-    let is_bound = Command::new("id").arg("-u").output().is_ok_and(|own| own.stdout != b"0\n");
+    let is_bound = Command::new("id").arg("-u").output().is_ok_and(|output| output.stdout != b"0\n");
     let words: Vec<String> = if limits.contains("-u") && !is_bound {
         ["setpriv", "--reuid=4242", "--clear-groups"].map(str::to_owned).into_iter().chain(shell).collect()
     } else {

@@ -69,11 +69,12 @@ fn strains_stand_beside_the_stresses_and_change_nothing_else() {
         desk.solve("without", &STRESS),
         desk.solve("with", &[&STRESS[..], &["--set", "stress.strain=true"][..]].concat()),
     );
-    let (mut own, mut strained) =
+    let (mut unstrained, mut strained) =
         (Archive::open(&without.0.join("stress.npz")), Archive::open(&with.0.join("stress.npz")));
     let summary = with.summary();
     let layer = &summary["case"]["layers"][0];
-    let [nu, lower] = [&layer["poisson"], &summary["case"]["substrate"]["poisson"]].map(|own| own.as_f64().unwrap());
+    let [nu, lower] =
+        [&layer["poisson"], &summary["case"]["substrate"]["poisson"]].map(|poisson| poisson.as_f64().unwrap());
     let substrate = summary["case"]["substrate"]["young"].as_f64().unwrap();
     let coating = layer["shear_ratio"].as_f64().unwrap() * substrate * (1.0 + nu) / (1.0 + lower);
     let sides = ["planes", "section", "points"].map(|place| strained.array::<i32>(&format!("{place}_side")).values);
@@ -81,7 +82,7 @@ fn strains_stand_beside_the_stresses_and_change_nothing_else() {
         let mut read = |name: &str| strained.field(&format!("{place}_{name}")).values;
         let [xx, yy, zz, xz] = ["xx", "yy", "zz", "xz"].map(&mut read);
         let [exx, eyy, ezz, exz, e1, e3, ev] = ["exx", "eyy", "ezz", "exz", "e1", "e3", "ev"].map(&mut read);
-        assert_eq!(xx, own.field(&format!("{place}_xx")).values, "{place}");
+        assert_eq!(xx, unstrained.field(&format!("{place}_xx")).values, "{place}");
         // Arrays are (steps, sides, …).
         let count = xx.len() / 2 / sides.len();
         for k in 0..xx.len() {
@@ -96,11 +97,15 @@ fn strains_stand_beside_the_stresses_and_change_nothing_else() {
             assert!(e1[k] >= most - 1e-7 * size && e3[k] <= ezz[k].min(exx[k]) + 1e-7 * size, "{place}, {k}");
         }
     }
-    assert!(own.names().iter().all(|name| !name.ends_with("_exx") && !name.ends_with("_ev")), "{:?}", own.names());
+    assert!(
+        unstrained.names().iter().all(|name| !name.ends_with("_exx") && !name.ends_with("_ev")),
+        "{:?}",
+        unstrained.names()
+    );
     assert_eq!(with.names(), without.names());
-    let curves = [&with, &without].map(|own| own.text("curve.csv"));
+    let curves = [&with, &without].map(|run| run.text("curve.csv"));
     assert!(curves[0].contains("stress_materials_1_max_strain_value") && !curves[1].contains("strain"));
-    let [case, plain] = [&with, &without].map(|own| own.text("case.toml"));
+    let [case, plain] = [&with, &without].map(|run| run.text("case.toml"));
     assert!(case.replace("strain = true\n", "") == plain && case != plain, "{case}");
 }
 

@@ -43,7 +43,7 @@ fn cells(text: &str) -> Vec<Vec<&str>> {
 }
 
 fn column<'a>(table: &[Vec<&'a str>], name: &str) -> Vec<&'a str> {
-    let at = table[0].iter().position(|own| *own == name).unwrap_or_else(|| panic!("no column {name}"));
+    let at = table[0].iter().position(|head| *head == name).unwrap_or_else(|| panic!("no column {name}"));
     table[1..].iter().map(|row| row[at]).collect()
 }
 
@@ -91,7 +91,7 @@ fn every_combination_and_step_is_a_row_with_what_solve_finds() {
         let [thickness, poisson] =
             ["thickness", "poisson"].map(|key| column(&table, &format!("set_layers_0_{key}"))[2 * at]);
         let settings = format!("{}: thickness = {thickness}, poisson = {poisson}", at + 1);
-        let is_it = |line: &str| line.split_whitespace().any(|own| own == word) && line.ends_with(&settings);
+        let is_it = |line: &str| line.split_whitespace().any(|written| written == word) && line.ends_with(&settings);
         assert!(answer.out.lines().any(is_it), "no {word} with {settings}: {}", answer.out);
     }
 }
@@ -371,10 +371,10 @@ fn limits_of_every_combination_are_a_row() {
     let table = cells(&text);
     let limits: Vec<f64> = column(&table, "first_mean_pressure").iter().map(|cell| cell.parse().unwrap()).collect();
     assert!(limits.len() == 2 && limits.iter().all(|limit| *limit > 0.0));
-    let own = desk.percoat(&[&["limit", "case.toml", "-o", "own", "--no-pictures"], &strengths[..]].concat());
-    assert_eq!(own.code, 0, "{}", own.err);
-    let own: Value = serde_json::from_str(&Folder(desk.path("own")).text("limit.json")).unwrap();
-    assert_eq!(limits[1], number(&own, "/first/mean_pressure"));
+    let answer = desk.percoat(&[&["limit", "case.toml", "-o", "own", "--no-pictures"], &strengths[..]].concat());
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let limit: Value = serde_json::from_str(&Folder(desk.path("own")).text("limit.json")).unwrap();
+    assert_eq!(limits[1], number(&limit, "/first/mean_pressure"));
     let material = column(&table, "first_material")[1];
     assert_eq!(column(&table, &format!("yield_of_material_{material}_mean_pressure"))[1], limits[1].to_string());
 }

@@ -10,6 +10,6 @@ const ROOM: u64 = 1 << 30;
 pub fn folder() -> TempDir {
     let memory = Path::new("/dev/shm");
     let has_room = fs4::statvfs(memory).is_ok_and(|space| space.available_space() >= ROOM);
-    let own = has_room.then(|| tempfile::tempdir_in(memory).ok()).flatten();
-    own.unwrap_or_else(|| tempfile::tempdir().unwrap())
+    let inside = has_room.then(|| tempfile::tempdir_in(memory).ok()).flatten();
+    inside.unwrap_or_else(|| tempfile::tempdir().unwrap())
 }

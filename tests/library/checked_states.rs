@@ -9,12 +9,12 @@ fn a_state_that_its_utilisation_contradicts_is_refused() {
     let step = case.run().solve(&mut ()).unwrap().steps.pop().unwrap();
     assert_eq!(step.check(), Ok(()));
     let mut other = step.clone();
-    let own = other.strength.iter_mut().find(|own| own.verdict == Verdict::Fails).unwrap();
-    own.verdict = Verdict::Holds;
+    let failing = other.strength.iter_mut().find(|row| row.verdict == Verdict::Fails).unwrap();
+    failing.verdict = Verdict::Holds;
     assert!(other.check().unwrap_err().contains("makes it `fails`"));
     let mut other = step;
     let governing = other.governing.as_mut().unwrap();
-    let another = other.strength.iter().find(|own| own.criterion != governing.criterion).unwrap();
+    let another = other.strength.iter().find(|row| row.criterion != governing.criterion).unwrap();
     governing.criterion = another.criterion;
     assert!(other.check().unwrap_err().contains("`governing`"));
 }

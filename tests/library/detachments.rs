@@ -23,11 +23,11 @@ fn shear(r: f64, z: f64) -> f64 {
     let s = r * r + z * z - 1.0;
     let u = 0.5 * (s + s.hypot(2.0 * z));
     let (root, c) = (u.sqrt(), z / u.sqrt());
-    let (own, angle) = (u / (u * u + z * z), (1.0 + n) * root * (1.0 / root).atan());
+    let (quotient, angle) = (u / (u * u + z * z), (1.0 + n) * root * (1.0 / root).atan());
     let ring = (1.0 - 2.0 * n) / (3.0 * r * r) * (1.0 - c.powi(3));
-    let radial = ring + c.powi(3) * own + c * (u * (1.0 - n) / (1.0 + u) + angle - 2.0);
+    let radial = ring + c.powi(3) * quotient + c * (u * (1.0 - n) / (1.0 + u) + angle - 2.0);
     let hoop = -ring - c * (2.0 * n + u * (1.0 - n) / (1.0 + u) - angle);
-    let axial = -c.powi(3) * own;
+    let axial = -c.powi(3) * quotient;
     let across = -r * z * z / (u * u + z * z) * root / (1.0 + u);
     let (mean, half) = (0.5 * (radial + axial), (0.5 * (radial - axial)).hypot(across));
     0.5 * (hoop.max(mean + half) - hoop.min(mean - half))
@@ -48,12 +48,12 @@ fn reference(law: Fatigue, peak: f64, until: f64) -> Vec<[f64; 3]> {
         let due = |k: &usize| ((1.0 - damage[surface + k]) / rate[*k]).max(0.0);
         let from = usize::from(surface > 0);
         let next = (from..8 * FINE).min_by(|a, b| due(a).total_cmp(&due(b))).unwrap();
-        let own = due(&next);
-        passes += own;
+        let elapsed = due(&next);
+        passes += elapsed;
         if passes > until {
             return events;
         }
-        damage[surface..].iter_mut().zip(&rate).for_each(|(damage, rate)| *damage += own * rate);
+        damage[surface..].iter_mut().zip(&rate).for_each(|(damage, rate)| *damage += elapsed * rate);
         surface += next;
         let removed = surface as f64 / FINE as f64;
         if next > FINE / 20 {
@@ -97,15 +97,15 @@ fn fragments_come_off_as_a_fine_integration_has_them() {
         while state.end.is_none() {
             state = task.advance(state, &begun, &|| true).unwrap();
         }
-        let detached: Vec<_> = state.events.iter().filter(|own| own.what == EventKind::Detachment).collect();
+        let detached: Vec<_> = state.events.iter().filter(|event| event.what == EventKind::Detachment).collect();
         assert!(known.len() > 5 && detached.len() == known.len(), "{detached:?} {known:?}");
-        for (own, known) in detached.iter().zip(&known) {
-            let own = [own.passes, own.depth / radius, own.removed / radius];
-            let off = [0, 1, 2].map(|k| own[k] / known[k] - 1.0);
-            println!("m {exponent}, {points}: {own:.5?} {known:.5?} {off:.4?}");
+        for (event, known) in detached.iter().zip(&known) {
+            let found = [event.passes, event.depth / radius, event.removed / radius];
+            let off = [0, 1, 2].map(|k| found[k] / known[k] - 1.0);
+            println!("m {exponent}, {points}: {found:.5?} {known:.5?} {off:.4?}");
             // Nodes are a 64th of the radius apart: the surface that wears between two detachments errs by half of that, a
             // hundredth of the first depth.
-            assert!(off.iter().all(|off| off.abs() < 0.01), "m {exponent}, {points}: {own:?} {known:?} {off:?}");
+            assert!(off.iter().all(|off| off.abs() < 0.01), "m {exponent}, {points}: {found:?} {known:?} {off:?}");
         }
     }
 }

@@ -80,10 +80,10 @@ fn one_pass_of_a_ball_has_the_range_of_hertz() {
             let friction = Friction::new(0.0, direction).unwrap();
             let problem = Problem::new(indenters(window, &[[0.5; 2]]), bare()).sliding(friction).unwrap();
             let step = solved(problem, [points; 2], Load::Force(FORCE));
-            let own = fatigue(&step);
-            let Life { range, error, position: [x, y, z], passes, .. } = own.first;
+            let reading = fatigue(&step);
+            let Life { range, error, position: [x, y, z], passes, .. } = reading.first;
             println!("{points} {direction:?}: {range} {error:?} {x} {y} {z}, off {:e}", range / P0 / 0.310021 - 1.0);
-            assert_eq!(own.path, SlidingPath::FromFarAway);
+            assert_eq!(reading.path, SlidingPath::FromFarAway);
             assert!((range / P0 / 0.310021 - 1.0).abs() < 3e-4, "{range}, {z}");
             assert!((z - 0.480864).abs() < 0.02 && x.hypot(y) < 0.01, "{x}, {y}, {z}");
             assert!((law().damage(range) * passes - 1.0).abs() < 1e-14);
@@ -98,10 +98,10 @@ fn one_pass_of_a_ball_has_the_range_of_hertz() {
 fn a_sparse_cell_is_nearly_one_contact() {
     let side = 16.0;
     let problem = Problem::new(indenters(Cell::square(side).unwrap(), &[[0.0; 2]]), bare());
-    let own = fatigue(&solved(problem, [384; 2], Load::MeanPressure(FORCE / side / side)));
-    println!("{:?} off {:e}", own.first, own.first.range / P0 / 0.310021 - 1.0);
-    assert_eq!(own.path, SlidingPath::LatticeVector([1, 0]));
-    assert!((own.first.range / P0 / 0.310021 - 1.0).abs() < 0.015);
+    let reading = fatigue(&solved(problem, [384; 2], Load::MeanPressure(FORCE / side / side)));
+    println!("{:?} off {:e}", reading.first, reading.first.range / P0 / 0.310021 - 1.0);
+    assert_eq!(reading.path, SlidingPath::LatticeVector([1, 0]));
+    assert!((reading.first.range / P0 / 0.310021 - 1.0).abs() < 0.015);
 }
 
 /// In plane strain the wave of a pressure has τ₁ = p̂ qz e^{−qz} at every x. Its mean adds a stress that is the same in all directions
@@ -207,15 +207,15 @@ fn turning_the_cell_and_exchanging_its_vectors_changes_no_life() {
         let step = solved(problem.sliding(friction(direction)).unwrap(), points, Load::MeanPressure(0.01));
         fatigue(&step)
     };
-    let own = of([4.0, 0.0], [1.0, 3.0], &sites, [1.0, 0.0], [96, 80]);
-    assert_eq!(own.path, SlidingPath::LatticeVector([1, 0]));
+    let reading = of([4.0, 0.0], [1.0, 3.0], &sites, [1.0, 0.0], [96, 80]);
+    assert_eq!(reading.path, SlidingPath::LatticeVector([1, 0]));
     let others = [
         of([1.0, 3.0], [4.0, 0.0], &exchanged, [1.0, 0.0], [80, 96]),
         of([0.0, 4.0], [-3.0, 1.0], &sites, [0.0, 1.0], [96, 80]),
     ];
-    assert_eq!(own.lives.len(), 3);
+    assert_eq!(reading.lives.len(), 3);
     for other in others {
-        for (one, other) in own.lives.iter().zip(&other.lives) {
+        for (one, other) in reading.lives.iter().zip(&other.lives) {
             println!("{:?} {} {}", one.part, one.range, other.range);
             assert!((one.range / other.range - 1.0).abs() < 1e-6, "{one:?}, {other:?}");
             assert!((one.position[2] - other.position[2]).abs() < 1e-3, "{one:?}, {other:?}");
@@ -291,13 +291,13 @@ fn last_the_same_distance([one, other]: [&FatigueReading; 2], lengths: [f64; 2],
 /// A surface that is tiled four times along the path has four times the cycles in a pass, moved by parts of a sample the same ones.
 #[test]
 fn a_tiled_and_a_shifted_surface_last_the_same_distance() {
-    let own = wavy(1, [0.0; 2], [1.0, 0.0], 96);
-    last_the_same_distance([&own, &wavy(4, [0.0; 2], [1.0, 0.0], 96)], [1.0, 4.0], 1.0 / 96.0);
-    last_the_same_distance([&own, &wavy(1, [0.3713, 0.1291], [1.0, 0.0], 96)], [1.0, 1.0], 1.0 / 96.0);
+    let plain = wavy(1, [0.0; 2], [1.0, 0.0], 96);
+    last_the_same_distance([&plain, &wavy(4, [0.0; 2], [1.0, 0.0], 96)], [1.0, 4.0], 1.0 / 96.0);
+    last_the_same_distance([&plain, &wavy(1, [0.3713, 0.1291], [1.0, 0.0], 96)], [1.0, 1.0], 1.0 / 96.0);
     // Along [10, 3] of the cell, which is [5, 6] of the cell tiled twice.
     let slanting = [1.0, 0.3];
     let [one, two] = [wavy(1, [0.0; 2], slanting, 64), wavy(2, [0.0; 2], slanting, 64)];
-    let paths = [&one, &two].map(|own| own.path);
+    let paths = [&one, &two].map(|reading| reading.path);
     assert_eq!(paths, [SlidingPath::LatticeVector([10, 3]), SlidingPath::LatticeVector([5, 3])]);
     let length = 10f64.hypot(3.0);
     last_the_same_distance([&one, &two], [length, length], 1.0 / 64.0);
@@ -345,7 +345,7 @@ fn a_path_off_the_lattice_has_the_damage_of_its_length() {
     let known = means.map(|(line, _)| line.mean().unwrap()).fold(0.0, f64::max);
     let open = fatigue(&of([1.0, 1e-5 / TAU]));
     let found = open.lives[1];
-    assert!(matches!(found.part, FatiguePart::Material(own) if own.number == 2));
+    assert!(matches!(found.part, FatiguePart::Material(material) if material.number == 2));
     // Between planes of the map the mean is larger by some hundredths.
     println!("{} {known}", found.damage);
     assert!((found.damage / known - 1.0).abs() < 0.05, "{} {known}", found.damage);
@@ -361,9 +361,9 @@ fn lives_follow_their_law() {
         let problem = Problem::new(indenters(Cell::square(4.0).unwrap(), &[[0.0; 2]]), half_space);
         fatigue(&solved(problem, [64; 2], Load::MeanPressure(0.02))).first.passes
     };
-    let own = of(Fatigue::new(0.3, 1e6, 8.0).unwrap());
-    assert!((of(Fatigue::new(0.6, 1e6, 8.0).unwrap()) / own / 256.0 - 1.0).abs() < 1e-12);
-    assert!((of(Fatigue::new(0.3, 2e6, 8.0).unwrap()) / own / 2.0 - 1.0).abs() < 1e-12);
+    let passes = of(Fatigue::new(0.3, 1e6, 8.0).unwrap());
+    assert!((of(Fatigue::new(0.6, 1e6, 8.0).unwrap()) / passes / 256.0 - 1.0).abs() < 1e-12);
+    assert!((of(Fatigue::new(0.3, 2e6, 8.0).unwrap()) / passes / 2.0 - 1.0).abs() < 1e-12);
 }
 
 /// A counterbody is loaded and unloaded: that of the same material and shape bears under its surface what the body bears from far
@@ -373,10 +373,10 @@ fn an_elastic_counterbody_is_loaded_and_unloaded() {
     let window = Cell::window([2.7; 2]).unwrap();
     let bodies = Bodies::elastic(bare(), bare());
     let step = solved(Problem::new(indenters(window, &[[0.5; 2]]), bodies), [128; 2], Load::Force(0.5 * FORCE));
-    let own = fatigue(&step);
-    let [body, counterbody] = own.lives[..] else { panic!("{own:?}") };
-    assert!((body.range / counterbody.range - 1.0).abs() < 1e-9, "{own:?}");
-    assert!((body.range / (0.5 * P0) / 0.310021 - 1.0).abs() < 3e-4, "{own:?}");
+    let reading = fatigue(&step);
+    let [body, counterbody] = reading.lives[..] else { panic!("{reading:?}") };
+    assert!((body.range / counterbody.range - 1.0).abs() < 1e-9, "{reading:?}");
+    assert!((body.range / (0.5 * P0) / 0.310021 - 1.0).abs() < 3e-4, "{reading:?}");
     assert!(matches!(counterbody.part, FatiguePart::Material(material) if material.is_counterbody()));
 }
 
@@ -395,11 +395,11 @@ fn a_run_has_lives_and_endurance_whatever_the_threads() {
     let [one, three] = [1, 3].map(of);
     assert_eq!((&one.fatigue, &one.strength), (&three.fatigue, &three.strength));
     assert_eq!(one.fatigue.as_ref().unwrap().lives.len(), 3);
-    let names: Vec<&str> = one.strength.iter().map(|own: &Utilisation| own.criterion.name()).collect();
+    let names: Vec<&str> = one.strength.iter().map(|row: &Utilisation| row.criterion.name()).collect();
     assert_eq!(names, ["crossland", "dang_van", "crossland", "dang_van"]);
-    let kinds: Vec<Criterion> = one.strength.iter().map(|own| own.criterion).collect();
+    let kinds: Vec<Criterion> = one.strength.iter().map(|row| row.criterion).collect();
     assert_eq!(kinds, Criterion::all(problem.bodies()));
-    assert!(one.strength.iter().all(|own| own.value > 0.0 && own.error.is_some()), "{:?}", one.strength);
+    assert!(one.strength.iter().all(|row| row.value > 0.0 && row.error.is_some()), "{:?}", one.strength);
     assert_eq!(one.check(), Ok(()));
 }
 
@@ -407,9 +407,9 @@ fn a_run_has_lives_and_endurance_whatever_the_threads() {
 /// of the longest chord from rest unless two places before and behind differ more: Crossland is at least that.
 #[test]
 fn endurance_of_one_pass_is_at_least_that_of_loading_the_middle() {
-    let own = Endurance::new(0.2, 0.3).unwrap();
+    let endurance = Endurance::new(0.2, 0.3).unwrap();
     let material = Material::from_young(1.0, NU).unwrap();
-    let endures = Durability { endurance: Some(own), ..Durability::default() };
+    let endures = Durability { endurance: Some(endurance), ..Durability::default() };
     let half_space = HalfSpace::new(vec![], material).with_substrate_durability(endures).unwrap();
     let window = Cell::window([2.7; 2]).unwrap();
     let run = Run::new(
@@ -418,7 +418,7 @@ fn endurance_of_one_pass_is_at_least_that_of_loading_the_middle() {
         Sampling::Points([128; 2]),
     );
     let outcome = run.solve(&mut ()).unwrap();
-    let least = own.crossland(0.5 * 2.0 / 3f64.sqrt() * 0.310021 * P0, 0.0);
+    let least = endurance.crossland(0.5 * 2.0 / 3f64.sqrt() * 0.310021 * P0, 0.0);
     for found in &outcome.steps[0].strength {
         println!("{found:?}, {least}");
         if found.criterion.name() == "crossland" {

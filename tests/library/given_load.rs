@@ -218,9 +218,10 @@ fn largest_stresses_under_a_disc_are_within_their_errors() {
     let [one, two] = [coarse.overall.tau1, fine.overall.tau1];
     assert!((one.value - two.value).abs() < one.error.unwrap() + two.error.unwrap(), "{one:?}, {two:?}");
     assert!(one.error.unwrap() < 0.6 * one.value, "{one:?}");
-    for (own, most) in [(coarse, 0.05), (fine, 0.02)] {
+    for (stress, most) in [(coarse, 0.05), (fine, 0.02)] {
         // Outside σ_r = −σ_t, without pressure.
-        let known = [(own.faces[0].tension, 0.2), (own.faces[0].tau1, 0.2), (own.faces[0].mises, 0.2 * 3f64.sqrt())];
+        let known =
+            [(stress.faces[0].tension, 0.2), (stress.faces[0].tau1, 0.2), (stress.faces[0].mises, 0.2 * 3f64.sqrt())];
         for (found, known) in known {
             let error = found.error.unwrap();
             assert!((found.value - known * p).abs() < error && error < most * p, "{found:?} for {known}");
@@ -303,11 +304,11 @@ fn the_limit_is_the_load_over_its_utilisation() {
         // What is given has no contact stiffness.
         assert!(record.contact_stiffness.is_none());
         let limits = run.limits(&mut ()).unwrap();
-        for own in &record.strength {
-            let limit = limits.limits.iter().find(|limit| limit.criterion == own.criterion).unwrap();
+        for row in &record.strength {
+            let limit = limits.limits.iter().find(|limit| limit.criterion == row.criterion).unwrap();
             let At::Load { load, .. } = limit.at else { panic!("{radius}: {limit:?}") };
-            assert!((load * own.value / force - 1.0).abs() < 2e-3, "{:?}: {load}, {}", own.criterion, own.value);
-            assert!(radius < 0.1 || own.error.is_some_and(|error| error < 0.02 * own.value), "{own:?}");
+            assert!((load * row.value / force - 1.0).abs() < 2e-3, "{:?}: {load}, {}", row.criterion, row.value);
+            assert!(radius < 0.1 || row.error.is_some_and(|error| error < 0.02 * row.value), "{row:?}");
         }
         assert!(Criterion::all(run.problem.bodies()).len() == 3);
     }
@@ -351,10 +352,10 @@ fn the_largest_pressure_is_that_of_the_discs_that_overlap_in_one_place() {
         let grid = Grid::new(cell, [300; 2]).unwrap();
         let mut equal = 0;
         for _ in 0..20 {
-            let own = |random: &mut Random| {
+            let draw = |random: &mut Random| {
                 disc([random.unit(), random.unit()], 0.15 + 0.4 * random.unit(), 1.0 + random.unit())
             };
-            let discs: Vec<LoadedDisc> = (0..4).map(|_| own(&mut random)).collect();
+            let discs: Vec<LoadedDisc> = (0..4).map(|_| draw(&mut random)).collect();
             let given = GivenPressure::discs(cell, discs).unwrap();
             let (found, sampled) = (given.highest(), given.on(&grid).iter().copied().fold(0.0, f64::max));
             assert!(found >= sampled * (1.0 - 1e-12) && found < 1.5 * sampled, "{found}, {sampled}: {given:?}");
@@ -381,12 +382,12 @@ fn stated_errors_under_a_disc_are_smooth_in_the_grid() {
         assert!((step.reading.max_pressure / 0.7 - 1.0).abs() < 1e-12, "{points}");
         step.stress.clone().unwrap().overall.tension
     });
-    for (points, own) in grids.iter().zip(&found) {
-        let error = own.error.unwrap();
-        assert!(error < 5e-3 * own.value, "{points}: {own:?}");
+    for (points, peak) in grids.iter().zip(&found) {
+        let error = peak.error.unwrap();
+        assert!(error < 5e-3 * peak.value, "{points}: {peak:?}");
         for other in &found {
-            assert!((own.value - other.value).abs() <= error + other.error.unwrap(), "{points}: {own:?}, {other:?}");
-            assert!(error < 4.0 * other.error.unwrap(), "{points}: {own:?}, {other:?}");
+            assert!((peak.value - other.value).abs() <= error + other.error.unwrap(), "{points}: {peak:?}, {other:?}");
+            assert!(error < 4.0 * other.error.unwrap(), "{points}: {peak:?}, {other:?}");
         }
     }
 }
@@ -429,7 +430,7 @@ fn stresses_at_the_edges_of_discs_are_those_of_any_grid() {
                 }
             }
         }
-        let last = found[3].map(|own| own.error.unwrap());
+        let last = found[3].map(|peak| peak.error.unwrap());
         assert!(last.iter().all(|error| *error < if is_small { 0.5 } else { 0.05 } * p), "{given}, {body}: {last:?}");
     }
 }

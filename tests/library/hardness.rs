@@ -110,9 +110,9 @@ fn a_hardness_that_is_not_reached_changes_no_bit() {
             Problem::new(rough(Cell::square(1.0).unwrap(), [60, 48]), Bodies::elastic(bare(hardness), coated(None))),
         ]
     };
-    for (own, other) in problems(None).into_iter().zip(problems(Some(1e3))) {
+    for (elastic, other) in problems(None).into_iter().zip(problems(Some(1e3))) {
         for load in [Load::Force(0.01), Load::Penetration(0.008)] {
-            let steps = [own.clone(), other.clone()].map(|problem| solved(problem, [60, 48], load));
+            let steps = [elastic.clone(), other.clone()].map(|problem| solved(problem, [60, 48], load));
             let [first, second] = steps.each_ref().map(pressures);
             assert_eq!(first, second, "{load}");
             assert_eq!(steps[0].certificate, steps[1].certificate);
@@ -195,8 +195,8 @@ fn mean_pressures_near_the_hardness_converge() {
             assert!(step.report.stop.solved(), "{name}, {part}: {}", step.report);
             complies(step.finest(), 1e-5);
             let reading = step.reading();
-            let [own, error] = [reading.contact_fraction.unwrap(), reading.errors.contact_fraction.unwrap()];
-            assert!(own + error > part, "{name}, {part}: {own} ± {error}");
+            let [fraction, error] = [reading.contact_fraction.unwrap(), reading.errors.contact_fraction.unwrap()];
+            assert!(fraction + error > part, "{name}, {part}: {fraction} ± {error}");
             if part >= 0.9 {
                 assert!(reading.contact_fraction.unwrap() < 1.0 + 1e-9 && reading.max_pressure == 0.1);
             }
@@ -281,13 +281,13 @@ fn a_load_path_carries_what_is_pressed_in() {
         Problem::new(rough(Cell::square(1.0).unwrap(), [60, 60]), bare(Some(0.05))),
     ] {
         let forces = [0.004, 0.001, 0.004, 0.006];
-        let mut own = solver(problem.clone(), [75, 75]);
+        let mut solver = solver(problem.clone(), [75, 75]);
         let steps: Vec<Step> = forces
             .iter()
             .map(|&force| {
-                let step = own.solve(Load::Force(force));
+                let step = solver.solve(Load::Force(force));
                 assert!(step.report.stop.solved(), "{}", step.report);
-                own.keep_indentation();
+                solver.keep_indentation();
                 step
             })
             .collect();
@@ -394,8 +394,8 @@ fn a_contact_of_full_samples_alone_is_solved() {
             assert_eq!([pressed(1e-6), pressed(1.0 - 1e-6)], [full; 2], "{}", step.report);
             let gap = |full: bool| {
                 let (p, g) = (step.pressure(), step.gap());
-                let own = p.iter().zip(&g).filter(|(p, _)| (**p > 5e-5) == full);
-                own.map(|(_, gap)| *gap).collect::<Vec<f64>>()
+                let samples = p.iter().zip(&g).filter(|(p, _)| (**p > 5e-5) == full);
+                samples.map(|(_, gap)| *gap).collect::<Vec<f64>>()
             };
             assert!(gap(true).iter().all(|gap| *gap < 1e-12) && gap(false).iter().all(|gap| *gap > -1e-12));
         }
@@ -428,7 +428,7 @@ fn wear_begins_on_the_shape_that_is_pressed_in() {
     let largest = worn(&mut yielding);
     let mut elastic = solver(Problem::new(topography, coated(None)), points).with_gap(shape).unwrap();
     worn(&mut elastic);
-    let [a, b] = [&mut yielding, &mut elastic].map(|own| own.solve(load));
+    let [a, b] = [&mut yielding, &mut elastic].map(|solver| solver.solve(load));
     // Both solve to the root of 20 tolerance in the norm of the energy.
     let apart = pressures(&a).iter().zip(pressures(&b)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(apart < 5e-3 * hardness, "{apart:e} {largest:?}");
@@ -455,19 +455,19 @@ fn a_penetration_that_takes_all_of_the_surface_to_its_hardness_is_no_answer() {
     ];
     for problem in problems {
         let compliance = problem.bodies().mean_compliance();
-        let mut own = solver(problem.clone(), [45, 48]);
-        let all = own.surface().initial_gap().iter().copied().fold(0.0, f64::max) + compliance * hardness;
-        let first = own.solve(Load::Penetration(0.9 * all));
+        let mut solver = solver(problem.clone(), [45, 48]);
+        let all = solver.surface().initial_gap().iter().copied().fold(0.0, f64::max) + compliance * hardness;
+        let first = solver.solve(Load::Penetration(0.9 * all));
         assert!(first.report.stop.solved(), "{}", first.report);
-        let nearly = own.solve(Load::Penetration(0.99 * all));
+        let nearly = solver.solve(Load::Penetration(0.99 * all));
         assert!(nearly.report.stop.solved() && complies(nearly.finest(), 1e-5)[1] > 1000, "{}", nearly.report);
         for part in [1.0 + 1e-9, 1.1, 10.0] {
-            let step = own.solve(Load::Penetration(part * all));
+            let step = solver.solve(Load::Penetration(part * all));
             assert_eq!(step.report.stop, Stop::BeyondHardness, "{part}: {}", step.report);
             assert!(pressures(&step).iter().all(|&p| p == 0.0) && step.elastic_energy() == 0.0);
-            own.keep_indentation();
+            solver.keep_indentation();
         }
-        let again = own.solve(Load::Penetration(0.9 * all));
+        let again = solver.solve(Load::Penetration(0.9 * all));
         let apart = pressures(&again).iter().zip(pressures(&first)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(again.report.stop.solved() && apart < 1e-3 * hardness, "{apart:e} {}", again.report);
         let check = |part: f64| {
@@ -504,21 +504,21 @@ fn a_path_under_friction_drops_what_is_pressed_in_and_says_so() {
     let of = |coefficient: Option<f64>, body: HalfSpace| {
         let problem = Problem::new(ball(window, Shape::Paraboloid { radius: 1.0 }), body);
         let problem = match coefficient {
-            Some(own) => problem.sliding(Friction::new(own, [1.0, 0.0]).unwrap()).unwrap(),
+            Some(coefficient) => problem.sliding(Friction::new(coefficient, [1.0, 0.0]).unwrap()).unwrap(),
             None => problem,
         };
         let loads = [0.004, 0.001].map(Load::Force).to_vec();
         Run::new(problem, loads, Sampling::Points([72, 72])).solve(&mut ()).unwrap()
     };
-    let [none, zero, sliding] = [None, Some(0.0), Some(0.3)].map(|own| of(own, bare(Some(0.06))));
+    let [none, zero, sliding] = [None, Some(0.0), Some(0.3)].map(|coefficient| of(coefficient, bare(Some(0.06))));
     let told = |warnings: &[String]| warnings.iter().any(|words| words.contains("step 1 has pressed in is dropped"));
     for (a, b) in none.steps.iter().zip(&zero.steps) {
         // Of an isolated contact some are no numbers.
         assert_eq!(format!("{:?} {:?}", a.reading, a.plastic), format!("{:?} {:?}", b.reading, b.plastic));
     }
-    let depth = |own: &percoat::run::Outcome| own.steps[1].reading.penetration;
+    let depth = |outcome: &percoat::run::Outcome| outcome.steps[1].reading.penetration;
     assert!(depth(&none) > 1.2 * depth(&sliding), "{} {}", depth(&none), depth(&sliding));
-    assert_eq!([&none, &zero, &sliding].map(|own| told(&own.warnings)), [false, false, true]);
+    assert_eq!([&none, &zero, &sliding].map(|outcome| told(&outcome.warnings)), [false, false, true]);
     assert!(!told(&of(Some(0.3), bare(Some(6.0))).warnings), "nothing is pressed in");
 }
 
@@ -531,19 +531,19 @@ fn without_load_what_is_left_is_the_penetration() {
         (Problem::new(levels(), coated(Some(0.15))), 0.01),
         (Problem::new(rough(Cell::square(1.0).unwrap(), [60, 60]), bare(Some(0.05))), 0.01),
     ] {
-        let mut own = solver(problem.clone(), [60, 60]);
-        let fresh = own.solve(Load::Force(0.0));
+        let mut solver = solver(problem.clone(), [60, 60]);
+        let fresh = solver.solve(Load::Force(0.0));
         assert_eq!((fresh.report.stop, fresh.penetration()), (Stop::NoContact, 0.0));
-        let loaded = own.solve(Load::Force(load));
-        own.keep_indentation();
+        let loaded = solver.solve(Load::Force(load));
+        solver.keep_indentation();
         let left = PlasticReading::of(&loaded).unwrap().permanent_depth;
-        let begins = |own: &mut Solver, load: Load| {
-            let step = own.solve(load);
-            own.keep_indentation();
+        let begins = |solver: &mut Solver, load: Load| {
+            let step = solver.solve(load);
+            solver.keep_indentation();
             assert!(step.report.stop.solved(), "{load}: {}", step.report);
             step
         };
-        let none = begins(&mut own, Load::Force(0.0));
+        let none = begins(&mut solver, Load::Force(0.0));
         assert_eq!(none.report.stop, Stop::NoContact);
         assert!(left > 0.0 && (none.penetration() / left - 1.0).abs() < 1e-12, "{} {left}", none.penetration());
         assert!(none.gap().iter().all(|&g| g >= 0.0) && none.gap().iter().any(|&g| g == 0.0));
@@ -551,12 +551,12 @@ fn without_load_what_is_left_is_the_penetration() {
         let error = reading.errors.penetration.unwrap();
         println!("{left} ± {error}");
         assert!(!reading.touches() && error > 0.0 && error < 0.5 * left);
-        let short = begins(&mut own, Load::Penetration(0.5 * left));
+        let short = begins(&mut solver, Load::Penetration(0.5 * left));
         assert_eq!((short.report.stop, short.penetration()), (Stop::NoContact, 0.5 * left));
         // The lightest load touches at the depth that is left.
-        let light = begins(&mut own, Load::Force(1e-4 * load));
+        let light = begins(&mut solver, Load::Force(1e-4 * load));
         assert!(light.penetration() > left && light.penetration() < 1.05 * left, "{} {left}", light.penetration());
-        let again = begins(&mut own, Load::Force(load));
+        let again = begins(&mut solver, Load::Force(load));
         assert!((again.penetration() / loaded.penetration() - 1.0).abs() < 1e-6);
     }
 }
@@ -572,16 +572,16 @@ fn errors_of_loading_are_inherited_by_unloading() {
     ] {
         let forces = [1.0, 0.5, 0.1, 0.0, 0.3].map(|part| Load::Force(part * hardest));
         let path = |n: usize| {
-            let mut own = solver(problem.clone(), [n, n]);
+            let mut solver = solver(problem.clone(), [n, n]);
             forces.map(|load| {
-                let step = own.solve(load);
-                own.keep_indentation();
+                let step = solver.solve(load);
+                solver.keep_indentation();
                 (step.reading(), PlasticReading::of(&step).unwrap())
             })
         };
         // The apex of the ball is a sample of each grid.
         let (coarse, fine) = (path(96), path(384));
-        for (index, ((own, plastic), (exact, left))) in coarse.iter().zip(&fine).enumerate() {
+        for (index, ((reading, plastic), (exact, left))) in coarse.iter().zip(&fine).enumerate() {
             let of = |name: &str, value: f64, error: Option<f64>, exact: f64| {
                 let (off, error) = ((value - exact).abs(), error.unwrap());
                 println!("step {index}, {name}: {value} ± {error:.1e}, {off:.1e} off");
@@ -592,10 +592,10 @@ fn errors_of_loading_are_inherited_by_unloading() {
             of("depth", plastic.depth, plastic.depth_error, left.depth);
             of("volume", plastic.volume, plastic.volume_error, left.volume);
             of("permanent depth", plastic.permanent_depth, plastic.permanent_depth_error, left.permanent_depth);
-            of("penetration", own.penetration, own.errors.penetration, exact.penetration);
-            if own.touches() {
-                of("contact area", own.contact_area, own.errors.contact_area, exact.contact_area);
-                of("energy", own.elastic_energy, own.errors.elastic_energy, exact.elastic_energy);
+            of("penetration", reading.penetration, reading.errors.penetration, exact.penetration);
+            if reading.touches() {
+                of("contact area", reading.contact_area, reading.errors.contact_area, exact.contact_area);
+                of("energy", reading.elastic_energy, reading.errors.elastic_energy, exact.elastic_energy);
             }
         }
     }
@@ -646,8 +646,8 @@ fn the_end_of_the_elastic_answer_is_said() {
     assert!(outcome.warnings.iter().any(|words| words.contains("nothing says how much")), "{:?}", outcome.warnings);
     // Yield inside, with its depth, in place of the hardness of the same material.
     let (words, outcome) = said(thin_on_soft(0.002, Some(0.03), Some(0.01)), force);
-    let (words, own) = (words.unwrap(), &outcome.steps[0].strength[0]);
-    assert!(own.value > 2.0 && words.contains("yield of material 2 has the utilisation"), "{words}");
+    let (words, row) = (words.unwrap(), &outcome.steps[0].strength[0]);
+    assert!(row.value > 2.0 && words.contains("yield of material 2 has the utilisation"), "{words}");
     assert!(!words.contains("hardness") && words.contains("at the depth"), "{words}");
     assert_eq!(said(thin_on_soft(0.002, Some(1.0), Some(0.5)), force).0, None);
 }
@@ -678,10 +678,10 @@ fn layers_that_are_pressed_too_deep_are_told() {
 fn a_path_goes_on_from_its_checkpoint_as_without_it() {
     let problem = Arc::new(Problem::new(levels(), coated(Some(0.15))));
     let loads = [0.008, 0.003, 0.01, 0.0].map(Load::Force);
-    let whole = |own: &mut Solver, load: Load| {
-        let step = own.solve(load);
-        let saved = own.checkpoint(&step);
-        own.keep_indentation();
+    let whole = |solver: &mut Solver, load: Load| {
+        let step = solver.solve(load);
+        let saved = solver.checkpoint(&step);
+        solver.keep_indentation();
         (format!("{:?} {:?}", step.reading(), PlasticReading::of(&step)), pressures(&step), saved)
     };
     let new = || Solver::new(Arc::clone(&problem), [96, 96], Settings::default()).unwrap();
@@ -701,8 +701,9 @@ fn a_path_goes_on_from_its_checkpoint_as_without_it() {
 
 /// A layer 0.1 thick with the modulus of the substrate, whose hardnesses are those given.
 fn hard_layer([layer, substrate]: [f64; 2]) -> HalfSpace {
-    let own = Layer::new(young(1.0, 0.3), 0.1, Interface::Bonded).unwrap().with_durability(hard(layer), None).unwrap();
-    HalfSpace::new(vec![own], young(1.0, 0.3)).with_substrate_durability(hard(substrate)).unwrap()
+    let coating =
+        Layer::new(young(1.0, 0.3), 0.1, Interface::Bonded).unwrap().with_durability(hard(layer), None).unwrap();
+    HalfSpace::new(vec![coating], young(1.0, 0.3)).with_substrate_durability(hard(substrate)).unwrap()
 }
 
 fn pressed_by_a_ball(body: HalfSpace, composite: Option<(HardnessLaw, f64)>) -> Solver {
@@ -713,8 +714,8 @@ fn pressed_on(points: usize, body: HalfSpace, composite: Option<(HardnessLaw, f6
     let counterbody = ball(Cell::window([2.0; 2]).unwrap(), Shape::Paraboloid { radius: 1.0 });
     let mut problem = Problem::new(counterbody, body);
     if let Some((law, constant)) = composite {
-        let own = CompositeHardness::of(problem.half_space(), law, constant).unwrap();
-        problem = problem.with_composite_hardness(own).unwrap();
+        let hardness = CompositeHardness::of(problem.half_space(), law, constant).unwrap();
+        problem = problem.with_composite_hardness(hardness).unwrap();
     }
     Solver::new(problem, [points; 2], Settings { tolerance: 1e-10, ..Settings::default() }).unwrap()
 }
@@ -729,10 +730,13 @@ fn an_elastic_contact_meets_the_composite_hardness_of_hertz() {
         (HardnessLaw::Korsunsky, 0.4, 1.0 / (1.0 + 0.4 * 2.5 * 2.5)),
     ] {
         let step = pressed_by_a_ball(hard_layer([3.0, 1.0]), Some((law, constant))).solve(Load::Force(force));
-        let own = PlasticReading::of(&step).unwrap();
+        let plastic = PlasticReading::of(&step).unwrap();
         // δ on 32 samples a diameter errs by some 1e-3, and dH/dδ · δ is below 2.
-        assert!((own.hardness_depth.unwrap() / 0.25 - 1.0).abs() < 2e-3, "{own:?}");
-        assert!((own.hardness - (1.0 + 2.0 * part)).abs() < 4e-3 && !own.is_pressed_in(), "{law:?}: {own:?}");
+        assert!((plastic.hardness_depth.unwrap() / 0.25 - 1.0).abs() < 2e-3, "{plastic:?}");
+        assert!(
+            (plastic.hardness - (1.0 + 2.0 * part)).abs() < 4e-3 && !plastic.is_pressed_in(),
+            "{law:?}: {plastic:?}"
+        );
     }
 }
 
@@ -754,7 +758,7 @@ fn what_yields_has_the_hardness_of_its_own_penetration() {
             let mut solver = pressed_by_a_ball(body.clone(), Some((law, constant)));
             let step = solver.solve(load);
             assert!(step.report.stop.solved(), "{law:?}: {}", step.report);
-            let own = PlasticReading::of(&step).unwrap();
+            let plastic = PlasticReading::of(&step).unwrap();
             let [mut low, mut high] = [0.0, 0.6];
             for _ in 0..24 {
                 let depth = 0.5 * (low + high);
@@ -763,14 +767,17 @@ fn what_yields_has_the_hardness_of_its_own_penetration() {
                     false => high = depth,
                 }
             }
-            assert!((own.hardness_depth.unwrap() / low - 1.0).abs() < 1e-5, "{law:?} {hardness:?}: {own:?}, {low}");
-            assert!((own.hardness / composite.at(low) - 1.0).abs() < 1e-5, "{law:?}: {own:?}");
-            assert!(own.is_pressed_in() && step.pressure().iter().all(|&p| p <= own.hardness), "{own:?}");
+            assert!(
+                (plastic.hardness_depth.unwrap() / low - 1.0).abs() < 1e-5,
+                "{law:?} {hardness:?}: {plastic:?}, {low}"
+            );
+            assert!((plastic.hardness / composite.at(low) - 1.0).abs() < 1e-5, "{law:?}: {plastic:?}");
+            assert!(plastic.is_pressed_in() && step.pressure().iter().all(|&p| p <= plastic.hardness), "{plastic:?}");
             let checkpoint = solver.checkpoint(&step);
             let mut other = pressed_by_a_ball(body.clone(), Some((law, constant)));
             let restored = other.restore(load, checkpoint).unwrap();
             let again = PlasticReading::of(&restored).unwrap();
-            assert!(again == own && restored.pressure() == step.pressure(), "{again:?}, {own:?}");
+            assert!(again == plastic && restored.pressure() == step.pressure(), "{again:?}, {plastic:?}");
         }
     }
 }
@@ -788,21 +795,21 @@ fn errors_at_a_composite_hardness_hold_its_feedback() {
             let mut solver = pressed_on(points, hard_layer(hardness), Some((law, constant)));
             let step = solver.solve(Load::Force(force));
             assert!(step.report.stop.solved(), "{}", step.report);
-            let (whole, own) = (step.reading(), PlasticReading::of(&step).unwrap());
+            let (whole, plastic) = (step.reading(), PlasticReading::of(&step).unwrap());
             [
                 (whole.penetration, whole.errors.penetration),
                 (whole.contact_area, whole.errors.contact_area),
-                (own.depth, own.depth_error),
-                (own.volume, own.volume_error),
+                (plastic.depth, plastic.depth_error),
+                (plastic.volume, plastic.volume_error),
             ]
         };
         let fine = read(320);
         assert!(fine[3].0 > 0.0, "{law:?}: nothing is pressed in");
         for points in [48, 60, 64, 80] {
-            let (own, half) = (read(points), read(points / 2));
-            let change = (own[0].0 - half[0].0).abs();
-            assert!(change <= own[0].1.unwrap(), "{law:?} {points}: {own:?}, {change}");
-            for (number, ((value, error), (truth, left))) in own.into_iter().zip(fine).enumerate() {
+            let (whole, half) = (read(points), read(points / 2));
+            let change = (whole[0].0 - half[0].0).abs();
+            assert!(change <= whole[0].1.unwrap(), "{law:?} {points}: {whole:?}, {change}");
+            for (number, ((value, error), (truth, left))) in whole.into_iter().zip(fine).enumerate() {
                 let [error, left] = [error, left].map(Option::unwrap);
                 assert!((value - truth).abs() <= error + left, "{law:?} {points} {number}: {value} ± {error}, {truth}");
             }
@@ -817,8 +824,8 @@ fn a_soft_coating_on_a_hard_substrate_bears_what_it_would_not_alone() {
     let alone = pressed_by_a_ball(body.clone(), None).solve(load);
     assert!(!alone.report.stop.solved(), "{}", alone.report);
     let step = pressed_by_a_ball(body, Some((HardnessLaw::Area, 0.3))).solve(load);
-    let own = PlasticReading::of(&step).unwrap();
-    assert!(step.report.stop.solved() && own.hardness > 0.02, "{}: {own:?}", step.report);
+    let plastic = PlasticReading::of(&step).unwrap();
+    assert!(step.report.stop.solved() && plastic.hardness > 0.02, "{}: {plastic:?}", step.report);
 }
 
 /// The kink of a roof lies between its samples: the height of it is as little known when nothing is left of the load.

@@ -69,13 +69,13 @@ fn found(
 /// both moduli, which move against each other.
 #[test]
 fn moduli_are_found_from_an_exact_curve() {
-    let own = found(&[(0, 150.0), (3, 140.0)], &[], &measured(EXACT, 3)).unwrap();
-    for (estimate, known) in own.estimates.iter().zip([300.0, 70.0]) {
-        assert!((estimate.value / known - 1.0).abs() < 3e-3, "{own}");
+    let fit = found(&[(0, 150.0), (3, 140.0)], &[], &measured(EXACT, 3)).unwrap();
+    for (estimate, known) in fit.estimates.iter().zip([300.0, 70.0]) {
+        assert!((estimate.value / known - 1.0).abs() < 3e-3, "{fit}");
     }
-    assert!(own.rms < 2e-4 * 0.39 && own.correlation[0][1] < -0.3, "{own}, {:?}", own.correlation);
+    assert!(fit.rms < 2e-4 * 0.39 && fit.correlation[0][1] < -0.3, "{fit}, {:?}", fit.correlation);
     // The contact is as wide as the film is thick, and wider.
-    assert!(own.radii[0] < 0.2 && own.radii[1] > 1.4, "{:?}", own.radii);
+    assert!(fit.radii[0] < 0.2 && fit.radii[1] > 1.4, "{:?}", fit.radii);
 }
 
 /// With noise of 0.5 nm the values lie within three standard errors, the residual is the noise, and the zero that was missed by
@@ -83,19 +83,21 @@ fn moduli_are_found_from_an_exact_curve() {
 #[test]
 fn noise_is_carried_to_the_standard_errors() {
     let noisy = measured(NOISY, 1);
-    let own = found(&[(0, 250.0), (3, 80.0)], &[], &noisy).unwrap();
-    assert!((own.rms / 5e-4 - 1.0).abs() < 0.25, "{own}");
-    let inside = |own: &Estimate, known: f64| (own.value - known).abs() < 3.0 * own.error && own.error < 0.02 * known;
-    assert!(inside(&own.estimates[0], 300.0) && inside(&own.estimates[1], 70.0), "{own}");
+    let fit = found(&[(0, 250.0), (3, 80.0)], &[], &noisy).unwrap();
+    assert!((fit.rms / 5e-4 - 1.0).abs() < 0.25, "{fit}");
+    let inside = |estimate: &Estimate, known: f64| {
+        (estimate.value - known).abs() < 3.0 * estimate.error && estimate.error < 0.02 * known
+    };
+    assert!(inside(&fit.estimates[0], 300.0) && inside(&fit.estimates[1], 70.0), "{fit}");
     let shifted = Measurement::new(
         noisy.forces().to_vec(),
         noisy.penetrations().iter().map(|x| x + 5e-3).collect(),
         Some(vec![5e-4; noisy.forces().len()]),
     );
-    let own = found(&[(0, 250.0), (3, 80.0)], &[Quantity::Offset], &shifted.unwrap()).unwrap();
-    assert!((own.estimates[2].value - 5e-3).abs() < 3.0 * own.estimates[2].error, "{own}");
-    assert!((own.reduced_chi_square.unwrap() - 1.0).abs() < 0.5, "{own}");
-    assert!(own.band.iter().all(|band| *band > 0.0 && *band < 5e-4), "{own}");
+    let fit = found(&[(0, 250.0), (3, 80.0)], &[Quantity::Offset], &shifted.unwrap()).unwrap();
+    assert!((fit.estimates[2].value - 5e-3).abs() < 3.0 * fit.estimates[2].error, "{fit}");
+    assert!((fit.reduced_chi_square.unwrap() - 1.0).abs() < 0.5, "{fit}");
+    assert!(fit.band.iter().all(|band| *band > 0.0 && *band < 5e-4), "{fit}");
 }
 
 /// Five points of light loads with noise do not contain four parameters; a parameter that the curve does not depend on is named.
@@ -117,9 +119,9 @@ fn the_standard_error_of_one_parameter_is_the_noise_over_its_derivatives() {
     let noise = 1e-3;
     let measured = Measurement::new(forces, penetrations, Some(vec![noise; rows.len()])).unwrap();
     for (index, known, column) in [(0, 300.0, 3), (2, 1.0, 5), (3, 70.0, 4)] {
-        let own = found(&[(index, known)], &[], &measured).unwrap();
+        let fit = found(&[(index, known)], &[], &measured).unwrap();
         let slopes = rows.iter().map(|row| row[column] * row[column]).sum::<f64>().sqrt();
-        let (error, expected) = (own.estimates[0].error / own.estimates[0].value, noise / slopes);
+        let (error, expected) = (fit.estimates[0].error / fit.estimates[0].value, noise / slopes);
         assert!((error / expected - 1.0).abs() < 0.01, "{index}: {error}, {expected}");
     }
 }
@@ -152,15 +154,15 @@ fn a_search_can_be_stopped_and_tells_of_its_trials() {
     let model = Model { problem: &problem, points: 48, settings };
     let free = [Parameter { name: "coating".to_owned(), quantity: Quantity::Positive, start: 150.0 }];
     let mut heard: Vec<Trial> = Vec::new();
-    let own = Identification::new_with_progress(&model, &free, &measured, &mut |trial| {
+    let fit = Identification::new_with_progress(&model, &free, &measured, &mut |trial| {
         heard.push(trial);
         ControlFlow::Continue(())
     });
-    let own = own.unwrap();
-    assert!(heard.iter().map(|trial| trial.number).eq(1..=heard.len()) && heard.len() > own.steps, "{heard:?}");
+    let fit = fit.unwrap();
+    assert!(heard.iter().map(|trial| trial.number).eq(1..=heard.len()) && heard.len() > fit.steps, "{heard:?}");
     // The result is that of the best trial.
     let least = heard.iter().filter_map(|trial| trial.rms).fold(f64::INFINITY, f64::min);
-    assert!((own.rms / least - 1.0).abs() < 1e-12, "{own}, {heard:?}");
+    assert!((fit.rms / least - 1.0).abs() < 1e-12, "{fit}, {heard:?}");
     let mut trials = 0;
     let stopped = Identification::new_with_progress(&model, &free, &measured, &mut |_| {
         trials += 1;
@@ -201,7 +203,7 @@ fn loading_with_noise_is_taken_for_loading() {
         };
         let forces: Vec<f64> = (1..=count).map(force).collect();
         let part = [0.0, 1e-4, 3e-3, 0.02][trial % 4];
-        alarms.extend(refusal(record(&forces, part, &mut random)).map(|own| (trial, own)));
+        alarms.extend(refusal(record(&forces, part, &mut random)).map(|refusal| (trial, refusal)));
     }
     assert!(alarms.len() <= 3, "{alarms:?}");
 }
@@ -237,7 +239,10 @@ fn unloading_and_holds_are_refused_with_their_points() {
         // Points that are repeated are no hold; those between whose first and last third the penetration creeps are.
         let [forces, mut penetrations] = record(&[&up[..], &held].concat(), part, &mut random);
         assert_eq!(refusal([forces.clone(), penetrations.clone()]), None, "{part}");
-        penetrations[20..].iter_mut().zip(0u8..).for_each(|(own, k)| *own += 0.1 * (f64::from(k) / 11.0).sqrt());
+        penetrations[20..]
+            .iter_mut()
+            .zip(0u8..)
+            .for_each(|(penetration, k)| *penetration += 0.1 * (f64::from(k) / 11.0).sqrt());
         let found = refusal([forces, penetrations]);
         let Some(MeasurementError::Hold { from, to, by, .. }) = found else { panic!("{part}: {found:?}") };
         assert!((18..22).contains(&from) && to == 31 && by > 0.03, "{from} {to} {by}");
@@ -252,12 +257,12 @@ fn scatter_is_no_pattern_and_an_arch_is_one() {
     let mut residuals = |count: usize, grows: bool, arch: f64| -> Vec<f64> {
         let x = |i: usize| 2.0 * i as f64 / (count - 1) as f64 - 1.0;
         let size = |i: usize| if grows { 0.1 + 0.45 * (x(i) + 1.0) } else { 1.0 };
-        let own: Vec<f64> = (0..count).map(|i| size(i) * normal(&mut random) + arch * x(i) * x(i)).collect();
+        let scatter: Vec<f64> = (0..count).map(|i| size(i) * normal(&mut random) + arch * x(i) * x(i)).collect();
         // A straight line is taken off: x has the mean 0.
-        let mean = own.iter().sum::<f64>() / count as f64;
+        let mean = scatter.iter().sum::<f64>() / count as f64;
         let squares: f64 = (0..count).map(|i| x(i) * x(i)).sum();
-        let slope = own.iter().enumerate().map(|(i, r)| x(i) * r).sum::<f64>() / squares;
-        own.iter().enumerate().map(|(i, r)| r - mean - slope * x(i)).collect()
+        let slope = scatter.iter().enumerate().map(|(i, r)| x(i) * r).sum::<f64>() / squares;
+        scatter.iter().enumerate().map(|(i, r)| r - mean - slope * x(i)).collect()
     };
     const CURVES: usize = 4000;
     for count in [6, 10, 24, 100] {
@@ -296,16 +301,16 @@ fn modulus(measured: &Measurement, [poisson, radius]: [f64; 2], more: &[Quantity
         Ok::<_, MaterialError>(Problem::new(Indenters::new(lattice, vec![level]).unwrap(), body))
     };
     let settings = Settings { tolerance: 1e-9, ..Settings::default() };
-    let own = |name: &str, quantity, start| Parameter { name: name.to_owned(), quantity, start };
-    let mut free = vec![own("young", Quantity::Positive, 100.0)];
-    free.extend(more.iter().map(|&quantity| own("instrument", quantity, 0.0)));
+    let parameter = |name: &str, quantity, start| Parameter { name: name.to_owned(), quantity, start };
+    let mut free = vec![parameter("young", Quantity::Positive, 100.0)];
+    free.extend(more.iter().map(|&quantity| parameter("instrument", quantity, 0.0)));
     let mut fixed = vec![
-        own("poisson", Quantity::Bounded([0.0, 0.5]), poisson),
-        own("radius", Quantity::Positive, radius),
-        own("offset", Quantity::Offset, measured.instrument().offset),
-        own("frame", Quantity::FrameCompliance, measured.instrument().frame_compliance),
+        parameter("poisson", Quantity::Bounded([0.0, 0.5]), poisson),
+        parameter("radius", Quantity::Positive, radius),
+        parameter("offset", Quantity::Offset, measured.instrument().offset),
+        parameter("frame", Quantity::FrameCompliance, measured.instrument().frame_compliance),
     ];
-    fixed.retain(|own| !more.contains(&own.quantity));
+    fixed.retain(|parameter| !more.contains(&parameter.quantity));
     let model = Model { problem: &problem, points: 48, settings };
     Identification::with_fixed(&model, (&free, &fixed), measured, &mut |_| ControlFlow::Continue(())).unwrap()
 }
@@ -321,9 +326,9 @@ fn curve(count: i32, scatter: f64, seed: u64, adds: &dyn Fn(f64) -> f64) -> Meas
 #[test]
 fn derivatives_by_what_is_known_are_those_of_hertz_and_of_other_fits() {
     let measured = curve(12, 0.0, 4, &|_| 0.0);
-    let own = modulus(&measured, [0.3, 10.0], &[]);
-    let young = own.estimates[0].value;
-    let by = |k: usize| own.sensitivities[k].derivatives[0];
+    let fit = modulus(&measured, [0.3, 10.0], &[]);
+    let young = fit.estimates[0].value;
+    let by = |k: usize| fit.sensitivities[k].derivatives[0];
     let exact = [-0.6 * young / 0.91, -young / 20.0];
     for (k, exact) in exact.into_iter().enumerate() {
         // Derivatives on 48 samples are right to a percent or so.
@@ -348,7 +353,7 @@ fn a_missed_zero_a_frame_and_yield_are_told() {
     const SCATTER: f64 = 2e-4;
     let plain = modulus(&curve(24, SCATTER, 5, &|_| 0.0), [0.3, 10.0], &[]);
     assert_eq!(plain.doubts, []);
-    let near = |own: &Identification| (own.estimates[0].value - 70.0).abs() < 4.0 * own.estimates[0].error + 0.2;
+    let near = |fit: &Identification| (fit.estimates[0].value - 70.0).abs() < 4.0 * fit.estimates[0].error + 0.2;
     assert!(near(&plain), "{plain}");
     for (quantity, size, instrument) in [
         (Quantity::Offset, -2.5e-3, Instrument { offset: -2.5e-3, ..Instrument::default() }),
@@ -357,9 +362,9 @@ fn a_missed_zero_a_frame_and_yield_are_told() {
         let measured = curve(24, SCATTER, 6, &|force| instrument.adds(force));
         let wrong = modulus(&measured, [0.3, 10.0], &[]);
         assert!(!near(&wrong), "{wrong}");
-        let missing = wrong.doubts.iter().find_map(|own| match own {
-            Doubt::Offset(own) if quantity == Quantity::Offset => Some(own),
-            Doubt::FrameCompliance(own) if quantity == Quantity::FrameCompliance => Some(own),
+        let missing = wrong.doubts.iter().find_map(|doubt| match doubt {
+            Doubt::Offset(missing) if quantity == Quantity::Offset => Some(missing),
+            Doubt::FrameCompliance(missing) if quantity == Quantity::FrameCompliance => Some(missing),
             _ => None,
         });
         let missing = missing.unwrap_or_else(|| panic!("{wrong:?}"));
@@ -368,8 +373,8 @@ fn a_missed_zero_a_frame_and_yield_are_told() {
         assert!((missing.estimates[0] - 70.0).abs() < 1.5, "{missing:?}");
         let freed = modulus(&measured, [0.3, 10.0], &[quantity]);
         let known = modulus(&measured.with_instrument(instrument), [0.3, 10.0], &[]);
-        for own in [freed, known] {
-            assert!(near(&own) && own.doubts.is_empty(), "{own}: {:?}", own.doubts);
+        for fit in [freed, known] {
+            assert!(near(&fit) && fit.doubts.is_empty(), "{fit}: {:?}", fit.doubts);
         }
     }
     let yields = curve(24, SCATTER, 7, &|force| 1.5e-3 * (force - 8.0f64).max(0.0));
@@ -384,15 +389,15 @@ fn a_hopeless_search_is_given_up_at_its_start() {
     let forces: Vec<f64> = (1..=12).map(|k| 1e-9 * f64::from(k)).collect();
     let penetrations = forces.iter().map(|force| (3.0 * force * 0.96 / (4.0 * 300.0 * 10f64.sqrt())).powf(2.0 / 3.0));
     let mut random = Random(8);
-    let penetrations = penetrations.map(|own| own * (1.0 + 0.02 * normal(&mut random))).collect();
+    let penetrations = penetrations.map(|penetration| penetration * (1.0 + 0.02 * normal(&mut random))).collect();
     let measured = Measurement::new(forces, penetrations, None).unwrap();
     let problem = |values: &[f64]| problem(&[values[0], 0.2, 1.0, values[1]]);
     let settings = Settings { tolerance: 1e-9, ..Settings::default() };
-    let own = |name: &str, start| Parameter { name: name.to_owned(), quantity: Quantity::Positive, start };
+    let parameter = |name: &str, start| Parameter { name: name.to_owned(), quantity: Quantity::Positive, start };
     let mut trials = 0;
     let found = Identification::new_with_progress(
         &Model { problem: &problem, points: 32, settings },
-        &[own("coating", 250.0), own("substrate", 70.0)],
+        &[parameter("coating", 250.0), parameter("substrate", 70.0)],
         &measured,
         &mut |trial| {
             // Values that the model refuses are none.
@@ -400,9 +405,9 @@ fn a_hopeless_search_is_given_up_at_its_start() {
             ControlFlow::Continue(())
         },
     );
-    let Err(IdentificationError::Undetermined(own)) = found else { panic!("{found:?}") };
-    assert!(own.at_start && own.name == "substrate" && trials <= 3, "{own}, {trials} trials");
-    assert!(own.to_string().starts_with("at the first values of the search"), "{own}");
+    let Err(IdentificationError::Undetermined(parameter)) = found else { panic!("{found:?}") };
+    assert!(parameter.at_start && parameter.name == "substrate" && trials <= 3, "{parameter}, {trials} trials");
+    assert!(parameter.to_string().starts_with("at the first values of the search"), "{parameter}");
 }
 
 /// A radius that the model takes at its value alone has no derivative; what was found stays, and so do the derivatives by the others. Where the
@@ -410,12 +415,12 @@ fn a_hopeless_search_is_given_up_at_its_start() {
 #[test]
 fn a_fit_is_kept_where_derivatives_are_missing() {
     let measured = curve(12, 0.0, 4, &|_| 0.0);
-    let own = |name: &str, quantity, start| Parameter { name: name.to_owned(), quantity, start };
-    let free = [own("young", Quantity::Positive, 100.0)];
+    let parameter = |name: &str, quantity, start| Parameter { name: name.to_owned(), quantity, start };
+    let free = [parameter("young", Quantity::Positive, 100.0)];
     let fixed = [
-        own("poisson", Quantity::Bounded([0.0, 0.5]), 0.3),
-        own("radius", Quantity::Positive, 10.0),
-        own("offset", Quantity::Offset, 0.0),
+        parameter("poisson", Quantity::Bounded([0.0, 0.5]), 0.3),
+        parameter("radius", Quantity::Positive, 10.0),
+        parameter("offset", Quantity::Offset, 0.0),
     ];
     let fit = |takes: &(dyn Fn(&[f64]) -> bool + Sync)| {
         let problem = |values: &[f64]| match takes(values) {
@@ -433,7 +438,7 @@ fn a_fit_is_kept_where_derivatives_are_missing() {
         Identification::with_fixed(&model, (&free, &fixed), &measured, &mut |_| ControlFlow::Continue(())).unwrap()
     };
     let whole = fit(&|_| true);
-    let names = |own: &Identification| own.sensitivities.iter().map(|own| own.fixed.name.clone()).collect::<Vec<_>>();
+    let names = |fit: &Identification| fit.sensitivities.iter().map(|row| row.fixed.name.clone()).collect::<Vec<_>>();
     assert!(whole.doubts.is_empty() && names(&whole) == ["poisson", "radius", "offset"], "{:?}", whole.doubts);
     for (takes, known, missing) in [
         (
@@ -443,13 +448,13 @@ fn a_fit_is_kept_where_derivatives_are_missing() {
         ),
         (&|values: &[f64]| values.len() == 1, 0, vec!["poisson", "radius", "offset"]),
     ] {
-        let own = fit(takes);
-        assert_eq!((&own.estimates, own.rms, own.sensitivities.len()), (&whole.estimates, whole.rms, known));
-        let [Doubt::NoDerivative(none)] = &own.doubts[..] else { panic!("{:?}", own.doubts) };
+        let found = fit(takes);
+        assert_eq!((&found.estimates, found.rms, found.sensitivities.len()), (&whole.estimates, whole.rms, known));
+        let [Doubt::NoDerivative(none)] = &found.doubts[..] else { panic!("{:?}", found.doubts) };
         assert!(none.names == missing && none.reason.contains("a hardness must be positive"), "{none:?}");
         if known == 2 {
-            assert_eq!(own.sensitivities[0].fixed.name, "poisson");
-            let [part, all] = [&own, &whole].map(|own| own.sensitivities[0].derivatives[0]);
+            assert_eq!(found.sensitivities[0].fixed.name, "poisson");
+            let [part, all] = [&found, &whole].map(|fit| fit.sensitivities[0].derivatives[0]);
             assert!((part / all - 1.0).abs() < 1e-6, "{part} {all}");
         }
     }

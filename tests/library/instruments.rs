@@ -38,7 +38,7 @@ fn error(case: &Case, factor: f64) -> f64 {
     assert_eq!(heights.dim(), (POINTS[0], POINTS[1]));
     let expected = |i: usize, j: usize| factor * (height(i, j) - height(0, 0));
     let differences = heights.indexed_iter().filter(|((i, j), _)| !HOLES.contains(&[*i, *j]));
-    differences.fold(0.0, |most, ((i, j), own)| f64::max(most, (own - heights[[0, 0]] - expected(i, j)).abs()))
+    differences.fold(0.0, |most, ((i, j), height)| f64::max(most, (height - heights[[0, 0]] - expected(i, j)).abs()))
 }
 
 fn doubts(case: &Case) -> String {
@@ -168,7 +168,8 @@ fn sizes_that_the_file_does_not_hold_are_refused() {
     let packed = |at: usize, bytes: &[u8]| read("a.sur", put(stored("compressed.sur"), at, bytes), "");
     let gwy = |field: &[u8], bytes: &[u8]| {
         let content = stored("one_height.gwy");
-        let mut starts = content.windows(field.len()).enumerate().filter(|(_, own)| *own == field).map(|(at, _)| at);
+        let mut starts =
+            content.windows(field.len()).enumerate().filter(|(_, window)| *window == field).map(|(at, _)| at);
         // Of the second channel, the one of heights.
         let at = starts.nth(1).unwrap() + field.len();
         read("a.gwy", put(content, at, bytes), "")
@@ -228,7 +229,7 @@ fn sizes_that_the_file_does_not_hold_are_refused() {
 #[test]
 fn sdf_files_of_other_writers_are_read() {
     let text = String::from_utf8(stored("bcr_text.sdf")).unwrap();
-    let own = [
+    let replacements = [
         ("NumPoints = 24", "NumPoints   24 ; points of a line"),
         ("Zresolution", "; a comment\nManufacID = A*B\nZresolution"),
         ("DataType = 6", "DataType = LongInt"),
@@ -237,7 +238,7 @@ fn sdf_files_of_other_writers_are_read() {
         ("aBCR", "ABCR"),
         ("2147483647", "BAD ; 3 4\n"),
     ];
-    let other = own.iter().fold(text, |text, (from, to)| {
+    let other = replacements.iter().fold(text, |text, (from, to)| {
         assert!(text.contains(from), "{from}");
         text.replacen(from, to, 1)
     });
@@ -303,8 +304,8 @@ fn what_no_version_of_sdf_explains_is_refused_with_the_way_through() {
     // By the proposal the largest number is the mark, of numbers without a sign too.
     let raised = (0..360).fold(stored("bcr.sdf"), |content, k| {
         let at = 81 + 2 * k;
-        let own = i16::from_le_bytes([content[at], content[at + 1]]);
-        let other = if own == i16::MAX { u16::MAX } else { (i32::from(own) + 1000) as u16 };
+        let number = i16::from_le_bytes([content[at], content[at + 1]]);
+        let other = if number == i16::MAX { u16::MAX } else { (i32::from(number) + 1000) as u16 };
         put(content, at, &other.to_le_bytes())
     });
     let case = read("a.sdf", put(raised, 79, &[1]), "").unwrap();
@@ -315,7 +316,7 @@ fn what_no_version_of_sdf_explains_is_refused_with_the_way_through() {
 #[test]
 fn a_channel_is_read_beside_another_that_is_no_surface() {
     let content = stored("one_height.gwy");
-    let at = content.windows(6).position(|own| own == b"xres\0i").unwrap() + 6;
+    let at = content.windows(6).position(|window| window == b"xres\0i").unwrap() + 6;
     let profile = |surface: &str| read("a.gwy", put(content.clone(), at, &1i32.to_le_bytes()), surface);
     assert!(error(&profile("channel = 2").unwrap(), 1.0) < 1e-12);
     assert!(profile("channel = 1\nscale = 1").unwrap_err().contains("a profile is no surface"));
@@ -401,15 +402,15 @@ fn zip(files: &[(&str, &[u8], Option<u32>)]) -> Vec<u8> {
 /// A zip of files that are packed by a method: 0 as they are, 8 deflated.
 fn packed_by(method: u8, files: &[(&str, &[u8], Option<u32>)]) -> Vec<u8> {
     let (mut content, mut directory) = (Vec::new(), Vec::new());
-    for (name, own, stated) in files {
-        let packed = if method == 0 { own.to_vec() } else { compress_to_vec(own, 6) };
+    for (name, bytes, stated) in files {
+        let packed = if method == 0 { bytes.to_vec() } else { compress_to_vec(bytes, 6) };
         let [short, long] =
             [|n: usize| (n as u16).to_le_bytes().to_vec(), |n: usize| (n as u32).to_le_bytes().to_vec()];
-        let size = stated.map_or(own.len(), |size| size as usize);
+        let size = stated.map_or(bytes.len(), |size| size as usize);
         // Version, flags, method, time and date.
         let common = [
             vec![20, 0, 0, 0, method, 0, 0, 0, 0, 0],
-            crc32fast::hash(own).to_le_bytes().to_vec(),
+            crc32fast::hash(bytes).to_le_bytes().to_vec(),
             long(packed.len()),
             long(size),
             short(name.len()),
@@ -515,7 +516,11 @@ fn heights_in_main_xml_are_read_or_refused() {
     // In micrometres: the increment along z is one, too.
     let heights = plain.problem().topography().unwrap().heights().to_owned();
     assert_eq!(heights.dim(), (4, 3));
-    assert!(heights.indexed_iter().all(|((i, j), own)| { (own - heights[[0, 0]] - (i + 4 * j) as f64).abs() < 1e-12 }));
+    assert!(
+        heights
+            .indexed_iter()
+            .all(|((i, j), height)| { (height - heights[[0, 0]] - (i + 4 * j) as f64).abs() < 1e-12 })
+    );
     let prefixed =
         list(&datums(12)).replace("<D", "<p:D").replace("</D", "</p:D").replacen("<p:Datum", "<!-- < --> <p:Datum", 1);
     let spaced = list(&datums(12)).replace("Datum>", "Datum >").replace("DataList>", "DataList\n >");
@@ -565,9 +570,9 @@ fn what_an_x3p_file_has_twice_or_changed_is_refused() {
         main.replace("</PointDataLink>", &md5)
     };
     let of = |main: &str, more: &[(&str, &[u8])]| {
-        let own = [("main.xml", main.as_bytes(), None), ("bindata/data.bin", &data[..], None)];
+        let files = [("main.xml", main.as_bytes(), None), ("bindata/data.bin", &data[..], None)];
         let more = more.iter().map(|(name, content)| (*name, *content, None));
-        read("a.x3p", zip(&own.into_iter().chain(more).collect::<Vec<_>>()), "")
+        read("a.x3p", zip(&files.into_iter().chain(more).collect::<Vec<_>>()), "")
     };
     let of_main = sum(main.as_bytes()) + " *main.xml\n";
     let of_data = sum(&data) + " *bindata/data.bin\n";
@@ -610,7 +615,7 @@ fn what_an_x3p_file_has_twice_or_changed_is_refused() {
     }
     let twice = |name: &[u8]| {
         let content = stored("two_heights.gwy");
-        let at = content.windows(name.len()).position(|own| own == b"/2/data\0o").unwrap();
+        let at = content.windows(name.len()).position(|window| window == b"/2/data\0o").unwrap();
         read("a.gwy", put(content, at, name), "channel = 1\nscale = 1").map(|_| ()).unwrap_err()
     };
     assert!(twice(b"/1/data\0o").contains("twice"));
@@ -626,8 +631,11 @@ fn an_increment_that_can_hardly_be_metres_is_named() {
     let of = |increments: [&str; 3]| {
         let main = main_xml(["4", "3", "1"], "I");
         let parts: Vec<&str> = main.split("1e-6").collect();
-        let main: String =
-            parts.iter().zip(increments.iter().chain([&""])).flat_map(|(part, own)| [*part, *own]).collect();
+        let main: String = parts
+            .iter()
+            .zip(increments.iter().chain([&""]))
+            .flat_map(|(part, increment)| [*part, *increment])
+            .collect();
         doubts(
             &read("a.x3p", zip(&[("main.xml", main.as_bytes(), None), ("bindata/data.bin", &data, None)]), "").unwrap(),
         )
@@ -660,7 +668,7 @@ fn a_zip_is_read_as_it_was_packed_or_refused() {
     for method in [0, 8] {
         let mut changed = of(method, &data, None);
         // The data ends where the directory begins.
-        let directory = changed.windows(4).position(|own| own == b"PK\x01\x02").unwrap();
+        let directory = changed.windows(4).position(|window| window == b"PK\x01\x02").unwrap();
         changed[directory - 5] ^= 1;
         let told = read("a.x3p", changed, "").unwrap_err();
         assert!(told.contains("another checksum") || method == 8 && told.contains("is damaged"), "{told}");

@@ -40,15 +40,15 @@ fn a_flat_slider_shears_an_interface_off_at_its_closed_form() {
         limits(problem, 16)
     };
     for friction in [0.0, 0.1, 0.3, 0.45] {
-        let own = found(friction);
-        let At::Load { load, .. } = own.limits[0].at else { panic!("{friction}: {own}") };
+        let limits = found(friction);
+        let At::Load { load, .. } = limits.limits[0].at else { panic!("{friction}: {limits}") };
         let exact = SHEAR / (SLIDING - friction);
         assert!((load / exact - 1.0).abs() < 1e-3, "{friction}: {load}, {exact}");
     }
     for friction in [0.6, 0.8] {
-        let own = found(friction);
-        let At::Never { utilisation, .. } = own.limits[0].at else { panic!("{friction}: {own}") };
-        assert!(utilisation < 1.0 && utilisation > 0.9 * SLIDING / friction, "{friction}: {own}");
+        let limits = found(friction);
+        let At::Never { utilisation, .. } = limits.limits[0].at else { panic!("{friction}: {limits}") };
+        assert!(utilisation < 1.0 && utilisation > 0.9 * SLIDING / friction, "{friction}: {limits}");
     }
 }
 
@@ -69,7 +69,7 @@ fn the_largest_utilisation_is_that_of_a_dense_plane_of_stresses() {
             let load = Load::MeanPressure(0.05);
             let run = Run::new(problem.clone(), vec![load], Sampling::Points([64; 2]));
             let step = run.solve(&mut ()).unwrap().steps.remove(0);
-            let own = step.strength[0];
+            let row = step.strength[0];
             let solved = Solver::new(problem, [64; 2], run.settings).unwrap().solve(load);
             let fields = StressFields::new(solved.finest(), MeanStress::default());
             // Twice as many points as waves: their spacing leaves some (πh/2L)² of waves of the length L, a tenth of the contact.
@@ -81,11 +81,11 @@ fn the_largest_utilisation_is_that_of_a_dense_plane_of_stresses() {
             };
             let dense = plane.states().iter().map(taken).fold(0.0, f64::max);
             assert!(
-                own.value > dense * (1.0 - 1e-9) && own.value < dense * 1.01,
-                "{stack:?}, {friction}: {own:?}, {dense}"
+                row.value > dense * (1.0 - 1e-9) && row.value < dense * 1.01,
+                "{stack:?}, {friction}: {row:?}, {dense}"
             );
-            assert!(own.value <= before && own.error.is_some(), "{stack:?}, {friction}: {own:?}");
-            before = own.value;
+            assert!(row.value <= before && row.error.is_some(), "{stack:?}, {friction}: {row:?}");
+            before = row.value;
         }
     }
 }

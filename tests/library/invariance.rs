@@ -132,15 +132,15 @@ fn the_cases_of_the_tests_are_the_embedded_ones() {
     for paper in PAPER {
         let name = paper.name;
         let case = Case::read(&embedded::source(name).unwrap(), &[]).unwrap();
-        let (own, embedded) = (paper.indenters(), case.problem().indenters().unwrap());
-        assert_eq!(own.lattice(), embedded.lattice(), "{name}");
-        assert!(own.levels().iter().zip(embedded.levels()).all(|(a, b)| a.shape() == b.shape()), "{name}");
-        assert_eq!(own.levels().len(), embedded.levels().len(), "{name}");
-        assert!(own.drops().iter().zip(embedded.drops()).all(|(&a, b)| close(a, b)), "{name}: {embedded}");
-        let (own, embedded) = (paper.half_space(), case.half_space());
-        let ([mine], [theirs]) = (own.layers(), embedded.layers()) else { panic!("{name}: one layer") };
+        let (stated, embedded) = (paper.indenters(), case.problem().indenters().unwrap());
+        assert_eq!(stated.lattice(), embedded.lattice(), "{name}");
+        assert!(stated.levels().iter().zip(embedded.levels()).all(|(a, b)| a.shape() == b.shape()), "{name}");
+        assert_eq!(stated.levels().len(), embedded.levels().len(), "{name}");
+        assert!(stated.drops().iter().zip(embedded.drops()).all(|(&a, b)| close(a, b)), "{name}: {embedded}");
+        let (stated, embedded) = (paper.half_space(), case.half_space());
+        let ([mine], [theirs]) = (stated.layers(), embedded.layers()) else { panic!("{name}: one layer") };
         assert_eq!((mine.thickness(), mine.interface()), (theirs.thickness(), theirs.interface()), "{name}");
-        for (a, b) in own.materials().zip(embedded.materials()) {
+        for (a, b) in stated.materials().zip(embedded.materials()) {
             assert!(close(a.shear(), b.shear()) && close(a.poisson(), b.poisson()), "{name}: {embedded}");
         }
         assert_eq!(case.load.quantity(), "mean_pressure");

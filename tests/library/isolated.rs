@@ -37,8 +37,9 @@ fn solved(problem: Problem, points: usize, load: Load) -> Step {
 /// REACH §1: a, P, δ, p₀ on five bodies, by an axisymmetric integral equation with the composite compliance.
 fn anchors() -> Vec<(Bodies, [f64; 4])> {
     let layer = |(h, young, nu): (f64, f64, f64)| Layer::new(material(young, nu), h, Interface::Bonded).unwrap();
-    let on =
-        |layers: &[(f64, f64, f64)]| HalfSpace::new(layers.iter().map(|own| layer(*own)).collect(), material(1.0, NU));
+    let on = |layers: &[(f64, f64, f64)]| {
+        HalfSpace::new(layers.iter().map(|given| layer(*given)).collect(), material(1.0, NU))
+    };
     let hard = || on(&[(0.3, 3.0, 0.22)]);
     vec![
         (bare().into(), [1.0, 1.465201465, 1.0, 0.699582167]),
@@ -181,16 +182,16 @@ fn the_largest_stresses_are_those_of_the_free_field() {
             for (field, free) in fields[0].each().zip(fields[1].each()) {
                 let maxima = field.maxima([a; 2]);
                 let of = |peak: Peak, measure: fn(&StressState) -> f64| (peak, measure);
-                let materials = maxima.materials.iter().chain(&maxima.faces).flat_map(|own| {
+                let materials = maxima.materials.iter().chain(&maxima.faces).flat_map(|peaks| {
                     [
-                        of(own.tau1, StressState::tau1),
-                        of(own.tension, StressState::s1),
-                        of(own.mises, StressState::mises),
+                        of(peaks.tau1, StressState::tau1),
+                        of(peaks.tension, StressState::s1),
+                        of(peaks.mises, StressState::mises),
                     ]
                 });
-                let interfaces = maxima.interfaces.iter().flat_map(|own| {
+                let interfaces = maxima.interfaces.iter().flat_map(|peaks| {
                     let shear = |state: &StressState| state.xz.hypot(state.yz);
-                    [of(own.normal, |state| state.zz), of(own.shear, shear)]
+                    [of(peaks.normal, |state| state.zz), of(peaks.shear, shear)]
                 });
                 let peaks: Vec<_> = materials.chain(interfaces).collect();
                 assert!(peaks.len() >= 6);
@@ -253,11 +254,12 @@ fn a_slender_window_has_the_stresses_of_a_square_one() {
     let places = [[0.0, 0.0], [0.3 * side, 0.45 * side], [1.9 * side, 0.4 * side], [1.2 * side, 0.0]];
     for (z, material) in [(0.1 * side, 1), (0.3, 1), (0.3, 2), (side, 2), (6.0 * side, 2), (20.0 * side, 2)] {
         let depth = Depth { z, material };
-        let own = square.points(depth, &places);
+        let states = square.points(depth, &places);
         let turned = places.map(|[x, y]| [y, x]);
-        for ((own, other), third) in own.iter().zip(slender.points(depth, &places)).zip(upright.points(depth, &turned))
+        for ((state, other), third) in
+            states.iter().zip(slender.points(depth, &places)).zip(upright.points(depth, &turned))
         {
-            let (a, b, c) = (own.components(), other.components(), third.components());
+            let (a, b, c) = (state.components(), other.components(), third.components());
             let c = [c[1], c[0], c[2], c[3], c[5], c[4]];
             for k in 0..6 {
                 assert!(
@@ -310,7 +312,7 @@ fn topography_in_a_window(friction: f64) {
         let none = [rough.counted_fraction, rough.corrected_fraction, rough.perimeter_density, rough.mean_gap];
         assert!(none.iter().chain([&rough.spots.density]).all(Option::is_none), "{rough:?}");
         assert_eq!((rough.corrected_fraction_error, rough.mean_gap_error), (None, None));
-        let names: Vec<&str> = rough.histograms.iter().map(|own| own.quantity.as_ref()).collect();
+        let names: Vec<&str> = rough.histograms.iter().map(|histogram| histogram.quantity.as_ref()).collect();
         assert_eq!(names, ["pressure", "spot_area"]);
         let radius = (0.75 * step.reading.force * (1.0 - NU * NU)).cbrt();
         let exact = 2.0 * radius / (1.0 - NU * NU);
@@ -342,14 +344,14 @@ fn a_smooth_ball_of_heights_is_a_sphere() {
     let level = Level::new(Shape::Sphere { radius }, 0.0).unwrap();
     let sphere = Problem::new(Indenters::new(lattice, vec![level]).unwrap(), half_space.clone());
     let heights = Topography::new(window, Array2::zeros(points)).unwrap().on_ball(radius).unwrap();
-    let [own, other] = [Problem::new(heights, half_space), sphere].map(|problem| {
+    let [flat, other] = [Problem::new(heights, half_space), sphere].map(|problem| {
         let step = Solver::new(problem, points, Settings::default()).unwrap().solve(Load::Penetration(0.02));
         assert!(step.report.stop.solved());
         (step.reading().force, step.pressure().to_owned())
     });
     let peak = other.1.iter().copied().fold(0.0, f64::max);
-    assert!((own.0 / other.0 - 1.0).abs() < 1e-6, "{} {}", own.0, other.0);
-    assert!(own.1.iter().zip(&other.1).all(|(a, b)| (a - b).abs() < 1e-5 * peak));
+    assert!((flat.0 / other.0 - 1.0).abs() < 1e-6, "{} {}", flat.0, other.0);
+    assert!(flat.1.iter().zip(&other.1).all(|(a, b)| (a - b).abs() < 1e-5 * peak));
 }
 
 /// A narrow window along the sliding direction has few samples across it, and no grid with half of them.

@@ -109,12 +109,12 @@ const MEASURES: usize = 6;
 
 /// τ₁, tension and von Mises; largest principal strain, largest horizontal one, compression along z.
 const READ: [(Read, Value); MEASURES] = [
-    (|own| own.tau1, |state, _| state.tau1()),
-    (|own| own.tension, |state, _| state.s1()),
-    (|own| own.mises, |state, _| state.mises()),
-    (|own| own.strain.unwrap(), |state, compliance| compliance.strain(state).principal()[0]),
-    (|own| own.horizontal_strain.unwrap(), |state, compliance| compliance.strain(state).horizontal()),
-    (|own| own.compression.unwrap(), |state, compliance| -compliance.strain(state).zz),
+    (|peaks| peaks.tau1, |state, _| state.tau1()),
+    (|peaks| peaks.tension, |state, _| state.s1()),
+    (|peaks| peaks.mises, |state, _| state.mises()),
+    (|peaks| peaks.strain.unwrap(), |state, compliance| compliance.strain(state).principal()[0]),
+    (|peaks| peaks.horizontal_strain.unwrap(), |state, compliance| compliance.strain(state).horizontal()),
+    (|peaks| peaks.compression.unwrap(), |state, compliance| -compliance.strain(state).zz),
 ];
 
 /// The largest of points of a material from `top` on: a grid of points at depths dense near both faces, and random points
@@ -130,9 +130,9 @@ fn dense(
     let note = |z: f64, places: &[[f64; 2]], best: &mut [(f64, [f64; 3]); MEASURES]| {
         for (state, [x, y]) in field.points(Depth { z, material }, places).iter().zip(places) {
             for ((_, value), best) in READ.iter().zip(best.iter_mut()) {
-                let own = value(state, compliance);
-                if own > best.0 {
-                    *best = (own, [*x, *y, z]);
+                let found = value(state, compliance);
+                if found > best.0 {
+                    *best = (found, [*x, *y, z]);
                 }
             }
         }
@@ -180,14 +180,14 @@ fn worst(seed: u64, count: usize, points: usize) -> [f64; MEASURES] {
         let (stress, field) = largest(&step);
         faces_agree_with_materials(&stress, problem.half_space(), &words);
         let near = 2.0 * step.grid().spacing();
-        for (index, own) in stress.materials.iter().enumerate() {
+        for (index, material) in stress.materials.iter().enumerate() {
             let (top, bottom) = problem.half_space().faces(index + 1);
             let span = [top.max(near), bottom.min(top + 0.8)];
             if span[0] >= span[1] {
                 continue;
             }
             for (k, (value, place)) in dense(&field, index + 1, span, &mut random).into_iter().enumerate() {
-                let peak = READ[k].0(own);
+                let peak = READ[k].0(material);
                 let ratio = (value - peak.value) / peak.error.unwrap();
                 if ratio > 0.5 {
                     println!("{k} in {}: {value} at {place:?} above {peak:?}: {words}", index + 1);
@@ -203,10 +203,10 @@ fn worst(seed: u64, count: usize, points: usize) -> [f64; MEASURES] {
 /// What is stated of a face never exceeds what is stated of its material.
 fn faces_agree_with_materials(stress: &StressReading, half_space: &HalfSpace, words: &str) {
     assert_eq!(stress.faces.len(), 2 * half_space.layers().len() + 1);
-    for (face, own) in stress.faces.iter().enumerate() {
+    for (face, part) in stress.faces.iter().enumerate() {
         let whole = &stress.materials[face / 2];
         for (read, _) in READ {
-            let [part, whole] = [own, whole].map(read);
+            let [part, whole] = [part, whole].map(read);
             let top = |peak: Peak| peak.value + peak.error.unwrap();
             assert!(
                 part.value <= whole.value && top(part) <= top(whole) * (1.0 + 1e-12 * top(whole).signum()),

@@ -25,9 +25,9 @@ fn tiring(passes: Option<f64>) -> Durability {
 
 /// A layer of the thickness h on a substrate, with the passes of both materials and of the interface.
 fn coated(h: f64, layer: Option<f64>, interface: Option<f64>, substrate: Option<f64>) -> HalfSpace {
-    let own = Layer::new(young(3.0, 0.25), h, Interface::Bonded).unwrap();
-    let own = own.with_durability(tiring(layer), interface.map(law)).unwrap();
-    HalfSpace::new(vec![own], young(1.0, 0.3)).with_substrate_durability(tiring(substrate)).unwrap()
+    let coating = Layer::new(young(3.0, 0.25), h, Interface::Bonded).unwrap();
+    let coating = coating.with_durability(tiring(layer), interface.map(law)).unwrap();
+    HalfSpace::new(vec![coating], young(1.0, 0.3)).with_substrate_durability(tiring(substrate)).unwrap()
 }
 
 /// Balls of the radius 1 on a square lattice of the side 1 that slide with friction along x.
@@ -79,7 +79,8 @@ fn the_first_failure_is_that_of_the_reading_and_lasts_as_its_law() {
 fn an_interface_that_fails_takes_its_layer_off() {
     let first = followed(&task(coated(0.08, None, Some(1e3), None), None)).1.events[0];
     assert!(
-        first.what == EventKind::Delamination && matches!(first.part, FatiguePart::Interface(own) if own.number == 1)
+        first.what == EventKind::Delamination
+            && matches!(first.part, FatiguePart::Interface(interface) if interface.number == 1)
     );
     let (_, state) = followed(&task(coated(0.08, None, Some(1e3), None), Some(3.0 * first.passes)));
     assert_eq!((state.events.len(), state.events[0].thickness), (1, 0.0));
@@ -136,12 +137,12 @@ fn a_life_goes_on_from_any_of_its_states() {
     assert!(states.len() > 3, "{}", states.len());
     let last = states.last().unwrap();
     for state in [0, 1, states.len() / 2] {
-        let mut own = read_back(&states[state]);
-        assert_eq!(own, states[state]);
-        while own.end.is_none() {
-            own = task.advance(own, &begun, &|| true).unwrap();
+        let mut again = read_back(&states[state]);
+        assert_eq!(again, states[state]);
+        while again.end.is_none() {
+            again = task.advance(again, &begun, &|| true).unwrap();
         }
-        assert_eq!(&own, last);
+        assert_eq!(&again, last);
     }
     assert_eq!(task.advance(last.clone(), &begun, &|| true).unwrap(), *last, "an end stays");
 }
@@ -294,10 +295,10 @@ fn the_distance_to_failure_does_not_depend_on_what_is_called_a_pass() {
 
 /// A ball of the radius 1 in a window under a force, with friction along x; `wear` of the body and of the ball.
 fn alone(size: f64, points: usize, wear: [f64; 2], base: LifeTask) -> LifeTask {
-    let own = |wear: f64| Durability { wear: (wear > 0.0).then_some(wear), ..Durability::default() };
-    let layer = Layer::new(young(3.0, 0.25), 0.02, Interface::Bonded).unwrap().with_durability(own(wear[0]), None);
+    let wears = |wear: f64| Durability { wear: (wear > 0.0).then_some(wear), ..Durability::default() };
+    let layer = Layer::new(young(3.0, 0.25), 0.02, Interface::Bonded).unwrap().with_durability(wears(wear[0]), None);
     let body = HalfSpace::new(vec![layer.unwrap()], young(1.0, 0.3));
-    let bodies = Bodies::from(body).with_rigid_durability(own(wear[1])).unwrap();
+    let bodies = Bodies::from(body).with_rigid_durability(wears(wear[1])).unwrap();
     let lattice = Lattice::new(Cell::window([size; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
     let ball = Indenters::new(lattice, vec![Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap()]).unwrap();
     let problem = Problem::new(ball, bodies).sliding(Friction::new(0.1, [1.0, 0.0]).unwrap()).unwrap();
@@ -322,7 +323,7 @@ fn to_and_fro_the_shear_of_both_directions_counts() {
     let fields = StressFields::new(begun.step.finest(), MeanStress::Confined);
     let places: Vec<[f64; 2]> = (0..=2000).map(|k| [f64::from(k) * 5e-4 - 0.5, 0.0]).collect();
     let depth = percoat::body::Depth { z: 0.1, material: 1 };
-    let shear: Vec<f64> = fields.body().points(depth, &places).iter().map(|own| own.xz).collect();
+    let shear: Vec<f64> = fields.body().points(depth, &places).iter().map(|state| state.xz).collect();
     let [least, most] = [f64::min, f64::max].map(|of| shear.iter().copied().fold(0.0, of));
     let [a, b] = [least.abs().min(most.abs()), least.abs().max(most.abs())];
     assert!(b > 1.2 * a && a > 0.0, "{a} {b}");
@@ -335,7 +336,7 @@ fn to_and_fro_the_shear_of_both_directions_counts() {
     // The track is shorter than the contact is wide.
     let short = of(Some(0.05));
     let (begun, state) = followed(&short);
-    assert!(short.warnings(&begun, &state).iter().any(|own| own.contains("fretting")));
+    assert!(short.warnings(&begun, &state).iter().any(|warning| warning.contains("fretting")));
 }
 
 /// How a ball wears is a matter of the distance that it slides, and not of the window.
@@ -349,17 +350,17 @@ fn the_scar_of_a_ball_does_not_depend_on_the_window() {
         *followed(&task).1.course.last().unwrap()
     };
     let [narrow, wide] = [of(0.8, 64), of(1.2, 96)];
-    for own in [narrow, wide] {
-        let scar = own.scar.unwrap();
+    for record in [narrow, wide] {
+        let scar = record.scar.unwrap();
         // k s P, exactly, and the specific rate is k.
-        assert!((scar.volume / (0.5 * 4.0 * 0.005) - 1.0).abs() < 1e-9, "{own:?}");
-        assert!((own.specific_rate.unwrap() / 0.5 - 1.0).abs() < 1e-9 && own.distance == Some(4.0), "{own:?}");
-        assert_eq!((own.body, own.counterbody), (None, None));
+        assert!((scar.volume / (0.5 * 4.0 * 0.005) - 1.0).abs() < 1e-9, "{record:?}");
+        assert!((record.specific_rate.unwrap() / 0.5 - 1.0).abs() < 1e-9 && record.distance == Some(4.0), "{record:?}");
+        assert_eq!((record.body, record.counterbody), (None, None));
         // A cap of a worn ball: V = πd⁴/64R; elastic deformation adds to its width.
         let cap = std::f64::consts::PI * scar.diameter.powi(4) / 64.0 / scar.volume;
         assert!(0.95 < cap && cap < 1.4, "{cap}");
     }
-    let [one, other] = [narrow, wide].map(|own| own.scar.unwrap());
+    let [one, other] = [narrow, wide].map(|record| record.scar.unwrap());
     assert!((one.diameter / other.diameter - 1.0).abs() < 1e-2, "{one:?} {other:?}");
     assert!((one.depth / other.depth - 1.0).abs() < 1e-2, "{one:?} {other:?}");
 }
@@ -375,7 +376,7 @@ fn a_window_grows_with_the_scar() {
     let [narrow, wide] = [of(0.36, 48), of(1.44, 96)];
     assert_eq!((narrow.end, narrow.passes), (Some(LifeEnd::Passes), 60.0));
     assert!(narrow.doubled > 0 && wide.doubled == 0, "{} {}", narrow.doubled, wide.doubled);
-    let [one, other] = [&narrow, &wide].map(|own| own.course.last().unwrap().scar.unwrap());
+    let [one, other] = [&narrow, &wide].map(|state| state.course.last().unwrap().scar.unwrap());
     println!("{one:?} {other:?}");
     // Every second sample of the window before is left: a volume errs by the square of its spacing over the radius of the scar.
     assert!((one.volume / (0.5 * 60.0 * 0.005) - 1.0).abs() < 2e-2, "{one:?}");
@@ -396,12 +397,12 @@ fn a_layer_that_is_worn_through_comes_first() {
     assert!(begun.record.fatigue.as_ref().unwrap().first.passes > first.passes);
     assert!((state.events[0].depth - 0.02).abs() < 1e-15, "{:?}", state.events);
     let warnings = task.warnings(&begun, &state);
-    assert!(warnings.iter().any(|own| own.contains("has no `wear`")), "{warnings:?}");
+    assert!(warnings.iter().any(|warning| warning.contains("has no `wear`")), "{warnings:?}");
     // Without passes wear is left out, and that is said with when the layer would be gone.
     let unworn = LifeTask { passes: None, ..task };
     let (begun, state) = followed(&unworn);
     let warnings = unworn.warnings(&begun, &state);
-    assert!(warnings.iter().any(|own| own.contains("worn through after 2000")), "{warnings:?}");
+    assert!(warnings.iter().any(|warning| warning.contains("worn through after 2000")), "{warnings:?}");
 }
 
 /// The groove of an isolated contact is counted where it is deepest: the layer is left below it, and no groove is deeper than that.
@@ -413,7 +414,7 @@ fn a_groove_in_a_layer_is_not_warned_of() {
     let last = state.course.last().unwrap();
     assert!(last.body_depth > 0.5 * last.thickness && last.thickness > 0.0, "{last:?}");
     let warnings = task.warnings(&begun, &state);
-    assert!(warnings.iter().all(|own| !own.contains("groove")), "{warnings:?}");
+    assert!(warnings.iter().all(|warning| !warning.contains("groove")), "{warnings:?}");
     // Of one pass k ∫∫p along and across the track is taken off, whatever its length.
     assert!((last.groove.unwrap() / (15.0 * 0.05 * 0.005) - 1.0).abs() < 1e-6, "{last:?}");
 }
@@ -471,8 +472,8 @@ fn a_life_that_ends_between_two_rows_of_a_groove_has_the_pressure_of_a_longer_on
 #[cfg(feature = "cli")]
 fn damages(state: &LifeState) -> Vec<[f64; 2]> {
     let damage = serde_json::to_value(&state.damage).unwrap();
-    let numbers = |own: &serde_json::Value| -> Vec<f64> {
-        own.as_array().unwrap().iter().map(|own| own.as_f64().unwrap()).collect()
+    let numbers = |list: &serde_json::Value| -> Vec<f64> {
+        list.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
     };
     let (y, nodes) = (numbers(&damage["y"]), numbers(&damage["materials"][0]["damage"]));
     let largest = |line: usize| nodes.chunks(y.len()).map(|node| node[line]).fold(0.0, f64::max);
@@ -483,7 +484,7 @@ fn damages(state: &LifeState) -> Vec<[f64; 2]> {
 #[test]
 #[cfg(feature = "cli")]
 fn the_way_back_over_a_groove_does_the_damage_of_the_way_there() {
-    let of = |task: LifeTask| damages(&followed(&task).1).into_iter().map(|own| own[1]).fold(0.0, f64::max);
+    let of = |task: LifeTask| damages(&followed(&task).1).into_iter().map(|row| row[1]).fold(0.0, f64::max);
     let one_way = of(grooving(48, 12.0));
     let both = of(LifeTask { distance: None, stroke: Some(1.0), ..grooving(48, 6.0) });
     println!("one way {one_way:e}, both {both:e}: {}", both / one_way - 1.0);
@@ -509,12 +510,12 @@ fn damage_is_followed_beyond_the_first_window() {
     let [narrow, wide] = [of(0.36, 48), of(0.9, 60)];
     assert!((narrow.doubled, wide.doubled) == (1, 0) && narrow.end == Some(LifeEnd::Passes));
     let [one, other] = [&narrow, &wide].map(damages);
-    let beyond: Vec<_> = other.iter().filter(|own| own[0] > 0.19 && own[0] < 0.3).collect();
+    let beyond: Vec<_> = other.iter().filter(|row| row[0] > 0.19 && row[0] < 0.3).collect();
     assert!(beyond.len() > 5);
     for [y, damage] in beyond {
-        let own = one.iter().find(|own| (own[0] - y).abs() < 1e-9).map_or(0.0, |own| own[1]);
-        println!("{y}: {own:e} {damage:e} {}", own / damage - 1.0);
+        let found = one.iter().find(|row| (row[0] - y).abs() < 1e-9).map_or(0.0, |row| row[1]);
+        println!("{y}: {found:e} {damage:e} {}", found / damage - 1.0);
         // Of the range 2 %, by the grids and the steps, six times; what was done before the window grew is little.
-        assert!((own / damage - 1.0).abs() < 0.15, "{y}: {own:e} {damage:e}");
+        assert!((found / damage - 1.0).abs() < 0.15, "{y}: {found:e} {damage:e}");
     }
 }

@@ -70,9 +70,9 @@ fn random_problem(random: &mut Random, points: usize) -> Option<Problem> {
         .into_iter()
         .enumerate()
         .map(|(index, layer)| {
-            let (own, below) = (&stress.materials[index], &stress.interfaces[index]);
+            let (within, below) = (&stress.materials[index], &stress.interfaces[index]);
             let strength =
-                Strength { yielding: near(random, own.mises.value), tensile: near(random, own.tension.value) };
+                Strength { yielding: near(random, within.mises.value), tensile: near(random, within.tension.value) };
             let bond = InterfaceStrength {
                 normal: near(random, below.normal.value),
                 shear: near(random, below.shear.value).filter(|_| layer.interface() != Interface::Frictionless),
@@ -95,15 +95,15 @@ struct Path {
 
 impl Path {
     fn first(&self, holds: impl Fn(&Utilisation) -> bool) -> f64 {
-        self.taken.iter().find(|(_, own)| holds(own)).map_or(f64::INFINITY, |(load, _)| *load)
+        self.taken.iter().find(|(_, row)| holds(row)).map_or(f64::INFINITY, |(load, _)| *load)
     }
 
     /// Where a limit contradicts the path; `least` is the least load of its search, before which the path may begin.
     fn contradicts(&self, limit: &Limit, least: f64) -> Option<Fault> {
         let [may, is, must] = [
-            self.first(|own| own.most() >= 1.0),
-            self.first(|own| own.value >= 1.0),
-            self.first(|own| own.least() >= 1.0),
+            self.first(|row| row.most() >= 1.0),
+            self.first(|row| row.value >= 1.0),
+            self.first(|row| row.least() >= 1.0),
         ];
         let [from, to] = limit.interval();
         let last = self.taken.last().map_or(0.0, |(load, _)| *load);

@@ -62,10 +62,10 @@ fn at_its_limit_each_criterion_is_one_at_the_place_that_is_told() {
         let At::Load { load: mean_pressure, position, error, .. } = limit.at else { panic!("{limit:?}") };
         let run = Run::new(problem.clone(), vec![Load::MeanPressure(mean_pressure)], Sampling::Points([96; 2]));
         let step = run.solve(&mut ()).unwrap().steps.remove(0);
-        let own = step.strength.iter().find(|own| own.criterion == limit.criterion).unwrap();
-        assert!((own.value - 1.0).abs() < 2e-3, "{limit:?}: {own:?}");
-        let apart = (0..3).map(|k| (own.position[k] - position[k]).abs()).fold(0.0, f64::max);
-        assert!(apart < 20.0 / 96.0, "{limit:?}: {own:?}");
+        let row = step.strength.iter().find(|row| row.criterion == limit.criterion).unwrap();
+        assert!((row.value - 1.0).abs() < 2e-3, "{limit:?}: {row:?}");
+        let apart = (0..3).map(|k| (row.position[k] - position[k]).abs()).fold(0.0, f64::max);
+        assert!(apart < 20.0 / 96.0, "{limit:?}: {row:?}");
         assert!(error.is_some_and(|error| error > 0.0), "{limit:?}");
     }
     let first = found.first().unwrap();
@@ -464,10 +464,10 @@ fn a_contact_that_outgrows_its_window_has_the_limits_of_a_wide_one() {
     let (narrow, wide) = (found(4.0, 32), found(40.0, 96));
     let [width, height] = narrow.window.expect("a contact too large for its window");
     assert!(width == height && width >= 8.0 && wide.window.is_none(), "{width}, {:?}", wide.window);
-    for (own, other) in narrow.limits.iter().zip(&wide.limits) {
+    for (limit, other) in narrow.limits.iter().zip(&wide.limits) {
         let ends = |limit: &Limit| limit.interval();
-        let ([from, to], [low, high]) = (ends(own), ends(other));
-        assert!(own.load().is_finite() && from <= high && low <= to, "{own:?}, {other:?}");
+        let ([from, to], [low, high]) = (ends(limit), ends(other));
+        assert!(limit.load().is_finite() && from <= high && low <= to, "{limit:?}, {other:?}");
     }
     assert!(narrow.converged() && narrow.warnings.iter().all(|words| !words.contains("lattice.size")));
     // The section at a limit is that of the contact, not cut at the border of the narrow window.
@@ -496,6 +496,6 @@ fn a_contact_at_the_border_under_the_first_load_is_searched_in_a_larger_window()
     };
     let (beside, middle) = (of(0.49, 1.0), of(0.0, 2.0));
     assert!(beside.window.is_some_and(|[width, _]| width >= 2.0), "{:?}", beside.window);
-    let [[from, to], [low, high]] = [&beside, &middle].map(|own| own.limits[0].interval());
+    let [[from, to], [low, high]] = [&beside, &middle].map(|limits| limits.limits[0].interval());
     assert!(from <= high && low <= to && to < 1.1 * from, "{from} {to}, {low} {high}");
 }

@@ -88,11 +88,11 @@ fn coated_lines_have_the_stresses_of_any_period() {
         let of = |period: f64, n: usize, mean| pressed(cylinders(period, [n, 8], 0.0, false), body.clone(), mean);
         let change = |mean| {
             let [(near, one), (far, two)] = [of(2.0, 1280, mean), of(4.0, 2560, mean)];
-            let of = |own: &StressReading, p: f64, k: usize| own.materials[k].mises.value / p;
+            let of = |stress: &StressReading, p: f64, k: usize| stress.materials[k].mises.value / p;
             [0, 1].map(|k| (of(&near, one, k) / of(&far, two, k) - 1.0).abs())
         };
         let (line, confined) = (change(MeanStress::Line), change(MeanStress::Confined));
-        assert!(line.iter().all(|own| *own < 2e-3), "{body}: {line:?}");
+        assert!(line.iter().all(|change| *change < 2e-3), "{body}: {line:?}");
         assert!(confined.iter().copied().fold(0.0, f64::max) > 5e-3, "{body}: {confined:?}");
     }
 }

@@ -62,8 +62,8 @@ fn the_mean_compression_is_in_the_displacement_and_the_penetration() {
     let stiff = HalfSpace::new(body.layers().to_vec(), Material::from_young(1e7, 0.3).unwrap());
     let other = solved(periodic(&stiff, 1.0), 64, Load::MeanPressure(0.01));
     let peak = step.pressure().iter().copied().fold(0.0, f64::max);
-    for (own, other) in step.pressure().iter().zip(other.pressure()) {
-        assert!((own - other).abs() < 1e-6 * peak, "{own}, {other}");
+    for (pressure, other) in step.pressure().iter().zip(other.pressure()) {
+        assert!((pressure - other).abs() < 1e-6 * peak, "{pressure}, {other}");
     }
     assert!((step.penetration() - other.penetration() - 0.01 * compliance).abs() < 1e-7 * step.penetration());
 }
@@ -163,7 +163,7 @@ fn stresses_reach_the_base_and_nothing_moves_there() {
         let field = |body: &HalfSpace| {
             StressField::under(&grid, pressure.view(), body, Some(&friction), MeanStress::Confined).unwrap()
         };
-        let (own, other) = (field(&rigid), field(&stiff));
+        let (on_rigid, other) = (field(&rigid), field(&stiff));
         let peak = 1.0;
         // In a window the polynomials in depth leave 10⁻⁷ of what the field of its images, on four times the area, has in addition: that of
         // their mean pressure and traction at most.
@@ -173,7 +173,7 @@ fn stresses_reach_the_base_and_nothing_moves_there() {
         for (z, material) in [(0.0, 1), (0.1, 1), (0.1, 2), (0.2, 2), (0.25, 2)] {
             for place in [[0.1, 0.05], [-0.15, 0.21], [0.4, 0.4]] {
                 let at = |field: &StressField| field.points(Depth { z, material }, &[place])[0];
-                let (state, limit) = (at(&own), at(&other));
+                let (state, limit) = (at(&on_rigid), at(&other));
                 for (one, two) in state.components()[..6].iter().zip(&limit.components()[..6]) {
                     assert!((one - two).abs() < 2e-7 * peak, "{cell}, {z}, {place:?}: {state:?}, {limit:?}");
                 }
@@ -203,14 +203,14 @@ fn sliding_on_a_layer_on_a_rigid_base_converges_as_on_a_stiff_one() {
     let body = rubber(0.15, 0.2);
     let friction = Friction::new(0.3, [1.0, 0.0]).unwrap();
     let stiff = HalfSpace::new(body.layers().to_vec(), Material::from_young(1e8, 0.3).unwrap());
-    let [own, other] = [&body, &stiff].map(|body| {
+    let [step, other] = [&body, &stiff].map(|body| {
         let problem = periodic(body, 1.0).sliding(friction).unwrap();
         solved(problem, 64, Load::MeanPressure(0.02))
     });
-    let peak = own.pressure().iter().copied().fold(0.0, f64::max);
-    for (own, other) in own.pressure().iter().zip(other.pressure()) {
-        assert!((own - other).abs() < 1e-6 * peak, "{own}, {other}");
+    let peak = step.pressure().iter().copied().fold(0.0, f64::max);
+    for (pressure, other) in step.pressure().iter().zip(other.pressure()) {
+        assert!((pressure - other).abs() < 1e-6 * peak, "{pressure}, {other}");
     }
     let compression = 0.02 * body.mean_compliance();
-    assert!((own.penetration() - other.penetration() - compression).abs() < 1e-6 * own.penetration());
+    assert!((step.penetration() - other.penetration() - compression).abs() < 1e-6 * step.penetration());
 }

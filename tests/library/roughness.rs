@@ -39,10 +39,10 @@ fn the_corrected_area_is_nearer_to_that_of_finer_grids_than_the_counted_one() {
         let all = grids.map(|n| solved(rough(n, seed), Load::MeanPressure(pressure)));
         let [.., coarser, finest] = all.each_ref().map(|(rough, _)| rough.counted_fraction.unwrap());
         let limit = 2.0 * finest - coarser;
-        for (own, (rough, reading)) in errors.iter_mut().zip(&all) {
+        for (error, (rough, reading)) in errors.iter_mut().zip(&all) {
             let found =
                 [rough.counted_fraction.unwrap(), rough.corrected_fraction.unwrap(), reading.contact_fraction.unwrap()];
-            (0..3).for_each(|k| own[k] += 0.5 * (found[k] / limit - 1.0).abs());
+            (0..3).for_each(|k| error[k] += 0.5 * (found[k] / limit - 1.0).abs());
         }
     }
     println!("{errors:.4?}");
@@ -335,8 +335,8 @@ fn a_topography_reads_the_same_whichever_vectors_describe_its_cell() {
         let read = |cell: Cell, heights: Array2<f64>| {
             solved(Topography::new(cell, heights).unwrap(), Load::MeanPressure(4e-3))
         };
-        let [(own, reading), (other, same)] = [read(cell, heights), read(skewed, others)];
-        assert!(own.spots.count > 3 && own.counted_fraction.unwrap() > 0.05, "{own:?}");
+        let [(straight, reading), (other, same)] = [read(cell, heights), read(skewed, others)];
+        assert!(straight.spots.count > 3 && straight.counted_fraction.unwrap() > 0.05, "{straight:?}");
         // The same samples touch, so that what is counted differs by rounding alone.
         let numbers = |rough: &RoughReading| {
             let spots = rough.spots;
@@ -344,7 +344,7 @@ fn a_topography_reads_the_same_whichever_vectors_describe_its_cell() {
                 [rough.counted_fraction.unwrap(), rough.corrected_fraction.unwrap(), rough.perimeter_density.unwrap()];
             [&shares[..], &[spots.count as f64, spots.mean_area, spots.half_load_area, spots.largest_area]].concat()
         };
-        for (a, b) in numbers(&own).into_iter().zip(numbers(&other)) {
+        for (a, b) in numbers(&straight).into_iter().zip(numbers(&other)) {
             assert!((a - b).abs() < 1e-12 * a.abs(), "{a2:?}: {a} {b}");
         }
         // What is read between the samples follows the solution.

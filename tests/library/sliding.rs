@@ -169,11 +169,11 @@ fn the_certificate_bounds_the_elastic_energy_of_the_error() {
             };
             for tolerance in [1e-2, 1e-3, 1e-4] {
                 let loose = solved(tolerance);
-                let (error, own) =
+                let (error, energy) =
                     (elastic(&loose.pressure() - &sharp.pressure()), elastic(loose.pressure().to_owned()));
-                let bound = loose.certificate.energy_gap * own;
-                assert!(error <= bound * (1.0 + 1e-9) + 1e-13 * own, "{coefficient} {mean}: {error:e} {bound:e}");
-                judged[usize::from(mean > complete)] += usize::from(error > 1e-12 * own);
+                let bound = loose.certificate.energy_gap * energy;
+                assert!(error <= bound * (1.0 + 1e-9) + 1e-13 * energy, "{coefficient} {mean}: {error:e} {bound:e}");
+                judged[usize::from(mean > complete)] += usize::from(error > 1e-12 * energy);
             }
         }
     }

@@ -98,8 +98,8 @@ fn the_tension_at_a_coupled_edge_is_that_of_the_sliding_wave() {
 /// form out to 200 radii, the stated errors hold, below 1 % of the value even in a window hardly wider than the contact.
 #[test]
 fn endurance_past_an_isolated_sphere_is_stated_closely() {
-    let own = Endurance::new(0.2, 0.3).unwrap();
-    let endures = Durability { endurance: Some(own), ..Durability::default() };
+    let endurance = Endurance::new(0.2, 0.3).unwrap();
+    let endures = Durability { endurance: Some(endurance), ..Durability::default() };
     let body = bare().with_substrate_durability(endures).unwrap();
     let mut values = Vec::new();
     for (window, points) in [(2.7, 128), (5.0, 192)] {
@@ -107,16 +107,16 @@ fn endurance_past_an_isolated_sphere_is_stated_closely() {
         let run =
             Run::new(alone(body.clone(), window, friction), vec![Load::Force(FORCE)], Sampling::Points([points; 2]));
         let found: Vec<Utilisation> = run.solve(&mut ()).unwrap().steps.swap_remove(0).strength;
-        for own in &found {
-            println!("{window}: {own:?}");
-            assert!(own.error.unwrap() < 0.01 * own.value, "{own:?}");
+        for row in &found {
+            println!("{window}: {row:?}");
+            assert!(row.error.unwrap() < 0.01 * row.value, "{row:?}");
         }
         values.push(found);
     }
     let crossland = |all: &[Utilisation]| {
-        *all.iter().find(|own| matches!(own.criterion, Criterion::Crossland(_))).expect("the body endures")
+        *all.iter().find(|row| matches!(row.criterion, Criterion::Crossland(_))).expect("the body endures")
     };
-    let exact = largest_crossland(own);
+    let exact = largest_crossland(endurance);
     for found in values.iter().map(|all| crossland(all)) {
         println!("{} ± {:?} for {exact}", found.value, found.error);
         assert!((found.value - exact).abs() < found.error.unwrap(), "{found:?} for {exact}");
@@ -127,7 +127,7 @@ fn endurance_past_an_isolated_sphere_is_stated_closely() {
 }
 
 /// Crossland's utilisation in the plane of symmetry of the frictionless closed form, over depths and a path of 200 radii either way.
-fn largest_crossland(own: Endurance) -> f64 {
+fn largest_crossland(endurance: Endurance) -> f64 {
     let along = |z: f64| {
         let way = (-400..=400).map(|k| {
             let t = f64::from(k) / 400.0;
@@ -144,7 +144,7 @@ fn largest_crossland(own: Endurance) -> f64 {
             }
         }
         let pressed = states.iter().map(mean).fold(f64::NEG_INFINITY, f64::max);
-        own.crossland(0.5 * most * P0, pressed * P0)
+        endurance.crossland(0.5 * most * P0, pressed * P0)
     };
     (0..40).map(|k| along(0.2 + 0.015 * f64::from(k))).fold(0.0, f64::max)
 }

@@ -477,15 +477,15 @@ fn the_default_converges_wherever_the_baseline_does() {
         let pressure = scale * random.log(1e-5, 10.0);
         let load = Load::MeanPressure(pressure);
         let base = reference.solve(load);
-        let (own, _) = solve(&problem, [n, n], load);
-        let context = format!("case {case}\n{problem}\nload {pressure:e}: {} / {}", own.report, base.report);
-        assert_eq!(own.report.stop, Stop::Converged, "{context}");
-        assert!(own.certificate.energy_gap < 2e-7, "{context}: {}", own.certificate);
+        let (step, _) = solve(&problem, [n, n], load);
+        let context = format!("case {case}\n{problem}\nload {pressure:e}: {} / {}", step.report, base.report);
+        assert_eq!(step.report.stop, Stop::Converged, "{context}");
+        assert!(step.certificate.energy_gap < 2e-7, "{context}: {}", step.certificate);
         if base.report.stop.solved() {
-            assert!(relative_difference(own.pressure(), base.pressure()) < 1e-4, "{context}");
+            assert!(relative_difference(step.pressure(), base.pressure()) < 1e-4, "{context}");
         }
-        if own.penetration() < 0.999 * reference.full_contact_penetration() {
-            let (pushed, reading) = solve(&problem, [n, n], Load::Penetration(own.penetration()));
+        if step.penetration() < 0.999 * reference.full_contact_penetration() {
+            let (pushed, reading) = solve(&problem, [n, n], Load::Penetration(step.penetration()));
             // At most four samples an indenter: as discrete an answer, told as unresolved.
             let levels = problem.levels().len();
             let few = pushed.pressure().iter().filter(|&&p| p > 0.0).count() <= 4 * levels.max(1);
@@ -493,8 +493,8 @@ fn the_default_converges_wherever_the_baseline_does() {
             assert!(unresolved || pushed.report.stop == Stop::Converged, "{context}: {}", pushed.report);
             assert!((reading.mean_pressure.unwrap() / pressure - 1.0).abs() < 1e-4, "{context}");
         }
-        fell_back += usize::from(own.report.route == Route::BaselineAfterStall);
-        iterations += own.report.iterations;
+        fell_back += usize::from(step.report.route == Route::BaselineAfterStall);
+        iterations += step.report.iterations;
         iterations_baseline += base.report.iterations;
     }
     println!("240 cases: {fell_back} fell back; iterations {iterations} against {iterations_baseline} of the baseline");
@@ -509,10 +509,10 @@ fn rough_surfaces_take_few_iterations() {
         let mut reference = Solver::new(problem.clone(), [n, n], baseline()).unwrap();
         let load = Load::MeanPressure(0.05 * reference.full_contact_pressure());
         let base = reference.solve(load);
-        let (own, _) = solve(&problem, [n, n], load);
-        let context = format!("N = {n}: {} / {}", own.report, base.report);
-        assert_ne!(own.report.route, Route::BaselineAfterStall, "{context}");
-        assert!(2 * own.report.iterations <= base.report.iterations, "{context}");
+        let (step, _) = solve(&problem, [n, n], load);
+        let context = format!("N = {n}: {} / {}", step.report, base.report);
+        assert_ne!(step.report.route, Route::BaselineAfterStall, "{context}");
+        assert!(2 * step.report.iterations <= base.report.iterations, "{context}");
     }
 }
 
@@ -553,18 +553,18 @@ fn a_given_gap_is_that_of_the_equivalent_topography() {
         let problem = Problem::new(topography, PAPER[0].half_space());
         for load in [Load::MeanPressure(0.02), Load::Penetration(0.01)] {
             let mut solver = Solver::new(problem.clone(), points, Settings::default()).unwrap();
-            let own = solver.solve(load);
+            let step = solver.solve(load);
             let given = |offset: f64| {
                 let gap = &solver.surface().initial_gap() + offset;
                 let given = Solver::new(flat(points), points, Settings::default()).unwrap();
                 given.with_gap(gap).unwrap().solve(load)
             };
             let (same, shifted) = (given(0.0), given(0.004));
-            assert!(own.report.stop.solved(), "{own}");
-            assert!(own.pressure() == same.pressure() && own.gap() == same.gap(), "{points:?}: bit for bit");
+            assert!(step.report.stop.solved(), "{step}");
+            assert!(step.pressure() == same.pressure() && step.gap() == same.gap(), "{points:?}: bit for bit");
             if load.is_load_control() {
-                assert!(relative_difference(own.pressure(), shifted.pressure()) < 1e-4);
-                assert!((own.penetration() + 0.004 - shifted.penetration()).abs() < 1e-6 * own.penetration());
+                assert!(relative_difference(step.pressure(), shifted.pressure()) < 1e-4);
+                assert!((step.penetration() + 0.004 - shifted.penetration()).abs() < 1e-6 * step.penetration());
             }
         }
     }
@@ -576,18 +576,18 @@ fn a_given_gap_leaves_the_samples_to_their_indenters() {
     let (case, points) = (PAPER[0], [96, 96]);
     let load = Load::MeanPressure(case.pressure);
     let mut solver = Solver::new(case.problem(), points, Settings::default()).unwrap();
-    let own = solver.solve(load);
-    let mut gap = own.surface().initial_gap().to_owned();
+    let step = solver.solve(load);
+    let mut gap = step.surface().initial_gap().to_owned();
     let mut given = Solver::new(case.problem(), points, Settings::default()).unwrap().with_gap(gap.clone()).unwrap();
     let same = given.solve(load);
-    assert!(own.pressure() == same.pressure() && own.reading() == same.reading());
-    let depth = 0.1 * own.penetration();
-    let worn = |sample: &usize| own.surface().level_at(*sample) == 1;
+    assert!(step.pressure() == same.pressure() && step.reading() == same.reading());
+    let depth = 0.1 * step.penetration();
+    let worn = |sample: &usize| step.surface().level_at(*sample) == 1;
     gap.iter_mut().enumerate().filter(|(sample, _)| worn(sample)).for_each(|(_, f)| *f += depth);
     let worn = given.with_gap(gap).unwrap().solve(load);
     assert!(worn.report.stop.solved(), "{worn}");
     let share = |step: &Step| step.reading().levels[0].load_share;
-    assert!(share(&worn) < 0.95 * share(&own), "{} {}", share(&worn), share(&own));
+    assert!(share(&worn) < 0.95 * share(&step), "{} {}", share(&worn), share(&step));
     assert!((worn.pressure().mean().unwrap() / case.pressure - 1.0).abs() < 1e-8);
 }
 

@@ -260,9 +260,9 @@ fn the_error_of_a_peak_in_a_ridge_along_the_edge_covers_the_ridge() {
     };
     let (exact, ..) = peak(288);
     for points in [64, 72, 80, 96] {
-        let (found, own, whole) = peak(points);
-        println!("{points}: {found} ± {own} for {exact}");
-        assert!((found - exact).abs() <= own.min(whole), "{points}: {found} ± {own} for {exact}");
+        let (found, error, whole) = peak(points);
+        println!("{points}: {found} ± {error} for {exact}");
+        assert!((found - exact).abs() <= error.min(whole), "{points}: {found} ± {error} for {exact}");
     }
 }
 
@@ -333,10 +333,11 @@ fn alone(seed: u64, cases: usize) -> Vec<Alone> {
 fn stated_errors_of_a_hundred_contact_stiffnesses_and_energies_hold() {
     let mut errors: BTreeMap<_, Vec<[f64; 2]>> = BTreeMap::new();
     for Alone { stiffness, energy, exact } in alone(5310, 150) {
-        for (name, own, exact) in [("contact stiffness", stiffness, Some(exact.0)), ("elastic energy", energy, exact.1)]
+        for (name, stated, exact) in
+            [("contact stiffness", stiffness, Some(exact.0)), ("elastic energy", energy, exact.1)]
         {
             if let Some(exact) = exact {
-                let [value, error] = own;
+                let [value, error] = stated;
                 errors.entry(name).or_default().push([error, (value - exact).abs()].map(|x| x / exact));
             }
         }

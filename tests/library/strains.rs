@@ -87,7 +87,7 @@ fn strains_below_a_disc_have_their_closed_forms() {
 /// it, in an incompressible material and above a rigid base.
 #[test]
 fn strains_are_the_slopes_of_the_displacements() {
-    let layer = |own: Material| Layer::new(own, 0.3, Interface::Bonded).unwrap();
+    let layer = |material: Material| Layer::new(material, 0.3, Interface::Bonded).unwrap();
     let hard = HalfSpace::new(vec![layer(young(4.0, 0.2))], young(1.0, 0.4));
     let rubber = HalfSpace::on_rigid_base(vec![layer(young(1.0, 0.5))]).unwrap();
     let bodies = [Bodies::elastic(hard, HalfSpace::new(vec![], young(2.0, 0.1))), rubber.into(), bare().into()];
@@ -142,9 +142,10 @@ fn bonded_sides_are_strained_alike_along_the_interface() {
             for place in [[0.0, 0.0], [0.13, 0.07], [0.4, -0.3]] {
                 let [above, below] = [at(1, place), at(2, place)];
                 let size = below.principal()[2].abs();
-                for (own, other) in [(above.xx - misfit, below.xx), (above.yy - misfit, below.yy), (above.xy, below.xy)]
+                for (upper, lower) in
+                    [(above.xx - misfit, below.xx), (above.yy - misfit, below.yy), (above.xy, below.xy)]
                 {
-                    assert!((own - other).abs() < 1e-8 * size, "{mean:?}, {residual}: {above:?}, {below:?}");
+                    assert!((upper - lower).abs() < 1e-8 * size, "{mean:?}, {residual}: {above:?}, {below:?}");
                 }
             }
             let [above, below] = [at(1, [0.0; 2]), at(2, [0.0; 2])];
@@ -162,12 +163,12 @@ fn nowhere_larger(step: &Step, words: &str) {
         for number in 1..=field.half_space().material_count() {
             let material = field.half_space().material(number);
             let (compliance, size) = (Compliance::from(material), step.reading().max_pressure / material.young());
-            let own = stated.in_material(field.half_space().material_id(number)).unwrap();
+            let peaks = stated.in_material(field.half_space().material_id(number)).unwrap();
             type Measure = fn(&StrainState) -> f64;
             let measures: [(Peak, Measure); 3] = [
-                (own.strain.unwrap(), |strain| strain.principal()[0]),
-                (own.horizontal_strain.unwrap(), StrainState::horizontal),
-                (own.compression.unwrap(), |strain| -strain.zz),
+                (peaks.strain.unwrap(), |strain| strain.principal()[0]),
+                (peaks.horizontal_strain.unwrap(), StrainState::horizontal),
+                (peaks.compression.unwrap(), |strain| -strain.zz),
             ];
             let (top, bottom) = field.half_space().faces(number);
             let depths = (0..=10).map(|k| top + 0.1 * f64::from(k) * (bottom.min(top + 0.6) - top));
@@ -256,8 +257,12 @@ fn strains_under_a_tip_are_infinite_where_they_grow_with_the_pressure() {
         }
         let found = largest(&step, MeanStress::Confined);
         let infinite = |peak: Option<Peak>| peak.unwrap().value.is_infinite();
-        let own = found.overall;
-        assert_eq!([own.strain, own.horizontal_strain, own.compression].map(infinite), is_infinite, "{nu}, {mu}");
+        let overall = found.overall;
+        assert_eq!(
+            [overall.strain, overall.horizontal_strain, overall.compression].map(infinite),
+            is_infinite,
+            "{nu}, {mu}"
+        );
     }
 }
 
@@ -279,8 +284,8 @@ fn a_record_has_strains_where_they_are_asked_for_and_no_other_number_changes() {
     let mut found = Vec::new();
     keys.iter().for_each(|key| found.extend(stress.shift_remove(*key)));
     for list in ["materials", "faces"] {
-        for own in stress[list].as_array_mut().unwrap() {
-            keys.iter().for_each(|key| found.extend(own.as_object_mut().unwrap().shift_remove(*key)));
+        for row in stress[list].as_array_mut().unwrap() {
+            keys.iter().for_each(|key| found.extend(row.as_object_mut().unwrap().shift_remove(*key)));
         }
     }
     // Over all, of two materials, and of three faces.

@@ -209,8 +209,8 @@ fn planes_by_rows_are_the_planes_and_end_when_nobody_takes_them() {
             for j in 0..n2 {
                 let state = plane.state([i, j]);
                 let expected = [state.components().as_slice(), &[state.tau1(), state.mises(), state.s1()]].concat();
-                let [own, moved] = [stresses, displacements].map(|row| row.column(j).to_vec());
-                assert_eq!([&own[..6], &moved, &own[6..]].concat(), expected, "[{i}, {j}] of {n1} × {n2}");
+                let [stressed, moved] = [stresses, displacements].map(|row| row.column(j).to_vec());
+                assert_eq!([&stressed[..6], &moved, &stressed[6..]].concat(), expected, "[{i}, {j}] of {n1} × {n2}");
             }
         }
     }
@@ -246,7 +246,7 @@ fn equilibrium_and_hookes_law_hold_everywhere() {
         assert!(balance.iter().all(|b| b.abs() < 1e-8 * scale), "div σ = {balance:?}, scale {scale}");
         let (material, state) = (materials[number - 1], at(0.0, 0.0, 0.0));
         let (young, nu) = (material.young(), material.poisson());
-        let strain = |own: usize, one: usize, two: usize| (state[own] - nu * (state[one] + state[two])) / young;
+        let strain = |along: usize, one: usize, two: usize| (state[along] - nu * (state[one] + state[two])) / young;
         let shear = 2.0 * material.shear();
         for (found, expected) in [
             (dx[6], strain(0, 1, 2)),

@@ -51,8 +51,8 @@ fn random_body(random: &mut Random, contact: f64) -> (HalfSpace, String) {
     let count = 1 + (2.0 * random.unit()) as usize;
     let layers: Vec<Layer> = (0..count)
         .map(|_| {
-            let own = material(random.log(1e-1, 3e2), nu(random));
-            Layer::new(own, contact * random.log(0.03, 2.0), Interface::Bonded).unwrap()
+            let material = material(random.log(1e-1, 3e2), nu(random));
+            Layer::new(material, contact * random.log(0.03, 2.0), Interface::Bonded).unwrap()
         })
         .collect();
     let body = HalfSpace::new(layers, material(1.0, nu(random)));
@@ -75,11 +75,11 @@ fn solved(problem: Problem, points: usize, load: Load) -> Step {
 fn stresses(step: &Step) -> Vec<([f64; 2], bool)> {
     let reading = step.reading();
     let found = StressReading::of(step, &reading, &StressFields::new(step.finest(), MeanStress::HalfSpace));
-    let materials = found.materials.iter().flat_map(|own| [own.tau1, own.tension, own.mises]);
-    let interfaces = found.interfaces.iter().flat_map(|own| [own.normal, own.shear]);
+    let materials = found.materials.iter().flat_map(|material| [material.tau1, material.tension, material.mises]);
+    let interfaces = found.interfaces.iter().flat_map(|interface| [interface.normal, interface.shear]);
     let [x, y] = [0, 1];
     let is_inside = |place: [f64; 3]| step.grid().cell().contains([place[x], place[y]]);
-    let error = |own: Option<f64>| own.unwrap_or_else(|| panic!("{}: {found:?}", step.report));
+    let error = |stated: Option<f64>| stated.unwrap_or_else(|| panic!("{}: {found:?}", step.report));
     materials.chain(interfaces).map(|peak| ([peak.value, error(peak.error)], is_inside(peak.position))).collect()
 }
 
@@ -168,8 +168,8 @@ fn a_pass_does_not_end_at_the_window() {
     let (law, endurance) = (Fatigue::new(0.3, 1e6, 8.0).unwrap(), Endurance::new(0.2, 0.3).unwrap());
     let tires = Durability { fatigue: Some(law), endurance: Some(endurance), ..Durability::default() };
     let layer = |h: f64, nu: f64| {
-        let own = Layer::new(material(60.0, nu), h, Interface::Bonded).unwrap();
-        own.with_durability(tires, Some(law)).unwrap()
+        let layer = Layer::new(material(60.0, nu), h, Interface::Bonded).unwrap();
+        layer.with_durability(tires, Some(law)).unwrap()
     };
     let body = HalfSpace::new(vec![layer(0.2, 0.22), layer(0.8, 0.3)], material(1.0, 0.38));
     let body = body.with_substrate_durability(tires).unwrap();
@@ -180,8 +180,8 @@ fn a_pass_does_not_end_at_the_window() {
             let run = Run::new(problem, vec![Load::Force(0.5)], Sampling::Points([points; 2]));
             let step = run.solve(&mut ()).unwrap().steps.into_iter().next().unwrap();
             let lives = step.fatigue.unwrap().lives;
-            let ranges = lives.iter().map(|own| [own.range, own.range * own.error.unwrap() / law.exponent()]);
-            let utilisations = step.strength.iter().map(|own| [own.value, own.error.unwrap()]);
+            let ranges = lives.iter().map(|life| [life.range, life.range * life.error.unwrap() / law.exponent()]);
+            let utilisations = step.strength.iter().map(|row| [row.value, row.error.unwrap()]);
             ranges.chain(utilisations).collect::<Vec<[f64; 2]>>()
         };
         let (narrow, wide) = (of(3.0, 64), of(12.0, 256));

@@ -48,7 +48,7 @@ fn a_hertz_contact_has_its_stiffness_and_sensitivities() {
         assert!((tangent.stiffness() / stiffness - 1.0).abs() < stepping + 1e-3, "{load}: {tangent}, {stiffness}");
         let derivative = |of: &dyn Fn(f64) -> Problem| {
             let problems = quotient(of);
-            let all: Vec<(f64, &Problem)> = problems.iter().map(|(weight, own)| (*weight, own)).collect();
+            let all: Vec<(f64, &Problem)> = problems.iter().map(|(weight, problem)| (*weight, problem)).collect();
             tangent.penetration(step.finest(), &all) / delta
         };
         let (by_modulus, by_radius) = (derivative(&|t| alike(1.0, t)), derivative(&|t| alike(t, 1.0)));
@@ -64,26 +64,26 @@ fn sensitivities_are_those_of_loads_solved_again() {
     for cell in [Cell::window([1.0; 2]).unwrap(), Cell::hexagonal(1.2).unwrap()] {
         let of = |t: [f64; 2]| problem(cell, 1.0, 3.0 * t[0], t[1]);
         let load = Load::Force(0.08);
-        let mut own = solver(of([1.0; 2]), 96);
-        let step = own.solve(load);
-        let tangent = own.tangent().unwrap();
+        let mut base = solver(of([1.0; 2]), 96);
+        let step = base.solve(load);
+        let tangent = base.tangent().unwrap();
         let samples = step.pressure().iter().filter(|p| **p > 0.0).count() as f64;
         let stepping = if cell.is_rectangular() { 8.0 } else { 12.0 } / samples;
         let solved = |t: [f64; 2]| solver(of(t), 96).solve(load).penetration();
         let kinds: [fn(f64) -> [f64; 2]; 2] = [|t| [t, 1.0], |t| [1.0, t]];
         for kind in kinds {
             let problems = quotient(|t| of(kind(t)));
-            let all: Vec<(f64, &Problem)> = problems.iter().map(|(weight, own)| (*weight, own)).collect();
+            let all: Vec<(f64, &Problem)> = problems.iter().map(|(weight, problem)| (*weight, problem)).collect();
             let found = tangent.penetration(step.finest(), &all);
             let h = 0.02f64;
             let again = (solved(kind(h.exp())) - solved(kind((-h).exp()))) / (2.0 * h);
             assert!((found / again - 1.0).abs() < stepping, "{cell}: {found}, {again}");
         }
         let all = quotient(|t| of([t; 2]));
-        let all: Vec<(f64, &Problem)> = all.iter().map(|(weight, own)| (*weight, own)).collect();
+        let all: Vec<(f64, &Problem)> = all.iter().map(|(weight, problem)| (*weight, problem)).collect();
         let found = tangent.penetration(step.finest(), &all) * tangent.stiffness();
         assert!((found / 0.08 + 1.0).abs() < 1e-7, "{cell}: {found}");
-        let (above, below) = (own.solve(Load::Force(0.0816)), own.solve(Load::Force(0.0784)));
+        let (above, below) = (base.solve(Load::Force(0.0816)), base.solve(Load::Force(0.0784)));
         let secant = 0.0032 / (above.penetration() - below.penetration());
         assert!((tangent.stiffness() / secant - 1.0).abs() < stepping, "{cell}: {tangent}, {secant}");
     }

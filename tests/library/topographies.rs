@@ -93,14 +93,14 @@ fn stated_errors_cover_a_kink_that_touches_first_between_the_samples() {
         let exact = read(sampled(FINE, 0.0, shape), by_load);
         let by_depth = Load::Penetration(exact.penetration);
         for (n, place) in [(32, 0.5), (48, 0.3), (64, 0.5), (128, 0.5)] {
-            let own = read(sampled(n, place, shape), by_load);
-            let (error, stated) = (own.penetration - exact.penetration, own.errors.penetration.unwrap());
+            let reading = read(sampled(n, place, shape), by_load);
+            let (error, stated) = (reading.penetration - exact.penetration, reading.errors.penetration.unwrap());
             assert!(error.abs() <= stated && stated < 0.06 / n as f64, "{name} {n}: {error} {stated}");
-            let own = read(sampled(n, place, shape), by_depth);
+            let reading = read(sampled(n, place, shape), by_depth);
             for (found, exact, stated) in [
-                (own.mean_pressure.unwrap(), exact.mean_pressure.unwrap(), own.errors.mean_pressure),
-                (own.elastic_energy, exact.elastic_energy, own.errors.elastic_energy),
-                (own.contact_area, exact.contact_area, own.errors.contact_area),
+                (reading.mean_pressure.unwrap(), exact.mean_pressure.unwrap(), reading.errors.mean_pressure),
+                (reading.elastic_energy, exact.elastic_energy, reading.errors.elastic_energy),
+                (reading.contact_area, exact.contact_area, reading.errors.contact_area),
             ] {
                 assert!((found - exact).abs() <= stated.unwrap(), "{name} {n}: {found} {exact} {stated:?}");
             }

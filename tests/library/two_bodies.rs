@@ -40,11 +40,11 @@ fn solved(bodies: impl Into<Bodies>, mu: f64) -> Step {
 }
 
 /// Largest difference of two pressures over the largest one; the second is read at (−x, y) where it is `mirrored`.
-fn difference(own: &Step, other: &Step, mirrored: bool) -> f64 {
-    let ([n1, _], peak) = (POINTS, own.pressure().iter().copied().fold(0.0, f64::max));
+fn difference(step: &Step, other: &Step, mirrored: bool) -> f64 {
+    let ([n1, _], peak) = (POINTS, step.pressure().iter().copied().fold(0.0, f64::max));
     let at = |i: usize| if mirrored { (n1 - i) % n1 } else { i };
-    let [own, other] = [own.pressure(), other.pressure()];
-    let pairs = own.indexed_iter().map(|((i, j), p)| (p - other[[at(i), j]]).abs());
+    let [pressure, other] = [step.pressure(), other.pressure()];
+    let pairs = pressure.indexed_iter().map(|((i, j), p)| (p - other[[at(i), j]]).abs());
     pairs.fold(0.0, f64::max) / peak
 }
 
@@ -92,15 +92,15 @@ fn like_bodies_do_not_couple() {
 #[test]
 fn exchanged_bodies_have_their_stresses_mirrored() {
     let [first, second] = [coated(4.0, 0.1, 0.1), coated(0.5, 0.4, 0.2)];
-    let own = solved(Bodies::elastic(first.clone(), second.clone()), 0.6);
+    let direct = solved(Bodies::elastic(first.clone(), second.clone()), 0.6);
     let exchanged = solved(Bodies::elastic(second, first), 0.6);
-    let [own, exchanged] = [&own, &exchanged].map(|step| StressFields::new(step.finest(), MeanStress::Confined));
-    let pairs = [(own.body(), exchanged.counterbody().unwrap()), (own.counterbody().unwrap(), exchanged.body())];
-    for (own, other) in pairs {
-        assert!(own.half_space().side() != other.half_space().side());
+    let [direct, exchanged] = [&direct, &exchanged].map(|step| StressFields::new(step.finest(), MeanStress::Confined));
+    let pairs = [(direct.body(), exchanged.counterbody().unwrap()), (direct.counterbody().unwrap(), exchanged.body())];
+    for (field, other) in pairs {
+        assert!(field.half_space().side() != other.half_space().side());
         for depth in [Depth { z: 0.05, material: 1 }, Depth { z: 0.3, material: 2 }] {
             for [x, y] in [[0.07, 0.02], [0.3, -0.2], [0.55, 0.48]] {
-                let at = own.points(depth, &[[x, y]])[0].components();
+                let at = field.points(depth, &[[x, y]])[0].components();
                 let mirrored = other.points(depth, &[[-x, y]])[0].components();
                 // xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
                 let signs = [1.0, 1.0, 1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0];
@@ -122,26 +122,27 @@ fn both_surfaces_bear_the_same_pressure_and_opposite_tractions() {
     let [body, counterbody] = [fields.body(), fields.counterbody().unwrap()]
         .map(|field| field.points(Depth::SURFACE, &[step.grid().cell().point([0.0, 0.0])])[0]);
     let pressure = step.pressure()[[0, 0]];
-    for (own, sign) in [(body, 1.0), (counterbody, -1.0)] {
-        assert!((own.zz + pressure).abs() < 1e-9 * pressure, "{own:?}, {pressure}");
-        assert!((own.xz + sign * 0.4 * pressure).abs() < 1e-9 * pressure, "{own:?}, {pressure}");
+    for (state, sign) in [(body, 1.0), (counterbody, -1.0)] {
+        assert!((state.zz + pressure).abs() < 1e-9 * pressure, "{state:?}, {pressure}");
+        assert!((state.xz + sign * 0.4 * pressure).abs() < 1e-9 * pressure, "{state:?}, {pressure}");
     }
 }
 
 /// Materials and interfaces of both bodies have their largest stresses, and each criterion its utilisation.
 #[test]
 fn readings_and_limits_name_the_body() {
-    let strong = |own: HalfSpace| own.with_substrate_strength(Strength { yielding: Some(0.2), tensile: None }).unwrap();
+    let strong =
+        |body: HalfSpace| body.with_substrate_strength(Strength { yielding: Some(0.2), tensile: None }).unwrap();
     let bodies = Bodies::elastic(strong(coated(4.0, 0.2, 0.1)), strong(bare(1.0, 0.3)));
     let step = solved(bodies.clone(), 0.0);
     let stress = StressReading::of(&step, &step.reading(), &StressFields::new(step.finest(), MeanStress::Confined));
-    let sides: Vec<_> = stress.materials.iter().map(|own| (own.tau1.material.side, own.tau1.material.number)).collect();
+    let sides: Vec<_> = stress.materials.iter().map(|row| (row.tau1.material.side, row.tau1.material.number)).collect();
     let [body, counterbody] = [Some(Side::Body), Some(Side::Counterbody)];
     assert_eq!(sides, [(body, 1), (body, 2), (counterbody, 1)]);
     let criteria = Criterion::all(&bodies);
-    let codes: Vec<String> = criteria.iter().map(|own| own.code()).collect();
+    let codes: Vec<String> = criteria.iter().map(|criterion| criterion.code()).collect();
     assert_eq!(codes, ["yield of material 2", "yield of material 1 of the counterbody"]);
-    assert!(codes.iter().zip(&criteria).all(|(code, own)| code.parse() == Ok(*own)));
+    assert!(codes.iter().zip(&criteria).all(|(code, criterion)| code.parse() == Ok(*criterion)));
     let run = Run::new(Arc::clone(step.problem()), vec![Load::MeanPressure(0.02)], Sampling::Points(POINTS));
     let limits = run.limits(&mut ()).unwrap();
     let loads: Vec<f64> = limits.limits.iter().map(|limit| limit.load()).collect();
@@ -157,7 +158,7 @@ fn like_bodies_are_stressed_alike() {
     let step = solved(Bodies::elastic(bare(1.0, 0.3), bare(1.0, 0.3)), 0.0);
     let stress = StressReading::of(&step, &step.reading(), &StressFields::new(step.finest(), MeanStress::Confined));
     let [body, counterbody] = &stress.materials[..] else { panic!("{stress:?}") };
-    for [own, other] in [[body.tau1, counterbody.tau1], [body.mises, counterbody.mises]] {
-        assert!((own.value / other.value - 1.0).abs() < 1e-9, "{own:?}, {other:?}");
+    for [peak, other] in [[body.tau1, counterbody.tau1], [body.mises, counterbody.mises]] {
+        assert!((peak.value / other.value - 1.0).abs() < 1e-9, "{peak:?}, {other:?}");
     }
 }

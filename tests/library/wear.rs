@@ -210,10 +210,10 @@ fn volumes_balance_and_the_pressure_solves_the_contact_of_the_worn_surfaces() {
         let mut solver = Solver::new(problem.clone(), points, settings).unwrap();
         let (mut work, mut step) = (0.0, None);
         for distance in [0.01, 0.02, 0.04] {
-            let own = solver.wear(load, &wear, distance).unwrap();
-            assert_solved(&own);
-            work += distance * force(&own);
-            step = Some(own);
+            let solved = solver.wear(load, &wear, distance).unwrap();
+            assert_solved(&solved);
+            work += distance * force(&solved);
+            step = Some(solved);
         }
         let (step, worn) = (step.unwrap(), solver.worn().unwrap().clone());
         for (side, coefficient) in [(Side::Body, 0.3), (Side::Counterbody, 0.5)] {
@@ -276,7 +276,7 @@ fn a_groove_is_constant_along_the_path() {
     let worn = solver.worn().unwrap();
     let depth = worn.depth(Side::Body);
     for (j, groove) in depth.columns().into_iter().enumerate() {
-        assert!(groove.iter().all(|own| *own == groove[0]), "line {j}");
+        assert!(groove.iter().all(|depth| *depth == groove[0]), "line {j}");
         let sum: f64 = step.pressure().column(j).sum();
         assert!((groove[0] - 0.04 * sum / 48.0).abs() <= 1e-15 * worn.largest(Side::Body));
     }

@@ -154,10 +154,12 @@ fn levels_without_mutual_effect_share_the_load_as_isolated_indenters_do() {
     let solution = localized.solve(Load::MeanPressure(paper.pressure), &alone(48));
     assert_eq!(solution.stop, Stop::Converged);
     for (m, (found, drop)) in solution.levels().iter().zip(indenters.drops()).enumerate() {
-        let own = one_level(Lattice::hexagonal(10.0, 1).unwrap(), paraboloid(paper.radii[m], 0.0));
+        let indenter = one_level(Lattice::hexagonal(10.0, 1).unwrap(), paraboloid(paper.radii[m], 0.0));
         let pressed = Load::Penetration(solution.penetration - drop);
-        let isolated =
-            &Localized::new(&Problem::new(own, paper.half_space()), 1).unwrap().solve(pressed, &alone(48)).levels()[0];
+        let isolated = &Localized::new(&Problem::new(indenter, paper.half_space()), 1)
+            .unwrap()
+            .solve(pressed, &alone(48))
+            .levels()[0];
         assert!((found.load / isolated.load - 1.0).abs() < 2e-3, "{found:?} {isolated:?}");
         assert!((found.max_pressure / isolated.max_pressure - 1.0).abs() < 2e-3, "{found:?} {isolated:?}");
     }
@@ -245,9 +247,9 @@ fn load_balanced_circles_need_few_indenters_and_area_balanced_ones_many() {
     let deviation = |setup| {
         let solution = localized.solve(load, &setup);
         let mut largest = [0.0f64; 2];
-        for (own, reference) in solution.levels().iter().zip(&spectral.levels) {
-            largest[0] = largest[0].max((own.load_share - reference.load_share).abs());
-            largest[1] = largest[1].max((own.max_pressure / reference.max_pressure - 1.0).abs());
+        for (level, reference) in solution.levels().iter().zip(&spectral.levels) {
+            largest[0] = largest[0].max((level.load_share - reference.load_share).abs());
+            largest[1] = largest[1].max((level.max_pressure / reference.max_pressure - 1.0).abs());
         }
         println!(
             "{}: share, peak {largest:?}, δ {:e}",

@@ -23,8 +23,8 @@ fn images(system: &System, exterior: &Exterior, [m, c]: [usize; 2], x: [f64; 2])
     let mut sum = exterior.at(m, c, x) / kernel.factor();
     for [u, v] in &exterior.circles()[m].images[c] {
         let r = (x[0] - u).hypot(x[1] - v);
-        let own = *u == 0.0 && *v == 0.0;
-        sum += if own { kernel.correction(r) } else { kernel.at(r) / kernel.factor() };
+        let is_itself = *u == 0.0 && *v == 0.0;
+        sum += if is_itself { kernel.correction(r) } else { kernel.at(r) / kernel.factor() };
     }
     sum
 }
@@ -77,10 +77,10 @@ fn three_levels_have_the_sums_of_their_sublattices() {
     }
 }
 
-/// Poisson's summation of the layers' part, in high precision: h/l, χ, ν₁, from the own level and from another one.
+/// Poisson's summation of the layers' part, in high precision: h/l, χ, ν₁, from the same level and from another.
 #[test]
 fn coatings_have_their_effective_sums() {
-    for (h, chi, nu, own, other) in [
+    for (h, chi, nu, same, other) in [
         (0.5, 2.0, 0.2, -2.01909410, -1.06149184),
         (0.5, 0.5, 0.45, -2.86426157, -0.71730298),
         (0.5, 0.5, 0.2, -2.73985659, -0.76501624),
@@ -91,7 +91,7 @@ fn coatings_have_their_effective_sums() {
         let system = system(Lattice::hexagonal(1.0, 3).unwrap(), &half_space);
         for indenters in [1, 37] {
             let exterior = Exterior::new(&system, POINTS, indenters);
-            for (c, expected) in [(0, own), (1, other), (2, other)] {
+            for (c, expected) in [(0, same), (1, other), (2, other)] {
                 let found = images(&system, &exterior, [0, c], [0.0, 0.0]);
                 // The table has eight decimals.
                 assert!((found - expected).abs() < 2e-8, "h = {h}, χ = {chi}, from {c}: {found} {expected}");
@@ -125,8 +125,8 @@ fn oblique_lattices_have_the_sum_over_their_images_one_by_one() {
             let mut sum = -background;
             for [u, v] in cell.reduced().vectors_within(end + 3.0) {
                 let r = (x[0] - offset[0] - u).hypot(x[1] - offset[1] - v);
-                let own = (offset[0] + u).hypot(offset[1] + v) < 1e-9;
-                sum += if own { kernel.correction(r) } else { window(r) * kernel.at(r) / kernel.factor() };
+                let is_itself = (offset[0] + u).hypot(offset[1] + v) < 1e-9;
+                sum += if is_itself { kernel.correction(r) } else { window(r) * kernel.at(r) / kernel.factor() };
             }
             let found = images(&system, &exterior, [m, c], x);
             println!("{c} on {m}: {found} {sum}");

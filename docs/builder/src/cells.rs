@@ -101,7 +101,7 @@ fn follows_python(cells: &[Cell]) -> bool {
 
 fn push_text(cells: &mut Vec<Cell>, text: &str) {
     match cells.last_mut() {
-        Some(Cell::Text(own)) => *own += text,
+        Some(Cell::Text(before)) => *before += text,
         _ => cells.push(Cell::Text(text.to_owned())),
     }
 }
@@ -127,7 +127,8 @@ impl Cell {
         match self {
             Self::Text(text) => text.clone(),
             Self::Console(commands) => {
-                let commands: String = commands.iter().map(|own| format!("$ {}\n{}", own.line, own.prints)).collect();
+                let commands: String =
+                    commands.iter().map(|command| format!("$ {}\n{}", command.line, command.prints)).collect();
                 format!("{FENCE}console\n{commands}{FENCE}\n")
             }
             Self::File { head, content, .. } => format!("{head}{content}{FENCE}\n"),

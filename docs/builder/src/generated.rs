@@ -45,8 +45,8 @@ fn commands(tools: &Tools) -> Result<String> {
     let list = whole.split_once("Commands:\n").map_or("", |(_, rest)| rest);
     let names = list.lines().take_while(|line| !line.trim().is_empty()).filter_map(|line| {
         // A line that begins further right goes on with the one above.
-        let own = line.strip_prefix("  ")?;
-        own.split_whitespace().next().filter(|_| !own.starts_with(' '))
+        let entry = line.strip_prefix("  ")?;
+        entry.split_whitespace().next().filter(|_| !entry.starts_with(' '))
     });
     let mut text = String::new();
     for name in names.filter(|name| *name != "help") {

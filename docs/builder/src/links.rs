@@ -21,7 +21,7 @@ pub fn broken(book: &Path, with_page: bool) -> Result<Vec<String>> {
     let anchors: HashMap<&PathBuf, HashSet<&str>> = texts
         .iter()
         .map(|(path, text)| {
-            (path, anchor.captures_iter(text).map(|found| found.get(1).map_or("", |own| own.as_str())).collect())
+            (path, anchor.captures_iter(text).map(|found| found.get(1).map_or("", |name| name.as_str())).collect())
         })
         .collect();
     let there: HashSet<&PathBuf> = files.iter().collect();
@@ -30,7 +30,7 @@ pub fn broken(book: &Path, with_page: bool) -> Result<Vec<String>> {
         for found in link.captures_iter(text) {
             let target = found[1].replace("&amp;", "&");
             let is_outside =
-                ["http:", "https:", "mailto:", "data:", "javascript:"].iter().any(|own| target.starts_with(own));
+                ["http:", "https:", "mailto:", "data:", "javascript:"].iter().any(|scheme| target.starts_with(scheme));
             if is_outside || target.is_empty() {
                 continue;
             }
@@ -40,8 +40,8 @@ pub fn broken(book: &Path, with_page: bool) -> Result<Vec<String>> {
             if file.starts_with("page") && !with_page {
                 continue;
             }
-            let is_there =
-                there.contains(&file) && (name.is_empty() || anchors.get(&file).is_none_or(|own| own.contains(name)));
+            let is_there = there.contains(&file)
+                && (name.is_empty() || anchors.get(&file).is_none_or(|names| names.contains(name)));
             // The page for a missing address names the others from the root of a site.
             if !is_there && path.as_os_str() != "404.html" {
                 broken.push(format!("{}: the link {target} leads nowhere", path.display()));

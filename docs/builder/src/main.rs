@@ -105,12 +105,12 @@ fn ran(
         return Ok(Vec::new());
     }
     let mut differences = tools.run(page, to).with_context(|| name.clone())?;
-    if arguments.write && differences.iter().any(|own| own.is_taken) {
+    if arguments.write && differences.iter().any(|difference| difference.is_taken) {
         fs::write(from, page.source())?;
         println!("written: {name}");
-        differences.retain(|own| !own.is_taken);
+        differences.retain(|difference| !difference.is_taken);
     }
-    Ok(differences.into_iter().map(|own| format!("{name}: {}", own.text)).collect())
+    Ok(differences.into_iter().map(|difference| format!("{name}: {}", difference.text)).collect())
 }
 
 /// Makes the folder of a file.

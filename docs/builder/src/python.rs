@@ -12,9 +12,9 @@ const MARK: u8 = 1;
 /// Runs each line of its input, the bytes of a cell as hexadecimal digits.
 const DRIVER: &str = "\
 import sys
-own = {'__name__': '__main__'}
+names = {'__name__': '__main__'}
 for line in sys.stdin:
-    exec(bytes.fromhex(line).decode(), own)
+    exec(bytes.fromhex(line).decode(), names)
     print('\\x01', end='', flush=True)
 ";
 

@@ -38,8 +38,8 @@ impl Tools {
     /// Tools with the program at a path, and a Python if there is one.
     pub fn new(percoat: &Path, python: Option<&Path>) -> Result<Self> {
         let programs = tempfile::tempdir()?;
-        let own = percoat.canonicalize().with_context(|| format!("no program {}", percoat.display()))?;
-        std::os::unix::fs::symlink(own, programs.path().join("percoat"))?;
+        let program = percoat.canonicalize().with_context(|| format!("no program {}", percoat.display()))?;
+        std::os::unix::fs::symlink(program, programs.path().join("percoat"))?;
         // A link of a virtual environment is not followed: it is found by its place.
         let python = python.map(std::path::absolute).transpose()?;
         let time = Regex::new(r"\b\d+(\.\d+)?(e-?\d+)?( s\b|[,)])")?;

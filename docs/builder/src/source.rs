@@ -10,8 +10,8 @@ pub fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     let mut folders = vec![PathBuf::new()];
     while let Some(inside) = folders.pop() {
-        let own = folder.join(&inside);
-        for entry in fs::read_dir(&own).with_context(|| own.display().to_string())? {
+        let directory = folder.join(&inside);
+        for entry in fs::read_dir(&directory).with_context(|| directory.display().to_string())? {
             let entry = entry?;
             let path = inside.join(entry.file_name());
             if entry.file_type()?.is_dir() { folders.push(path) } else { files.push(path) }
@@ -33,11 +33,11 @@ pub fn with_pictures(text: &str, from: &Path, to: &Path) -> Result<String> {
     let folder = |file: &Path| file.parent().unwrap_or(Path::new("")).to_owned();
     let mut text = text.to_owned();
     for name in pictures(&text).into_iter().filter(|name| name.starts_with("../")) {
-        let own = format!("repository/{}", name.trim_start_matches("../"));
-        let copy = folder(to).join(&own);
+        let target = format!("repository/{}", name.trim_start_matches("../"));
+        let copy = folder(to).join(&target);
         crate::make_parent(&copy)?;
         fs::copy(folder(from).join(&name), copy).with_context(|| name.clone())?;
-        text = text.replace(&format!("({name})"), &format!("({own})"));
+        text = text.replace(&format!("({name})"), &format!("({target})"));
     }
     Ok(text)
 }

@@ -111,10 +111,10 @@ impl Page {
 fn of_steps(case: &Case, steps: &[StepRecord]) -> Answer {
     let (units, last) = (case.units(), steps.last());
     let mut tables = vec![TableText::new("contact", table::steps(steps, &units))];
-    tables.extend(table::largest_stresses(steps, &units).map(|own| TableText::new("largest stresses", own)));
+    tables.extend(table::largest_stresses(steps, &units).map(|stresses| TableText::new("largest stresses", stresses)));
     tables.extend(table::largest_strains(steps, &units).map(|strains| TableText::new("largest strains", strains)));
     let utilised = table::utilisations(steps, Some(case.problem().bodies()), &units)
-        .map(|own| TableText::worded("utilisation of strengths", own));
+        .map(|utilisations| TableText::worded("utilisation of strengths", utilisations));
     let (verdict, utilised) = utilised.unzip();
     tables.extend(utilised);
     Answer {
