@@ -298,8 +298,8 @@ def ratios(ours, peer, parts):
 
 def processor_ratio(ours, peer):
     """Processor time of a run, peer over percoat; a dash where the system does not tell."""
-    own, its = (contender.used / len(contender.runs) for contender in (ours, peer))
-    return f"{its / own:.2f}" if own > 0 else "–"
+    ours_used, peer_used = (contender.used / len(contender.runs) for contender in (ours, peer))
+    return f"{peer_used / ours_used:.2f}" if ours_used > 0 else "–"
 
 
 def median(runs, key="seconds"):
@@ -413,11 +413,11 @@ def solves(options, peer, python):
                         others.append(Contender("Tamaas", worker(python, "tamaas", *arguments, threads), threads))
                     others = [other for other in others if other]
                     take_turns([ours, *others], options.rounds, options.budget)
-                    own = judge(heights, mean_pressure, ours.field())
+                    errors = judge(heights, mean_pressure, ours.field())
                     for other in others:
                         its = judge(heights, mean_pressure, other.field())
                         name = other.name + (f" ({other.variant})" if hasattr(other, "variant") else "")
-                        row = [f"{case}, {100 * own[3]:.1f} %", n, threads, name]
+                        row = [f"{case}, {100 * errors[3]:.1f} %", n, threads, name]
                         setup, seconds, readings = (f"{median(ours.runs, part):.3f}" for part in WHOLE)
                         if other.name == "ASPHER":
                             values = ratios(ours, other, WHOLE)
@@ -429,11 +429,11 @@ def solves(options, peer, python):
                                 f"{median(ours.runs, 'convolutions'):.1f}", f"{statistics.median(over):.2f}",
                             )  # fmt: skip
                         values = ratios(ours, other, ["setup", "seconds"] if other.name == "ASPHER" else ["seconds"])
-                        worse = "" if its[0] <= own[0] else f", worse {its[0] / own[0]:.1f}×"
+                        worse = "" if its[0] <= errors[0] else f", worse {its[0] / errors[0]:.1f}×"
                         failed = "" if all(run["converged"] for run in other.runs.values()) else ", not converged"
                         solve.row(
                             *row, seconds, setup, f"{median(other.runs):.3f}", spread(values), verdict(other.name, values),
-                            "{:.0e}, {:.0e}, {:.0e}".format(*own), "{:.0e}, {:.0e}, {:.0e}".format(*its) + worse + failed,
+                            "{:.0e}, {:.0e}, {:.0e}".format(*errors), "{:.0e}, {:.0e}, {:.0e}".format(*its) + worse + failed,
                             f"{ours.processors():.1f}, {other.processors():.1f}",
                         )  # fmt: skip
                     for contender in [ours, *others]:
@@ -454,10 +454,10 @@ def convolutions(options, peer, python):
         for name in ["MKL", "SciPy", "FFTW"]:
             others.append(Contender(name, worker(python, "convolution", name, *what), threads, limits))
         take_turns([ours, *others], 5 * options.rounds, options.budget)
-        own = ours.field()
+        field = ours.field()
         for other in others:
             values = ratios(ours, other, ["seconds"])
-            difference = np.abs(other.field() - own).max() / np.abs(own).max()
+            difference = np.abs(other.field() - field).max() / np.abs(field).max()
             milliseconds = [f"{1e3 * median(contender.runs):.2f}" for contender in (ours, other)]
             processors = f"{ours.processors():.1f}, {other.processors():.1f}"
             result = spread(values), verdict(other.name, values), processor_ratio(ours, other)

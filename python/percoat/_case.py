@@ -133,8 +133,8 @@ def materials(file: Union[None, str, PathLike[str]] = None) -> dict[str, dict[st
     375000000000.0
     """
     named: dict[str, dict[str, Any]] = {}
-    for own in _core.materials(file):
-        named.setdefault(own["name"], own)
+    for material in _core.materials(file):
+        named.setdefault(material["name"], material)
     return named
 
 

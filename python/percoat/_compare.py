@@ -40,7 +40,7 @@ class Comparison(Record):
         return Comparison, (dict(self), self.__dict__["_tables"])
 
     def __repr__(self) -> str:
-        return f"<percoat.Comparison {self.title!r}: circles of {[own.indenters for own in self.localized]}>"
+        return f"<percoat.Comparison {self.title!r}: circles of {[solution.indenters for solution in self.localized]}>"
 
 
 def compare(
@@ -59,8 +59,8 @@ def compare(
     """
     width = shutil.get_terminal_size().columns
     found, text, tables, warnings, converged = _core.compare(_core.Case(case, set), width, threads, listener(progress))
-    own = Comparison({**found, "text": text.rstrip(), "warnings": warnings, "converged": converged}, tables)
+    comparison = Comparison({**found, "text": text.rstrip(), "warnings": warnings, "converged": converged}, tables)
     warn(warnings)
     if not converged:
         warn(["a solution or the accuracy did not converge"], NotConverged)
-    return own
+    return comparison

@@ -65,9 +65,9 @@ class HalfSpace:
         >>> float(percoat.HalfSpace.of("fig2").correction(1e3))  # short waves feel the coating alone
         1.0
         """
-        own = cls.__new__(cls)
-        own._core = _core.HalfSpace(_core.Case(case, set))
-        return own
+        half_space = cls.__new__(cls)
+        half_space._core = _core.HalfSpace(_core.Case(case, set))
+        return half_space
 
     def compliance(self, wavenumber: ArrayLike) -> Any:
         """ŵ/p̂: displacement of the surface over a harmonic pressure, a length over a pressure.

@@ -16,13 +16,13 @@ def page(title: str, tables: Sequence[Table], notes: Sequence[str] = ()) -> str:
     return f"<div>{head}{''.join(map(table, tables))}{tail}</div>"
 
 
-def table(own: Table) -> str:
+def table(content: Table) -> str:
     """A table; words stand on the left, numbers on the right."""
-    caption, names, rows, words = own
+    caption, names, rows, words = content
 
     def line(tag: str, cells: Sequence[str]) -> str:
         side = ("left" if index < words else "right" for index in range(len(cells)))
-        inner = (f'<{tag} style="text-align: {own}">{escape(cell)}</{tag}>' for own, cell in zip(side, cells))
+        inner = (f'<{tag} style="text-align: {align}">{escape(cell)}</{tag}>' for align, cell in zip(side, cells))
         return f"<tr>{''.join(inner)}</tr>"
 
     head, body = line("th", names), "".join(line("td", row) for row in rows)
@@ -30,6 +30,6 @@ def table(own: Table) -> str:
     return f"<table>{above}<thead>{head}</thead><tbody>{body}</tbody></table>"
 
 
-def text(own: str) -> str:
+def text(printed: str) -> str:
     """A text as it is printed."""
-    return f"<pre>{escape(own)}</pre>"
+    return f"<pre>{escape(printed)}</pre>"

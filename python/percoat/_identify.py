@@ -76,13 +76,15 @@ class Identification:
         self, summary: dict[str, Any], arrays: dict[str, Optional[Array]], text: str, warnings: list[str]
     ) -> None:
         self.summary = Record(summary)
-        self.values = {own.name: float(own.value) for own in self.summary.parameters}
-        self.errors = {own.name: float(own.standard_error) for own in self.summary.parameters}
+        self.values = {parameter.name: float(parameter.value) for parameter in self.summary.parameters}
+        self.errors = {parameter.name: float(parameter.standard_error) for parameter in self.summary.parameters}
         self.intervals: dict[str, Tuple[float, float]] = {
-            own.name: (own.interval_95[0], own.interval_95[1]) for own in self.summary.parameters
+            parameter.name: (parameter.interval_95[0], parameter.interval_95[1])
+            for parameter in self.summary.parameters
         }
         self.sensitivities: dict[str, dict[str, float]] = {
-            own.name: dict(zip(self.values, map(float, own.derivatives))) for own in self.summary.sensitivities
+            sensitivity.name: dict(zip(self.values, map(float, sensitivity.derivatives)))
+            for sensitivity in self.summary.sensitivities
         }
         self.correlation: Array = np.array(self.summary.correlation, dtype=float)
         self.force, self.penetration = _known(arrays["force"]), _known(arrays["penetration"])
@@ -102,8 +104,8 @@ class Identification:
     @property
     def case(self) -> dict[str, Any]:
         """The case with the values found, complete with its defaults."""
-        own: dict[str, Any] = self.summary.case.to_dict()
-        return own
+        as_run: dict[str, Any] = self.summary.case.to_dict()
+        return as_run
 
     def to_dict(self) -> dict[str, Any]:
         """All scalars as plain dicts and lists, as ``identification.json`` has them."""
@@ -210,6 +212,6 @@ def identify(
     width = shutil.get_terminal_size().columns
     stated = [f"{name}={float(value)!r}" for name, value in (known or {}).items()]
     found = _core.identify(_core.Case(case, set), _columns(data), (names, stated), width, threads, listener(progress))
-    own = Identification(*found)
-    warn(own.warnings)
-    return own
+    identification = Identification(*found)
+    warn(identification.warnings)
+    return identification

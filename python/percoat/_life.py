@@ -66,10 +66,10 @@ def life(
     >>> life.first.passes > 0, len(life.criteria)
     (True, 3)
     """
-    own = _core.Case(case, set)
-    found, converged = _core.life(own, threads, listener(progress))
-    own_life = Life({**found, "converged": converged}, own)
-    warn(own_life.warnings)
+    checked = _core.Case(case, set)
+    found, converged = _core.life(checked, threads, listener(progress))
+    followed = Life({**found, "converged": converged}, checked)
+    warn(followed.warnings)
     if not converged:
         warn(["a contact or the accuracy did not converge"], NotConverged)
-    return own_life
+    return followed

@@ -70,9 +70,9 @@ def limit(
     >>> limits.first.criterion, limits.first.material, len(limits.limits)
     ('yield', 2, 6)
     """
-    own = _core.Case(case, set)
-    found, converged = _core.limit(own, threads, listener(progress))
-    limits = Limits({**found, "converged": converged}, own)
+    checked = _core.Case(case, set)
+    found, converged = _core.limit(checked, threads, listener(progress))
+    limits = Limits({**found, "converged": converged}, checked)
     warn(limits.warnings)
     if not converged:
         warn(["a load or the accuracy did not converge"], NotConverged)

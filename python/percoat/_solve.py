@@ -118,10 +118,10 @@ class Section(Field):
 
 def _flat(points: ArrayLike) -> tuple[Array, tuple[int, ...]]:
     """Points (…, 3) as rows (n, 3), and the shape … of them."""
-    own = np.asarray(points, dtype=float)
-    if own.ndim == 0 or own.shape[-1] != 3:
-        raise _core.CaseError(f"points have three coordinates x, y, z along their last axis, not {own.shape}")
-    return np.ascontiguousarray(own.reshape(-1, 3)), own.shape[:-1]
+    array = np.asarray(points, dtype=float)
+    if array.ndim == 0 or array.shape[-1] != 3:
+        raise _core.CaseError(f"points have three coordinates x, y, z along their last axis, not {array.shape}")
+    return np.ascontiguousarray(array.reshape(-1, 3)), array.shape[:-1]
 
 
 class Common:
@@ -137,9 +137,9 @@ class Common:
         self.case, self.summary, self.accurate = case, Record(summary), accurate
         self.x, self.y, self.owner = places
         self.a1, self.a2 = map(np.array, case.cell)
-        own = self.summary.case
-        self.isolated: bool = own.get("lattice", {}).get("kind") == "isolated"
-        self.quantity = "force" if self.isolated or "force" in own.load else "mean_pressure"
+        as_run = self.summary.case
+        self.isolated: bool = as_run.get("lattice", {}).get("kind") == "isolated"
+        self.quantity = "force" if self.isolated or "force" in as_run.load else "mean_pressure"
         for array in (*places, self.a1, self.a2):
             array.flags.writeable = False
 
@@ -688,10 +688,10 @@ class Result:
         ['case.toml', 'contact.npz', 'curve.csv', 'summary.json']
         """
         array, case = None, self._common.case
-        own = case.as_dict().get("surface", {}).get("heights")
-        if isinstance(own, np.ndarray):
+        heights = case.as_dict().get("surface", {}).get("heights")
+        if isinstance(heights, np.ndarray):
             file = io.BytesIO()
-            np.save(file, own)
+            np.save(file, heights)
             array = file.getvalue()
         aside(_core.save_result(case, self.to_dict(), [step._core for step in self.steps], folder, array))
 
@@ -786,10 +786,10 @@ def solve(
     >>> round(result.steps[0].penetration, 4)
     0.0554
     """
-    own = _core.Case(case, set)
-    head, accurate, places, cores = _core.solve(own, threads, listener(progress))
+    checked = _core.Case(case, set)
+    head, accurate, places, cores = _core.solve(checked, threads, listener(progress))
     records = head.pop("steps")
-    common = Common(own, head, accurate, places)
+    common = Common(checked, head, accurate, places)
     steps = [_step(common, index, record, core) for index, (record, core) in enumerate(zip(records, cores))]
     result = Result(common, steps)
     warn(result.warnings)

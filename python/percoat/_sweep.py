@@ -172,10 +172,10 @@ def sweep(
         raise TypeError(
             f"executor is a concurrent.futures.Executor, not a {kind}; a Dask client gives one by client.get_executor()"
         )
-    own = _core.Sweep(case, dict(set), zip, limit)
-    description = own.describe()
-    done = _Done(own, listener(progress), on_row)
-    rows = own.solve(threads, done.heard()) if executor is None else solve_on(executor, own, threads, done)
+    core = _core.Sweep(case, dict(set), zip, limit)
+    description = core.describe()
+    done = _Done(core, listener(progress), on_row)
+    rows = core.solve(threads, done.heard()) if executor is None else solve_on(executor, core, threads, done)
     rows.sort(key=lambda row: row.combination)
     warn(_merged(rows))
     warn((f"{row.name}: failed: {row.reason}" for row in rows if row.status == "failed"))
@@ -210,9 +210,9 @@ class _Done:
             self.progress(self.sweep.told(row, self.count, monotonic() - self.began))
 
 
-def _columns(own: Dict[str, NDArray[Any]], solved: Optional[Solved]) -> Columns:
+def _columns(arrays: Dict[str, NDArray[Any]], solved: Optional[Solved]) -> Columns:
     """The columns of a table with the sweep that was solved."""
-    columns = Columns(own)
+    columns = Columns(arrays)
     if solved is not None:
         columns.__dict__["_solved"] = solved
     return columns
@@ -240,7 +240,7 @@ def _column(name: str, cells: list[Any]) -> NDArray[Any]:
     """Cells as whole numbers, numbers, truths, or texts, whatever all of them are."""
     if name.startswith("set_"):
         numbers = [_number(cell) for cell in cells]
-        cells = cells if any(isinstance(own, str) for own in numbers) else numbers
+        cells = cells if any(isinstance(number, str) for number in numbers) else numbers
     there = [cell for cell in cells if cell is not None]
     if name.endswith(TEXTS) or any(isinstance(cell, str) for cell in there):
         return np.array(["" if cell is None else str(cell) for cell in cells], dtype=object)

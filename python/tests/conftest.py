@@ -33,8 +33,8 @@ def environment(**more: str) -> dict[str, str]:
 @pytest.fixture(scope="session")
 def program() -> Program:
     """Runs the command line with arguments, and demands an exit code."""
-    own = Path(sys.executable).with_name("percoat.exe" if os.name == "nt" else "percoat")
-    command = [str(own)] if own.exists() else [sys.executable, "-m", "percoat"]
+    installed = Path(sys.executable).with_name("percoat.exe" if os.name == "nt" else "percoat")
+    command = [str(installed)] if installed.exists() else [sys.executable, "-m", "percoat"]
 
     def run(*arguments: object, code: int = 0) -> subprocess.CompletedProcess[str]:
         typed = [*command, *map(str, arguments)]

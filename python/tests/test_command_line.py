@@ -183,10 +183,10 @@ def same(ours: Any, theirs: Any) -> bool:
 
 def timeless(summary: dict[str, Any]) -> dict[str, Any]:
     """A summary without what takes another time every time."""
-    own = {key: value for key, value in summary.items() if key not in ("timing", "seconds")}
-    if "steps" in own:
-        own["steps"] = [timeless(step) for step in own["steps"]]
-    return own
+    kept = {key: value for key, value in summary.items() if key not in ("timing", "seconds")}
+    if "steps" in kept:
+        kept["steps"] = [timeless(step) for step in kept["steps"]]
+    return kept
 
 
 def test_fields_of_the_contact(both: Both) -> None:
@@ -240,8 +240,8 @@ def test_a_section_that_is_said_is_that_of_the_case(both: Both) -> None:
     cut = both.summary["case"]["stress"]["section"]
     more = {name: cut[name] for name in ("length", "depth", "behind") if name in cut}
     step = both.result[-1]
-    said, own = step.section(cut["from"], cut.get("toward"), **more), step.section()
-    assert all(same(said[name], own[name]) for name in own)
+    said, default = step.section(cut["from"], cut.get("toward"), **more), step.section()
+    assert all(same(said[name], default[name]) for name in default)
 
 
 def test_points(both: Both) -> None:
@@ -275,8 +275,8 @@ def test_a_saved_result_is_the_folder_of_the_command_line(both: Both, tmp_path: 
         assert ours[name].read_bytes() == theirs[name].read_bytes(), name
     again = json.loads(ours["summary.json"].read_text("utf-8"))
     assert json.dumps(timeless(again)) == json.dumps(timeless(both.summary))
-    own, other = read(ours["curve.csv"]), read(theirs["curve.csv"])
-    assert list(own) == list(other) and all(own[name] == other[name] for name in own if name != "seconds")
+    table, other = read(ours["curve.csv"]), read(theirs["curve.csv"])
+    assert list(table) == list(other) and all(table[name] == other[name] for name in table if name != "seconds")
     # So is one that has been pickled, in the place of the first.
     pickle.loads(pickle.dumps(both.result)).save(tmp_path)
     assert ours["contact.npz"].read_bytes() == theirs["contact.npz"].read_bytes()
@@ -322,13 +322,13 @@ def test_heights_of_an_array_are_those_of_a_file(
     from_array = percoat.solve({"surface": {"heights": heights, **surface}, **sections})
     for result in (from_file, from_array):
         for name in ("pressure", "displacement", "gap"):
-            assert all(same(getattr(step, name), own) for step, own in zip(result, contact[name]))
+            assert all(same(getattr(step, name), field) for step, field in zip(result, contact[name]))
         assert timeless(result.to_dict())["steps"] == timeless(summary)["steps"]
 
 
 def test_limit(tmp_path: Path, program: Program, as_piped: None) -> None:
     settings = ["grid.points=48", "load.mean_pressure=[0.05, 0.2]"]
-    words = [word for own in settings for word in ("--set", own)]
+    words = [word for setting in settings for word in ("--set", setting)]
     ended = program("limit", "dlc-on-steel", "-o", tmp_path / "out", *words)
     written = json.loads((tmp_path / "out" / "limit.json").read_text("utf-8"))
     limits = percoat.limit("dlc-on-steel", set=settings)
@@ -344,7 +344,7 @@ def test_limit(tmp_path: Path, program: Program, as_piped: None) -> None:
 
 def test_compare(tmp_path: Path, program: Program, as_piped: None) -> None:
     settings = ["grid.points=48", "localized={ indenters = [7], elements = 12 }"]
-    words = [word for own in settings for word in ("--set", own)]
+    words = [word for setting in settings for word in ("--set", setting)]
     told = program("compare", "fig2", "-o", tmp_path / "out", "--no-pictures", *words).stdout
     written = json.loads((tmp_path / "out" / "compare.json").read_text("utf-8"))
     both = percoat.compare("fig2", set=settings)

@@ -19,16 +19,16 @@ def sliding() -> percoat.Result:
 def plain(value: Any) -> bool:
     """Whether there are dicts, lists, numbers and texts alone."""
     if type(value) is dict:
-        return all(type(key) is str and plain(own) for key, own in value.items())
+        return all(type(key) is str and plain(entry) for key, entry in value.items())
     if type(value) is list:
         return all(map(plain, value))
     return value is None or type(value) in (str, int, float, bool)
 
 
 def test_to_dict_is_plain_and_json(sliding: percoat.Result) -> None:
-    for own in (sliding, sliding[1], percoat.check("fig2", set={"grid.points": 48}), sliding[1].maxima()):
-        assert own is not None
-        entries = own.to_dict()
+    for record in (sliding, sliding[1], percoat.check("fig2", set={"grid.points": 48}), sliding[1].maxima()):
+        assert record is not None
+        entries = record.to_dict()
         assert plain(entries) and json.loads(json.dumps(entries, allow_nan=False)) == entries
     assert plain(percoat.case("dlc-on-steel")) and plain(sliding.case)
 
@@ -81,8 +81,8 @@ def test_datasets_of_one_step(sliding: percoat.Result) -> None:
     pytest.importorskip("xarray")
     whole = sliding.to_xarray()
     for index, step in enumerate(sliding):
-        own = step.to_xarray()
-        assert dict(own.sizes) == {"x": 48, "y": 64} and own.identical(whole.isel(step=index))
+        fields = step.to_xarray()
+        assert dict(fields.sizes) == {"x": 48, "y": 64} and fields.identical(whole.isel(step=index))
 
 
 def test_datasets_of_rectangular_cells_have_axes(flat_wave: percoat.Result) -> None:

@@ -24,15 +24,15 @@ def fig2() -> dict[str, Any]:
 
 def changed(case: dict[str, Any], *path: Any, to: Any) -> dict[str, Any]:
     """A copy of a case with one entry changed; one that is `...` is taken out."""
-    own = copy.deepcopy(case)
-    place: Any = own
+    copied = copy.deepcopy(case)
+    place: Any = copied
     for key in path[:-1]:
         place = place[key]
     if to is ...:
         del place[path[-1]]
     else:
         place[path[-1]] = to
-    return own
+    return copied
 
 
 def refusal(call: Callable[[], object]) -> str:
@@ -293,9 +293,9 @@ def test_a_key_of_another_type(fig2: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     "value",
     [
-        "own = {}; own['substrate'] = own",
-        "own = {}; own[''] = own",
-        "items = []; items.append(items); own = {'substrate': {'young': items}}",
+        "case = {}; case['substrate'] = case",
+        "case = {}; case[''] = case",
+        "items = []; items.append(items); case = {'substrate': {'young': items}}",
     ],
 )
 def test_a_case_within_itself(python: Program, value: str) -> None:
@@ -304,7 +304,7 @@ def test_a_case_within_itself(python: Program, value: str) -> None:
 import percoat
 {value}
 try:
-    percoat.case(own)
+    percoat.case(case)
 except (RecursionError, ValueError, TypeError) as error:
     print("refused:", error)
 """

@@ -32,12 +32,12 @@ SETTINGS: dict[str, Any] = {
 def equal(ours: percoat.Columns, theirs: percoat.Columns) -> None:
     assert list(ours) == list(theirs)
     for name in ours:
-        own, other = ours[name], theirs[name]
-        assert own.dtype == other.dtype and own.shape == other.shape, name
-        if own.dtype == object:
-            assert own.tolist() == other.tolist(), name
+        column, other = ours[name], theirs[name]
+        assert column.dtype == other.dtype and column.shape == other.shape, name
+        if column.dtype == object:
+            assert column.tolist() == other.tolist(), name
         else:
-            assert own.tobytes() == other.tobytes(), name
+            assert column.tobytes() == other.tobytes(), name
 
 
 def processes(kind: str) -> Callable[[], Executor]:
@@ -76,7 +76,7 @@ def test_the_table_is_that_of_a_sweep_without_executor(pool: str, serial: percoa
         surfaces = {"substrate.poisson": [0.2, 0.3]}
         equal(percoat.sweep(wave(), surfaces), percoat.sweep(wave(), surfaces, executor=executor))
     equal(serial, table)
-    assert [own.done for own in heard] == [1, 2, 3, 4] and {own.of for own in heard} == {4}
+    assert [progress.done for progress in heard] == [1, 2, 3, 4] and {progress.of for progress in heard} == {4}
     rows.sort(key=lambda row: (row["combination"], row["step"]))
     assert [row["penetration"] for row in rows] == serial["penetration"].tolist()
     assert [row["set_grid_points"] for row in rows] == [32] * 4 + [48] * 4
@@ -280,8 +280,8 @@ def test_rows_arrive_one_by_one_and_in_this_thread(tmp_path: Path) -> None:
     rows.sort(key=lambda row: row["combination"])
     for number, row in enumerate(rows):
         for name, cell in row.items():
-            own = table[name][number]
-            assert own == cell or (cell is None and (own != own or own in ("", None))), name
+            entry = table[name][number]
+            assert entry == cell or (cell is None and (entry != entry or entry in ("", None))), name
 
 
 def test_tasks_of_threads_solve_side_by_side() -> None:

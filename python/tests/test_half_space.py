@@ -136,11 +136,11 @@ def test_wavenumbers_of_any_kind_give_the_same() -> None:
 
 def test_a_half_space_is_that_of_its_case() -> None:
     case = percoat.case("dlc-on-steel")
-    own = percoat.HalfSpace(case["layers"], case["substrate"])
+    by_hand = percoat.HalfSpace(case["layers"], case["substrate"])
     of = percoat.HalfSpace.of("dlc-on-steel")
     changed = percoat.HalfSpace.of("dlc-on-steel", set={"layers.0.thickness": 3.0})
     q = np.geomspace(0.01, 10.0, 20)
-    assert np.array_equal(own.compliance(q), of.compliance(q)) and str(own) == str(of)
+    assert np.array_equal(by_hand.compliance(q), of.compliance(q)) and str(by_hand) == str(of)
     assert np.array_equal(percoat.kernel("dlc-on-steel", q).compliance, of.compliance(q))
     kernel = percoat.kernel("dlc-on-steel", q, set={"layers.0.thickness": 3.0})
     assert np.array_equal(kernel.compliance, changed.compliance(q))

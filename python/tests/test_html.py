@@ -44,18 +44,18 @@ class Page(HTMLParser):
             self.cells[-1] += data
 
 
-def shown(own: Any) -> Page:
-    page = Page(own._repr_html_())
+def shown(answer: Any) -> Page:
+    page = Page(answer._repr_html_())
     # Nothing runs, and no colour of its own is in the way of a dark page.
     assert page.names <= {"div", "p", "strong", "table", "caption", "thead", "tbody", "tr", "th", "td", "pre"}
-    assert page.attributes <= {"style"} and "color" not in own._repr_html_()
+    assert page.attributes <= {"style"} and "color" not in answer._repr_html_()
     return page
 
 
-def printed(own: Any, monkeypatch: pytest.MonkeyPatch) -> str:
+def printed(answer: Any, monkeypatch: pytest.MonkeyPatch) -> str:
     """The printed text of one line for each row, whatever its width."""
     monkeypatch.setenv("COLUMNS", "1000")
-    return str(own)
+    return str(answer)
 
 
 def test_results_and_steps(three_levels: percoat.Result, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -71,8 +71,8 @@ def test_results_and_steps(three_levels: percoat.Result, monkeypatch: pytest.Mon
 def test_texts_of_a_case_are_escaped() -> None:
     bad = "<script>alert('a & b')</script>"
     result = percoat.solve(wave(title=bad, substrate={"young": 1.0, "poisson": 0.3, "name": "<i>x</i>"}))
-    for own in (result, percoat.check(wave(title=bad))):
-        assert bad in shown(own).text
+    for answer in (result, percoat.check(wave(title=bad))):
+        assert bad in shown(answer).text
     table = percoat.sweep("fig2", {"grid.points": 32, "title": [bad]})
     # A setting is shown as it is typed, in quotes.
     assert f'"{bad}"' in shown(table).cells
@@ -85,13 +85,13 @@ def test_limits_lives_and_comparisons(monkeypatch: pytest.MonkeyPatch) -> None:
         percoat.life("tin-fatigue", set={"grid.points": 32, "life.passes": 1e6}),
         percoat.compare("fig2", set={"grid.points": 32, "localized.indenters": [7], "localized.elements": 16}),
     ]
-    for own in found:
-        page = shown(own)
-        text = printed(own, monkeypatch) if own is not found[2] else None
-        assert own.title in page.text and len(page.cells) >= 6
+    for answer in found:
+        page = shown(answer)
+        text = printed(answer, monkeypatch) if answer is not found[2] else None
+        assert answer.title in page.text and len(page.cells) >= 6
         assert text is None or all(cell in text for cell in page.cells)
-        for again in (pickle.loads(pickle.dumps(own)), copy.deepcopy(own)):
-            assert again == own and again._repr_html_() == own._repr_html_()
+        for again in (pickle.loads(pickle.dumps(answer)), copy.deepcopy(answer)):
+            assert again == answer and again._repr_html_() == answer._repr_html_()
 
 
 def test_checks_are_their_text() -> None:

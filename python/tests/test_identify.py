@@ -70,26 +70,27 @@ def test_the_modulus_of_hertz_is_found_with_its_standard_error(
 def test_the_case_of_the_result_has_the_values_found(found: percoat.Identification) -> None:
     assert found.case["substrate"]["young"] == found.values["substrate.young"]
     assert percoat.case(found.case) == found.case
-    (own,) = found.parameters
-    assert (own.name, own.start, own.value) == ("substrate.young", 100.0, found.values["substrate.young"])
+    (parameter,) = found.parameters
+    assert (parameter.name, parameter.start) == ("substrate.young", 100.0)
+    assert parameter.value == found.values["substrate.young"]
     step = percoat.solve(found.case, set={"load.force": float(found.force[6])})[0]
     assert step.penetration == pytest.approx(found.fitted[6], rel=2e-3)
 
 
 def test_derivatives_by_what_is_known_are_those_of_hertz(found: percoat.Identification) -> None:
     # E is in proportion to (1 − ν²)/√R; derivatives on 48 samples are right to a percent or so.
-    young, own = found.values["substrate.young"], found.sensitivities
-    assert own["substrate.poisson"]["substrate.young"] == pytest.approx(-0.6 * young / 0.91, rel=0.02)
-    assert own["levels.0.radius"]["substrate.young"] == pytest.approx(-young / 20.0, rel=0.02)
-    assert list(own) == ["levels.0.radius", "substrate.poisson", "offset", "frame_compliance"]
+    young, sensitivities = found.values["substrate.young"], found.sensitivities
+    assert sensitivities["substrate.poisson"]["substrate.young"] == pytest.approx(-0.6 * young / 0.91, rel=0.02)
+    assert sensitivities["levels.0.radius"]["substrate.young"] == pytest.approx(-young / 20.0, rel=0.02)
+    assert list(sensitivities) == ["levels.0.radius", "substrate.poisson", "offset", "frame_compliance"]
 
 
 def test_a_zero_that_was_missed_is_told_and_can_be_stated(curve: tuple[Any, Any]) -> None:
     force, penetration = curve
     with pytest.warns(UserWarning, match="zero of the penetration seems to be missed by .*free `offset`"):
         percoat.identify(CASE, (force, penetration + 5e-3), "substrate.young")
-    own = percoat.identify(CASE, (force, penetration + 5e-3), "substrate.young", known={"offset": 5e-3})
-    assert own.warnings == [] and own.values["substrate.young"] == pytest.approx(YOUNG, rel=3e-3)
+    fit = percoat.identify(CASE, (force, penetration + 5e-3), "substrate.young", known={"offset": 5e-3})
+    assert fit.warnings == [] and fit.values["substrate.young"] == pytest.approx(YOUNG, rel=3e-3)
     with pytest.raises(percoat.CaseError, match="known: `zero=1.0` is no `offset=LENGTH`"):
         percoat.identify(CASE, curve, "substrate.young", known={"zero": 1})
 
@@ -122,14 +123,14 @@ def test_a_curve_is_a_frame_or_the_path_of_a_table(
     pandas = pytest.importorskip("pandas")
     force, penetration = curve
     frame = pandas.DataFrame({"force_mN": force, "penetration": penetration, "penetration_error_nm": 1e3 * NOISE})
-    own = percoat.identify(CASE, frame, ["substrate.young", "offset"])
-    assert own.penetration_error == pytest.approx(np.full(12, NOISE), rel=1e-14)
-    assert own.reduced_chi_square == pytest.approx(1.2, rel=0.1)  # twelve points, ten degrees of freedom
-    assert abs(own.values["offset"]) < 3.0 * own.errors["offset"] and list(own.values) == ["substrate.young", "offset"]
-    assert own.correlation.shape == (2, 2) and own.correlation == pytest.approx(own.correlation.T, abs=1e-12)
+    fit = percoat.identify(CASE, frame, ["substrate.young", "offset"])
+    assert fit.penetration_error == pytest.approx(np.full(12, NOISE), rel=1e-14)
+    assert fit.reduced_chi_square == pytest.approx(1.2, rel=0.1)  # twelve points, ten degrees of freedom
+    assert abs(fit.values["offset"]) < 3.0 * fit.errors["offset"] and list(fit.values) == ["substrate.young", "offset"]
+    assert fit.correlation.shape == (2, 2) and fit.correlation == pytest.approx(fit.correlation.T, abs=1e-12)
     # A stiffer body and a zero that lies deeper make one another up.
-    assert own.correlation[0, 1] > 0.5
-    assert "correlation of substrate.young and offset" in str(own)
+    assert fit.correlation[0, 1] > 0.5
+    assert "correlation of substrate.young and offset" in str(fit)
     path = tmp_path / "curve.csv"
     frame[["force_mN", "penetration"]].to_csv(path, index=False)
     for data in (path, str(path)):
@@ -140,10 +141,10 @@ def test_a_curve_is_a_frame_or_the_path_of_a_table(
 def test_poissons_ratio_stays_within_its_bounds(curve: tuple[Any, Any]) -> None:
     # E is known, and 1 − ν² is 0.91 · 70/E.
     for young, near in ((71.0, 4e-3), (76.0, 0.01)):
-        own = percoat.identify(CASE, curve, ["substrate.poisson"], set={"substrate.young": young})
-        low, high = own.intervals["substrate.poisson"]
-        assert own.values["substrate.poisson"] == pytest.approx(np.sqrt(1.0 - 0.91 * young / YOUNG), abs=near)
-        assert 0.0 <= low < own.values["substrate.poisson"] < high <= 0.5
+        fit = percoat.identify(CASE, curve, ["substrate.poisson"], set={"substrate.young": young})
+        low, high = fit.intervals["substrate.poisson"]
+        assert fit.values["substrate.poisson"] == pytest.approx(np.sqrt(1.0 - 0.91 * young / YOUNG), abs=near)
+        assert 0.0 <= low < fit.values["substrate.poisson"] < high <= 0.5
     # With E = 40 no ratio does.
     with pytest.raises(percoat.CaseError, match="does not converge.*bounds 0 and 0.5|does not determine"):
         percoat.identify(CASE, curve, ["substrate.poisson"], set={"substrate.young": 40.0})
@@ -194,11 +195,11 @@ def test_it_is_that_of_the_command_line(
     np.savetxt(data, np.column_stack(curve), delimiter=",", header="force,penetration", comments="", fmt="%.17g")
     out = tmp_path / "out"
     told = program("identify", data, case, "--free", "substrate.young", "--no-pictures", "-o", out)
-    own = percoat.identify(case, data, ["substrate.young"])
-    assert own.to_dict() == json.loads((out / "identification.json").read_text("utf-8"))
-    assert str(own) in told.stdout
+    fit = percoat.identify(case, data, ["substrate.young"])
+    assert fit.to_dict() == json.loads((out / "identification.json").read_text("utf-8"))
+    assert str(fit) in told.stdout
     table = np.genfromtxt(out / "identification.csv", delimiter=",", names=True)
-    assert np.array_equal(own.fitted, table["fitted"]) and np.array_equal(own.fitted_error, table["fitted_error"])
+    assert np.array_equal(fit.fitted, table["fitted"]) and np.array_equal(fit.fitted_error, table["fitted_error"])
 
 
 def test_it_prints_pickles_and_reports_progress(found: percoat.Identification, curve: tuple[Any, Any]) -> None:
@@ -212,8 +213,8 @@ def test_it_prints_pickles_and_reports_progress(found: percoat.Identification, c
         assert np.array_equal(again.fitted, found.fitted) and str(again) == str(found) and again.values == found.values
     heard: list[percoat.Progress] = []
     percoat.identify(CASE, curve, ["substrate.young"], threads=1, progress=heard.append)
-    assert [own.done for own in heard] == list(range(1, len(heard) + 1)) and len(heard) > 2
-    assert all((own.unit, own.of, own.points) == ("trial", 0, None) for own in heard)
+    assert [progress.done for progress in heard] == list(range(1, len(heard) + 1)) and len(heard) > 2
+    assert all((progress.unit, progress.of, progress.points) == ("trial", 0, None) for progress in heard)
     assert "residual" in str(heard[-1])
 
 

@@ -303,9 +303,9 @@ def test_other_threads_run_meanwhile() -> None:
     finally:
         ends.set()
         thread.join()
-    own = [tick for tick in ticks if began <= tick <= began + took]
+    during = [tick for tick in ticks if began <= tick <= began + took]
     # Were the interpreter held, there would be one gap as long as the work.
-    assert max(np.diff([began, *own, began + took])) < 0.5 * took
+    assert max(np.diff([began, *during, began + took])) < 0.5 * took
 
 
 def progress_of(**more: Any) -> list[percoat.Progress]:
@@ -316,35 +316,37 @@ def progress_of(**more: Any) -> list[percoat.Progress]:
 
 def test_progress_tells_how_far_it_is() -> None:
     heard = progress_of(set={"grid.points": 96, "load.mean_pressure": [0.02, 0.04, 0.06]})
-    assert all(type(own) is percoat.Progress for own in heard)
-    assert {own.unit for own in heard} == {"step"} and {own.of for own in heard} == {3}
-    assert {own.points for own in heard} == {(96, 96)}
-    assert [own.done for own in heard] == sorted(own.done for own in heard)
-    assert {own.done for own in heard} == {0, 1, 2, 3} and heard[-1].done == heard[-1].of
-    assert [own.seconds for own in heard] == sorted(own.seconds for own in heard) and heard[0].seconds >= 0.0
-    for own in heard:
-        assert own.iteration >= 0 and (own.iteration == 0) == np.isnan(own.residual)
-        begins = "3 of 3 steps" if own.done == 3 else f"step {own.done + 1} of 3"
-        assert str(own).startswith(f"{begins}, 96 × 96 samples, ") and str(own).endswith(" s")
-        assert repr(own) == f"<percoat.Progress: {own}>" and own.phase in str(own)
+    assert all(type(progress) is percoat.Progress for progress in heard)
+    assert {progress.unit for progress in heard} == {"step"} and {progress.of for progress in heard} == {3}
+    assert {progress.points for progress in heard} == {(96, 96)}
+    assert [progress.done for progress in heard] == sorted(progress.done for progress in heard)
+    assert {progress.done for progress in heard} == {0, 1, 2, 3} and heard[-1].done == heard[-1].of
+    assert [progress.seconds for progress in heard] == sorted(progress.seconds for progress in heard)
+    assert heard[0].seconds >= 0.0
+    for progress in heard:
+        assert progress.iteration >= 0 and (progress.iteration == 0) == np.isnan(progress.residual)
+        begins = "3 of 3 steps" if progress.done == 3 else f"step {progress.done + 1} of 3"
+        assert str(progress).startswith(f"{begins}, 96 × 96 samples, ") and str(progress).endswith(" s")
+        assert repr(progress) == f"<percoat.Progress: {progress}>" and progress.phase in str(progress)
 
 
 def test_progress_of_grids_that_are_refined() -> None:
     heard = progress_of(set={"grid": {"accuracy": 0.002}})
-    grids = list(dict.fromkeys(own.points for own in heard))
-    assert len(grids) >= 2 and all(own is not None for own in grids)
+    grids = list(dict.fromkeys(progress.points for progress in heard))
+    assert len(grids) >= 2 and all(grid is not None for grid in grids)
     for grid in grids:
-        done = [own.done for own in heard if own.points == grid]
+        done = [progress.done for progress in heard if progress.points == grid]
         assert done == sorted(done) and done[-1] == 1
-    sizes = [own.points[0] for own in heard if own.points is not None]
+    sizes = [progress.points[0] for progress in heard if progress.points is not None]
     assert sizes == sorted(sizes)
 
 
 def test_progress_tells_of_iterations() -> None:
     heard = progress_of(set={"grid.points": 1024})  # one of which takes longer than it is silent, 50 ms
-    iterating = [own for own in heard if own.iteration]
+    iterating = [progress for progress in heard if progress.iteration]
     assert iterating
-    assert all(own.residual > 0.0 and f"iteration {own.iteration}, ε = " in own.phase for own in iterating)
+    assert all(progress.residual > 0.0 for progress in iterating)
+    assert all(f"iteration {progress.iteration}, ε = " in progress.phase for progress in iterating)
 
 
 def test_progress_prints(capsys: pytest.CaptureFixture[str]) -> None:

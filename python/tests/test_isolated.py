@@ -37,7 +37,7 @@ def test_a_periodic_case_in_force_prints_its_force() -> None:
 
 def test_progress_tells_the_force() -> None:
     heard: list[str] = []
-    percoat.solve("ball-on-disc", set={**SETTINGS, "load.force": 1000.0}, progress=lambda own: heard.append(own.phase))
+    percoat.solve("ball-on-disc", set={**SETTINGS, "load.force": 1000.0}, progress=lambda told: heard.append(told.phase))
     assert heard[-1] == "after force 1000.0"
 
 
@@ -70,7 +70,7 @@ def test_an_isolated_contact_is_drawn_once(ball: percoat.Result) -> None:
 
     step = ball[1]
     for ax in (plot.pressure(step), plot.contact(step), plot.plane(step.plane(3.0), window=(-200, 200, -200, 200))):
-        (mesh,) = (own for own in ax.collections if isinstance(own, QuadMesh))
+        (mesh,) = (collection for collection in ax.collections if isinstance(collection, QuadMesh))
         # Each sample is the middle of its square.
         corners = mesh.get_coordinates()
         middles = 0.25 * (corners[1:, 1:] + corners[1:, :-1] + corners[:-1, 1:] + corners[:-1, :-1])
@@ -85,7 +85,7 @@ def test_an_isolated_contact_is_drawn_once(ball: percoat.Result) -> None:
 def test_limits_in_force() -> None:
     heard: list[str] = []
     weak = {**SETTINGS, "substrate.yield_strength": 0.8}
-    limits = percoat.limit("ball-on-disc", set=weak, progress=lambda own: heard.append(own.phase))
+    limits = percoat.limit("ball-on-disc", set=weak, progress=lambda told: heard.append(told.phase))
     first = limits.first
     assert first is not None and first.mean_pressure is None and first.force > 0.0
     assert repr(limits).endswith(f" at force {first.force}>")

@@ -31,8 +31,8 @@ def test_progress_hears_of_every_load_and_may_end_the_life() -> None:
     life = percoat.life("tin-fatigue", set=COARSE, progress=heard.append)
     first, *loads = heard
     assert first.done == 0 and first.points is None
-    assert [own.done for own in loads] == list(range(1, life["solved"] + 1)) and len(loads) > 1
-    assert {own.unit for own in loads} == {"load"} and {own.points for own in loads} == {(48, 48)}
+    assert [progress.done for progress in loads] == list(range(1, life["solved"] + 1)) and len(loads) > 1
+    assert {progress.unit for progress in loads} == {"load"} and {progress.points for progress in loads} == {(48, 48)}
     assert f"{len(life.events)} events" in loads[-1].phase and "passes" in str(loads[-1])
 
     class Enough(Exception):

@@ -20,17 +20,17 @@ def limits() -> percoat.Limits:
 
 
 def test_limits_are_sorted_and_the_first_is_first(limits: percoat.Limits) -> None:
-    loads = [own.mean_pressure for own in limits.limits if own.mean_pressure is not None]
+    loads = [limit.mean_pressure for limit in limits.limits if limit.mean_pressure is not None]
     assert limits.first is not None and limits.first.mean_pressure == min(loads)
     first = limits.first.to_dict()
     # What may come before it by the errors of both: of the other criteria.
     rivals = first.pop("rivals")
-    names = {f"{own.criterion} of {'material' if own.get('material') else 'interface'}" for own in limits.limits}
+    names = {f"{limit.criterion} of {'material' if limit.get('material') else 'interface'}" for limit in limits.limits}
     assert all(rival.rsplit(" ", 1)[0] in names for rival in rivals)
-    assert first == next(own.to_dict() for own in limits.limits if own.mean_pressure == min(loads))
+    assert first == next(limit.to_dict() for limit in limits.limits if limit.mean_pressure == min(loads))
     low, high = first["interval"]
     assert low <= min(loads) <= high
-    kinds = {(own.criterion, own.get("material"), own.get("interface")) for own in limits.limits}
+    kinds = {(limit.criterion, limit.get("material"), limit.get("interface")) for limit in limits.limits}
     assert kinds == {
         ("yield", 1, None), ("yield", 2, None), ("yield", 3, None), ("cracking", 1, None),
         ("delamination", None, 1), ("delamination", None, 2),
@@ -42,16 +42,16 @@ def test_at_its_limit_a_material_is_used_up(limits: percoat.Limits) -> None:
     # The load of each limit, solved: what bears up to it has a utilisation of one, within the stated error of
     # the load. Utilisation grows no faster than the load, for under Hertz stresses grow as its third root, by
     # which what is residual does not grow.
-    inside = [own for own in limits.limits if own.z > 0.0]
+    inside = [limit for limit in limits.limits if limit.z > 0.0]
     assert len(inside) == 4
-    for own in inside:
-        step = percoat.solve("dlc-on-steel", set={**SETTINGS, "load.mean_pressure": own.mean_pressure})[0]
-        place = "material" if "material" in own else "interface"
+    for limit in inside:
+        step = percoat.solve("dlc-on-steel", set={**SETTINGS, "load.mean_pressure": limit.mean_pressure})[0]
+        place = "material" if "material" in limit else "interface"
         (used,) = [
-            used for used in step.strength if (used.criterion, used.get(place)) == (own.criterion, own[place])
+            used for used in step.strength if (used.criterion, used.get(place)) == (limit.criterion, limit[place])
         ]
-        assert used.utilisation == pytest.approx(1.0, abs=own.error / own.mean_pressure), own
-        assert (used.x, used.y, used.z) == pytest.approx((own.x, own.y, own.z), abs=0.02)
+        assert used.utilisation == pytest.approx(1.0, abs=limit.error / limit.mean_pressure), limit
+        assert (used.x, used.y, used.z) == pytest.approx((limit.x, limit.y, limit.z), abs=0.02)
 
 
 def paraboloids(strength: float, **sections: Any) -> dict[str, Any]:
@@ -96,7 +96,7 @@ def test_what_never_fails_has_no_limit() -> None:
     # An interface under compression alone does not open, up to complete contact.
     layer = {"thickness": 0.5, "young": 0.91, "poisson": 0.3, "interface_strength": {"normal": 100.0}}
     sound = percoat.limit(paraboloids(1e6, layers=[layer], grid={"points": 64}))
-    opening = next(own for own in sound.limits if own.criterion == "delamination")
+    opening = next(limit for limit in sound.limits if limit.criterion == "delamination")
     assert sound.first is None and opening.mean_pressure is None and opening.up_to > 1.0
     assert repr(sound).endswith(": nothing fails>") and "nothing fails up to the mean pressure" in str(sound)
 
@@ -104,8 +104,8 @@ def test_what_never_fails_has_no_limit() -> None:
 def test_doubts_about_limits_are_told_at_the_line_of_the_user() -> None:
     with pytest.warns(percoat.PercoatWarning, match="less than 10 samples") as caught:
         limits = percoat.limit(paraboloids(0.04, grid={"points": 48}))
-    assert [str(own.message) for own in caught] == limits.warnings and limits.converged
-    assert {own.filename for own in caught} == {__file__}
+    assert [str(warning.message) for warning in caught] == limits.warnings and limits.converged
+    assert {warning.filename for warning in caught} == {__file__}
 
 
 def test_limits_of_what_has_not_converged_are_told() -> None:
@@ -113,7 +113,7 @@ def test_limits_of_what_has_not_converged_are_told() -> None:
     with pytest.warns(percoat.NotConverged) as caught:
         limits = percoat.limit(case)
     assert not limits.converged
-    assert {own.filename for own in caught} == {__file__}
+    assert {warning.filename for warning in caught} == {__file__}
 
 
 def test_limits_print_their_table(limits: percoat.Limits) -> None:
@@ -129,7 +129,7 @@ def test_names_of_materials_stand_in_the_place_of_their_numbers() -> None:
     assert (limits.first.material, limits.first.name) == (2, "Cr")
     step = percoat.solve("dlc-on-steel", set={"grid.points": 64, **names})[0]
     assert repr(step.plane(1.0)).endswith("at z = 1.0, in DLC>") and step.plane(2.2).name == "Cr"
-    assert [own.max_tau1.name for own in step.maxima().materials] == ["DLC", "Cr", "steel"]
+    assert [peaks.max_tau1.name for peaks in step.maxima().materials] == ["DLC", "Cr", "steel"]
 
 
 def test_limits_are_a_dict_and_pickle(limits: percoat.Limits) -> None:
@@ -144,7 +144,7 @@ def test_limits_are_a_dict_and_pickle(limits: percoat.Limits) -> None:
 def test_progress_of_limits() -> None:
     heard: list[percoat.Progress] = []
     percoat.limit(paraboloids(0.04), progress=heard.append)
-    assert all(type(own) is percoat.Progress and (own.unit, own.of) == ("load", 0) for own in heard)
-    assert heard[-1].done >= 3 and {own.points for own in heard} == {(128, 128)}
-    assert [own.seconds for own in heard] == sorted(own.seconds for own in heard)
-    assert [own.done for own in heard] == sorted(own.done for own in heard)
+    assert all(type(progress) is percoat.Progress and (progress.unit, progress.of) == ("load", 0) for progress in heard)
+    assert heard[-1].done >= 3 and {progress.points for progress in heard} == {(128, 128)}
+    assert [progress.seconds for progress in heard] == sorted(progress.seconds for progress in heard)
+    assert [progress.done for progress in heard] == sorted(progress.done for progress in heard)

@@ -16,13 +16,13 @@ def test_the_library_is_a_dict_by_names() -> None:
     assert len(library) >= 40
     steel = library["AISI 304"]
     assert (steel["kind"], steel["young"]["value"], steel["yield_strength"]["what"]) == ("steel", 193.0, "0.2 % proof")
-    assert all(own["young"]["certainty"] in ("sourced", "assumed") for own in library.values())
+    assert all(material["young"]["certainty"] in ("sourced", "assumed") for material in library.values())
 
 
 def test_own_materials_come_first(tmp_path: Path) -> None:
     (tmp_path / "own.toml").write_text(OWN)
-    own = percoat.materials(tmp_path / "own.toml")["TiN"]
-    assert own == {"name": "TiN", "young": {"value": 400.0}, "poisson": {"value": 0.2, "range": [0.1, 0.3]}}
+    coating = percoat.materials(tmp_path / "own.toml")["TiN"]
+    assert coating == {"name": "TiN", "young": {"value": 400.0}, "poisson": {"value": 0.2, "range": [0.1, 0.3]}}
     (tmp_path / "own.toml").write_text(OWN.replace("400.0", '"stiff"'))
     with pytest.raises(percoat.CaseError, match=r"`material\[0\].young` must be a finite number"):
         percoat.materials(tmp_path / "own.toml")

@@ -46,9 +46,9 @@ def test_fields_cannot_be_written_to(three_levels: percoat.Result, name: str) ->
             array.flags.writeable = True
         with pytest.raises(ValueError):
             array.view().flags.writeable = True
-    own = array.copy()
-    own[0, 0] = 1.0
-    assert own.flags.writeable
+    copied = array.copy()
+    copied[0, 0] = 1.0
+    assert copied.flags.writeable
 
 
 def test_the_owner_cannot_be_written_to(three_levels: percoat.Result) -> None:
@@ -198,12 +198,12 @@ def test_references_are_counted() -> None:
         "load": {"mean_pressure": 1.0},
     }
     points = np.array([[0.0, 0.0, 0.1]])
-    before = [sys.getrefcount(own) for own in (heights, case, points, heard.append.__self__)]
+    before = [sys.getrefcount(value) for value in (heights, case, points, heard.append.__self__)]
     for _ in range(10):
         percoat.solve(case)
         step.stress(points)
     gc.collect()
-    assert [sys.getrefcount(own) for own in (heights, case, points, heard.append.__self__)] == before
+    assert [sys.getrefcount(value) for value in (heights, case, points, heard.append.__self__)] == before
 
 
 HUGE = {

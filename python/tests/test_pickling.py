@@ -40,9 +40,9 @@ def result(request: pytest.FixtureRequest) -> percoat.Result:
 
 def same_step(ours: percoat.Step, theirs: percoat.Step) -> None:
     for name in ("x", "y", "pressure", "gap", "displacement"):
-        own, other = getattr(ours, name), getattr(theirs, name)
-        assert own.tobytes() == other.tobytes() and own.shape == other.shape, name
-        assert not own.flags.writeable, name
+        array, other = getattr(ours, name), getattr(theirs, name)
+        assert array.tobytes() == other.tobytes() and array.shape == other.shape, name
+        assert not array.flags.writeable, name
     assert ours.to_dict() == theirs.to_dict() and repr(ours) == repr(theirs) and str(ours) == str(theirs)
     assert [type(level) for level in ours.levels] == [type(level) for level in theirs.levels]
     points = [[0.1, 0.2, 0.3], [0.0, 0.0, 0.05]]
@@ -70,13 +70,13 @@ def same(ours: percoat.Result, theirs: percoat.Result) -> None:
     assert ours.warnings == theirs.warnings and ours.accuracy == theirs.accuracy
     assert ours.units == theirs.units
     for name in ("x", "y", "a1", "a2", "owner"):
-        own, other = getattr(ours, name), getattr(theirs, name)
-        assert own.tobytes() == other.tobytes(), name
-        assert own.dtype == other.dtype and own.shape == other.shape, name
-        assert own.flags.writeable == other.flags.writeable, name
+        array, other = getattr(ours, name), getattr(theirs, name)
+        assert array.tobytes() == other.tobytes(), name
+        assert array.dtype == other.dtype and array.shape == other.shape, name
+        assert array.flags.writeable == other.flags.writeable, name
     assert len(ours) == len(theirs)
-    for own, other in zip(ours, theirs):
-        same_step(own, other)
+    for step, other in zip(ours, theirs):
+        same_step(step, other)
 
 
 @pytest.mark.parametrize("protocol", [2, pickle.HIGHEST_PROTOCOL])
@@ -89,10 +89,10 @@ def test_results_pickle(result: percoat.Result, protocol: int) -> None:
 
 
 def test_sections_and_maxima_of_a_read_result(result: percoat.Result) -> None:
-    own, other = pickle.loads(pickle.dumps(result))[-1], result[-1]
+    step, other = pickle.loads(pickle.dumps(result))[-1], result[-1]
     cut: dict[str, Any] = {"start": (0.1, 0.0), "toward": (1, 0), "length": 0.5, "depth": 0.1}
-    same_record(own.section(**cut), other.section(**cut))
-    assert own.maxima() == other.maxima() != None  # noqa: E711
+    same_record(step.section(**cut), other.section(**cut))
+    assert step.maxima() == other.maxima() != None  # noqa: E711
 
 
 def test_results_are_copied(result: percoat.Result) -> None:
@@ -114,8 +114,8 @@ def test_a_result_of_some_steps_keeps_their_loads() -> None:
     result = CASES["three levels"]()
     steps = pickle.loads(pickle.dumps([result[2], result[1]]))
     assert [step.mean_pressure for step in steps] == [result[2].mean_pressure, result[1].mean_pressure]
-    for own, other in zip(steps, (result[2], result[1])):
-        same_step(own, other)
+    for step, other in zip(steps, (result[2], result[1])):
+        same_step(step, other)
 
 
 def test_a_read_result_becomes_a_dataset(result: percoat.Result) -> None:
@@ -180,9 +180,9 @@ def test_a_surface_that_has_changed_is_not_kept(surface: Path) -> None:
     result = percoat.solve(surface)
     heights = surface.with_name("heights.npy")
     np.save(heights, 2.0 * wave()["surface"]["heights"])
-    for own in (result, result[0]):
+    for answer in (result, result[0]):
         with pytest.raises(percoat.CaseError, match="heights.npy has changed since it was read"):
-            pickle.dumps(own)
+            pickle.dumps(answer)
     # Its own numbers are there still.
     assert result[0].stress([0.0, 0.0, 0.1]).shape == (6,)
     np.save(heights, wave()["surface"]["heights"])
@@ -236,10 +236,10 @@ def test_records_and_checks_pickle() -> None:
 
 
 def test_slices_and_sections_pickle(three_levels: percoat.Result) -> None:
-    for own in (three_levels[0].plane(0.3), three_levels[0].section("level 1", "level 2")):
-        again = pickle.loads(pickle.dumps(own))
-        assert type(again) is type(own) and repr(again) == repr(own)
-        assert all(np.array_equal(again[name], own[name]) for name in own)
+    for cut in (three_levels[0].plane(0.3), three_levels[0].section("level 1", "level 2")):
+        again = pickle.loads(pickle.dumps(cut))
+        assert type(again) is type(cut) and repr(again) == repr(cut)
+        assert all(np.array_equal(again[name], cut[name]) for name in cut)
 
 
 def test_errors_pickle() -> None:

@@ -37,7 +37,7 @@ def oblique(tmp_path_factory: pytest.TempPathFactory) -> percoat.Result:
 
 
 def meshes(ax: Any) -> list[QuadMesh]:
-    return [own for own in ax.collections if isinstance(own, QuadMesh)]
+    return [collection for collection in ax.collections if isinstance(collection, QuadMesh)]
 
 
 def drawn(ax: Any, x: float, y: float) -> list[Any]:
@@ -140,7 +140,7 @@ def test_pressure_is_blank_where_nothing_touches(oblique: percoat.Result) -> Non
     assert {float(mesh.norm.vmin) for mesh in meshes(ax)} == {0.0}
     assert {float(mesh.norm.vmax) for mesh in meshes(ax)} == {float(step.pressure.max())}
     masked = [np.ma.getmaskarray(np.ma.asarray(mesh.get_array())) for mesh in meshes(ax)]
-    assert any(own.any() for own in masked) and not all(own.all() for own in masked)
+    assert any(mask.any() for mask in masked) and not all(mask.all() for mask in masked)
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("x (mm)", "y (mm)")
     assert ax.get_aspect() == 1.0
 
@@ -189,17 +189,17 @@ def test_a_step_without_contact_is_drawn_blank() -> None:
 @pytest.mark.parametrize("quantity", percoat.COMPONENTS + percoat.STRAINS)
 def test_every_quantity_of_a_plane_and_a_section(oblique: percoat.Result, quantity: str) -> None:
     slice_, section = oblique[1].plane(0.35, points=24, strain=True), oblique[1].section(strain=True)
-    own = plot.plane(slice_, quantity, units=oblique.units)
-    assert own.get_title() == "z = 0.35 mm, material 2"
-    values = [np.ma.asarray(mesh.get_array()) for mesh in meshes(own)]
+    ax = plot.plane(slice_, quantity, units=oblique.units)
+    assert ax.get_title() == "z = 0.35 mm, material 2"
+    values = [np.ma.asarray(mesh.get_array()) for mesh in meshes(ax)]
     assert all(np.isin(value, slice_[quantity]).all() for value in values)
-    bars = own.child_axes
+    bars = ax.child_axes
     unit = "(mm)" if quantity.startswith("u") else "$" if quantity in percoat.STRAINS else "(MPa)"
     assert len(bars) == 1 and bars[0].get_ylabel().endswith(unit)
     cut = plot.section(section, quantity, units=oblique.units)
     assert (cut.get_xlabel(), cut.get_ylabel()) == ("s (mm)", "z (mm)")
     # Where there are both signs, zero is in the middle of the colours.
-    for mesh, whole in ((meshes(own)[0], slice_[quantity]), (meshes(cut)[0], section[quantity])):
+    for mesh, whole in ((meshes(ax)[0], slice_[quantity]), (meshes(cut)[0], section[quantity])):
         if whole.min() < 0.0 < whole.max():
             assert mesh.norm.vmin == -mesh.norm.vmax
         assert mesh.norm.vmin <= whole.min() and whole.max() <= mesh.norm.vmax
@@ -268,8 +268,8 @@ def test_a_curve_has_error_bars_and_no_line_through_noise() -> None:
     strengths = [step.strength for step in result]
     assert ax.lines[0].get_label() == "yield of DLC" and len(ax.lines) == len(strengths[0])
     (bars,) = ax.containers[1][2]  # of the second criterion, yield of the chromium
-    for (low, high), own in zip((bar[:, 1] for bar in bars.get_segments()), (step[1] for step in strengths)):
-        assert (low, high) == (own.utilisation - own.error, own.utilisation + own.error)
+    for (low, high), record in zip((bar[:, 1] for bar in bars.get_segments()), (step[1] for step in strengths)):
+        assert (low, high) == (record.utilisation - record.error, record.utilisation + record.error)
     across, up = plot._interrupted(
         np.arange(5.0), np.array([1.0, 2.0, 1.5, 1.9, 1.0]), np.array([0.2, 0.3, 0.3, 0.1, np.nan])
     )
@@ -314,14 +314,14 @@ def test_a_fit_has_its_points_and_the_band_of_its_parameters() -> None:
         assert measured.get_color() == "black" and measured.get_xdata().tolist() == [1.0, 2.0, 3.0]
         assert measured.get_ydata() == pytest.approx(penetration[order] - below, abs=1e-15)
         assert fitted.get_ydata() == pytest.approx(found.fitted[order] - below, abs=1e-15)
-        (band,) = [own for own in ax.collections if isinstance(own, PolyCollection)]
+        (band,) = [collection for collection in ax.collections if isinstance(collection, PolyCollection)]
         reach = band.get_paths()[0].vertices[:, 1]
         widest = 2.0 * found.fitted_error[0]
         assert np.max(reach) == pytest.approx(fitted.get_ydata()[-1] + widest, rel=1e-12)
         name = "measured − fit" if difference else "penetration"
         assert (ax.get_xlabel(), ax.get_ylabel()) == ("force (GPa µm²)", f"{name} (µm)")
         # Deviations that are known are the bars of the points.
-        (bars,) = [own for own in ax.collections if isinstance(own, LineCollection)]
+        (bars,) = [collection for collection in ax.collections if isinstance(collection, LineCollection)]
         assert bars.get_segments()[0][:, 1] == pytest.approx(measured.get_ydata()[0] + 1e-4 * np.array([-1, 1]), abs=1e-15)
 
 

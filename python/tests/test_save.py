@@ -16,13 +16,13 @@ from conftest import Program, wave
 
 
 def test_a_folder_with_a_file_of_somebody_else_is_refused(three_levels: percoat.Result, tmp_path: Path) -> None:
-    own = tmp_path / "curve.csv"
-    own.write_text("mine", "utf-8")
+    file = tmp_path / "curve.csv"
+    file.write_text("mine", "utf-8")
     with pytest.raises(percoat.CaseError, match="curve.csv .*choose another folder, or move it away"):
         three_levels.save(tmp_path)
-    assert own.read_text("utf-8") == "mine"
+    assert file.read_text("utf-8") == "mine"
     # Beside other names it is written, and replaced by a later one.
-    own.rename(tmp_path / "mine.csv")
+    file.rename(tmp_path / "mine.csv")
     three_levels.save(tmp_path)
     percoat.solve("fig2", set={"grid.points": 48}).save(str(tmp_path))
     assert json.loads((tmp_path / "summary.json").read_text("utf-8"))["steps"][0]["points"] == [48, 48]
@@ -53,8 +53,8 @@ def test_heights_of_an_array_are_saved_and_solved_again(
     flat_wave.save(tmp_path / "out")
     assert np.array_equal(np.load(tmp_path / "out" / "heights.npy"), wave()["surface"]["heights"])
     again = percoat.solve(tmp_path / "out" / "case.toml")
-    for own, other in zip(again, flat_wave):
-        assert own.pressure.tobytes() == other.pressure.tobytes()
+    for step, other in zip(again, flat_wave):
+        assert step.pressure.tobytes() == other.pressure.tobytes()
     program("report", tmp_path / "out")
     assert "A wave pressed flat" in (tmp_path / "out" / "report.html").read_text("utf-8")
 
@@ -74,7 +74,7 @@ def test_heights_of_a_file_that_is_gone_are_saved_and_solved_again(tmp_path: Pat
     again.save(tmp_path / "out")
     assert (tmp_path / "out" / name).read_bytes() == bytes
     solved = percoat.solve(tmp_path / "out" / "case.toml")
-    assert [own.pressure.tobytes() for own in solved] == [own.pressure.tobytes() for own in result]
+    assert [step.pressure.tobytes() for step in solved] == [step.pressure.tobytes() for step in result]
     # Of a user's file of that name nothing is lost.
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / name).write_text("mine", "utf-8")

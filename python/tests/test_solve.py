@@ -110,10 +110,10 @@ def test_a_prescribed_penetration_is_that_of_its_load(three_levels: percoat.Resu
     depths = [step.penetration for step in three_levels]
     case = {**three_levels.case, "load": {"penetration": depths}}
     again = percoat.solve(case)
-    for step, own in zip(three_levels, again):
-        assert own.penetration == pytest.approx(step.penetration, rel=1e-9)
+    for step, repeated in zip(three_levels, again):
+        assert repeated.penetration == pytest.approx(step.penetration, rel=1e-9)
         # Both are known to 1e-8 of the energy, which its root bounds the pressures by.
-        assert own.mean_pressure == pytest.approx(step.mean_pressure, rel=1e-4)
+        assert repeated.mean_pressure == pytest.approx(step.mean_pressure, rel=1e-4)
     assert len(again) == 2
 
 
@@ -166,15 +166,15 @@ def test_the_owner_of_a_sample_is_the_level_that_faces_it() -> None:
     sites = [[(0.0, 0.0), (0.1, 0.5)], [(0.5, 0.4)]]
     radii, heights = (0.8, 0.5), (0.01, 0.0)
     levels = [
-        {"shape": "paraboloid", "radius": radius, "height": height, "sites": own}
-        for radius, height, own in zip(radii, heights, sites)
+        {"shape": "paraboloid", "radius": radius, "height": height, "sites": level_sites}
+        for radius, height, level_sites in zip(radii, heights, sites)
     ]
     cell = {"kind": "oblique", "a1": [1.0, 0.1], "a2": [0.3, 0.9]}
     result = percoat.solve(paraboloids(lattice=cell, levels=levels, grid={"points": [45, 50]}))
     # Every indenter of the cell and its copies all around, one by one.
     nearest = []
-    for radius, height, own in zip(radii, heights, sites):
-        places = [s1 * result.a1 + s2 * result.a2 for s1, s2 in own]
+    for radius, height, level_sites in zip(radii, heights, sites):
+        places = [s1 * result.a1 + s2 * result.a2 for s1, s2 in level_sites]
         copies = [m * result.a1 + n * result.a2 for m in range(-2, 3) for n in range(-2, 3)]
         squares = [
             (result.x - place[0] - copy[0]) ** 2 + (result.y - place[1] - copy[1]) ** 2
@@ -191,8 +191,8 @@ def test_a_step_has_what_its_summary_has(three_levels: percoat.Result) -> None:
     for step, entries in zip(three_levels, three_levels.to_dict()["steps"]):
         assert step.to_dict() == entries
         for name, value in entries.items():
-            own = getattr(step, name)
-            assert (own.to_dict() if isinstance(own, percoat.Record) else own) == value
+            attribute = getattr(step, name)
+            assert (attribute.to_dict() if isinstance(attribute, percoat.Record) else attribute) == value
             assert name in dir(step)
         assert step.levels[1].errors.load == entries["levels"][1]["errors"]["load"]
         assert step.x is three_levels.x and step.y is three_levels.y
@@ -235,7 +235,7 @@ def test_an_accuracy_that_is_not_reached_is_told() -> None:
     # Changes of a grid fall no faster than its spacing, and there are grids up to 4096 points: never to 1e-9.
     with pytest.warns(percoat.PercoatWarning) as caught:
         result = percoat.solve("fig2", set={"grid": {"accuracy": 1e-9}, "solver.tolerance": 1e-6})
-    told = {own.category: str(own.message) for own in caught}
+    told = {warning.category: str(warning.message) for warning in caught}
     assert told[percoat.PercoatWarning].startswith("grid.accuracy is not reached: the last change was ")
     assert told[percoat.NotConverged] == "not converged: the accuracy is not reached"
     assert not result.converged and all(step.converged for step in result)
@@ -246,8 +246,8 @@ def test_an_accuracy_that_is_not_reached_is_told() -> None:
 def test_what_has_not_converged_warns_at_the_line_of_the_user() -> None:
     with pytest.warns(percoat.NotConverged, match="not converged: step 1: .*iteration") as caught:
         result = percoat.solve("fig2", set={"grid.points": 96, "solver.max_iterations": 2})
-    (own,) = [own for own in caught if own.category is percoat.NotConverged]
-    assert own.filename == __file__
+    (warning,) = [warning for warning in caught if warning.category is percoat.NotConverged]
+    assert warning.filename == __file__
     assert not result.converged and not result[0].converged and repr(result).endswith("not converged>")
     assert issubclass(percoat.NotConverged, percoat.PercoatWarning)
 
@@ -255,8 +255,8 @@ def test_what_has_not_converged_warns_at_the_line_of_the_user() -> None:
 def test_what_is_doubtful_warns_at_the_line_of_the_user() -> None:
     with pytest.warns(percoat.PercoatWarning, match="less than 10 samples") as caught:
         result = percoat.solve("fig2", set={"grid.points": 48})
-    assert [str(own.message) for own in caught] == result.warnings
-    assert [own.filename for own in caught] == [__file__]
+    assert [str(warning.message) for warning in caught] == result.warnings
+    assert [warning.filename for warning in caught] == [__file__]
 
 
 def test_a_step_without_contact() -> None:
@@ -312,9 +312,9 @@ def test_a_dict_may_have_numbers_and_arrays_of_numpy() -> None:
 
 def test_a_case_of_an_array_can_be_looked_at_changed_and_solved() -> None:
     # `percoat.case` says so, and `result.case` is "the case as run".
-    own = wave()
-    first = percoat.solve(own)
-    for case in (percoat.case(own), first.case):
+    given = wave()
+    first = percoat.solve(given)
+    for case in (percoat.case(given), first.case):
         again = percoat.solve(case)
         assert np.array_equal(first[0].pressure, again[0].pressure)
 
@@ -397,8 +397,8 @@ def test_doubts_about_a_comparison_are_told_at_the_line_of_the_user() -> None:
     settings = {"grid.points": 48, "localized": {"indenters": [7], "elements": 12}}
     with pytest.warns(percoat.PercoatWarning, match="samples in the spectral solution") as caught:
         both = percoat.compare("fig2", set=settings)
-    assert [str(own.message) for own in caught] == both.warnings
-    assert {own.filename for own in caught} == {__file__}
+    assert [str(warning.message) for warning in caught] == both.warnings
+    assert {warning.filename for warning in caught} == {__file__}
 
 
 def test_a_record_is_a_dict_with_attributes() -> None:
@@ -432,7 +432,7 @@ def test_what_was_solved_cannot_be_set(three_levels: percoat.Result) -> None:
 
 def test_everything_public_is_there_and_explained() -> None:
     for name in percoat.__all__:
-        own = getattr(percoat, name)
+        exported = getattr(percoat, name)
         if name not in ("COMPONENTS", "STRAINS", "__version__"):
-            assert own.__doc__ and own.__doc__[0].isupper(), name
+            assert exported.__doc__ and exported.__doc__[0].isupper(), name
     assert len(percoat.__all__) == len(set(percoat.__all__)) >= 25

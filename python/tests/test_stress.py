@@ -103,8 +103,8 @@ def test_points_planes_and_sections_agree(three_levels: percoat.Result, z: float
     here = np.abs(along - np.rint(along)) < 1e-9
     assert here.sum() >= 2
     for name in percoat.COMPONENTS[:9]:
-        own = plane[name][np.rint(along[here]).astype(int) % 96, 0]
-        assert np.abs(section[name][row, here] - own).max() < 1e-12, name
+        values = plane[name][np.rint(along[here]).astype(int) % 96, 0]
+        assert np.abs(section[name][row, here] - values).max() < 1e-12, name
 
 
 def test_the_sides_of_an_interface(three_levels: percoat.Result) -> None:
@@ -165,7 +165,7 @@ def test_the_maxima_are_at_their_places(three_levels: percoat.Result) -> None:
         # Nowhere on a section through the largest contact is it larger.
         section = step.section("level 1", "level 2", length=1.0, depth=1.0)
         assert section["tau1" if name == "max_tau1" else "mises"].max() <= peak.value * (1.0 + 1e-9)
-    assert maxima.max_tau1.material == 1 and [own.interface for own in maxima.interfaces] == [1]
+    assert maxima.max_tau1.material == 1 and [peaks.interface for peaks in maxima.interfaces] == [1]
     shear = maxima.interfaces[0].max_shear
     xz, yz = step.stress([shear.x, shear.y, shear.z])[[4, 5]]
     assert np.hypot(xz, yz) == pytest.approx(shear.value, rel=1e-9)
@@ -255,8 +255,8 @@ def test_the_largest_strains_are_there_where_the_case_asks_for_them() -> None:
     step = percoat.solve("fig2", set=settings)[0]
     maxima = step.maxima()
     assert maxima is not None and maxima.to_dict() == step.to_dict()["stress"]
-    for own in [maxima, *maxima.materials, *maxima.faces]:
-        assert own.max_strain.error > 0.0 and own.max_vertical_compression.value > 0.0
+    for peaks in [maxima, *maxima.materials, *maxima.faces]:
+        assert peaks.max_strain.error > 0.0 and peaks.max_vertical_compression.value > 0.0
     peak = maxima.materials[1].max_vertical_compression
     there = step.strain([peak.x, peak.y, peak.z], material=2)
     assert -there[2] == pytest.approx(peak.value, rel=1e-9)

@@ -27,11 +27,11 @@ def test_rows_are_the_steps_of_their_cases() -> None:
     assert table["set_layers_0_thickness"].tolist() == [0.1] * 6 + [0.4] * 6
     assert table["set_layers_0_shear_ratio"].tolist() == [0.5, 0.5, 2.0, 2.0, 8.0, 8.0] * 2
     for row in range(12):
-        own = {
+        settings = {
             key: table[f"set_{key.replace('.', '_')}"][row]
             for key in ("layers.0.thickness", "layers.0.shear_ratio")
         }
-        result = percoat.solve("fig2", set={**SMALL, "load.mean_pressure": [0.02, 0.05], **own})
+        result = percoat.solve("fig2", set={**SMALL, "load.mean_pressure": [0.02, 0.05], **settings})
         step = result[int(table["step"][row]) - 1]
         assert table["penetration"][row] == step.penetration
         assert table["mean_pressure"][row] == step.mean_pressure
@@ -58,8 +58,8 @@ def test_pairs_are_zipped() -> None:
     assert table["set_layers_0_thickness"].tolist() == [0.1, 0.4]
     assert table["set_substrate_poisson"].tolist() == [0.2, 0.45]
     for row, (thickness, poisson) in enumerate([(0.1, 0.2), (0.4, 0.45)]):
-        own = {**SMALL, "layers.0.thickness": thickness, "substrate.poisson": poisson}
-        assert table["penetration"][row] == percoat.solve("fig2", set=own)[0].penetration
+        settings = {**SMALL, "layers.0.thickness": thickness, "substrate.poisson": poisson}
+        assert table["penetration"][row] == percoat.solve("fig2", set=settings)[0].penetration
 
 
 @pytest.mark.parametrize(
@@ -145,7 +145,7 @@ def test_a_combination_that_fails_has_a_row_and_a_warning() -> None:
     with pytest.warns(percoat.PercoatWarning, match="failed: .*grid.points") as caught:
         table = percoat.sweep("fig2", {"grid.points": [48, 11]})
     assert table["status"].tolist() == ["done", "failed"] and np.isnan(table["penetration"][1])
-    assert [own.filename for own in caught if "failed" in str(own.message)] == [__file__]
+    assert [warning.filename for warning in caught if "failed" in str(warning.message)] == [__file__]
     with pytest.warns(percoat.NotConverged, match="not converged"):
         table = percoat.sweep("fig2", {**SMALL, "solver.max_iterations": [2, 1000]})
     assert table["status"].tolist() == ["not_converged", "done"]
@@ -214,7 +214,7 @@ def test_combinations_are_named_by_their_values() -> None:
         'combination 1 (solver.tolerance=2e-7, layers.0.interface=bonded, title="a b", '
         'lattice={ kind = "hexagonal", period = 1.5 })'
     )
-    assert [own.phase for own in heard] == [f"{name} done"]
+    assert [progress.phase for progress in heard] == [f"{name} done"]
     assert table["set_solver_tolerance"].tolist() == [2e-7]
     assert table["mean_pressure"] == pytest.approx([0.02], rel=1e-12)
     assert [key for key in table if key.startswith("set_")] == [
@@ -225,8 +225,8 @@ def test_combinations_are_named_by_their_values() -> None:
 def test_progress_of_a_sweep() -> None:
     heard: list[percoat.Progress] = []
     percoat.sweep("fig2", {**SMALL, "layers.0.thickness": "0.1:1:7"}, progress=heard.append)
-    assert [(own.unit, own.done, own.of) for own in heard] == [
+    assert [(progress.unit, progress.done, progress.of) for progress in heard] == [
         ("combination", done, 7)
         for done in range(1, 8)
     ]
-    assert all(own.points is None and "done" in own.phase for own in heard)
+    assert all(progress.points is None and "done" in progress.phase for progress in heard)

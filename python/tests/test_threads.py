@@ -28,8 +28,8 @@ def prints(result: percoat.Result) -> list[bytes]:
     """Every bit of the fields, and of the stresses under them."""
     step = result[-1]
     inside = [step.stress([[0.1, 0.2, 0.3], [0.0, 0.0, 0.7]]), step.plane(0.3).mises]
-    fields = [getattr(own, name) for own in result for name in ("pressure", "gap", "displacement")]
-    return [own.tobytes() for own in (*fields, *inside)]
+    fields = [getattr(step, name) for step in result for name in ("pressure", "gap", "displacement")]
+    return [array.tobytes() for array in (*fields, *inside)]
 
 
 @pytest.fixture(scope="module")
@@ -41,9 +41,9 @@ def expected() -> list[bytes]:
 def test_results_do_not_depend_on_threads(name: str) -> None:
     all_cores = percoat.solve(name, set=CASES[name])
     for threads in (1, 2, 3, np.int64(2), 1, None):
-        own = percoat.solve(name, set=CASES[name], threads=threads)
-        assert prints(own) == prints(all_cores), threads
-        ours, theirs = own.to_dict()["steps"], all_cores.to_dict()["steps"]
+        result = percoat.solve(name, set=CASES[name], threads=threads)
+        assert prints(result) == prints(all_cores), threads
+        ours, theirs = result.to_dict()["steps"], all_cores.to_dict()["steps"]
         for step in (*ours, *theirs):
             del step["seconds"]
         assert ours == theirs, threads
@@ -52,8 +52,8 @@ def test_results_do_not_depend_on_threads(name: str) -> None:
 def test_limits_and_checks_do_not_depend_on_threads() -> None:
     settings = {"grid.points": 48, "load.mean_pressure": 0.05, "layers": [], "friction.coefficient": 0.0}
     limits = [percoat.limit("dlc-on-steel", set=settings, threads=threads).to_dict() for threads in (1, 3)]
-    for own in limits:
-        for step in own["steps"]:
+    for limit in limits:
+        for step in limit["steps"]:
             del step["seconds"]
     assert limits[0] == limits[1]
     checks = [percoat.check("fig2", set={"grid.points": 96}, threads=threads) for threads in (1, 2)]
@@ -113,7 +113,7 @@ except percoat.CaseError as error:
 def test_several_threads_solve_at_once(expected: list[bytes]) -> None:
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
         solving = [pool.submit(percoat.solve, "fig2", set=SETTINGS, threads=n) for n in (1, 2, None, 3) * 4]
-        assert all(prints(own.result(timeout=30.0)) == expected for own in solving)
+        assert all(prints(future.result(timeout=30.0)) == expected for future in solving)
 
 
 def test_several_threads_hear_their_own_progress() -> None:
@@ -129,15 +129,15 @@ def test_several_threads_hear_their_own_progress() -> None:
 
     with concurrent.futures.ThreadPoolExecutor(3) as pool:
         sizes = (48, 64, 72) * 3
-        for size, (own, grids, thread) in zip(sizes, pool.map(solve, sizes)):
-            assert grids == {(size, size)} and thread == {own}
+        for size, (caller, grids, thread) in zip(sizes, pool.map(solve, sizes)):
+            assert grids == {(size, size)} and thread == {caller}
 
 
 def test_several_threads_ask_one_step(expected: list[bytes]) -> None:
     result = percoat.solve("fig2", set=SETTINGS)
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
         asked = [pool.submit(prints, result) for _ in range(8)]
-        assert all(own.result(timeout=30.0) == expected for own in asked)
+        assert all(future.result(timeout=30.0) == expected for future in asked)
 
 
 # Forked children of a process with threads are what Python itself warns of since 3.12.
@@ -216,7 +216,7 @@ def worker(points: int) -> tuple[int, bytes]:
 
 
 @pytest.mark.parametrize(
-    "method", [own for own in ("fork", "spawn") if own in multiprocessing.get_all_start_methods()]
+    "method", [method for method in ("fork", "spawn") if method in multiprocessing.get_all_start_methods()]
 )
 def test_a_pool_of_processes_solves(method: str) -> None:
     sizes = [48, 64, 72]
@@ -229,5 +229,5 @@ def test_results_come_from_a_pool_of_processes(expected: list[bytes]) -> None:
     method = "fork" if "fork" in multiprocessing.get_all_start_methods() else "spawn"
     with concurrent.futures.ProcessPoolExecutor(2, mp_context=multiprocessing.get_context(method)) as pool:
         results = [pool.submit(percoat.solve, "fig2", set=SETTINGS) for _ in range(2)]
-        for own in results:
-            assert prints(own.result(timeout=30.0)) == expected
+        for future in results:
+            assert prints(future.result(timeout=30.0)) == expected

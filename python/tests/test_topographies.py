@@ -18,10 +18,10 @@ def heights() -> np.ndarray:
     return 0.02 * i - 0.035 * j + 0.008 * ((7 * i + 11 * j * j) % 13)
 
 
-def case(own: Any, length: Optional[str] = "nm", **surface: Any) -> "dict[str, Any]":
+def case(heights: Any, length: Optional[str] = "nm", **surface: Any) -> "dict[str, Any]":
     units = {} if length is None else {"units": {"length": length}}
     return {
-        "surface": {"heights": own, **surface},
+        "surface": {"heights": heights, **surface},
         "substrate": {"young": 1.0, "poisson": 0.3},
         "load": {"mean_pressure": 1e-3},
         **units,
@@ -31,21 +31,21 @@ def case(own: Any, length: Optional[str] = "nm", **surface: Any) -> "dict[str, A
 class Topography:
     """The shape of SurfaceTopography's topographies."""
 
-    def __init__(self, own: Any, physical_sizes: Any, unit: Optional[str] = None) -> None:
-        self._heights, self.physical_sizes, self.unit = own, physical_sizes, unit
+    def __init__(self, heights: Any, physical_sizes: Any, unit: Optional[str] = None) -> None:
+        self._heights, self.physical_sizes, self.unit = heights, physical_sizes, unit
 
     def heights(self) -> Any:
         return self._heights
 
 
-def check_sizes_and_unit(own: Any) -> None:
-    as_run = percoat.case(case(own))
+def check_sizes_and_unit(topography: Any) -> None:
+    as_run = percoat.case(case(topography))
     assert as_run["lattice"]["a1"] == pytest.approx([12e3, 0.0]) and as_run["lattice"]["a2"] == pytest.approx([0.0, 9e3])
     assert as_run["surface"]["unit"] == "µm"
     assert np.array_equal(as_run["surface"]["heights"], heights())
     # The same in nanometres by hand, where the period is.
     by_hand = case(heights() * 1e3, period=[12e3, 9e3])
-    told, expected = percoat.check(case(own)).surface, percoat.check(by_hand).surface
+    told, expected = percoat.check(case(topography)).surface, percoat.check(by_hand).surface
     assert told.rms_height == pytest.approx(expected.rms_height, rel=1e-12)
     assert told.rms_slope == pytest.approx(expected.rms_slope, rel=1e-12)
     # A case that was run is read again.
@@ -56,8 +56,8 @@ def check_sizes_and_unit(own: Any) -> None:
 def test_an_object_with_heights_and_physical_sizes_brings_its_unit() -> None:
     check_sizes_and_unit(Topography(heights(), SIZES, "µm"))
     # Without a unit in that of the case.
-    own = Topography(heights(), SIZES)
-    assert percoat.case(case(own, None))["lattice"]["a1"] == pytest.approx([12.0, 0.0])
+    unitless = Topography(heights(), SIZES)
+    assert percoat.case(case(unitless, None))["lattice"]["a1"] == pytest.approx([12.0, 0.0])
     with pytest.raises(percoat.CaseError, match="add \\[units\\]"):
         percoat.case(case(Topography(heights(), SIZES, "µm"), None))
     for sizes in [(1.0,), (1.0, 2.0, 3.0), None]:
@@ -80,7 +80,8 @@ def test_places_without_a_measurement_are_filled_with_a_warning() -> None:
     holes = heights()
     holes[3, 2] = holes[17, 11] = np.nan
     masked = np.ma.masked_invalid(holes)
-    checks = [percoat.check(case(own, period=[12.0, 9.0])) for own in (holes, masked, Topography(masked, SIZES))]
+    surfaces = (holes, masked, Topography(masked, SIZES))
+    checks = [percoat.check(case(surface, period=[12.0, 9.0])) for surface in surfaces]
     for told in checks:
         assert any("2 of 360 places (0.55556 %)" in line for line in told.warnings), told.warnings
         assert [stage["stage"] for stage in told.surface.stages] == ["as_read", "filled"]

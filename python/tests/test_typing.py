@@ -80,7 +80,7 @@ print(
 
 limits: percoat.Limits = percoat.limit(case, set={"substrate.yield_strength": 0.1})
 if limits.first is not None:
-    print(limits.first.mean_pressure, limits.converged, [own.criterion for own in limits.limits])
+    print(limits.first.mean_pressure, limits.converged, [limit.criterion for limit in limits.limits])
 
 found: percoat.Identification = percoat.identify(case, (np.ones(3), [0.1, 0.2, 0.3]), ["offset"], threads=1)
 value: float = found.values["offset"] + found.errors["offset"] + found.intervals["offset"][0] + found.rms_residual
@@ -184,12 +184,12 @@ def test_the_stub_names_what_is_compiled() -> None:
     assert named == compiled
     for node in tree.body:
         if isinstance(node, ast.ClassDef):
-            own = getattr(_core, node.name)
+            kind = getattr(_core, node.name)
             methods = {entry.name for entry in node.body if isinstance(entry, ast.FunctionDef)}
-            public = {name for name in vars(own) if not name.startswith("_")}
+            public = {name for name in vars(kind) if not name.startswith("_")}
             assert {name for name in methods if not name.startswith("_")} == public, node.name
         elif isinstance(node, ast.FunctionDef):
             signature = getattr(_core, node.name).__text_signature__
             arguments = [entry.arg for entry in node.args.args]
-            given = [own.split("=")[0].strip() for own in signature.strip("()").split(",") if own.strip()]
+            given = [word.split("=")[0].strip() for word in signature.strip("()").split(",") if word.strip()]
             assert arguments == given, node.name

@@ -71,9 +71,9 @@ def x3p() -> None:
 
 
 def surfaces() -> None:
-    own = Surface(image(heights()) * 1e6, DX * 1e6, DY * 1e6)
-    own.save(HERE / "plain.sur", compressed=False)
-    own.save(HERE / "compressed.sur", compressed=True)
+    surface = Surface(image(heights()) * 1e6, DX * 1e6, DY * 1e6)
+    surface.save(HERE / "plain.sur", compressed=False)
+    surface.save(HERE / "compressed.sur", compressed=True)
 
 
 def sdf() -> None:

@@ -152,7 +152,7 @@ def same_numbers(browser, folder):
     radius = other["levels"][0]["contact_radius"]
     assert ours.keys() == theirs.keys() and len(ours) > 5
     for path, place in theirs.items():
-        assert all(abs(own - x) <= 1e-5 * radius for own, x in zip(ours[path], place)), (path, ours[path], place)
+        assert all(abs(found - x) <= 1e-5 * radius for found, x in zip(ours[path], place)), (path, ours[path], place)
 
 
 def test_a_ball_on_a_coating(browser, tmp_path):
@@ -218,8 +218,8 @@ def test_contact_stresses_and_section_are_shown_one_after_another(browser):
 LEFT_EARLY = """
 const complete = caseOf;
 caseOf = (...given) => {
-  const own = complete(...given);
-  return { ...own, solver: { ...own.solver, max_iterations: 1 } };
+  const built = complete(...given);
+  return { ...built, solver: { ...built.solver, max_iterations: 1 } };
 };
 """
 
@@ -238,8 +238,8 @@ def test_what_is_not_converged_is_shown_with_its_warning_alone(browser):
 # The pictures of the parts and of the whole of a case with two loads.
 TWO_LOADS = """
 const [done] = arguments;
-const own = caseOf({ ...state, body: "asperities" }, library, { points: 48 });
-const request = { task: "solve", case: { ...own, load: { mean_pressure: [0.01, 0.04] } }, pictures: true, parts: true };
+const rough = caseOf({ ...state, body: "asperities" }, library, { points: 48 });
+const request = { task: "solve", case: { ...rough, load: { mean_pressure: [0.01, 0.04] } }, pictures: true, parts: true };
 const pressure = ({ pictures }) => Object.fromEntries(pictures).pressure;
 const parts = [];
 answerOf(request, (known) => parts.push(pressure(known))).then((whole) => done([...parts, pressure(whole)]), (error) => done(String(error)));
@@ -361,7 +361,7 @@ def test_nothing_is_uploaded(browser):
     opened(browser)
     done(browser)
     asked = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
-    sent = [own["params"]["request"]["url"] for own in asked if own["method"] == "Network.requestWillBeSent"]
+    sent = [event["params"]["request"]["url"] for event in asked if event["method"] == "Network.requestWillBeSent"]
     assert sent
     assert all(url.startswith(("file:", "blob:", "data:", "about:")) for url in sent), sent
     severe = [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
