@@ -14,7 +14,7 @@ fn main() {
     divan::main();
 }
 
-/// As many elements across the largest contact as `percoat compare` takes unless told otherwise: 48.
+/// Elements across the largest contact: 48 are those of `percoat compare` unless told otherwise.
 #[divan::bench(args = [12, 24, 48], sample_size = 1, max_time = 20)]
 fn elements(bencher: Bencher, elements: usize) {
     let task = ComparisonTask {

@@ -6,11 +6,11 @@
 //! peer convolution WHO PRECISION POINTS THREADS  the bare half-space, E* = 1; by percoat or library, double or single
 //! ```
 //!
-//! It answers `ready` with a line, then each line `run` with one of JSON: `seconds`, of a solution without its `setup` (surface,
-//! tables, plans) and its `readings` (boundaries, areas, spots, all on two coarser grids too for their errors; warnings). Of a
-//! solution also `iterations`, `converged`, `convolutions` (as equivalents of the finest grid in double precision, of which one
-//! in single precision counts half) and `single`, the seconds of one in single precision. `write FILE` writes the last
-//! pressure, or the displacement, as a NumPy file.
+//! The program answers `ready`, then each line `run` with one of JSON: `seconds`, of a solution without its `setup`
+//! (surface, tables, plans) and its `readings` (boundaries, areas, spots, all on two coarser grids too for their
+//! errors; warnings). Of a solution also `iterations`, `converged`, `convolutions` (as equivalents of the finest grid
+//! in double precision, of which one in single precision counts half) and `single`, the seconds of one in single
+//! precision. `write FILE` writes the last pressure, or the displacement, as a NumPy file.
 
 mod shared;
 

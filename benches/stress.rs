@@ -11,7 +11,7 @@ fn main() {
 }
 
 const POINTS: [usize; 3] = [256, 512, 1024];
-/// Of the section and of the planes, the coating and as much below it.
+/// Depth of the section and of the planes: the coating and as much below it.
 const DEPTH: f64 = 1.0;
 
 fn solved(n: usize) -> Step {

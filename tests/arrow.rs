@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Folders of the sources of every crate. The published package has those of its own alone.
+/// Folders of the sources of every crate; the published package has `src` alone.
 const CRATES: [&str; 10] = [
     "crates/core/src",
     "crates/common/src",
@@ -35,7 +35,7 @@ fn sources(folder: &str) -> BTreeMap<String, String> {
             }
         }
     }
-    // What a crate hands on is no import.
+    // Names that a crate hands on are no imports.
     sources.remove("lib");
     sources.remove("");
     sources
@@ -191,7 +191,7 @@ fn imports(sources: &BTreeMap<String, String>) -> Imports {
         .iter()
         .map(|(path, text)| {
             let folder = is_folder(path);
-            // What a folder's own file names of the files in it, beside handing it on.
+            // Names from the files of a folder in the folder's own file, beside those that it hands on.
             let lines = text
                 .lines()
                 .filter(|line| folder && !line.starts_with("pub use ") && !line.starts_with("pub(crate) use "));

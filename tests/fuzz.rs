@@ -274,7 +274,7 @@ fn holds_together(case: &Case) {
         let needs = resources::needs(case, grids[grids.len() - 1], job);
         assert!(needs.memory > 0 && bytes(needs.memory).contains('B'));
         assert!(0 < needs.disk && needs.disk <= needs.disk_while_running);
-        // What fits the machine at hand is not what is tested: half of what is needed never fits.
+        // Half of the memory or disk that is needed never fits, whatever the machine at hand has.
         let [memory, disk] = [needs.memory / 2, needs.disk_while_running / 2];
         for room in [Capacity { memory, disk: u64::MAX }, Capacity { memory: u64::MAX, disk }] {
             if let Some(said) = resources::refusal(case, room, job) {

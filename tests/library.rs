@@ -1,5 +1,5 @@
-//! What the library refuses, solves and reads, through its public interface; one program, so that it is linked once and all
-//! tests share the cores.
+//! Tests of the library through its public interface; one program, so that it is linked once and all tests share the
+//! cores.
 
 mod common;
 

@@ -61,7 +61,7 @@ impl<T: FftNum + Default> Library<T> {
 
     fn rows_forward(&mut self, field: &mut [T]) {
         let (n, half, width, plan) = (self.n, self.n / 2 + 1, self.width(), &*self.row_forward);
-        // What each group of rows has of each tile.
+        // Parts of each tile, by groups of rows.
         let mut groups: Vec<Vec<&mut [Complex<T>]>> = (0..n / EIGHT).map(|_| Vec::new()).collect();
         for tile in self.spectrum.chunks_exact_mut(n * EIGHT) {
             tile.chunks_exact_mut(EIGHT * EIGHT).zip(&mut groups).for_each(|(lines, group)| group.push(lines));

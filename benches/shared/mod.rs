@@ -83,7 +83,7 @@ impl Convolution {
         self.operator.displacement(field, &mut self.workspace);
     }
 
-    /// The same in single precision.
+    /// n² samples in single precision.
     pub fn run_single(&mut self, field: &mut [f32]) {
         self.operator.displacement_single(field, &mut self.workspace);
     }

@@ -1,4 +1,4 @@
-//! What stands behind largest stresses and limits is said beside them: rigid indenters, and which mean lateral stress.
+//! Assumptions behind largest stresses and limits are said beside them: rigid indenters, and which mean lateral stress.
 
 use crate::program::{Desk, Folder};
 
@@ -11,7 +11,7 @@ fn words(page: &str) -> String {
     page.replace("&quot;", "\"").replace('\u{a0}', " ")
 }
 
-/// What was printed as if it stood in one line.
+/// Printed text in one line.
 fn line(out: &str) -> String {
     out.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,4 +1,4 @@
-//! What people expect of any command line: help, completions, a manual, colour, standard input, JSON.
+//! Expectations of any command line: help, completions, a manual, colour, standard input, JSON.
 
 use crate::program::{Desk, Folder};
 use serde_json::Value;
@@ -41,7 +41,7 @@ fn every_help_has_an_example_and_the_exit_codes_and_fits_a_terminal() {
 
 #[test]
 fn examples_of_the_help_are_read() {
-    // What a case or a table needs to be there.
+    // Files that the examples name.
     let desk = Desk::new();
     desk.write("mine.toml", desk.percoat(&["cases", "dlc-on-steel"]).out);
     desk.write("settings.csv", "layers.0.thickness\n1.5\n");
@@ -51,7 +51,7 @@ fn examples_of_the_help_are_read() {
         for example in examples.lines() {
             let words = example.split('#').next().unwrap().split(['>', '|', '<']).next().unwrap().split_whitespace();
             let words: Vec<&str> = words.skip(1).collect();
-            // What is refused as a command line says so with its usage; what is asked for is not done here.
+            // A command line that is refused says so with its usage; with `--help` nothing is solved.
             let probe: Vec<&str> = words.iter().copied().chain(["--help"]).collect();
             assert_eq!(desk.percoat(&probe).code, 0, "{example}");
             let known = words[1..].iter().filter(|word| word.starts_with("--"));

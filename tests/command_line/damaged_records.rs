@@ -12,10 +12,10 @@ use std::path::Path;
 /// After these calls all four loads are solved and recorded; after one more their fields are gathered too.
 const RECORDED: usize = 8;
 
-/// Where the steps of a run that was killed stand.
+/// Folder of the steps of a run that was killed.
 const UNFINISHED: &str = "killed/unfinished";
 
-/// A desk with the case, its whole result, and what a run leaves that is killed after so many calls.
+/// A desk with the case, its whole result, and the files of a run that is killed after so many calls.
 struct Killed {
     desk: Desk,
     whole: Folder,
@@ -48,7 +48,7 @@ impl Killed {
         }
     }
 
-    /// It names the file in one line, has kept what was damaged, and ends as if nothing had been.
+    /// Asserts that the resumed run names the file in one line, keeps it, and ends as if nothing had been.
     fn is_solved_again(&self, what: &str, file: &str, damage: impl Fn(&Path)) -> Answer {
         let answer = self.resumed(&damage);
         self.is_whole(what, &answer);
@@ -104,7 +104,7 @@ fn a_step_whose_files_are_not_as_they_were_written_is_solved_again_with_all_othe
         fs::rename(&second, &first).unwrap();
         fs::rename(place.join("between"), &second).unwrap();
     });
-    // What no percoat has made is nothing that it could move.
+    // A link that percoat has not made is nothing that it could move.
     #[cfg(unix)]
     {
         let answer = killed.resumed(|place| {
@@ -121,7 +121,7 @@ fn a_log_that_is_not_as_it_was_written_is_not_believed_line_by_line() {
     let killed = Killed::after(RECORDED);
     let log = "steps.jsonl";
     for (what, blow) in BLOWS.iter().filter(|(what, _)| !what.contains("near the end") && !what.contains("doubled")) {
-        // Of what is cut or emptied the whole lines are left.
+        // Logs that are cut or emptied have their whole lines left.
         let answer = killed.resumed(|place| strike(&place.join(log), *blow));
         killed.is_whole(what, &answer);
         assert!(answer.err.contains(log) && answer.err.contains("solved again"), "{what}: {}", answer.err);
@@ -220,11 +220,11 @@ fn a_checkpoint_is_believed_with_every_entry_or_not_at_all() {
             fs::write(&path, change(fs::read(&path).unwrap())).unwrap();
         });
     }
-    // What an earlier step has saved is a checkpoint too, and what more has been done is done again.
+    // A checkpoint of an earlier step will do too; the steps after it are solved again.
     let answer = killed.resumed(|place| fs::write(place.join(file), &first).unwrap());
     killed.is_whole("of the first step", &answer);
     assert!(answer.err.contains("goes on after step 1") && !answer.err.contains("solved again"), "{}", answer.err);
-    // That of another run is refused, with what helps, and nothing is moved.
+    // The checkpoint of another run is refused, with what helps, and nothing is moved.
     let answer = killed.resumed(|place| fs::write(place.join(file), &foreign).unwrap());
     answer.complains(2, &["is of another run", "same command", "leave --resume out"]);
     assert_eq!(Folder(killed.desk.path("killed")).names(), ["unfinished".to_owned()].into());

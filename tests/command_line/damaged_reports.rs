@@ -67,7 +67,7 @@ fn a_report_is_made_of_whole_results_alone() {
     }
     let other = report("run", true, &edited("summary.json", "/steps/0/penetration", 0.125.into()));
     other.complains(2, &["summary.json is not as it was written", "compute it again"]);
-    // What cannot be, also in a copy without the list.
+    // Values that cannot be, also in a copy without the list.
     for (base, file, pointer, value, words) in [
         ("run", "summary.json", "/steps/0/penetration", Value::Null, "step 1: `penetration` is null"),
         ("run", "summary.json", "/steps/1/mean_pressure", Value::Null, "step 2: `mean_pressure` is null"),
@@ -127,7 +127,7 @@ fn a_report_is_made_of_whole_results_alone() {
     }
     let answer = report("sweep", true, &|place| strike(&place.join("sweep.csv"), BLOWS[0].1));
     assert!(answer.code == 0 && answer.err.contains("warning: sweep.csv is "), "{}", answer.err);
-    // What is not shown because it is missing or damaged is told, on the page too.
+    // Files that are not shown because they are missing or damaged are told, on the page too.
     for (file, blow) in ["contact.npz", "stress.npz", "pressure.svg", "curve.csv"]
         .iter()
         .flat_map(|file| BLOWS.map(|blow| (file, blow)))

@@ -6,7 +6,7 @@ use percoat::output::without_checksum;
 use std::fs;
 use std::path::Path;
 
-/// As a sweep that was killed before it was published leaves its combinations.
+/// Leaves the combinations of a whole sweep as one does that was killed before it was published.
 fn killed_sweep(desk: &Desk, whole: &str, killed: &str) {
     let place = desk.path(killed).join("unfinished-sweep");
     copy(&desk.path(whole), &place);
@@ -102,12 +102,12 @@ fn a_combination_that_is_damaged_is_solved_again_and_the_others_are_not() {
         });
         assert!(answer.err.contains("2 of 3 combinations are done"), "{}", answer.err);
     }
-    // Of another sweep no damaged line makes this one.
+    // No damaged line makes this sweep of another one.
     let _ = fs::remove_dir_all(desk.path("killed"));
     copy(&desk.path("base"), &desk.path("killed"));
     relined(&desk.path("killed/unfinished-sweep/sweep.jsonl"), |lines| lines[1] = lines[1].replacen("0.0", "0.1", 1));
     sweep("killed", &["--resume", "--set", "substrate.young=2"]).complains(2, &["none of the 2 combinations"]);
-    // Their order is that of their ends.
+    // Lines stand in the order in which combinations end.
     let answer = resumed(&|place| relined(&place.join("sweep.jsonl"), |lines| lines.swap(0, 2)));
     assert!(answer.err.contains("3 of 3 combinations are done"), "{}", answer.err);
 }
@@ -140,7 +140,7 @@ fn parts_that_are_damaged_or_of_another_sweep_are_refused_with_file_line_and_wha
 
     let foreign = fs::read_to_string(desk.path("foreign/sweep.jsonl")).unwrap();
     let refused = |what: &str, words: &[&str], damage: &dyn Fn(&Path)| {
-        // As it was published, as a copy without its list, and as it was killed.
+        // The part as it was published, as a copy without its list, and as it was killed.
         for (base, place, advice) in [
             ("one", "", "move it away and give the command of this part again"),
             ("copy", "", "move it away and give the command of this part again"),
@@ -190,7 +190,7 @@ fn parts_that_are_damaged_or_of_another_sweep_are_refused_with_file_line_and_wha
             fs::write(&path, text.replacen(from, to, 1)).unwrap();
         });
     }
-    // What a finished part has lost is missed; of one that was killed it is not done, which is told as before.
+    // Combinations lost from a finished part are missed; those of a killed one are not done, which is told as before.
     let _ = fs::remove_dir_all(desk.path("damaged"));
     copy(&desk.path("one"), &desk.path("damaged"));
     fs::remove_dir_all(desk.path("damaged/.percoat")).unwrap();

@@ -1,4 +1,4 @@
-//! What can happen to files: every kind of damage, and how a command may end after it.
+//! Damages to files: every kind, and how a command may end after each.
 
 use crate::program::Answer;
 use percoat::output::{with_checksum, without_checksum};
@@ -39,7 +39,7 @@ pub const VALUES: [&str; 3] = ["--no-pictures", "--set", "layers.0.thickness=0.1
 /// Something done to a file, by its content.
 pub type Blow = fn(Vec<u8>) -> Vec<u8>;
 
-/// What happens to files of any kind; `None` takes the file away.
+/// Damages to files of any kind by name; `None` takes the file away.
 pub const BLOWS: [(&str, Option<Blow>); 7] = [
     ("a bit is flipped in the middle", Some(|bytes| flipped(bytes, 2))),
     ("a bit is flipped near the end", Some(|bytes| flipped(bytes, 1))),
@@ -107,7 +107,7 @@ pub fn rezipped(bytes: Vec<u8>, change: impl Fn(&str, Vec<u8>) -> Option<Vec<u8>
     new.finish().unwrap().into_inner()
 }
 
-/// The same array with its last value changed.
+/// An array with its last value changed.
 pub fn ending_with(mut array: Vec<u8>, value: f64) -> Vec<u8> {
     let end = array.len() - size_of::<f64>();
     array[end..].copy_from_slice(&value.to_ne_bytes());

@@ -57,7 +57,7 @@ fn too_few_iterations_are_told_and_what_is_there_is_written() {
     assert!(!short.names().contains("contact.partial"));
 }
 
-/// As in `percoat solve | head -1`.
+/// A reader that stops, as in `percoat solve | head -1`.
 #[test]
 fn who_stops_reading_still_learns_that_a_run_has_not_converged() {
     let desk = Desk::new();

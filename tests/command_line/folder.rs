@@ -332,7 +332,7 @@ fn a_result_that_was_edited_or_is_not_listed_is_not_replaced() {
     desk.write("run/curve.csv", &curve);
     assert_eq!(solve_into(&desk, "run", &[]).code, 0);
     before = run.files();
-    // As versions that kept no list left it.
+    // The folder as versions that kept no list left it.
     std::fs::remove_dir_all(desk.path("run/.percoat")).unwrap();
     solve_into(&desk, "run", &[]).complains(2, &["run/contact.npz", "not listed"]);
     assert!(run.files() == before);

@@ -1,5 +1,5 @@
-//! What a user, or somebody else, has put into an output folder: links, pipes, folders and files in every place where percoat
-//! has something of its own. Every command ends, and nothing of theirs is lost.
+//! Links, pipes, folders and files that a user, or somebody else, has put into an output folder, in every place where
+//! percoat has something of its own. Every command ends, and nothing of theirs is lost.
 
 #![cfg(unix)]
 
@@ -64,13 +64,13 @@ use Attack::{File, FolderWithFiles, HardLink, LinkToFile, LinkToFolder, LinkToNo
 
 const ATTACKS: [Attack; 7] = [LinkToFile, LinkToFolder, LinkToNothing, Pipe, FolderWithFiles, HardLink, File];
 
-/// What stands in the folder `run` before.
+/// Contents of the folder `run` before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Before {
     Nothing,
     /// A solved case and a sweep.
     Finished,
-    /// The same as a kill has left them.
+    /// A case and a sweep as a kill has left them.
     Killed,
 }
 
@@ -252,7 +252,7 @@ fn attacked(desk: &Desk, before: Before, place: &str, commands: &[&str], attacks
     (wrong, refused)
 }
 
-/// What stands there before, places, commands and attacks: each with each.
+/// Contents of the folder before, places, commands and attacks: each with each.
 type Row<'a> = (Before, &'a [&'a str], &'a [&'a str], &'a [Attack]);
 
 /// Tries all rows of a table; `least` is how many commands are refused at least.
@@ -273,7 +273,7 @@ fn try_all(rows: &[Row<'_>], least: usize) {
 const WRITING: [&str; 6] = ["solve", "resume", "check", "compare", "limit", "sweep"];
 const READING: [&str; 2] = ["merge", "report"];
 
-/// Anything but a file of a user's, where a file percoat's own would have the same name and nothing tells them apart.
+/// Every attack but a user's file, where one of percoat's would have the same name and nothing tells them apart.
 const TOLD_APART: [Attack; 5] = [LinkToFile, LinkToFolder, LinkToNothing, Pipe, FolderWithFiles];
 
 #[test]

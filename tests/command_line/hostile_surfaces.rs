@@ -5,7 +5,7 @@ use crate::program::{Answer, Desk};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// What becomes of a file.
+/// Fate of a file.
 #[derive(Debug, Clone, Copy)]
 enum Fate {
     /// Exit code 2 with these words.

@@ -151,7 +151,7 @@ fn keys_values_and_words_of_the_command_line_are_told_plainly() {
             format!("[lattice]\nkind = \"{key}\"\n"),
             format!("[lattice]\nkind = \"hexagonal\"\nperiod = 1.0\n\"{key}\" = 1\n"),
             format!("[surface]\nheights = \"{key}.npy\"\n[substrate]\nyoung = 1\npoisson = 0.3\n"),
-            // As they are, which TOML forbids in part: the excerpt shows the line.
+            // The words as they are, which TOML forbids in part: the excerpt shows the line.
             format!("# {word}\n[lattice]\nkind = 3 # {word}\n"),
             format!("title = \"{word}\"\nlattice = 3\n"),
             format!("{word} = {word}\n"),

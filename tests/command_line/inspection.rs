@@ -53,7 +53,7 @@ fn check_heeds_overrides_and_refuses_what_solve_refuses() {
     desk.percoat(&["check"]).complains(2, &["CASE"]);
 }
 
-/// As dense along the long side as along the short one they would be 37 million samples.
+/// Samples as dense along the long side as along the short one would be 37 million.
 #[test]
 fn first_touches_in_a_long_cell_take_no_more_than_the_grid_of_the_case() {
     let desk = Desk::new();

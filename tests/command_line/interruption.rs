@@ -34,7 +34,7 @@ fn start(folder: &Path, arguments: &[&str]) -> Child {
     start_with(&["--default-signal=HUP,INT,TERM"], folder, arguments)
 }
 
-/// The same with signals treated as `env` is told.
+/// `percoat solve` with `arguments` into `folder`, on its way, with signals treated as `env` is told.
 fn start_with(signals: &[&str], folder: &Path, arguments: &[&str]) -> Child {
     Command::new("env")
         .args(signals)
@@ -171,7 +171,7 @@ fn a_run_that_cannot_say_anything_ends_as_it_would_have() {
         let full = || fs::OpenOptions::new().write(true).open("/dev/full");
         let mut command = Command::new(assert_cmd::cargo::cargo_bin!("percoat"));
         let command = command.args(arguments).current_dir(desk.path(".")).stdout(Stdio::null());
-        // Where there is no such device the other end of a pipe is closed.
+        // The other end of a pipe is closed where there is no such device.
         let mut child = command.stderr(full().map_or_else(|_| Stdio::piped(), Stdio::from)).spawn().unwrap();
         drop(child.stderr.take());
         child.wait().unwrap().code()
@@ -199,7 +199,7 @@ fn a_second_run_into_a_folder_is_refused_and_the_first_goes_on() {
     desk.solve("shared", &solve[3..]);
 }
 
-/// What a run leaves beside the result before it, in the order in which it comes; a number waits for so many finished steps.
+/// Files of a run beside the result before it, in order of appearance; a number waits for so many finished steps.
 const PHASES: [&str; 14] = [
     "unfinished",
     "unfinished/case.toml",
@@ -231,7 +231,7 @@ fn wait_for_phase(phase: &str, folder: &Path, child: &mut Child) {
     }
 }
 
-/// What stands aside has a finished step at least, ends with a whole line, and has nothing that was being written.
+/// Asserts that runs set aside have a finished step at least, end with a whole line, and have no file half written.
 fn aside_is_readable(folder: &Folder) {
     for name in folder.names().iter().filter(|name| name.starts_with("interrupted-")) {
         let aside = Folder(folder.0.join(name));
@@ -347,7 +347,7 @@ fn solve_without_room(desk: &Desk, blocks: usize, arguments: &[&str]) -> (Option
     (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }
 
-/// What the solver knows takes 189 KiB on 96² samples and its coarser grids, on 192² four times as much.
+/// The state of the solver takes 189 KiB on 96² samples and its coarser grids, on 192² four times as much.
 #[test]
 fn a_run_that_fails_on_a_finer_grid_says_what_the_coarser_one_has_saved() {
     let desk = Desk::new();

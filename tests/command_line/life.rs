@@ -178,7 +178,7 @@ fn a_life_of_another_case_is_refused_and_a_damaged_one_is_kept_aside() {
         assert_eq!(killed.names(), ["unfinished-life".to_owned()].into());
         assert!(killed.bytes(STATE) == before, "{change}");
     }
-    // The same case, but solved on another grid.
+    // Case unchanged, but solved on another grid.
     fs::remove_dir_all(&killed.0).unwrap();
     killed_after(&LifeState { points: [40; 2], ..state.clone() }, &case, &killed.0);
     life(&desk, "killed", &PIECES, &["--resume"]).complains(2, &["is of another run", "the grid"]);

@@ -70,7 +70,7 @@ fn a_case_takes_its_materials_and_keeps_their_numbers() {
     ] {
         assert!(case.contains(words), "{words} does not stand in\n{case}");
     }
-    // Its own case is solved to the same fields when the file has gone.
+    // The case of the result is solved to the same fields when the file has gone.
     std::fs::remove_file(desk.path("own.toml")).unwrap();
     let again = desk.solve("again", &["run/case.toml"]);
     assert!(run.bytes("contact.npz") == again.bytes("contact.npz"));

@@ -29,7 +29,7 @@ fn under(desk: &Desk, limits: &str, arguments: &[&str]) -> Option<Answer> {
     Some(answer(output)).filter(|answer| answer.code != 126)
 }
 
-/// It is done, or it says in a line why not.
+/// Asserts that the command has done its work, or says in a line why not.
 fn assert_ended_well(answer: &Answer, what: &str) {
     assert!([0, 2, 4].contains(&answer.code), "{what} ends with {}: {}", answer.code, answer.err);
     if answer.code != 0 {
@@ -68,7 +68,7 @@ fn few_threads_are_an_error_of_one_line() {
 #[test]
 fn a_small_stack_is_enough() {
     let desk = Desk::new();
-    // What a program needs before it is one is less than 64 kB.
+    // Less than 64 kB are needed before the program begins.
     for most in [64, 80, 100, 500] {
         for arguments in
             [&["check", "fig2"][..], &["explain"], &["--help"], &["cases", "fig2", "--set", "grid.points=64"]]

@@ -1,4 +1,4 @@
-//! What a run says of its numbers: errors, rings, merged contacts, tips, too few samples.
+//! Remarks of a run on its numbers: errors, rings, merged contacts, tips, too few samples.
 
 use crate::program::{Desk, Folder, number};
 use npyz::WriterBuilder;
@@ -129,7 +129,7 @@ fn contacts_of_few_samples_are_warned_of() {
     let step = &Folder(desk.path("peaks")).steps()[0];
     assert_eq!(step["contact_spots"], 16);
     assert!((1.0..10.0).contains(&number(step, "/spot_resolution")), "{step}");
-    // Where all is in contact there is no edge that could be seen badly.
+    // Complete contact has no edge that could be seen badly.
     let complete = case(0.4);
     assert_eq!(number(&Folder(desk.path("peaks")).steps()[0], "/contact_fraction"), 1.0);
     assert!(complete.code == 0 && !complete.err.contains("samples"), "{}", complete.err);

@@ -220,7 +220,7 @@ fn the_memory_that_check_states_is_the_peak_of_the_run() {
     }
 }
 
-/// What stands between two words, the last of the first ones before the second.
+/// Text between two words, from the last `before` in front of the first `after`.
 #[cfg(target_os = "linux")]
 fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
     let end = text.find(after).unwrap();

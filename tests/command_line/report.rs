@@ -51,7 +51,7 @@ fn assert_well_formed(page: &str) {
     }
 }
 
-/// It loads nothing and nothing in it runs.
+/// Asserts that the page loads nothing and that nothing in it runs.
 fn assert_alone(page: &str) {
     for words in ["http://", "https://", "<script", "<link", "@import", "url(", " onload", "<iframe"] {
         assert!(!page.contains(words), "{words}");

@@ -144,7 +144,7 @@ fn a_killed_run_goes_on_and_leaves_the_same_files_and_pictures() {
     let (found, expected) = (folder.results(), whole.results());
     assert_eq!(folder.names(), whole.names());
     assert!(found.iter().all(|(name, content)| *content == expected[name]), "{:?}", folder.names());
-    // What is finished stays, and is told so.
+    // A finished result stays, and is told so.
     let before = folder.files();
     let after = resume(&["--json"]);
     assert!(after.code == 0 && after.err.contains("is finished"), "{}", after.err);

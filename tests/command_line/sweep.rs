@@ -180,7 +180,7 @@ fn a_killed_sweep_goes_on_and_ends_with_the_same_table() {
     let log = desk.path(log);
     child.kill().unwrap();
     child.wait().unwrap();
-    // As if it had been killed within a line.
+    // The log as if the sweep had been killed within a line.
     let text = fs::read_to_string(&log).unwrap();
     let done: Vec<&str> = text.split_inclusive('\n').filter(|line| line.ends_with('\n')).collect();
     fs::write(&log, format!("{text}{}", &done[0][..40])).unwrap();
@@ -190,7 +190,7 @@ fn a_killed_sweep_goes_on_and_ends_with_the_same_table() {
     let [whole, killed] = ["whole", "killed"].map(|name| Folder(desk.path(name)));
     assert_eq!(whole.text("sweep.csv"), killed.text("sweep.csv"));
     assert_eq!(whole.names(), killed.names());
-    // What was done was not solved again: even the times are the same.
+    // Combinations that were done are not solved again: even the times are the same.
     let log = killed.text("sweep.jsonl");
     assert!(done.iter().all(|line| log.contains(line.trim_end())));
     // Without --resume nothing is lost either, and a finished sweep can be continued by more values.
@@ -211,7 +211,7 @@ fn a_sweep_that_is_interrupted_keeps_its_rows_and_goes_on() {
     let log = "out/unfinished-sweep/sweep.jsonl";
     let command = ["sweep", "case.toml", "-o", "out", "--no-pictures"];
     let child = desk.begin(&[&command[..], &values].concat(), log, 3);
-    // What is read while it writes might not belong together.
+    // Files read while the sweep writes might not belong together.
     desk.percoat(&["report", "out"]).complains(2, &["out", "another run"]);
     Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap();
     let output = child.wait_with_output().unwrap();
@@ -248,7 +248,7 @@ fn what_cannot_be_used_again_is_not_lost() {
     let done = |name: &str| fs::read_to_string(desk.path(name)).unwrap_or_default().lines().count();
     let values = ["--set", "layers.0.thickness=0.1,0.2,0.3"];
     assert_eq!(sweep(&desk, "out", &values).code, 0);
-    // As a sweep that was killed at its end leaves it.
+    // The folder as a sweep that was killed at its end leaves it.
     fs::create_dir(desk.path("out/unfinished-sweep")).unwrap();
     desk.write("out/unfinished-sweep/.percoat", "");
     fs::copy(desk.path("out/sweep.jsonl"), desk.path("out/unfinished-sweep/sweep.jsonl")).unwrap();
@@ -276,7 +276,7 @@ fn parts_are_joined_to_the_table_of_the_whole() {
     let [whole, parts] = ["whole", "parts"].map(|name| Folder(desk.path(name)));
     assert_eq!(whole.text("sweep.csv"), parts.text("sweep.csv"));
     assert_eq!(sweep(&desk, "other", &["--set", "grid.points=16,24"]).code, 0);
-    // As many combinations, other values.
+    // Another sweep of as many combinations.
     let others = ["--set", "layers.0.thickness=0.05:0.6:10", "--set", "layers.0.poisson=0:0.5:6", "--shard", "2/3"];
     assert_eq!(sweep(&desk, "changed", &others).code, 0);
     merge(&["parts/shard-1", "changed", "-o", "both"]).complains(2, &["not parts of one sweep", "fingerprint"]);

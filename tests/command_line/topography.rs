@@ -194,7 +194,7 @@ fn the_border_of_a_window_carries_nothing_and_load_on_tapered_heights_is_told() 
     assert!(!plain.err.contains("surface.window: up to"), "{}", plain.err);
 }
 
-/// What is done to a measured ball with noise and a hole stands in the check with its rms values, and in its JSON of Python too.
+/// Treatment of a measured ball with noise and a hole stands in the check with its rms values, and in Python's JSON.
 #[test]
 fn check_says_what_was_done_to_the_heights_of_a_file() {
     let desk = Desk::new();

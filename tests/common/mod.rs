@@ -176,7 +176,7 @@ impl Hills {
         Self((0..count).map(|_| wave()).collect())
     }
 
-    /// Their heights on n × n samples.
+    /// Heights of the hills on n × n samples.
     pub fn topography(&self, n: usize) -> Topography {
         let height = |(i, j): (usize, usize)| {
             let (s, t) = (i as f64 / n as f64, j as f64 / n as f64);

@@ -38,8 +38,8 @@ fn range(z: f64) -> f64 {
     (1..500).map(|k| shear(4e-3 * f64::from(k), z)).fold(0.0, f64::max)
 }
 
-/// Of each detachment the passes, the depth of the fragment and the depth removed until then, both over the contact radius, integrated on depths
-/// that are a thousandth of the radius apart.
+/// Passes of each detachment, depth of its fragment and depth removed until then, both over the contact radius,
+/// integrated on depths that are a thousandth of the radius apart.
 fn reference(law: Fatigue, peak: f64, until: f64) -> Vec<[f64; 3]> {
     let rate: Vec<f64> = (0..8 * FINE).map(|k| law.damage(peak * range((k as f64).max(0.01) / FINE as f64))).collect();
     let (mut damage, mut surface, mut passes) = (vec![0.0f64; 40 * FINE], 0, 0.0);

@@ -245,7 +245,7 @@ fn a_diagonal_is_followed_and_a_direction_off_the_lattice_uses_the_whole_plane()
     for (one, other) in diagonal.lives.iter().zip(&side.lives) {
         println!("diagonal {:?} {} ± {:?}, side {} ± {:?}", one.part, one.range, one.error, other.range, other.error);
         let stated = (one.error.unwrap() + other.error.unwrap()) / 8.0;
-        // It passes both contacts before it closes.
+        // The path passes both contacts before it closes.
         assert!((one.range / other.range / 2f64.powf(1.0 / 8.0) - 1.0).abs() < stated, "{one:?}, {other:?}");
     }
     // All points of the body last as long, longer than those under the middle of the contacts.

@@ -98,7 +98,7 @@ fn pavements_have_their_published_strains() {
             assert!((found - known).abs() < 0.1 + 1e-3 * known.abs(), "{place:?}: {found}, {known}");
         }
     }
-    // These are the largest ones, of the bottom of the asphalt, the top of the base and that of the subgrade.
+    // The published strains are the largest ones at the bottom of the asphalt and on top of the base and the subgrade.
     let fields = StressFields::new(single.finest(), MeanStress::HalfSpace).with_strains(true);
     let stress = StressReading::of(&single, &single.reading(), &fields);
     let [_, bottom, base, _, subgrade] = &stress.faces[..] else { panic!("{stress:?}") };
@@ -273,7 +273,7 @@ fn a_hardness_presses_nothing_in_under_a_given_pressure() {
         assert_eq!((elastic.pressure(), elastic.gap()), (hard.pressure(), hard.gap()));
         assert_eq!(elastic.reading().max_pressure, hard.reading().max_pressure);
     }
-    // Of two discs above each other the pressures add.
+    // Pressures of two discs above each other add.
     let twice = window([3.0, 3.0], &[disc([0.0, 0.0], 0.5, 0.5 * p), disc([0.0, 0.0], 0.5, 0.25 * p)]);
     for (given, most) in [(given, 1.0), (twice, 4.0 / 3.0)] {
         let load = Load::Force(given.force());
@@ -301,7 +301,7 @@ fn the_limit_is_the_load_over_its_utilisation() {
         let outcome = run.solve(&mut ()).unwrap();
         let record = &outcome.steps[0];
         assert!(record.kind().is_given && record.converged() && record.rough.is_none() && record.strength.len() == 3);
-        // What is given has no contact stiffness.
+        // A given pressure has no contact stiffness.
         assert!(record.contact_stiffness.is_none());
         let limits = run.limits(&mut ()).unwrap();
         for row in &record.strength {
@@ -331,7 +331,7 @@ fn a_cell_outside_of_a_disc_has_no_pressure_and_one_inside_has_all_of_it() {
     }
 }
 
-/// Where discs overlap, their periodic images and those of themselves included, the largest pressure is that of all that do in one place.
+/// The largest pressure of overlapping discs, periodic images included, is the sum of all that overlap in one place.
 #[test]
 fn the_largest_pressure_is_that_of_the_discs_that_overlap_in_one_place() {
     let highest = |cell: Cell, discs: &[LoadedDisc]| GivenPressure::discs(cell, discs.to_vec()).unwrap().highest();
@@ -410,7 +410,7 @@ fn stresses_at_the_edges_of_discs_are_those_of_any_grid() {
         (window([3.0, 3.0], &pair[..1]), coated(4.0)),
         (window([3.0, 3.0], &touching), coated(0.3)),
         (GivenPressure::discs(square, vec![disc([0.4, 1.9], 0.45, p)]).unwrap(), bare.clone()),
-        // Of few samples, one of them in its middle.
+        // A disc of few samples, one of them in its middle.
         (window([3.0, 3.0], &[disc([0.0, 0.0], 0.1, p)]), bare),
     ];
     for (given, body) in cases {

@@ -389,7 +389,7 @@ fn a_contact_of_full_samples_alone_is_solved() {
             let step = solver.solve(Load::MeanPressure(mean));
             assert!(step.report.stop.solved() && step.report.iterations < 60, "{}", step.report);
             assert!(step.certificate.energy_gap < 1e-11, "{:?}", step.certificate);
-            // What single precision leaves: 1e-7 of H.
+            // Single precision leaves 1e-7 of H.
             let pressed = |least: f64| step.pressure().iter().filter(|&&p| p >= least * 1e-4).count();
             assert_eq!([pressed(1e-6), pressed(1.0 - 1e-6)], [full; 2], "{}", step.report);
             let gap = |full: bool| {
@@ -513,7 +513,7 @@ fn a_path_under_friction_drops_what_is_pressed_in_and_says_so() {
     let [none, zero, sliding] = [None, Some(0.0), Some(0.3)].map(|coefficient| of(coefficient, bare(Some(0.06))));
     let told = |warnings: &[String]| warnings.iter().any(|words| words.contains("step 1 has pressed in is dropped"));
     for (a, b) in none.steps.iter().zip(&zero.steps) {
-        // Of an isolated contact some are no numbers.
+        // Some readings of an isolated contact are no numbers.
         assert_eq!(format!("{:?} {:?}", a.reading, a.plastic), format!("{:?} {:?}", b.reading, b.plastic));
     }
     let depth = |outcome: &percoat::run::Outcome| outcome.steps[1].reading.penetration;
@@ -585,7 +585,7 @@ fn errors_of_loading_are_inherited_by_unloading() {
             let of = |name: &str, value: f64, error: Option<f64>, exact: f64| {
                 let (off, error) = ((value - exact).abs(), error.unwrap());
                 println!("step {index}, {name}: {value} ± {error:.1e}, {off:.1e} off");
-                // Of what few samples of the coarser grids show, areas and volumes, the errors are wide.
+                // Areas and volumes, which few samples of the coarser grids show, have wide errors.
                 let is_useful = ["contact area", "volume"].contains(&name) || error < 0.3 * exact;
                 assert!(off <= error && is_useful, "step {index}, {name}: {value} ± {error}, {exact}");
             };

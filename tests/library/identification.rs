@@ -78,8 +78,8 @@ fn moduli_are_found_from_an_exact_curve() {
     assert!(fit.radii[0] < 0.2 && fit.radii[1] > 1.4, "{:?}", fit.radii);
 }
 
-/// With noise of 0.5 nm the values lie within three standard errors, the residual is the noise, and the zero that was missed by
-/// 5 nm is found.
+/// Values from a curve with noise of 0.5 nm lie within three standard errors, the residual is the noise, and the zero
+/// that was missed by 5 nm is found.
 #[test]
 fn noise_is_carried_to_the_standard_errors() {
     let noisy = measured(NOISY, 1);
@@ -126,8 +126,8 @@ fn the_standard_error_of_one_parameter_is_the_noise_over_its_derivatives() {
     }
 }
 
-/// Where the coating is stiffer than 200, on which the exact curve insists, the ball is so large that no window holds its contact: the search
-/// ends below, and says which load it is; from a start there it is the start that is refused.
+/// A coating stiffer than 200, on which the exact curve insists, has a ball so large that no window holds its contact:
+/// the search ends below, and says which load it is; a start above is refused as a start.
 #[test]
 fn a_load_that_is_not_solved_on_the_way_is_the_reason_that_is_given() {
     let measured = measured(EXACT, 6);
@@ -368,7 +368,7 @@ fn a_missed_zero_a_frame_and_yield_are_told() {
             _ => None,
         });
         let missing = missing.unwrap_or_else(|| panic!("{wrong:?}"));
-        // To first order of a change of several percent.
+        // First order in a change of several percent.
         assert!((missing.value - size).abs() < 4.0 * missing.error + 0.1 * size.abs(), "{missing:?}");
         assert!((missing.estimates[0] - 70.0).abs() < 1.5, "{missing:?}");
         let freed = modulus(&measured, [0.3, 10.0], &[quantity]);

@@ -81,7 +81,7 @@ fn the_files_of_other_libraries_are_the_surface_that_they_were_made_of() {
         assert_eq!(doubts(&case).contains(&told), holes > 0, "{name}: {}", doubts(&case));
         let section = case.surface.as_ref().unwrap();
         assert_eq!(section.stages.iter().any(|stage| matches!(stage.treated, Treated::Filled { .. })), holes > 0);
-        // What is filled lies between the heights of its surroundings.
+        // Filled heights lie between those of their surroundings.
         let heights = case.problem().topography().unwrap().heights();
         let level =
             |[i, j]: [usize; 2]| heights[[i, j]] - heights[[0, 0]] + height(0, 0) - 20.0 * i as f64 + 35.0 * j as f64;
@@ -170,7 +170,7 @@ fn sizes_that_the_file_does_not_hold_are_refused() {
         let content = stored("one_height.gwy");
         let mut starts =
             content.windows(field.len()).enumerate().filter(|(_, window)| *window == field).map(|(at, _)| at);
-        // Of the second channel, the one of heights.
+        // The second channel, the one of heights.
         let at = starts.nth(1).unwrap() + field.len();
         read("a.gwy", put(content, at, bytes), "")
     };
@@ -253,7 +253,7 @@ fn sdf_files_of_other_writers_are_read() {
     assert!(error(&read("a.sdf", olympus, "").unwrap(), 1.0) < 1e-11);
 }
 
-/// As `sdfile_export_text` of Gwyddion writes it: six digits, the first line on top, no star at the end.
+/// A file as `sdfile_export_text` of Gwyddion writes it: six digits, the first line on top, no star at the end.
 #[test]
 fn the_sdf_export_of_gwyddion_is_read() {
     let mut text = "aBCR-0.0\nManufacID   = Gwyddion\nCreateDate  = 01012026\nModDate     = 01012026\nNumPoints   = 24\nNumProfiles = 15\n\
@@ -506,7 +506,7 @@ fn main_with(list: &str) -> String {
     format!("{before}{list}{}", rest.split_once("</DataLink>").unwrap().1)
 }
 
-/// As in the samples of the standard.
+/// Heights as in the samples of the standard.
 #[test]
 fn heights_in_main_xml_are_read_or_refused() {
     let of = |list: &str| read("a.x3p", zip(&[("main.xml", main_with(list).as_bytes(), None)]), "");
@@ -582,7 +582,7 @@ fn what_an_x3p_file_has_twice_or_changed_is_refused() {
         (&stated("not computed"), &[]),
         (&main, &[("md5checksum.hex", of_main.as_bytes())]),
         (&main, &[("md5checksum.hex", &b"none"[..])]),
-        // As SurfaceTopography writes it: the checksum of another member.
+        // The checksum of another member, as SurfaceTopography writes it.
         (&main, &[("md5checksum.hex", of_data.as_bytes())]),
         (&main, &[("another.hex", others.as_bytes())]),
         (&main, &[("__MACOSX/main.xml", &b"a"[..]), ("._main.xml", b"b"), ("domain.xml", b"c")]),

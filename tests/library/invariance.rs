@@ -1,5 +1,5 @@
-//! What must not change the answer: where the origin is, how the cell is chosen, units, and how a layer is counted; and that
-//! the cases tested are those of the paper.
+//! Invariance of the answer: place of the origin, choice of the cell, units, counting of layers; and the cases tested
+//! are those of the paper.
 
 use crate::common;
 
@@ -123,7 +123,7 @@ fn units_scale_the_answer_and_leave_the_iteration_alone() {
     }
 }
 
-/// What the tests take from the paper is what the program carries with it, up to a common height.
+/// Cases of the paper in the tests equal those that the program carries with it, up to a common height.
 #[cfg(feature = "cli")]
 #[test]
 fn the_cases_of_the_tests_are_the_embedded_ones() {

@@ -93,11 +93,11 @@ fn random_case(random: &mut Random) -> (Problem, Load, String) {
     if mu > 0.0 {
         let friction = Friction::new(mu, [1.0, 0.0]).unwrap();
         let friction = if random.unit() < 0.5 { friction } else { friction.uncoupled() };
-        // What nothing holds does not slide.
+        // Bodies that nothing holds do not slide.
         problem = problem.clone().sliding(friction).unwrap_or(problem);
     }
     let words = format!("μ {mu:.2}, {sites} sites, a {radius:.2}, {:?}", problem.half_space());
-    // As deep as a bare sphere of this contact radius stands.
+    // The penetration of a bare sphere of this contact radius.
     (problem, Load::Penetration(0.7 * radius * radius), words)
 }
 
@@ -200,7 +200,7 @@ fn worst(seed: u64, count: usize, points: usize) -> [f64; MEASURES] {
     worst
 }
 
-/// What is stated of a face never exceeds what is stated of its material.
+/// Largest stresses of a face never exceed those of its material.
 fn faces_agree_with_materials(stress: &StressReading, half_space: &HalfSpace, words: &str) {
     assert_eq!(stress.faces.len(), 2 * half_space.layers().len() + 1);
     for (face, part) in stress.faces.iter().enumerate() {

@@ -250,12 +250,12 @@ fn a_body_that_neither_tires_nor_wears_is_refused() {
     assert!(task(bodies.clone(), None).check().is_err() && task(bodies.clone(), Some(1.0)).check().is_ok());
     let pressed = LifeTask { load: Load::Penetration(0.01), ..task(bodies, Some(1.0)) };
     assert_eq!(pressed.check(), Err(LifeError::Penetration));
-    // Of the substrate too, which wears when the layer is gone.
+    // The coefficient of the substrate too, which wears when the layer is gone.
     let body = coated(0.1, None, None, None).with_substrate_durability(wears).unwrap();
     assert_eq!(task(body, Some(1.0)).check(), Ok(()));
 }
 
-/// What fails below the surface makes the next surface: it comes off once, and the next failure takes many passes.
+/// Failure below the surface makes the next surface: a fragment comes off once, and the next takes many passes.
 #[test]
 fn a_detachment_is_one_event() {
     let (_, state) = followed(&task(coated(0.3, Some(1e4), None, Some(1e4)), Some(4e6)));
@@ -415,7 +415,7 @@ fn a_groove_in_a_layer_is_not_warned_of() {
     assert!(last.body_depth > 0.5 * last.thickness && last.thickness > 0.0, "{last:?}");
     let warnings = task.warnings(&begun, &state);
     assert!(warnings.iter().all(|warning| !warning.contains("groove")), "{warnings:?}");
-    // Of one pass k ∫∫p along and across the track is taken off, whatever its length.
+    // One pass takes off k ∫∫p along and across the track, whatever its length.
     assert!((last.groove.unwrap() / (15.0 * 0.05 * 0.005) - 1.0).abs() < 1e-6, "{last:?}");
 }
 
@@ -451,7 +451,7 @@ fn the_largest_pressure_over_a_groove_does_not_ring() {
     assert!(rows.iter().any(|row| row.max_pressure_error.unwrap() > 0.03 * row.max_pressure), "nothing rings");
 }
 
-/// Where the passes end between two rows the last state has the mean over the whole row, as in a life that goes on.
+/// The last state of passes that end between two rows has the mean over the whole row, as in a life that goes on.
 #[test]
 fn a_life_that_ends_between_two_rows_of_a_groove_has_the_pressure_of_a_longer_one() {
     let long = followed(&grooving(48, 40.0)).1.course;
@@ -515,7 +515,7 @@ fn damage_is_followed_beyond_the_first_window() {
     for [y, damage] in beyond {
         let found = one.iter().find(|row| (row[0] - y).abs() < 1e-9).map_or(0.0, |row| row[1]);
         println!("{y}: {found:e} {damage:e} {}", found / damage - 1.0);
-        // Of the range 2 %, by the grids and the steps, six times; what was done before the window grew is little.
+        // Six times the 2 % of the range, by the grids and the steps; little was done before the window grew.
         assert!((found / damage - 1.0).abs() < 0.15, "{y}: {found:e} {damage:e}");
     }
 }

@@ -56,7 +56,7 @@ fn random_problem(random: &mut Random, points: usize) -> Option<Problem> {
     let friction = Friction::new(mu, [1.0, 0.3]).unwrap();
     let friction = if random.unit() < 0.5 { friction } else { friction.uncoupled() };
     let sliding = |problem: Problem| {
-        // What nothing holds does not slide.
+        // Bodies that nothing holds do not slide.
         if mu > 0.0 { problem.clone().sliding(friction).unwrap_or(problem) } else { problem }
     };
     let bare = sliding(Problem::new(indenters.clone(), HalfSpace::new(layers.clone(), substrate)));
@@ -87,9 +87,9 @@ fn random_problem(random: &mut Random, points: usize) -> Option<Problem> {
     Some(sliding(Problem::new(indenters, half_space)))
 }
 
-/// What solved loads say of a criterion.
+/// Utilisations of a criterion at loads that were solved.
 struct Path {
-    /// Mean pressures, ascending, with what they take up.
+    /// Mean pressures, ascending, with the utilisation at each.
     taken: Vec<(f64, Utilisation)>,
 }
 
@@ -98,7 +98,7 @@ impl Path {
         self.taken.iter().find(|(_, row)| holds(row)).map_or(f64::INFINITY, |(load, _)| *load)
     }
 
-    /// Where a limit contradicts the path; `least` is the least load of its search, before which the path may begin.
+    /// Contradiction of a limit to the path; `least` is the least load of its search, before which the path may begin.
     fn contradicts(&self, limit: &Limit, least: f64) -> Option<Fault> {
         let [may, is, must] = [
             self.first(|row| row.most() >= 1.0),

@@ -148,14 +148,14 @@ fn what_is_never_reached_or_at_once_is_said() {
     assert!(pulled.steps.is_empty(), "nothing is left to be solved");
 }
 
-/// The same on a surface of a hardness.
+/// Problem of [`bare`] with a hardness of its surface.
 fn hard(shape: Shape, yielding: f64, hardness: f64) -> Problem {
     let problem = bare(shape, yielding);
     let durability = Durability { hardness: Some(hardness), ..Durability::default() };
     problem.on_body(problem.half_space().clone().with_substrate_durability(durability).unwrap())
 }
 
-/// With a hardness the search ends at 0.999 of it, which is not complete contact, unless contact is complete before.
+/// The search ends at 0.999 of the hardness, which is not complete contact, unless contact is complete before.
 #[test]
 fn a_search_ends_at_the_hardness_and_says_so() {
     let paraboloid = Shape::Paraboloid { radius: 1.0 };
@@ -234,8 +234,8 @@ fn peeling(strength: f64) -> Problem {
     Problem::new(indenters, HalfSpace::new(vec![stiff], material(10.0, 0.3)))
 }
 
-/// What opens an interface falls towards complete contact: whatever the loads of the run, the least load is found at which it
-/// opens.
+/// Tension that opens an interface falls towards complete contact: the least load that opens it is found, whatever the
+/// loads of the run.
 #[test]
 fn what_fails_at_lesser_loads_only_is_found_from_larger_ones() {
     let from = |start: f64| {
@@ -259,7 +259,7 @@ fn a_largest_utilisation_is_found_between_the_loads() {
     let start = Load::MeanPressure(0.05);
     let found = limits(peeling(1e3), start, 48);
     let At::Never { up_to, .. } = found.limits[0].at else { panic!("{found}") };
-    // Of an unbreakable bond nothing is searched for: these are the doublings.
+    // An unbreakable bond has no limit to search for: the loads are the doublings.
     let taken = |step: &StepRecord| (1e3 * step.strength[0].value, step.reading.mean_pressure.unwrap());
     let (doubled, at) = found.steps.iter().map(taken).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
     assert!(at < 0.5 * up_to, "it falls again: {at} {up_to}");
@@ -318,7 +318,7 @@ fn an_accuracy_refines_until_limits_change_by_less_or_there_is_no_room() {
     assert_eq!((found.end, found.converged()), (Some(RefinementEnd::Reached), true));
     assert!(found.change.is_some_and(|change| 0.0 < change && change < 0.02), "{:?}", found.change);
     assert!(roomy.grids.len() > 1 && roomy.steps > found.steps.len());
-    // What is never reached has no load that could change.
+    // A limit that is never reached has no load that could change.
     let tough = Strength { yielding: Some(0.1), tensile: Some(100.0) };
     let body =
         bare(Shape::Paraboloid { radius: 1.0 }, 0.1).half_space().clone().with_substrate_strength(tough).unwrap();

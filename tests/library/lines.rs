@@ -48,8 +48,9 @@ fn pressed(topography: Topography, body: HalfSpace, mean: MeanStress) -> (Stress
     (step.stress.clone().unwrap(), step.reading.max_pressure)
 }
 
-/// With few samples along the lines, on either axis and in any direction. At the depth z the neighbours, L apart, press across with
-/// 2ζ(2) · 2Pz/(πL²): of the largest τ₁ that takes 4.3 (a/L)² = 2.7e-3 at forty half-widths, and the samples may take 1e-3.
+/// Cylinders with few samples along the lines, on either axis and in any direction. At the depth z the neighbours, L
+/// apart, press across with 2ζ(2) · 2Pz/(πL²), 4.3 (a/L)² = 2.7e-3 of the largest τ₁ at forty half-widths; samples may
+/// take 1e-3.
 #[test]
 fn one_of_many_cylinders_has_the_stresses_of_one_alone() {
     let surfaces = [

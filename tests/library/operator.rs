@@ -66,7 +66,7 @@ fn on_large_grids_too_waves_are_multiplied_by_their_compliance() {
             operator.displacement(&mut field, &mut Workspace::default());
             let compliance = response.compliance(grid.wavenumber([k1, k2]));
             let error = (0..n * n).map(|i| (field[i] / compliance - wave(i)).abs()).fold(0.0, f64::max);
-            // What rounding in the transforms makes of a short wave are long ones too, which are displaced far more.
+            // Rounding in the transforms makes long waves of a short one, which are displaced far more.
             let leak = f64::EPSILON * response.compliance(grid.least_wavenumber()) / compliance;
             assert!(error < 1e-12 + leak, "{cell}, {k1}, {k2}: {error:e}");
         }

@@ -115,8 +115,8 @@ fn the_elastic_energy_is_the_work_of_the_load_path() {
     assert!((stored / work - 1.0).abs() < 1e-4, "{stored:e} {work:e}");
 }
 
-/// What a contact displaces on a rigid base fades within some thicknesses: neighbours eight thicknesses apart are alone, and δ of
-/// the lattice, which counts from the base, is that of the single contact, which counts from far away.
+/// Displacements of a contact on a rigid base fade within some thicknesses: neighbours eight thicknesses apart are
+/// alone, and δ of the lattice, which counts from the base, is that of the single contact, which counts from far away.
 #[test]
 fn a_wide_lattice_is_a_single_contact() {
     let stacks = [

@@ -1,4 +1,4 @@
-//! What is read of rough contacts, held against finer grids and closed forms.
+//! Readings of rough contacts against finer grids and closed forms.
 
 use crate::common;
 
@@ -29,8 +29,9 @@ fn rough(points: usize, seed: u64) -> Topography {
     Topography::new(cell, surface(seed).heights(cell, [points; 2]).unwrap()).unwrap()
 }
 
-/// The same surface on finer and finer grids. Counting converges as the spacing, from above: the limit is extrapolated from
-/// the two finest grids. Where spots have few samples the corrected fraction is the better one, and that which is printed.
+/// One surface on finer and finer grids. Counting converges as the spacing, from above: the limit is extrapolated from
+/// the two finest grids. Where spots have few samples the corrected fraction is the better one, and the one that is
+/// printed.
 #[test]
 fn the_corrected_area_is_nearer_to_that_of_finer_grids_than_the_counted_one() {
     let grids = [48, 64, 96, 128, 256];
@@ -51,8 +52,8 @@ fn the_corrected_area_is_nearer_to_that_of_finer_grids_than_the_counted_one() {
     }
 }
 
-/// Of random surfaces whose shortest waves have three to ten samples, against the same surfaces on grids with four times the
-/// points: nineteen of twenty errors hold, and half of them are no more than thirty times too wide.
+/// Stated errors of random surfaces whose shortest waves have three to ten samples, against grids with four times the
+/// points: nineteen of twenty hold, and half of them are no more than thirty times too wide.
 fn judge_errors(seed: u64, count: usize) {
     let mut random = Random(seed);
     let mut ratios = [vec![], vec![]];
@@ -151,7 +152,7 @@ fn judge_fractions(seed: u64, count: usize, most: f64) {
         let off = [reading.contact_fraction.unwrap(), rough.corrected_fraction.unwrap()]
             .map(|found| (found / exact - 1.0).abs());
         let error = reading.errors.contact_fraction.expect("there is a coarser grid");
-        // Of narrow spots; wide ones are read between the samples, which state more.
+        // Narrow spots are counted; wide ones are read between the samples, with a wider error.
         if reading.contact_fraction.unwrap() == rough.corrected_fraction.unwrap() {
             assert!(error <= rough.corrected_fraction_error.unwrap());
         }
@@ -214,7 +215,7 @@ fn penetration_is_measured_from_the_same_apex_on_every_grid() {
             missed / range
         );
         assert!(off < 0.2 * missed && off < error && nearer < 0.5 * off, "{off:e} {nearer:e} {missed:e} {error:e}");
-        // The same penetration presses the same on every grid.
+        // A penetration has the same mean pressure on every grid.
         let pressed = at(Load::Penetration(fine.penetration())).map(|step| step.pressure().mean().unwrap());
         assert!(
             (pressed[0] / pressed[2] - 1.0).abs() < 0.02 && (pressed[1] / pressed[2] - 1.0).abs() < 0.01,
@@ -337,7 +338,7 @@ fn a_topography_reads_the_same_whichever_vectors_describe_its_cell() {
         };
         let [(straight, reading), (other, same)] = [read(cell, heights), read(skewed, others)];
         assert!(straight.spots.count > 3 && straight.counted_fraction.unwrap() > 0.05, "{straight:?}");
-        // The same samples touch, so that what is counted differs by rounding alone.
+        // On both cells the same samples touch, so that counts differ by rounding alone.
         let numbers = |rough: &RoughReading| {
             let spots = rough.spots;
             let shares =
@@ -347,7 +348,7 @@ fn a_topography_reads_the_same_whichever_vectors_describe_its_cell() {
         for (a, b) in numbers(&straight).into_iter().zip(numbers(&other)) {
             assert!((a - b).abs() < 1e-12 * a.abs(), "{a2:?}: {a} {b}");
         }
-        // What is read between the samples follows the solution.
+        // Readings between the samples follow the solution.
         assert!((reading.contact_fraction.unwrap() / same.contact_fraction.unwrap() - 1.0).abs() < 1e-6);
     }
 }

@@ -137,7 +137,7 @@ fn a_refinement_goes_on_until_the_accuracy_is_reached_or_there_is_no_room() {
     assert!(narrow.warnings.iter().any(|warning| warning.contains("accuracy")), "{:?}", narrow.warnings);
 }
 
-/// What is no number is no agreement.
+/// A reading that is NaN agrees with none.
 #[test]
 fn a_number_that_is_none_counts_as_a_change() {
     let steps = run(Sampling::Points([48, 48])).solve(&mut ()).unwrap().steps;
@@ -147,7 +147,7 @@ fn a_number_that_is_none_counts_as_a_change() {
     assert!(change(&steps, &spoilt).is_nan() && change(&spoilt, &steps).is_nan());
 }
 
-/// Neither are stresses that are none; under a tip they are infinite, which is no fault.
+/// Stresses that are NaN agree with none either; under a tip they are infinite, which is no fault.
 #[test]
 fn stresses_that_are_no_number_are_neither_agreement_nor_converged() {
     let stressed = Run { stress: Some(StressRequest::default()), ..run(Sampling::Points([48, 48])) };

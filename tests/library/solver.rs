@@ -231,7 +231,7 @@ fn penetrations_just_below_complete_contact_are_found_within_the_iterations_give
     }
 }
 
-/// What no load reaches has no fields of the step before: the surface at rest, pushed in.
+/// A penetration that no load reaches has the fields of the surface at rest, pushed in, not those of the step before.
 #[test]
 fn a_penetration_beyond_complete_contact_has_no_pressure() {
     let case = PAPER[0];

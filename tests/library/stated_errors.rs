@@ -93,7 +93,7 @@ fn stated_stresses(step: &Step, reading: &Reading) -> Vec<Stated> {
     all
 }
 
-/// What is read off the contact; the centre of the pressure over the contact radius.
+/// Readings of the contact with their errors; the centre of the pressure over the contact radius.
 fn stated(reading: &Reading) -> Vec<Stated> {
     let errors = reading.errors;
     let mut all = Vec::new();
@@ -125,7 +125,7 @@ fn stated(reading: &Reading) -> Vec<Stated> {
     all
 }
 
-/// Which cases.
+/// Kinds of cases.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     /// Pressed without friction.

@@ -30,7 +30,7 @@ const LATTICE_SUM: f64 = TRIANGULAR.0[1];
 const SHIFTS: [[f64; 2]; 8] =
     [[0.0, 0.0], [0.5, 0.0], [1.0 / 3.0, 1.0 / 3.0], [0.25, 0.1], [0.37, 0.61], [0.9, 0.45], [0.15, 0.7], [0.62, 0.08]];
 
-/// What is measured on one grid.
+/// Measured values on one grid.
 #[derive(Debug, Clone, Copy)]
 struct Measured {
     /// Samples along the contact radius, √(area/π)/√(area per sample).
@@ -129,7 +129,7 @@ fn coated_tension(points: usize, shift: [f64; 2], chi: f64) -> (f64, f64, f64) {
 
 /// Bound on the relative error of the largest tension on the surface.
 ///
-/// What is left beside the square root falls inward as the distance to the power 3/2: from the tension at an edge
+/// The rest beside the square root falls inward as the distance to the power 3/2: from the tension at an edge
 /// σ_r ∝ 1 − (2d/a)^{3/2}, the mean over a width d of two samples gives up to n^{−3/2}, of which the smoothing's fourth
 /// order leaves a part. The width grows as n^{2/5} from n = 12 on; the steps of the edge on the grid add their noise.
 fn tension_bound(n: f64) -> f64 {

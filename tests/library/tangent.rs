@@ -27,7 +27,7 @@ fn solver(problem: Problem, points: usize) -> Solver {
     Solver::new(problem, [points; 2], settings).unwrap()
 }
 
-/// Of a Hertz contact δ³ = 9P²/(16RE*²): S = 3P/2δ, ∂δ/∂ln E* = −⅔δ, ∂δ/∂ln R = −⅓δ. Eight samples at a time join a contact of N:
+/// Hertz: δ³ = 9P²/(16RE*²), S = 3P/2δ, ∂δ/∂ln E* = −⅔δ, ∂δ/∂ln R = −⅓δ. Eight samples at a time join a contact of N:
 /// stiffness and sensitivities of the discrete contact step by up to 8/N.
 #[test]
 fn a_hertz_contact_has_its_stiffness_and_sensitivities() {

@@ -53,7 +53,7 @@ fn stated_errors_of_topographies_hold_and_say_something() {
             let (exact, _) = read(FINER * POINTS, &problems[1], load);
             for k in 0..5 {
                 let error = (found[k] - exact[k]).abs();
-                // What is prescribed, and complete contact, has no error but rounding.
+                // Prescribed quantities, and complete contact, have no error but rounding.
                 if error > 1e-8 * exact[k] {
                     ratios[k].push(stated[k] / error);
                 }

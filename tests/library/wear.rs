@@ -283,10 +283,10 @@ fn a_groove_is_constant_along_the_path() {
     assert!(worn.largest(Side::Counterbody) == 0.0 && depth[[0, 0]] == 0.0);
     let peak = |step: &Step| step.pressure().iter().copied().fold(0.0, f64::max);
     assert!(peak(&step) < 0.999 * peak(&unworn));
-    // To and fro over half the width each point is passed twice as often.
+    // A stroke to and fro over half the width passes each point twice as often.
     let mut short = Solver::new(problem.clone(), points, Settings::default()).unwrap();
     let half = short.wear(load, &wear.with_stroke(1.2).unwrap(), 0.05).unwrap();
-    // It starts from no pressure: equal to the tolerance.
+    // The solver starts from no pressure: equal to the tolerance.
     assert!(relative_difference(half.pressure(), step.pressure()) < 1e-5);
     let oblique = Wear::new(0.4, 0.0, [1.0, 1.0]).unwrap();
     assert_eq!(short.wear(load, &oblique, 0.1).unwrap_err(), WearError::Oblique([1.0, 1.0]));

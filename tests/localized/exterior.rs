@@ -135,8 +135,8 @@ fn oblique_lattices_have_the_sum_over_their_images_one_by_one() {
     }
 }
 
-/// Every level's own load within 0.1 % of the spectral one, where load-balanced circles are off by up to 28 %. Grids of
-/// 128 and 256 samples differ by 3e-5 in own loads, 24 and 48 elements by 5e-4.
+/// The load of every level within 0.1 % of the spectral one, where load-balanced circles are off by up to 28 %. Grids
+/// of 128 and 256 samples differ by 3e-5 in these loads, 24 and 48 elements by 5e-4.
 #[test]
 fn levels_of_several_indenters_on_an_oblique_lattice_carry_their_own_loads_whatever_the_shell() {
     let cell = Cell::new([2.2, 0.1], [0.6, 1.9]).unwrap();

@@ -74,7 +74,7 @@ fn coefficients_are_the_double_integral_of_eq_7() {
     }
 }
 
-/// What a square does to a disc, the disc does to the square: both are loaded by unit forces.
+/// Reciprocity: under unit forces a square displaces a disc as the disc displaces the square.
 #[test]
 fn work_is_reciprocal_between_a_square_and_a_disc() {
     for half_space in [coated(3.0, 0.2, [0.2, 0.3], Interface::Frictionless), two_layers()] {

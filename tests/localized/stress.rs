@@ -72,7 +72,7 @@ fn stresses_under_an_indenter_alone_that_slides_are_those_of_a_sliding_sphere() 
                     turned([xz, yz])[1],
                 ];
                 for (found, known) in state.components().iter().zip(known) {
-                    // As against the spectral field: under the edge of 48 elements, forces in the place of elements.
+                    // The tolerance against the spectral field, too: forces for elements, under the edge of 48.
                     assert!((found - known).abs() < 2e-3 * p0, "ν = {nu}, ({x}, {y}, {z}): {found} {known}");
                     compared += 1;
                 }
@@ -96,7 +96,7 @@ fn stresses_agree_with_the_spectral_field() {
         let problem = Problem::new(PAPER[0].indenters(), half_space.clone());
         let solution = Localized::new(&problem, 439).unwrap().solve(load, &setup(439, 32));
         let (spectral, reading) = solve(&problem, [384, 384], load);
-        // What slides on a layer that slides itself has nothing to hold it.
+        // Uncoupled: a layer that slides itself holds nothing that slides on it.
         let friction = Friction::new(0.6, [0.8, -0.6]).unwrap().uncoupled();
         let sliding = problem.clone().sliding(friction).ok();
         let slid = sliding.map(|problem| solve(&problem, [384, 384], load).0);

@@ -5,7 +5,7 @@ use anyhow::{Result, bail};
 /// A page of the book.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Page {
-    /// Its parts, in order.
+    /// Parts of the page, in order.
     pub cells: Vec<Cell>,
 }
 
@@ -18,18 +18,18 @@ pub enum Cell {
     Console(Vec<Command>),
     /// A block with the name of a file behind its language, which is written.
     File {
-        /// The line that opens it.
+        /// The line that opens the block.
         head: String,
         /// Name of the file.
         name: String,
-        /// Its content.
+        /// Content of the file.
         content: String,
     },
     /// A block `python`, and the block `text` behind it with what it prints.
     Python {
         /// The program.
         code: String,
-        /// What it prints; `None` without a block.
+        /// Output of the program; `None` without a block `text`.
         prints: Option<String>,
     },
 }
@@ -39,7 +39,7 @@ pub enum Cell {
 pub struct Command {
     /// The command, as it is typed.
     pub line: String,
-    /// What it prints, each line with its end.
+    /// Output of the command, each line with its end.
     pub prints: String,
 }
 

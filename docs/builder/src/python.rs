@@ -39,7 +39,7 @@ impl Session {
         Ok(Self { child, cells, prints: BufReader::new(prints), errors })
     }
 
-    /// What a cell prints.
+    /// Runs a cell; returns its output.
     pub fn run(&mut self, code: &str) -> Result<String> {
         let digits: String = code.bytes().map(|byte| format!("{byte:02x}")).collect();
         writeln!(self.cells, "{digits}")?;

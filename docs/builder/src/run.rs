@@ -25,12 +25,12 @@ const PANIC: i32 = 101;
 /// First exit code by which a shell names the signal that has ended a command.
 const KILLED: i32 = 128;
 
-/// What a cell shows and what it prints, where they differ.
+/// Difference between the output of a cell and what the page shows.
 #[derive(Debug)]
 pub struct Difference {
-    /// Both, in words.
+    /// Output and page, in words.
     pub text: String,
-    /// Whether what it prints has taken the place of what the page has; "…" stands for lines that only a person can choose.
+    /// Whether the output has taken the place of what the page has; "…" stands for lines that only a person can choose.
     pub is_taken: bool,
 }
 
@@ -49,7 +49,8 @@ impl Tools {
         Ok(Self { programs, python, time, counts, progress })
     }
 
-    /// What a line prints in the shell in a folder, as a user has it, and its exit code; a command that is killed or panics is an error.
+    /// Runs a line in the shell in a folder, as a user does; returns its output and exit code. A command that is killed
+    /// or panics is an error.
     pub fn shell(&self, line: &str, folder: &Path) -> Result<(String, i32)> {
         let path = format!("{}:{}", self.programs.path().display(), std::env::var("PATH").unwrap_or_default());
         let mut command = Command::new("sh");
@@ -65,7 +66,7 @@ impl Tools {
         }
     }
 
-    /// What a command prints that must not fail.
+    /// Output of a command that must not fail.
     pub fn printed(&self, line: &str) -> Result<String> {
         match self.shell(line, Path::new("."))? {
             (printed, 0) => Ok(printed),
@@ -79,7 +80,7 @@ impl Tools {
     }
 
     /// Runs the cells of a page in their order, all Python as one program. The pictures that they make are copied beside its file `to`.
-    /// What a cell prints takes the place of what the page has, where they differ; returns the differences.
+    /// The output of a cell takes the place of what the page has, where they differ; returns the differences.
     pub fn run(&self, page: &mut Page, to: &Path) -> Result<Vec<Difference>> {
         let folder = tempfile::tempdir()?;
         let mut differences = Vec::new();
@@ -101,7 +102,7 @@ impl Tools {
                         none => none.insert(Session::begin(python, folder.path())?),
                     };
                     let found = session.run(code)?;
-                    // What it prints need not be shown.
+                    // Output need not be shown.
                     if let Some(shown) = prints {
                         differences.extend(self.take(code, shown, found));
                     }

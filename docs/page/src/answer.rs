@@ -1,4 +1,4 @@
-//! What the page shows.
+//! Answers: the content that the page shows.
 
 use percoat_app::output::table::{Table, Worded};
 use serde::Serialize;
@@ -31,20 +31,20 @@ pub struct Answer {
 /// A number with its error.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CaseNumber {
-    /// Its name, the same for all bodies.
+    /// Name of the number, the same for all bodies.
     pub name: String,
     /// The number with its error and unit, as it is printed.
     pub text: String,
     /// The number, in the unit of the case.
     pub value: Option<f64>,
-    /// Its error, in the unit of the case; `None` where it is not known.
+    /// Error of the number, in the unit of the case; `None` where it is not known.
     pub error: Option<f64>,
 }
 
 /// A table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TableText {
-    /// Its name.
+    /// Name of the table.
     pub name: String,
     /// Names of the columns.
     pub head: Vec<String>,

@@ -79,7 +79,7 @@ impl Page {
         let task = Solve::new(&case, room(), Job::Keep).map_err(|error| error.to_string())?;
         let cut = task.run.stress.as_ref().and_then(|stress| stress.cut.clone());
         let cut = pictures.and_then(|coarse| Some((cut?, coarse)));
-        // Those of the surface, of the step that was last begun: its stresses do not change them.
+        // Pictures of the surface of the step that was last begun: its stresses do not change them.
         let mut of_surface = Vec::new();
         let mut known = |step: &Step, record: &StepRecord| {
             let Some(begun) = &mut begun else { return };
@@ -107,7 +107,7 @@ impl Page {
     }
 }
 
-/// What the records of the steps of a case say of the last one; without pictures, and with the warnings of the case alone.
+/// Answer for the last step of a case, by the records of all; without pictures, with the warnings of the case alone.
 fn of_steps(case: &Case, steps: &[StepRecord]) -> Answer {
     let (units, last) = (case.units(), steps.last());
     let mut tables = vec![TableText::new("contact", table::steps(steps, &units))];
@@ -216,7 +216,7 @@ impl Kept {
         Self { snapshot: snapshot.with_strength(record.strength.clone()), sections, record }
     }
 
-    /// Those of the pictures of these names that there are, as SVG.
+    /// Pictures of these names, as SVG, as far as the step has them.
     fn pictures(&self, names: &[&str]) -> Vec<(String, String)> {
         names.iter().filter_map(|&name| Some((name.to_owned(), self.picture(name)?.for_screen()))).collect()
     }

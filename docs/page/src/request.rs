@@ -1,4 +1,4 @@
-//! What the page wants.
+//! Requests of the page.
 
 use serde::Deserialize;
 use serde_json::Value;
@@ -29,13 +29,13 @@ pub enum Request {
     },
     /// A picture of the step that is kept, as PNG.
     Picture {
-        /// Its name: `pressure`, `section` or `profiles`.
+        /// Name of the picture: `pressure`, `section` or `profiles`.
         name: String,
     },
     /// A table of the step that is kept, as CSV.
     Table {
-        /// Its name: `profile` (pressure and gap along x through the middle), `section` (stresses in the section) or `numbers` (all
-        /// scalars).
+        /// Name of the table: `profile` (pressure and gap along x through the middle), `section` (stresses in the
+        /// section) or `numbers` (all scalars).
         name: String,
     },
 }
