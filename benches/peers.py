@@ -161,7 +161,7 @@ def tamaas(heights, mean_pressure, tolerance, threads):
     solver.max_iter = 20000
 
     def run():
-        # It begins with the pressure that it finds.
+        # The solver begins with the pressure that it finds.
         model.traction[:] = 0.0
         began = time.perf_counter()
         error = solver.solve(float(mean_pressure))

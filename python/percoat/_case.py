@@ -1,4 +1,4 @@
-"""What a case is, and what is asked of it before anything is solved."""
+"""Cases, and questions about them before anything is solved."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Settings = Union[None, Mapping[str, Any], List[str]]
 
 
 class Check(Record):
-    """What a case means. It prints as ``percoat check`` does."""
+    """Meaning of a case. It prints as ``percoat check`` does."""
 
     title: str
     points: list[int]
@@ -72,7 +72,7 @@ def case(case: CaseLike, *, set: Settings = None) -> dict[str, Any]:
 
 
 def check(case: CaseLike, *, set: Settings = None, threads: Optional[int] = None) -> Check:
-    """What a case means: cell, materials, memory, first touches. Nothing is solved.
+    """Meaning of a case: cell, materials, memory, first touches. Nothing is solved.
 
     Lengths, pressures and forces are in the units of the case, memory and disk in bytes. Loads of first touch are mean pressures, or
     forces where the case gives forces or an isolated contact: ``first_touch_quantity`` says which.

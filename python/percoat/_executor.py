@@ -82,6 +82,6 @@ def _row(
 
 
 def _reason(what: str, error: BaseException) -> str:
-    """What happened by an error, on one line."""
+    """Text of an error on one line, after the words `what`."""
     message = " ".join(str(error).split())
     return ": ".join(filter(None, [what, type(error).__name__, message]))

@@ -59,7 +59,7 @@ class HalfSpace:
 
     @classmethod
     def of(cls, case: CaseLike, *, set: Settings = None) -> HalfSpace:
-        """That of a case.
+        """The half-space of a case.
 
         >>> import percoat
         >>> float(percoat.HalfSpace.of("fig2").correction(1e3))  # short waves feel the coating alone

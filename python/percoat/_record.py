@@ -36,7 +36,7 @@ class Record(Dict[str, Any]):
         return type(self), (dict(self),)
 
     def to_dict(self) -> dict[str, Any]:
-        """The same as plain dicts and lists."""
+        """The record as plain dicts and lists."""
         return {key: _plain(value) for key, value in self.items()}
 
 

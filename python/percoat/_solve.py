@@ -32,7 +32,7 @@ STRAINS = ("exx", "eyy", "ezz", "exy", "exz", "eyz", "e1", "e2", "e3", "ev")
 
 
 class Level(Record):
-    """What is read off the contact of one level; ``load`` and areas are those of one indenter."""
+    """Readings of the contact of one level; ``load`` and areas are those of one indenter."""
 
     level: int
     load: float
@@ -125,7 +125,7 @@ def _flat(points: ArrayLike) -> tuple[Array, tuple[int, ...]]:
 
 
 class Common:
-    """What the steps of a result share: the case, its cell and samples, and the head of the summary."""
+    """The case, its cell and samples, and the head of the summary, shared by the steps of a result."""
 
     def __init__(
         self,
@@ -461,7 +461,7 @@ class Step:
         return alone
 
     def _bytes(self) -> bytes:
-        """What the step is made again of."""
+        """The checkpoint of which the step is made again."""
         if self._own is not None:
             return self._own.checkpoint()
         assert self._kept is not None, "a step is here or kept"

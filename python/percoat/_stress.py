@@ -1,4 +1,4 @@
-"""What is derived from a stress tensor."""
+"""Quantities that are derived from a stress tensor."""
 
 from __future__ import annotations
 

@@ -198,7 +198,7 @@ class _Done:
         self.count, self.began = 0, monotonic()
 
     def heard(self) -> Optional[Callable[[_core.Row], object]]:
-        """This, or ``None`` where nothing is passed on."""
+        """The callback itself, or ``None`` where nothing is passed on."""
         return None if self.progress is None and self.on_row is None else self
 
     def __call__(self, row: _core.Row) -> None:

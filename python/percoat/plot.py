@@ -58,7 +58,7 @@ KINDS = {
     **dict.fromkeys(("ux", "uy", "uz", "additional_displacement"), "length"),
     "value": "pressure",
 }
-"""What a component of a field is, and a number that is no quantity; what is not here has no unit."""
+"""Kind of quantity of each component of a field, and of a plain `value`; names that are not here have no unit."""
 
 
 def pressure(
@@ -312,7 +312,7 @@ def fit(
 
 
 def _numbers(result: Result, name: str) -> tuple[Array, Optional[list[str]]]:
-    """What a dotted name stands for, (steps, lines), and the lines' names where it leads through a list."""
+    """Values of a dotted name, (steps, lines), and the lines' names where it leads through a list."""
     entries: Optional[list[str]] = None
 
     def read(value: Any, words: Sequence[str], before: str) -> list[float]:
@@ -332,7 +332,7 @@ def _numbers(result: Result, name: str) -> tuple[Array, Optional[list[str]]]:
 
 
 def _entry(entry: Any, list_: str, number: int) -> str:
-    """What an entry of a list is called: a criterion by its name and what it is of, one of ``levels`` level 1, …"""
+    """Name of an entry of a list: a criterion by its name and what it is of, one of ``levels`` level 1, …"""
     if "criterion" not in entry:
         return f"{list_[:-1]} {number}"
     return criterion_name(entry)
@@ -409,7 +409,7 @@ def _scale(values: Array, artist: Mapping[str, Any]) -> ScalarMappable:
 
 
 def _shared(scale: ScalarMappable, artist: Mapping[str, Any]) -> dict[str, Any]:
-    """What each mesh takes; it is pixels in PDF and SVG files too, which have no seams then and are small."""
+    """Arguments of each mesh, which is pixels in PDF and SVG files too: these have no seams then and are small."""
     rest = {name: value for name, value in artist.items() if name not in ("vmin", "vmax")}
     return {"rasterized": True, **rest, "norm": scale.norm, "cmap": scale.cmap}
 

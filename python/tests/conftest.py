@@ -24,7 +24,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def environment(**more: str) -> dict[str, str]:
-    """That of this process, with its path: a program that it starts finds the same package."""
+    """Environment of this process, with its path: a program that it starts finds the same package."""
     package = str(Path(percoat.__file__).parent.parent)
     path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH", "")]))
     return {**os.environ, "PYTHONPATH": path, **more}
@@ -103,5 +103,5 @@ def wave(points: int = 32, **sections: Any) -> dict[str, Any]:
 
 @pytest.fixture(scope="session")
 def flat_wave() -> percoat.Result:
-    """That wave in complete contact."""
+    """The wave in complete contact."""
     return percoat.solve(wave())

@@ -72,7 +72,7 @@ def test_datasets_of_cases_without_units(three_levels: percoat.Result) -> None:
     assert data.x.dims == data.y.dims == data.owner.dims == ("i", "j")
     assert np.array_equal(data.x, three_levels.x) and np.array_equal(data.y, three_levels.y)
     assert all("units" not in data[name].attrs for name in (*data.data_vars, *data.coords))
-    # They select by load, as xarray does.
+    # Selection by load, as xarray does it.
     chosen = data.swap_dims(step="mean_pressure").sel(mean_pressure=0.05, method="nearest")
     assert np.array_equal(chosen.pressure, three_levels[1].pressure)
 

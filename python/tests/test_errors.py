@@ -1,4 +1,4 @@
-"""What is refused is refused with an error that is typed and says why, in the words of the command line."""
+"""Refusals are errors that are typed and say why, in the words of the command line."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ def test_settings_are_refused_in_the_words_of_the_command_line(
 
 
 def test_settings_are_refused_with_key_value_and_place(fig2: dict[str, Any]) -> None:
-    # As the same text of the command line, whatever the case is read from.
+    # Words of the same text on the command line, whatever the case is read from.
     for case in ("fig2", fig2):
         for key, value, text in [
             ("layers.0.poisson", 0.7, "layers.0.poisson=0.7"),
@@ -162,8 +162,7 @@ def test_a_key_set_twice_is_refused(settings: Any) -> None:
 
 @pytest.mark.skipif(not REFUSED.is_dir(), reason="the cases are in the repository alone")
 def test_files_are_refused_in_the_words_of_the_command_line(program: Program) -> None:
-    # As many as show every kind of refusal, of reading, of syntax and of meaning; each takes the start of a
-    # program.
+    # Every kind of refusal, of reading, of syntax and of meaning, and no more: each takes the start of a program.
     names = [
         "misspelt_key", "radius_is_nan", "surface_file_absent", "syntax_unclosed_section",
         "oblique_without_sites", "spring_too_soft", "missing_load", "set_without_value",
@@ -202,7 +201,7 @@ def test_a_solution_that_is_out_of_reach_is_refused(
 
 
 def memory() -> float:
-    """Of this machine, in GiB; where that is not known, none."""
+    """Memory of this machine, in GiB; 0 where that is not known."""
     try:
         return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30)
     except (AttributeError, ValueError, OSError):
@@ -436,7 +435,7 @@ def test_sections_that_lead_nowhere(three_levels: percoat.Result) -> None:
 
 
 def test_a_section_is_refused_as_in_a_case(three_levels: percoat.Result, flat_wave: percoat.Result) -> None:
-    # With the key, the value received and the excerpt that the same value of `set` has.
+    # The words have the key, the value received and the excerpt that the same value of `set` has.
     cut = {"from": "level 1", "toward": "level 9", "length": 1.0, "depth": 0.5}
     ours = refusal(lambda: three_levels[0].section("level 1", "level 9", length=1.0, depth=0.5))
     assert ours == refusal(lambda: percoat.case("fig2", set={"stress.section": cut}))

@@ -72,7 +72,7 @@ def test_the_table_is_that_of_a_sweep_without_executor(pool: str, serial: percoa
     heard: list[percoat.Progress] = []
     with POOLS[pool]() as executor:
         table = percoat.sweep("fig2", SETTINGS, executor=executor, on_row=rows.append, progress=heard.append)
-        # It is not shut down, and takes arrays and limits too.
+        # The executor is not shut down, and takes arrays and limits too.
         surfaces = {"substrate.poisson": [0.2, 0.3]}
         equal(percoat.sweep(wave(), surfaces), percoat.sweep(wave(), surfaces, executor=executor))
     equal(serial, table)

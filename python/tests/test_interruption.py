@@ -226,10 +226,10 @@ os._exit(0)
 
 
 class Enough(Exception):
-    """What the listener raises."""
+    """Exception that the listener raises."""
 
 
-# Of a sweep they hear after each combination: those that take long are left out.
+# Listeners to a sweep hear after each combination: sweeps that take long are left out.
 @pytest.mark.parametrize(
     "name", ["solve", "a single large step", "a rough surface", "limit", "sweep of small ones"]
 )
@@ -356,7 +356,7 @@ def test_progress_prints(capsys: pytest.CaptureFixture[str]) -> None:
     assert not told.err
     percoat.solve("fig2", set={"grid.points": 48}, progress=True)
     told = capsys.readouterr()
-    # Where nothing can be written over, line by line.
+    # Line by line, where nothing can be written over.
     assert not told.out and told.err.startswith("step 1 of 1, 48 × 48 samples") and "\r" not in told.err
     assert told.err.splitlines()[-1].startswith("1 of 1 steps")
     percoat.solve("fig2", set={"grid.points": 48}, progress=False)

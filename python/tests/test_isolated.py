@@ -45,7 +45,7 @@ def test_planes_lie_around_the_middle_of_the_window(ball: percoat.Result) -> Non
     plane, coarse = ball[0].plane(3.0), ball[0].plane(3.0, points=32)
     assert np.array_equal(plane.x, ball.x) and np.array_equal(plane.y, ball.y) and plane.isolated
     assert np.array_equal(coarse.x, ball.x[::2, ::2]) and np.array_equal(coarse.y, ball.y[::2, ::2])
-    # What presses is above: below it the compression is largest.
+    # The ball presses from above: below it the compression is largest.
     lowest = np.unravel_index(np.argmin(coarse.zz), coarse.zz.shape)
     assert np.hypot(coarse.x[lowest], coarse.y[lowest]) < ball[0].levels[0].contact_radius
 

@@ -23,7 +23,7 @@ def test_limits_are_sorted_and_the_first_is_first(limits: percoat.Limits) -> Non
     loads = [limit.mean_pressure for limit in limits.limits if limit.mean_pressure is not None]
     assert limits.first is not None and limits.first.mean_pressure == min(loads)
     first = limits.first.to_dict()
-    # What may come before it by the errors of both: of the other criteria.
+    # Other criteria that may come before it by the errors of both.
     rivals = first.pop("rivals")
     names = {f"{limit.criterion} of {'material' if limit.get('material') else 'interface'}" for limit in limits.limits}
     assert all(rival.rsplit(" ", 1)[0] in names for rival in rivals)

@@ -1,4 +1,4 @@
-"""What is pickled is the same again, bit for bit, wherever it is read."""
+"""Pickled values are the same again, bit for bit, wherever they are read."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def test_steps_pickle_alone(result: percoat.Result) -> None:
             assert type(again) is percoat.Step and again is not step
             same_step(again, step)
             if len(result) > 1:
-                # What is kept is that step, not all of them.
+                # A pickled step has not all steps in it.
                 assert len(pickle.dumps(step)) < len(pickle.dumps(result))
 
 
@@ -183,7 +183,7 @@ def test_a_surface_that_has_changed_is_not_kept(surface: Path) -> None:
     for answer in (result, result[0]):
         with pytest.raises(percoat.CaseError, match="heights.npy has changed since it was read"):
             pickle.dumps(answer)
-    # Its own numbers are there still.
+    # The numbers of the step are there still.
     assert result[0].stress([0.0, 0.0, 0.1]).shape == (6,)
     np.save(heights, wave()["surface"]["heights"])
     same(pickle.loads(pickle.dumps(result)), result)

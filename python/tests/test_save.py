@@ -75,7 +75,7 @@ def test_heights_of_a_file_that_is_gone_are_saved_and_solved_again(tmp_path: Pat
     assert (tmp_path / "out" / name).read_bytes() == bytes
     solved = percoat.solve(tmp_path / "out" / "case.toml")
     assert [step.pressure.tobytes() for step in solved] == [step.pressure.tobytes() for step in result]
-    # Of a user's file of that name nothing is lost.
+    # A user's file of that name is kept.
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / name).write_text("mine", "utf-8")
     with pytest.raises(percoat.CaseError, match=name):

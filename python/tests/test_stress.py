@@ -91,7 +91,7 @@ def test_points_planes_and_sections_agree(three_levels: percoat.Result, z: float
     plane = step.plane(z, material=material)
     places = np.stack([plane.x, plane.y, np.full_like(plane.x, z)], axis=-1)[::16, ::12]
     stress = step.stress(places, material=material)
-    # The same sum over 96² waves in another order: roundings of that many numbers up to 0.4.
+    # A sum over 96² waves in another order: roundings of that many numbers up to 0.4.
     for index, name in enumerate(percoat.COMPONENTS[:6]):
         assert np.abs(stress[..., index] - plane[name][::16, ::12]).max() < 1e-12, name
     if z == 0.0:

@@ -117,7 +117,7 @@ def test_columns_have_the_types_of_their_numbers() -> None:
     for name, kind in kinds.items():
         assert table[name].dtype.kind == kind, name
     assert set(table["set_layers_0_interface"]) == {"bonded", "frictionless"}
-    # What is not in contact has no boundary: not a number.
+    # Samples out of contact have no boundary: not a number.
     untouched = np.isnan(table["levels_3_radius_min"])
     assert np.array_equal(untouched, table["mean_pressure"] < 0.003) and untouched.any()
     assert not untouched.all()
@@ -209,7 +209,7 @@ def test_combinations_are_named_by_their_values() -> None:
         "lattice": [{"kind": "hexagonal", "period": 1.5}],
     }
     table = percoat.sweep("fig2", values, progress=heard.append)
-    # What holds for all is no part of a name.
+    # Settings that hold for all are no part of a name.
     name = (
         'combination 1 (solver.tolerance=2e-7, layers.0.interface=bonded, title="a b", '
         'lattice={ kind = "hexagonal", period = 1.5 })'

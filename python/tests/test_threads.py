@@ -80,7 +80,7 @@ def test_threads_do_not_pile_up() -> None:
     before = alive()
     for threads in (1, 2, 3, 4, 5) * 4:
         percoat.solve("fig2", set=SETTINGS, threads=threads)
-    # Those asked for last are kept, and with them those of all cores; others end, if not in the same moment.
+    # Threads asked for last are kept, and with them those of all cores; others end, if not in the same moment.
     ends = time.monotonic() + 2.0
     while alive() > before + 5 and time.monotonic() < ends:
         time.sleep(0.02)
@@ -146,7 +146,7 @@ forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork")
 
 
 def in_child(work: Callable[[], Any], timeout: float = 20.0) -> Any:
-    """What a forked child finds; it is killed when it takes too long."""
+    """Answer of a forked child; it is killed when it takes too long."""
     receive, send = multiprocessing.Pipe(duplex=False)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)

@@ -13,7 +13,7 @@ import percoat
 from conftest import environment
 
 SCRIPT = '''
-"""What a user may write."""
+"""A program as a user may write it."""
 
 from concurrent.futures import Executor, ProcessPoolExecutor
 from pathlib import Path

@@ -345,7 +345,7 @@ def test_numbers_of_a_change_under_way_cannot_be_saved(browser):
     assert browser.execute_script("return document.getElementById('result').classList.contains('outdated')")
     done(browser)
     assert not browser.execute_script("return document.getElementById('result').classList.contains('outdated')")
-    # Of the limits it is said on which grid they were searched.
+    # Limits say on which grid they were searched.
     assert "96 × 96 samples" in browser.find_element(By.ID, "verdict").text
 
 
