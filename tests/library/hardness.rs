@@ -281,13 +281,13 @@ fn a_load_path_carries_what_is_pressed_in() {
         Problem::new(rough(Cell::square(1.0).unwrap(), [60, 60]), bare(Some(0.05))),
     ] {
         let forces = [0.004, 0.001, 0.004, 0.006];
-        let mut solver = solver(problem.clone(), [75, 75]);
+        let mut cycled = solver(problem.clone(), [75, 75]);
         let steps: Vec<Step> = forces
             .iter()
             .map(|&force| {
-                let step = solver.solve(Load::Force(force));
+                let step = cycled.solve(Load::Force(force));
                 assert!(step.report.stop.solved(), "{}", step.report);
-                solver.keep_indentation();
+                cycled.keep_indentation();
                 step
             })
             .collect();
