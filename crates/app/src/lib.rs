@@ -1,5 +1,5 @@
-//! What the program, the Python package and the page make of a case: [tasks](task), their [outputs](output), [sweeps](sweep),
-//! [figures](picture) and [reports](report).
+//! Uses of a case by the program, the Python package and the page: [tasks](task), their [outputs](output),
+//! [sweeps](sweep), [figures](picture) and [reports](report).
 
 pub mod output;
 pub mod picture;

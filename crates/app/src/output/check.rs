@@ -31,7 +31,7 @@ const POINTS: usize = 192;
 /// Summary of a case before it is solved.
 #[derive(Debug, Clone)]
 pub struct Check {
-    /// Its title, or its name where it has none.
+    /// Title of the case, or its name where it has none.
     pub title: String,
     /// Counterbody and half-space in words.
     pub problem: [String; 2],
@@ -53,7 +53,7 @@ pub struct Check {
     pub room: Capacity,
     /// `mean_pressure`, `force` or `penetration`.
     pub quantity: &'static str,
-    /// Its values, one a load step.
+    /// Loads in that quantity, one a load step.
     pub loads: Vec<f64>,
     /// First touches of the levels; `None` for a topography.
     pub touches: Option<Touches>,
@@ -93,7 +93,7 @@ pub struct Roughness {
     pub from_file: bool,
     /// Whether a window tapers its border.
     pub has_window: bool,
-    /// What was done to the heights of its file before, in this order; empty where nothing was.
+    /// Stages by which the heights of a file were prepared, in this order; empty without any.
     pub stages: Vec<Stage>,
 }
 
@@ -299,7 +299,7 @@ impl fmt::Display for Check {
                 }
             }
         }
-        self.library.iter().try_for_each(|own| f.write_str(&table::lines(own, WIDTH)))?;
+        self.library.iter().try_for_each(|sentence| f.write_str(&table::lines(sentence, WIDTH)))?;
         self.surface.as_ref().map_or(Ok(()), |surface| surface.write(f, &self.units))
     }
 }

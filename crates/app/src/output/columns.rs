@@ -48,7 +48,7 @@ pub fn names(rows: impl Iterator<Item = Cells>) -> Vec<String> {
             if names.get(after) == Some(&name) {
                 after += 1;
             } else if known.contains(&name) {
-                after = 1 + names.iter().position(|own| *own == name).unwrap_or(after);
+                after = 1 + names.iter().position(|listed| *listed == name).unwrap_or(after);
             } else {
                 known.insert(name.clone());
                 names.insert(after, name);

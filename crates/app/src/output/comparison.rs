@@ -36,7 +36,7 @@ pub struct ComparisonFile {
     pub elements: usize,
     /// The circles under the rule.
     pub localized: Vec<CircleRecord>,
-    /// The same circles under the other rule; `None` where they have none.
+    /// The circles under the other rule; `None` where they have none.
     pub other_rule: Option<OtherRule>,
     /// The first circle with the lattice sum of the indenters outside.
     pub lattice_sum: Option<CircleRecord>,
@@ -58,7 +58,7 @@ pub struct OtherRule {
 pub struct CircleRecord {
     /// Number of indenters inside.
     pub indenters: usize,
-    /// Its radius, level by level, a length; `None` where it is infinite.
+    /// Radius of the circle, level by level, a length; `None` where it is infinite.
     pub radius: Vec<Option<f64>>,
     /// Whether its solution has converged.
     pub converged: bool,
@@ -122,9 +122,9 @@ impl ComparisonFile {
     /// # Errors
     /// [`Unreadable`] with the key that is not as this version writes it.
     pub fn read(file: &Value) -> Result<Self, Unreadable> {
-        let own: Self = read_back(file)?;
-        check(std::slice::from_ref(&own.spectral))?;
-        Ok(own)
+        let record: Self = read_back(file)?;
+        check(std::slice::from_ref(&record.spectral))?;
+        Ok(record)
     }
 
     /// The content of `compare.json`.
@@ -167,7 +167,7 @@ mod tests {
         let coarse = ["grid.points=32", "localized={ indenters = [1, 4], elements = 6 }"].map(str::to_owned);
         let case = Case::read(&embedded::source("fig2").unwrap(), &coarse).unwrap();
         let mut comparison = case.comparison().compare([32, 32], &mut |_| ControlFlow::Continue(())).unwrap();
-        // As a file keeps the step: without what only the estimate of errors and pictures need.
+        // The step as a file keeps it: without what only the estimate of errors and pictures need.
         comparison.spectral = serde_json::from_value(json!(comparison.spectral)).unwrap();
         let mut written = ComparisonFile::new(&comparison, &case, 1);
         for circle in written.localized.iter_mut().chain(&mut written.lattice_sum) {

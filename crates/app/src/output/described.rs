@@ -54,8 +54,9 @@ fn shape(units: &Units, shape: Shape) -> String {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => format!("radius {}", length(units, radius)),
         Shape::Cone { slope } => format!("slope {}", number(slope)),
         Shape::Power { coefficient, exponent } => {
-            let own = compound(coefficient, &[units.length()], |names| format!("{}^{}", names[0], 1.0 - exponent));
-            format!("coefficient {own}, exponent {}", number(exponent))
+            let coefficient =
+                compound(coefficient, &[units.length()], |names| format!("{}^{}", names[0], 1.0 - exponent));
+            format!("coefficient {coefficient}, exponent {}", number(exponent))
         }
     };
     format!("{}, {sizes}", shape.name())
@@ -120,7 +121,7 @@ fn interface(units: &Units, interface: Interface) -> String {
 /// pressure.
 pub(super) fn bodies(units: &Units, problem: &Problem) -> String {
     let bodies = problem.bodies();
-    let own = half_space(units, bodies.body());
+    let body = half_space(units, bodies.body());
     let above = match bodies.counterbody() {
         Some(above) => format!("\ncounterbody, from its surface inward:\n{}", half_space(units, above)),
         None if problem.kind().is_given => String::new(),
@@ -131,31 +132,33 @@ pub(super) fn bodies(units: &Units, problem: &Problem) -> String {
     };
     let most = problem.largest_hardness().map_or(String::new(), |(hardness, side)| {
         let composite = problem.composite_hardness();
-        let composite =
-            composite.map_or(String::new(), |own| format!(" or of what lies below it, by the penetration; {own}"));
+        let composite = composite
+            .map_or(String::new(), |composite| format!(" or of what lies below it, by the penetration; {composite}"));
         format!(
             "\npressure: at most {}, the hardness of the surface of the {side}{composite}",
             pressure(units, hardness)
         )
     });
-    format!("{own}{above}{most}")
+    format!("{body}{above}{most}")
 }
 
-/// What a material and the interface below it bear, in a line of its own behind theirs; empty where nothing is given.
-fn durability(units: &Units, own: Durability, interface: Option<Fatigue>) -> String {
+/// Hardness, wear and fatigue of a material and the interface below it, in a line of their own; empty without any.
+fn durability(units: &Units, durability: Durability, interface: Option<Fatigue>) -> String {
     let law = |law: Fatigue, stress: &str| {
         let [passes, exponent] = [law.passes(), law.exponent()].map(number);
         format!("{passes} passes with a range of {stress} of {}, exponent {exponent}", pressure(units, law.amplitude()))
     };
     let parts = [
-        own.hardness.map(|hardness| format!("hardness {}", pressure(units, hardness))),
-        own.wear.map(|wear| format!("wear {}", compound(wear, &[units.pressure()], |names| format!("1/{}", names[0])))),
-        own.fatigue.map(|own| format!("fatigue after {}", law(own, "τ₁"))),
-        own.endurance.map(|own| {
-            let [torsion, bending] = [own.torsion(), own.bending()].map(|limit| pressure(units, limit));
+        durability.hardness.map(|hardness| format!("hardness {}", pressure(units, hardness))),
+        durability
+            .wear
+            .map(|wear| format!("wear {}", compound(wear, &[units.pressure()], |names| format!("1/{}", names[0])))),
+        durability.fatigue.map(|fatigue| format!("fatigue after {}", law(fatigue, "τ₁"))),
+        durability.endurance.map(|endurance| {
+            let [torsion, bending] = [endurance.torsion(), endurance.bending()].map(|limit| pressure(units, limit));
             format!("endurance {torsion} in torsion, {bending} in bending")
         }),
-        interface.map(|own| format!("lower face: fatigue after {}", law(own, "its shear"))),
+        interface.map(|fatigue| format!("lower face: fatigue after {}", law(fatigue, "its shear"))),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     if parts.is_empty() { String::new() } else { format!("\n  {}", parts.join("; ")) }
@@ -180,9 +183,9 @@ fn half_space(units: &Units, half_space: &HalfSpace) -> String {
             durability(units, layer.durability(), layer.interface_fatigue())
         )
     });
-    let substrate = substrate.map_or("rigid base".to_owned(), |own| {
+    let substrate = substrate.map_or("rigid base".to_owned(), |substrate| {
         let borne = half_space.durabilities().last().map_or(String::new(), |last| durability(units, last, None));
-        format!("substrate{}: {}{borne}", own.name_behind(), material(units, own))
+        format!("substrate{}: {}{borne}", substrate.name_behind(), material(units, substrate))
     });
     layers.collect::<String>() + &substrate
 }

@@ -29,7 +29,7 @@ pub(super) struct FileRecord {
 /// Owner of a name in a folder, by a list of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ownership {
-    /// There is no file.
+    /// No file of this name.
     Absent,
     /// The file is as percoat wrote it.
     AsWritten,
@@ -128,7 +128,7 @@ impl Files {
         Ok(names)
     }
 
-    /// What is wrong with a file that was changed since it was written, is missing or cannot be read; `None` for one as written.
+    /// Damage of a file that was changed since it was written, is missing or cannot be read; `None` for one as written.
     pub(super) fn damage(&self, folder: &Path, name: &str) -> Option<String> {
         match self.ownership(folder, name) {
             Ok(Ownership::AsWritten) => None,

@@ -29,7 +29,7 @@ pub enum CannotGoOn {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The damage of the file.
         reason: String,
     },
 }

@@ -53,17 +53,17 @@ struct FoundParameter {
 impl IdentificationFile {
     /// The record of what was found; `case` has the values found.
     pub fn new(found: &Identification, case: &Case, warnings: &[String]) -> Self {
-        let parameter = |own: &Estimate| FoundParameter {
-            name: own.parameter.name.clone(),
-            start: own.parameter.start,
-            value: own.value,
-            standard_error: own.error,
-            interval_95: own.interval,
+        let parameter = |estimate: &Estimate| FoundParameter {
+            name: estimate.parameter.name.clone(),
+            start: estimate.parameter.start,
+            value: estimate.value,
+            standard_error: estimate.error,
+            interval_95: estimate.interval,
         };
-        let known = |own: &Sensitivity| KnownNumber {
-            name: own.fixed.name.clone(),
-            value: own.fixed.start,
-            derivatives: own.derivatives.clone(),
+        let known = |sensitivity: &Sensitivity| KnownNumber {
+            name: sensitivity.fixed.name.clone(),
+            value: sensitivity.fixed.start,
+            derivatives: sensitivity.derivatives.clone(),
         };
         Self {
             percoat: env!("CARGO_PKG_VERSION"),
@@ -110,13 +110,13 @@ pub fn trial(case: &Case, trial: Trial) -> String {
 pub fn identified(found: &Identification, case: &Case, width: usize) -> String {
     let units = case.units();
     let head = ["parameter", "start", "value", "95 % interval", "relative"];
-    let row = |own: &Estimate| {
-        let [low, high] = own.interval.map(number);
-        let relative = 100.0 * own.error / own.value.abs();
+    let row = |estimate: &Estimate| {
+        let [low, high] = estimate.interval.map(number);
+        let relative = 100.0 * estimate.error / estimate.value.abs();
         vec![
-            own.parameter.name.clone(),
-            number(own.parameter.start),
-            with_error(own.value, Some(own.error)),
+            estimate.parameter.name.clone(),
+            number(estimate.parameter.start),
+            with_error(estimate.value, Some(estimate.error)),
             format!("{low} to {high}"),
             if relative.is_finite() { format!("± {relative:.2} %") } else { String::new() },
         ]
@@ -148,12 +148,13 @@ pub fn identified(found: &Identification, case: &Case, width: usize) -> String {
 
 /// The derivatives of the parameters by what was taken as known, in the units of the case; `None` without any.
 fn sensitivities(found: &Identification) -> Option<Table> {
-    let parameters = found.estimates.iter().map(|own| format!("d {}", own.parameter.name));
+    let parameters = found.estimates.iter().map(|estimate| format!("d {}", estimate.parameter.name));
     let head: Vec<String> =
         ["by what was taken as known", "value"].map(str::to_owned).into_iter().chain(parameters).collect();
-    let row = |own: &Sensitivity| {
-        let numbers = std::iter::once(own.fixed.start).chain(own.derivatives.iter().copied()).map(number);
-        std::iter::once(own.fixed.name.clone()).chain(numbers).collect()
+    let row = |sensitivity: &Sensitivity| {
+        let numbers =
+            std::iter::once(sensitivity.fixed.start).chain(sensitivity.derivatives.iter().copied()).map(number);
+        std::iter::once(sensitivity.fixed.name.clone()).chain(numbers).collect()
     };
     let rows: Vec<Vec<String>> = found.sensitivities.iter().map(row).collect();
     (!rows.is_empty()).then(|| Table::new(&head, rows, 1))
@@ -162,7 +163,7 @@ fn sensitivities(found: &Identification) -> Option<Table> {
 /// Why values and standard errors of a fit may not hold, a sentence each; `case` has the values found.
 pub fn doubts(measured: &Measurement, found: &Identification, case: &Case) -> Vec<String> {
     let units = case.units();
-    let told = found.doubts.iter().map(|own| doubt(own, found, &units));
+    let told = found.doubts.iter().map(|raised| doubt(raised, found, &units));
     told.chain(beyond_hardness(measured, found, case)).collect()
 }
 
@@ -177,31 +178,31 @@ fn doubt(doubt: &Doubt, found: &Identification, units: &Units) -> String {
             pattern.expected,
             0.5 / LEVEL
         ),
-        Doubt::Offset(own) => {
-            let size = format!("{} ± {}", length(own.value), length(own.error));
-            format!("the zero of the penetration seems to be missed by {size}: {}", with_it(own, found, "offset"))
+        Doubt::Offset(missing) => {
+            let size = format!("{} ± {}", length(missing.value), length(missing.error));
+            format!("the zero of the penetration seems to be missed by {size}: {}", with_it(missing, found, "offset"))
         }
-        Doubt::FrameCompliance(own) => {
+        Doubt::FrameCompliance(missing) => {
             let unit = match (units.force().name(), units.length().name()) {
                 (Some(force), Some(length)) => format!("\u{a0}{length}/{force}"),
                 _ => String::new(),
             };
-            let size = format!("{}{unit}", with_error(own.value, Some(own.error)));
-            format!("the frame seems to have a compliance of {size}: {}", with_it(own, found, "frame_compliance"))
+            let size = format!("{}{unit}", with_error(missing.value, Some(missing.error)));
+            format!("the frame seems to have a compliance of {size}: {}", with_it(missing, found, "frame_compliance"))
         }
-        Doubt::NoDerivative(own) => format!(
+        Doubt::NoDerivative(underivable) => format!(
             "what was found has no derivative by {}, which the model does not allow to be varied: {}; how far an error of it is carried is unknown",
-            own.names.join(", "),
-            own.reason
+            underivable.names.join(", "),
+            underivable.reason
         ),
     }
 }
 
 /// Sentence on what a number of the instrument would change, and how it is freed.
-fn with_it(own: &Missing, found: &Identification, name: &str) -> String {
-    let names = found.estimates.iter().map(|own| own.parameter.name.as_str());
+fn with_it(missing: &Missing, found: &Identification, name: &str) -> String {
+    let names = found.estimates.iter().map(|estimate| estimate.parameter.name.as_str());
     let changed: Vec<String> =
-        names.zip(&own.estimates).map(|(name, value)| format!("{name} about {}", number(*value))).collect();
+        names.zip(&missing.estimates).map(|(name, value)| format!("{name} about {}", number(*value))).collect();
     format!(
         "with it {}; free `{name}`, or state it as known (`--known {name}=…`, in Python `known`), if it is not the model that fails",
         changed.join(" and ")

@@ -152,7 +152,7 @@ mod tests {
         assert!(again.set_aside().is_some_and(|aside| aside.join("summary.json").is_file()));
     }
 
-    /// As a kill leaves them: before the first line, within it, and after the solution of a load is saved.
+    /// Folders as a kill leaves them: before the first line, within it, and after the solution of a load is saved.
     #[test]
     fn a_folder_whose_log_has_no_whole_line_is_cleared_and_one_with_a_part_of_a_line_is_cut() {
         for (writer, log) in [(Writer::Solve, "steps.jsonl"), (Writer::Sweep, "sweep.jsonl")] {

@@ -10,7 +10,7 @@ use serde_json::Value;
 pub struct Unreadable {
     /// Path of the key, such as `steps[0].levels[1]`.
     pub(super) place: String,
-    /// What is wrong with it.
+    /// The fault of the key.
     pub(super) reason: String,
 }
 

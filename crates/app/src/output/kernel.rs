@@ -55,8 +55,8 @@ pub fn kernel(
 fn rows(depths: &[f64], half_space: &HalfSpace, amplitudes: impl Fn(Depth) -> Value) -> Vec<Value> {
     let row = |depth: Depth| {
         let mut row = json!({ "z": depth.z, "side": depth.material });
-        let (row_keys, own) = (row.as_object_mut().expect("an object"), amplitudes(depth));
-        row_keys.extend(own.as_object().cloned().unwrap_or_default());
+        let (row_keys, values) = (row.as_object_mut().expect("an object"), amplitudes(depth));
+        row_keys.extend(values.as_object().cloned().unwrap_or_default());
         row
     };
     depths.iter().flat_map(|&z| half_space.depths(z)).map(row).collect()

@@ -40,11 +40,11 @@ pub struct LifeFile {
     pub first: Option<First>,
     /// The life of each material and interface that tires, under the unworn surfaces.
     pub criteria: Vec<LifeCriterion>,
-    /// What happens up to the prescribed number of passes.
+    /// Events up to the prescribed number of passes.
     pub events: Vec<Event>,
-    /// What is left and worn, state by state.
+    /// Layers left and heights worn, state by state.
     pub wear: Vec<Course>,
-    /// Why it ends; `None` where it was followed only to the first failure, and there is one.
+    /// Why the life ends; `None` where it was followed only to the first failure, and there is one.
     pub end: Option<LifeEnd>,
     /// Why the last contact was not solved; `None` where it was.
     #[serde(default)]
@@ -77,9 +77,9 @@ impl LifeFile {
             units: UnitNames::of(case),
             warnings: [task.warnings(begun, state), plausibility::of_case(case)].concat(),
             distance: task.distance(),
-            path: fatigue.map(|own| own.path),
+            path: fatigue.map(|fatigue| fatigue.path),
             first: First::of(task, begun, state),
-            criteria: fatigue.map_or(Vec::new(), |own| own.lives.iter().map(of_life).collect()),
+            criteria: fatigue.map_or(Vec::new(), |fatigue| fatigue.lives.iter().map(of_life).collect()),
             events: state.events.clone(),
             wear: state.course.clone(),
             stop: state.stop,
@@ -94,9 +94,9 @@ impl LifeFile {
     /// # Errors
     /// [`Unreadable`] with the key that is not as this version writes it.
     pub fn read(file: &Value) -> Result<Self, Unreadable> {
-        let own: Self = read_back(file)?;
-        check(&own.steps)?;
-        Ok(own)
+        let record: Self = read_back(file)?;
+        check(&record.steps)?;
+        Ok(record)
     }
 
     /// The content of `life.json`.
@@ -164,8 +164,8 @@ pub fn saved_state(staging: &Path, fingerprint: &str) -> Result<Option<LifeState
     let text = disk::read_text(&path).map_err(|error| damaged(error.to_string()))?;
     let text = without_checksum(text.trim_end()).map_err(|error| damaged(error.to_string()))?;
     // Another version may have states of another form.
-    let own: Identity = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
-    if own.fingerprint != fingerprint {
+    let identity: Identity = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
+    if identity.fingerprint != fingerprint {
         return Err(CannotGoOn::Foreign(staging.to_owned()));
     }
     let saved: Saved = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;

@@ -83,9 +83,9 @@ impl LimitFile {
     /// # Errors
     /// [`Unreadable`] with the key that is not as this version writes it.
     pub fn read(file: &Value) -> Result<Self, Unreadable> {
-        let own: Self = read_back(file)?;
-        check(&own.steps)?;
-        Ok(own)
+        let record: Self = read_back(file)?;
+        check(&record.steps)?;
+        Ok(record)
     }
 
     /// The content of `limit.json`.

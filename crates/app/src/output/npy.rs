@@ -59,7 +59,7 @@ pub(super) fn values(mut reader: impl Read, shape: &[usize]) -> io::Result<Vec<f
 /// Reads the values of an array with one axis in a file of `bytes` bytes.
 ///
 /// # Errors
-/// Those of [`values`].
+/// Errors of [`values`].
 pub(super) fn vector(mut reader: impl Read, bytes: u64) -> io::Result<Vec<f64>> {
     // The ninth and tenth byte of the format are the length of the header.
     let mut begin = [0; 10];
@@ -132,7 +132,7 @@ mod tests {
         npy(&mut file, &[2, 3], (0..6).map(f64::from)).unwrap();
         assert_eq!(shape(&file[..]).unwrap(), [2, 3]);
         let text = |from: &str, to: &str| {
-            let at = file.windows(from.len()).position(|own| own == from.as_bytes()).unwrap();
+            let at = file.windows(from.len()).position(|bytes| bytes == from.as_bytes()).unwrap();
             [&file[..at], to.as_bytes(), &file[at + from.len()..]].concat()
         };
         let huge = text("(2, 3, )", "(18446744073709551615, 3, )");

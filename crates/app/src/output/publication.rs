@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(files(folder)["summary.json"], "summary.json: new", "what is kept can be renewed");
     }
 
-    /// As on a file system without locks, where two commands write at once.
+    /// Two commands that write at once, as on a file system without locks.
     #[test]
     fn what_another_command_lists_in_the_meantime_stays_listed() {
         let place = tempfile::tempdir().unwrap();

@@ -88,15 +88,16 @@ impl<'a> Recording<'a> {
         }
     }
 
-    /// With checkpoints, from which a run of this [fingerprint](super::fingerprint) can be resumed; this run itself resumes the
-    /// `earlier` one.
+    /// The recorder with checkpoints, from which a run of this [fingerprint](super::fingerprint) can be resumed; this run
+    /// itself resumes the `earlier` one.
     pub fn resumable(self, fingerprint: String, earlier: Option<EarlierRun>) -> Self {
         let checkpoints = Checkpoints::new(fingerprint, self.loads, earlier.as_ref());
         let standing = earlier.as_ref().and_then(|earlier| earlier.last.as_ref().map(|_| earlier.steps.len()));
         Self { checkpoints: Some(checkpoints), earlier, standing, ..self }
     }
 
-    /// Without `contact.npz`, `stress.npz` and volumes: scalars, and the section of the last step for its picture.
+    /// The recorder of scalars alone, and of the section of the last step for its picture: no `contact.npz`, `stress.npz`
+    /// and volumes.
     pub fn without_fields(self) -> Self {
         Self { fields: false, ..self }
     }

@@ -119,7 +119,7 @@ impl StressArchive {
     }
 }
 
-/// Before the names of arrays of a body: those of the counterbody begin with "counterbody_".
+/// Beginning of the names of arrays of a body: those of the counterbody begin with "counterbody_".
 fn prefix(half_space: &HalfSpace) -> &'static str {
     if half_space.side() == Some(Side::Counterbody) { "counterbody_" } else { "" }
 }
@@ -137,7 +137,7 @@ fn add_axes<W: Write + Seek>(
     half_space: &HalfSpace,
 ) -> io::Result<()> {
     let prefix = prefix(half_space);
-    let name = |own: &str| format!("{prefix}{own}");
+    let name = |array: &str| format!("{prefix}{array}");
     let materials = |depths: &[Depth]| depths.iter().map(|depth| depth.material as i32).collect::<Vec<_>>();
     let zs = |depths: &[Depth]| depths.iter().map(|depth| depth.z).collect::<Vec<_>>();
     let planes = request.plane_depths(half_space);

@@ -21,7 +21,7 @@ const LINE: Trailer = Trailer { before: ",\"seal\":\"", after: "\"}" };
 /// Why a text is not accepted as unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum TrailerError {
-    /// There is no checksum.
+    /// No checksum.
     #[error("it has no checksum, as lines of earlier versions have none")]
     Missing,
     /// The checksum is that of another text.

@@ -64,8 +64,8 @@ pub fn comparison(title: &str, units: &Units, comparison: &Comparison) -> Option
 fn curves(circles: &[CircleComparison]) -> Vec<Curve> {
     let curve = |(colour, (name, value)): (usize, (&str, Value))| Curve {
         label: name.to_owned(),
-        points: circles.iter().map(|own| [own.indenters as f64, value(&own.difference)]).collect(),
-        errors: circles.iter().map(|own| value(&own.mesh_error)).collect(),
+        points: circles.iter().map(|circle| [circle.indenters as f64, value(&circle.difference)]).collect(),
+        errors: circles.iter().map(|circle| value(&circle.mesh_error)).collect(),
         style: Style::LineMarkers,
         colour: colour.into(),
     };

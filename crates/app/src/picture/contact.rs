@@ -106,7 +106,7 @@ fn radii_words(snapshot: &Snapshot, letter: char, has_dashed: bool, beyond: &[St
     if snapshot.reading.boundaries.iter().flatten().any(|boundary| !boundary.hole.is_empty()) {
         words += &format!(" Dotted in ({letter}): the hole of a ring, over its own mean radius.");
     }
-    if snapshot.reading.levels.iter().any(|own| own.errors.radius_max.is_some()) {
+    if snapshot.reading.levels.iter().any(|level| level.errors.radius_max.is_some()) {
         words += " Bands: estimated errors.";
     }
     if has_dashed {
@@ -120,8 +120,8 @@ fn radii_words(snapshot: &Snapshot, letter: char, has_dashed: bool, beyond: &[St
 /// Text of the caption on the contacts without a boundary of their own: merged ones, and those of few samples.
 fn merged_words(snapshot: &Snapshot) -> String {
     let levels = |which: fn(&LevelReading) -> bool| {
-        let own = snapshot.reading.levels.iter().filter(|level| level.load > 0.0 && which(level));
-        own.map(|level| level.level.to_string()).collect::<Vec<String>>()
+        let matching = snapshot.reading.levels.iter().filter(|level| level.load > 0.0 && which(level));
+        matching.map(|level| level.level.to_string()).collect::<Vec<String>>()
     };
     let plural = |levels: &[String]| format!("level{} {}", if levels.len() > 1 { "s" } else { "" }, levels.join(", "));
     let merged = levels(|level| level.merged);
@@ -161,15 +161,15 @@ fn radii(snapshot: &Snapshot, letter: char, without_mutual_effect: Option<&[f64]
         };
         let (mean, errors) = (boundary.mean_radius(), snapshot.reading.levels[level - 1].errors);
         let error =
-            errors.radius_min.into_iter().chain(errors.radius_max).reduce(f64::max).map(|own| 100.0 * own / mean);
+            errors.radius_min.into_iter().chain(errors.radius_max).reduce(f64::max).map(|error| 100.0 * error / mean);
         curves.push(curve(format!("level {level}"), deviations(&boundary.radii, mean), error, Style::Line));
         if !boundary.hole.is_empty() {
             let points = deviations(&boundary.hole, boundary.mean_hole_radius());
             let error = 100.0 * boundary.hole_error / boundary.mean_hole_radius();
             curves.push(curve(format!("level {level}, hole"), points, Some(error), Style::Dotted));
         }
-        let own = without_mutual_effect.and_then(|radii| radii.get(level - 1)).filter(|radius| **radius > 0.0);
-        if let Some(radius) = own {
+        let undisturbed = without_mutual_effect.and_then(|radii| radii.get(level - 1)).filter(|radius| **radius > 0.0);
+        if let Some(radius) = undisturbed {
             let deviation = 100.0 * (radius / boundary.mean_radius() - 1.0);
             alone.push((
                 level,
@@ -243,10 +243,10 @@ mod tests {
             let (chart, beyond) = radii(&snapshot, 'b', alone).unwrap();
             (chart.y.range.unwrap(), chart.curves.len(), beyond)
         };
-        let own = |level: usize| snapshot.reading.levels[level].contact_radius.unwrap();
+        let radius = |level: usize| snapshot.reading.levels[level].contact_radius.unwrap();
         let (bare, two, none) = range(None);
         assert_eq!((two, none.len()), (2, 0));
-        let near = [own(0) * (1.0 + 0.004 * bare[1]), own(1) * 3.0];
+        let near = [radius(0) * (1.0 + 0.004 * bare[1]), radius(1) * 3.0];
         let (scaled, curves, beyond) = range(Some(&near));
         assert_eq!((scaled, curves), (bare, 3));
         assert_eq!(beyond, ["level 2 at 200.0\u{a0}%"]);

@@ -22,7 +22,7 @@ pub fn identification(title: &str, units: &Units, measured: &Measurement, found:
         colour: Ink::Number(colour),
     };
     // Without deviations all points scatter alike, and by how much is the residual in the caption.
-    let deviation = |i: usize| measured.deviations().map_or(f64::NAN, |own| own[i]);
+    let deviation = |i: usize| measured.deviations().map_or(f64::NAN, |deviations| deviations[i]);
     let band = |i: usize| 2.0 * found.band[i];
     let force = || Axis::linear(units.load_of(""));
     let chart = |name: &str, symbol: &str, below: &dyn Fn(usize) -> f64| Chart {
@@ -39,7 +39,14 @@ pub fn identification(title: &str, units: &Units, measured: &Measurement, found:
     let values: Vec<String> = found
         .estimates
         .iter()
-        .map(|own| format!("{}\u{a0}=\u{a0}{}\u{a0}±\u{a0}{}", own.parameter.name, short(own.value), short(own.error)))
+        .map(|estimate| {
+            format!(
+                "{}\u{a0}=\u{a0}{}\u{a0}±\u{a0}{}",
+                estimate.parameter.name,
+                short(estimate.value),
+                short(estimate.error)
+            )
+        })
         .collect();
     let title = if title.is_empty() { String::new() } else { format!("{title}. ") };
     let caption = format!(

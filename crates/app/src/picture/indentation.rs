@@ -1,4 +1,4 @@
-//! What hardness has pressed in: its depths over the surface, and along a line through the deepest place.
+//! Depths pressed in for good: over the surface, and along a line through the deepest place.
 
 use super::pressure::{axes, unit_cell};
 use super::snapshot::Snapshot;

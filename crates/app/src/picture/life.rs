@@ -27,7 +27,7 @@ const LEAST: f64 = 1e-6;
 /// The damage in a pass over y and z: of each material by its law, from the ranges of τ₁ on planes; `None` without any.
 pub fn damage(snapshot: &Snapshot, fatigue: &FatigueReading, planes: &[RangePlane]) -> Option<Canvas> {
     let half_space = snapshot.step.problem().half_space();
-    let laws: Vec<Option<Fatigue>> = half_space.durabilities().map(|own| own.fatigue).collect();
+    let laws: Vec<Option<Fatigue>> = half_space.durabilities().map(|durability| durability.fatigue).collect();
     let of = |plane: &RangePlane, range: f64| laws[plane.depth.material - 1].map_or(0.0, |law| law.damage(range));
     let all = || planes.iter().flat_map(|plane| plane.lines.iter().map(move |[y, range]| (*y, of(plane, *range))));
     let most = all().map(|(_, damage)| damage).filter(|damage| damage.is_finite()).fold(0.0, f64::max);
@@ -44,9 +44,9 @@ pub fn damage(snapshot: &Snapshot, fatigue: &FatigueReading, planes: &[RangePlan
     let value = |[y, z]: [f64; 2]| {
         let z = z.max(0.0);
         let material = half_space.depths(z).last()?.material;
-        let own = || planes.iter().filter(|plane| plane.depth.material == material);
-        let above = own().filter(|plane| plane.depth.z <= z).max_by(|a, b| a.depth.z.total_cmp(&b.depth.z))?;
-        let below = own().filter(|plane| plane.depth.z >= z).min_by(|a, b| a.depth.z.total_cmp(&b.depth.z))?;
+        let of_material = || planes.iter().filter(|plane| plane.depth.material == material);
+        let above = of_material().filter(|plane| plane.depth.z <= z).max_by(|a, b| a.depth.z.total_cmp(&b.depth.z))?;
+        let below = of_material().filter(|plane| plane.depth.z >= z).min_by(|a, b| a.depth.z.total_cmp(&b.depth.z))?;
         let apart = below.depth.z - above.depth.z;
         let part = if apart > 0.0 { (z - above.depth.z) / apart } else { 0.0 };
         let range = (1.0 - part) * above.at(y) + part * below.at(y);
@@ -105,8 +105,8 @@ fn about(planes: &[RangePlane], across: f64) -> Option<[f64; 2]> {
 /// Points (passes, height removed): what comes off does so at once, the height before and after.
 fn removed(course: &[Course], events: &[Event]) -> Vec<[f64; 2]> {
     let off = |event: &Event| [[event.passes, event.removed - event.depth], [event.passes, event.removed]];
-    let off = events.iter().filter(|own| own.what != EventKind::WornThrough).flat_map(off);
-    let mut removed: Vec<[f64; 2]> = off.chain(course.iter().map(|own| [own.passes, own.removed])).collect();
+    let off = events.iter().filter(|event| event.what != EventKind::WornThrough).flat_map(off);
+    let mut removed: Vec<[f64; 2]> = off.chain(course.iter().map(|state| [state.passes, state.removed])).collect();
     removed.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     removed
 }
@@ -120,11 +120,11 @@ struct FirstDamage {
 }
 
 impl FirstDamage {
-    /// That of these events with the relative error of its passes; `None` without one.
+    /// The first of these events with the relative error of its passes; `None` without an event or an error.
     fn of(events: &[Event], error: Option<f64>) -> Option<Self> {
-        let (own, error) = (events.first()?, error.filter(|error| *error > 0.0 && error.is_finite())?);
-        let passes = [1.0 - error, 1.0 + error].map(|part| own.passes * part.max(0.0));
-        Some(Self { passes, removed: own.removed - 0.5 * own.depth })
+        let (event, error) = (events.first()?, error.filter(|error| *error > 0.0 && error.is_finite())?);
+        let passes = [1.0 - error, 1.0 + error].map(|part| event.passes * part.max(0.0));
+        Some(Self { passes, removed: event.removed - 0.5 * event.depth })
     }
 
     /// A level bar over the error of the passes.
@@ -133,8 +133,8 @@ impl FirstDamage {
     }
 }
 
-/// What is left of the layers and worn off, over the passes, with the events; `None` for less than two states. `error`: relative error
-/// of the passes until the first damage, which is a level bar.
+/// Layers left and heights worn off over the passes, with the events; `None` for less than two states. `error`: relative
+/// error of the passes until the first damage, which is a level bar.
 pub fn course(
     title: &str,
     problem: &Problem,
@@ -145,7 +145,7 @@ pub fn course(
     if course.len() < 2 {
         return None;
     }
-    let last = course.iter().map(|own| own.passes).fold(0.0, f64::max);
+    let last = course.iter().map(|state| state.passes).fold(0.0, f64::max);
     let x = || Axis::linear("passes N").from_to(0.0, 1.02 * last);
     let curve = |label: &str, colour: usize, points: Vec<[f64; 2]>, style: Style| Curve {
         label: label.to_owned(),
@@ -154,8 +154,9 @@ pub fn course(
         style,
         colour: colour.into(),
     };
-    let points = |value: fn(&Course) -> f64| course.iter().map(|own| [own.passes, value(own)]).collect::<Vec<_>>();
-    let has_layers = course.iter().any(|own| own.thickness > 0.0);
+    let points =
+        |value: fn(&Course) -> f64| course.iter().map(|state| [state.passes, value(state)]).collect::<Vec<_>>();
+    let has_layers = course.iter().any(|state| state.thickness > 0.0);
     let removed = removed(course, events);
     let first = FirstDamage::of(events, error);
     let mut charts = Vec::new();
@@ -171,19 +172,19 @@ pub fn course(
     curves.extend(first.as_ref().map(|first| curve("", 1, first.bar(first.removed), Style::Line)));
     // An isolated contact has no mean.
     let [body, counterbody]: [fn(&Course) -> f64; 2] =
-        [|own| own.body.unwrap_or(own.body_depth), |own| own.counterbody.unwrap_or(own.counterbody_depth)];
+        [|state| state.body.unwrap_or(state.body_depth), |state| state.counterbody.unwrap_or(state.counterbody_depth)];
     let what = AroundWords::of(problem.cell().surroundings()).worn;
-    if course.iter().any(|own| body(own) > 0.0) {
+    if course.iter().any(|state| body(state) > 0.0) {
         curves.push(curve(&format!("worn off the body by sliding, {what}"), 2, points(body), Style::Line));
     }
-    if course.iter().any(|own| counterbody(own) > 0.0) {
+    if course.iter().any(|state| counterbody(state) > 0.0) {
         curves.push(curve(&format!("worn off the counterbody, {what}"), 3, points(counterbody), Style::Line));
     }
     let y = Axis::linear(units.length_of("height", "u"));
     charts.push(Chart { title: "removed and worn".to_owned(), x: x(), y, curves });
-    let finite = |own: &Course| if own.max_pressure.is_finite() { own.max_pressure } else { f64::NAN };
-    // What comes off changes it at once.
-    let jumps = |own: &Course| events.iter().any(|event| event.passes == own.passes);
+    let finite = |state: &Course| if state.max_pressure.is_finite() { state.max_pressure } else { f64::NAN };
+    // The largest pressure jumps where something comes off.
+    let jumps = |state: &Course| events.iter().any(|event| event.passes == state.passes);
     let before = course.windows(2).filter(|pair| jumps(&pair[1])).map(|pair| [pair[1].passes, finite(&pair[0])]);
     let mut pressures: Vec<[f64; 2]> = before.chain(points(finite)).collect();
     pressures.sort_by(|a, b| a[0].total_cmp(&b[0]));

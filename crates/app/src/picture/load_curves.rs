@@ -125,7 +125,7 @@ impl LoadPath<'_> {
         self.chart(named.name, self.axis(self.units.label(named)), vec![curve])
     }
 
-    /// What hardness has pressed in; `None` where it has pressed nothing.
+    /// Chart of the depths pressed in for good; `None` where nothing is.
     fn indentation(&self) -> Option<Chart> {
         let mut readings = self.steps.iter().filter_map(|step| step.plastic.as_ref());
         readings.any(PlasticReading::is_pressed_in).then(|| {
@@ -151,7 +151,7 @@ impl LoadPath<'_> {
     /// Charts of the largest stresses in each material; empty for runs without stresses.
     fn stresses(&self) -> Vec<Chart> {
         let Some(any) = self.steps.iter().find_map(|step| step.stress.as_ref()) else { return Vec::new() };
-        let ids: Vec<MaterialId> = any.materials.iter().map(|own| own.tau1.material).collect();
+        let ids: Vec<MaterialId> = any.materials.iter().map(|material| material.tau1.material).collect();
         let (names, materials) = (names(&ids), ids.len());
         let chart = |quantity: &Quantity<Extremes>| {
             let of = |index: usize| {

@@ -3,7 +3,7 @@
 //! A picture is one column (85 mm) or two columns wide, its letters 6 to 8 points high, its typeface embedded. It is drawn on a
 //! sheet measured in points ([`Canvas`]), which is written as pixels or as lines.
 //!
-//! What lines mean, in every picture and in Python's `percoat.plot`:
+//! Meaning of the lines, in every picture and in Python's `percoat.plot`:
 //!
 //! - **dashed**: what the results are compared with: an indenter alone, the bare body, a closed form, another method, the limit of
 //!   failure;
@@ -11,7 +11,7 @@
 //! - thin and solid: borders (interfaces, the unit cell, zero), and the second kind of many curves;
 //! - bars and bands: the estimated errors; no line leads through noise (`error_bars`).
 //!
-//! What is drawn:
+//! Pictures:
 //!
 //! - Any curves: [`Chart`], and [`Figure`] for several charts side by side.
 //! - The part of the surface that a map shows: [`view`].

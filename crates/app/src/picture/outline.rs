@@ -32,7 +32,7 @@ impl Snapshot {
             true => pressures[index].powi(2),
             false => gaps[index].max(0.0).cbrt().powi(2),
         };
-        let own = value(index);
+        let here = value(index);
         // Neighbours along a₁ and a₂, before and after.
         let [n1, n2] = grid.points();
         let (i, j) = (index / n2, index % n2);
@@ -44,26 +44,26 @@ impl Snapshot {
             let alike = |next: usize| (pressures[next] > 0.0) == touches;
             match (alike(before), alike(after)) {
                 (true, true) => 0.5 * (value(after) - value(before)),
-                (true, false) => own - value(before),
-                (false, true) => value(after) - own,
+                (true, false) => here - value(before),
+                (false, true) => value(after) - here,
                 // Both edges are near: half a step away.
-                (false, false) => 2.0 * own,
+                (false, false) => 2.0 * here,
             }
         });
         let [[x1, y1], [x2, y2]] = grid.steps();
         let determinant = x1 * y2 - y1 * x2;
         let slope = ((along1 * y2 - along2 * y1) / determinant).hypot((along2 * x1 - along1 * x2) / determinant);
         let far = FAR * grid.spacing();
-        let distance = if slope > 0.0 { (own / slope).min(far) } else { far };
+        let distance = if slope > 0.0 { (here / slope).min(far) } else { far };
         if touches { distance } else { -distance }
     }
 
     /// Index of the site whose indenter faces a place, and the vector from its axis, lengths; `None` for a topography.
     pub fn facing(&self, place: [f64; 2]) -> Option<(usize, [f64; 2])> {
         let (cell, sites) = (self.step.grid().cell(), self.step.surface().sites());
-        let (reduced, own) = (cell.reduced(), cell.fractions(place));
+        let (reduced, fractions) = (cell.reduced(), cell.fractions(place));
         let facing = sites.iter().enumerate().map(|(index, site)| {
-            let offset = reduced.nearest([own[0] - site.place[0], own[1] - site.place[1]]);
+            let offset = reduced.nearest([fractions[0] - site.place[0], fractions[1] - site.place[1]]);
             (index, offset, site.profile(offset[0].hypot(offset[1])))
         });
         facing.min_by(|a, b| a.2.total_cmp(&b.2)).map(|(index, offset, _)| (index, offset))
@@ -98,7 +98,7 @@ mod tests {
     use percoat_core::problem::Problem;
     use percoat_core::spectral::{Settings, Solver};
 
-    /// Of a contact far from others, in a skewed cell: the fitted boundary is known to much less than a spacing.
+    /// A contact far from others, in a skewed cell: the fitted boundary is known to much less than a spacing.
     #[test]
     fn the_outline_is_the_fitted_boundary_to_a_fifth_of_a_spacing() {
         let cell = Cell::new([1.0, 0.1], [0.3, 1.1]).unwrap();

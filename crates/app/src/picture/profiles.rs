@@ -187,12 +187,12 @@ impl Snapshot {
     fn end(&self, site: usize, centre: [f64; 2], theta: f64) -> (f64, ContactEnd) {
         let step = 0.25 * self.step.grid().spacing();
         let at = |r: f64| [centre[0] + r * theta.cos(), centre[1] + r * theta.sin()];
-        let own = |r: f64| {
+        let faces = |r: f64| {
             let offset = self.facing(at(r)).filter(|(facing, _)| *facing == site).map(|(_, offset)| offset);
             offset.is_some_and(|[x, y]| (x - r * theta.cos()).hypot(y - r * theta.sin()) < step)
         };
         let (mut last, mut k) = (0.0, 0.0);
-        while own(k * step) && k < MOST_STEPS {
+        while faces(k * step) && k < MOST_STEPS {
             if self.inside(at(k * step)) > 0.0 {
                 last = k * step;
             }
@@ -255,7 +255,7 @@ mod tests {
         let reading = step.reading();
         assert!(reading.levels.iter().all(|level| level.merged));
         let snapshot = Snapshot::new("", step, reading);
-        // With r²/2 + d equal on both sides the seam lies at ½l + d/l from the higher axis.
+        // The seam, where r²/2 + d of both sides are equal, lies at ½l + d/l from the higher axis.
         let (apart, drop) = (snapshot.step.problem().indenters().unwrap().lattice().period(), 0.01);
         for (level, farthest) in [(1, 0.5 * apart + drop / apart), (2, 0.5 * apart - drop / apart)] {
             let (direction, points) = snapshot.profile(level).unwrap();

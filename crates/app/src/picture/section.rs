@@ -57,7 +57,7 @@ pub fn section(snapshot: &Snapshot, sections: &[VerticalSection]) -> Canvas {
 /// The contents of all panels and of the caption.
 struct SectionPicture<'a> {
     snapshot: &'a Snapshot,
-    /// That of the body, then that of the counterbody where it is elastic.
+    /// Section of the body, then that of the counterbody where it is elastic.
     sections: &'a [VerticalSection],
     /// The stresses of both panels.
     measures: [SectionMeasure; 2],
@@ -77,8 +77,8 @@ impl<'a> SectionPicture<'a> {
         let bodies = snapshot.step.problem().bodies();
         let governing = snapshot.governing().and_then(|criterion| {
             let half_space = bodies.on(criterion.side());
-            let own = bodies.each().position(|own| std::ptr::eq(own, half_space))?;
-            Some(sections.get(own)?.governing_measure(criterion, half_space))
+            let index = bodies.each().position(|body| std::ptr::eq(body, half_space))?;
+            Some(sections.get(index)?.governing_measure(criterion, half_space))
         });
         let measures = [SectionMeasure::Along, governing.unwrap_or(SectionMeasure::Tau1)];
         let singular = is_singular(snapshot, measures[1]) && passes_tip(snapshot, &sections[0]);
@@ -173,8 +173,8 @@ impl<'a> SectionPicture<'a> {
             largest.map(|(value, [s, z])| {
                 // Rounding beside the length of the section is zero.
                 let [first, last] = self.sections[0].line.span;
-                let own = |x: f64| if x.abs() < 1e-9 * (last - first).abs() { 0.0 } else { rounded(x) };
-                let length = |symbol: &str, x: f64| units.length_equals(symbol, &[own(x)]);
+                let snapped = |x: f64| if x.abs() < 1e-9 * (last - first).abs() { 0.0 } else { rounded(x) };
+                let length = |symbol: &str, x: f64| units.length_equals(symbol, &[snapped(x)]);
                 let place = [length("s", s), length("z", z)].join(", ");
                 format!("{} at {place}", units.pressure_equals(symbol, &[rounded(value)]))
             })
@@ -188,9 +188,9 @@ impl<'a> SectionPicture<'a> {
     fn failure_words(&self) -> String {
         let snapshot = self.snapshot;
         let failing = |(number, (criterion, _)): (usize, &(Criterion, [f64; 2]))| {
-            let own = snapshot.strength.iter().find(|own| own.criterion == *criterion);
-            let is_open =
-                snapshot.failing != Some(*criterion) && own.is_some_and(|own| own.verdict == Verdict::Undecided);
+            let utilisation = snapshot.strength.iter().find(|utilisation| utilisation.criterion == *criterion);
+            let is_open = snapshot.failing != Some(*criterion)
+                && utilisation.is_some_and(|utilisation| utilisation.verdict == Verdict::Undecided);
             format!("{number}: {criterion}{}", if is_open { " (undecided by its error)" } else { "" })
         };
         let failing: Vec<String> = (1..).zip(&self.failures).map(failing).collect();
@@ -260,7 +260,8 @@ fn failures(snapshot: &Snapshot, sections: &[VerticalSection]) -> Vec<(Criterion
         let s = places.find(|s| (first..=last).contains(s)).filter(|_| z <= deepest)?;
         Some((utilisation.criterion, [s, SIGNS[part] * z]))
     };
-    let fails = |own: &&Utilisation| own.value >= FAILING || snapshot.failing == Some(own.criterion);
+    let fails =
+        |utilisation: &&Utilisation| utilisation.value >= FAILING || snapshot.failing == Some(utilisation.criterion);
     snapshot.strength.iter().filter(fails).filter_map(in_plane).collect()
 }
 
@@ -353,14 +354,14 @@ mod tests {
             canvas.marks.iter().filter_map(text).collect::<Vec<_>>().join(" ")
         };
         let (thin, thick) = (words(0.02), words(0.2));
-        for own in [
+        for text in [
             "(c) σₛ in the coating",
             "(d) τ₁ in the coating",
             "(c), (d): the coating of (a), (b)",
             "stretched by a factor of 9",
         ] {
-            assert!(thin.contains(own), "no {own}: {thin}");
-            assert!(!thick.contains(own), "{own}: {thick}");
+            assert!(thin.contains(text), "no {text}: {thin}");
+            assert!(!thick.contains(text), "{text}: {thick}");
         }
     }
 }

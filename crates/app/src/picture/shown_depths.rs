@@ -39,7 +39,9 @@ impl ShownDepths {
         }
         let ends: Vec<f64> = coatings()
             .zip(sections)
-            .map(|(coating, section)| coating.map_or(0.0, |own| (BELOW_COATING * own).min(deepest(section))))
+            .map(|(coating, section)| {
+                coating.map_or(0.0, |thickness| (BELOW_COATING * thickness).min(deepest(section)))
+            })
             .collect();
         let top = ends.get(1).map_or(0.0, |above| -above);
         Some(Self::between(sections, [top, ends[0]], COATING_ASPECT, true))
@@ -89,7 +91,8 @@ mod tests {
 
     #[test]
     fn a_coating_of_less_than_a_twelfth_is_shown_once_more() {
-        let shown = |sections: &[VerticalSection]| ShownDepths::coating(sections).map(|own| [own.top, own.bottom]);
+        let shown =
+            |sections: &[VerticalSection]| ShownDepths::coating(sections).map(|depths| [depths.top, depths.bottom]);
         assert_eq!(shown(&[section(140.0, 60.0, Some(3.0))]), Some([0.0, 7.5]));
         assert_eq!(shown(&[section(140.0, 60.0, Some(6.0))]), None);
         assert_eq!(shown(&[section(140.0, 60.0, None)]), None);

@@ -56,7 +56,7 @@ impl Snapshot {
 
     /// The criterion that fails at this load, or else the one with the largest utilisation.
     pub fn governing(&self) -> Option<Criterion> {
-        self.failing.or_else(|| Governing::of(&self.strength).map(|own| own.criterion))
+        self.failing.or_else(|| Governing::of(&self.strength).map(|governing| governing.criterion))
     }
 
     /// Pressure, sample by sample, a₂ fastest.
@@ -85,7 +85,8 @@ impl Snapshot {
 pub fn caption(title: &str, problem: &Problem, units: &Units, more: &[String]) -> String {
     let title = title.trim_end_matches('.');
     let title = if title.is_empty() { String::new() } else { format!("{title}. ") };
-    let above = problem.bodies().counterbody().map(|own| format!("counterbody {}", materials(own, units)));
+    let above =
+        problem.bodies().counterbody().map(|counterbody| format!("counterbody {}", materials(counterbody, units)));
     let parts = [materials(problem.half_space(), units)]
         .into_iter()
         .chain(above)
@@ -107,14 +108,14 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
     let mut parts = Vec::new();
     for (number, layer) in (1..).zip(half_space.layers()) {
         let index = lowered(number);
-        let own = if single { "" } else { &index };
+        let suffix = if single { "" } else { &index };
         let mut part = before(layer.material());
         let stiffness = match half_space.substrate().material() {
-            Some(base) => Some(equals(&format!("χ{own}"), &[layer.material().shear() / base.shear()])),
-            None => young_words(layer.material(), own, units),
+            Some(base) => Some(equals(&format!("χ{suffix}"), &[layer.material().shear() / base.shear()])),
+            None => young_words(layer.material(), suffix, units),
         };
         let others = [
-            units.length_equals(&format!("h{own}"), &[layer.thickness()]),
+            units.length_equals(&format!("h{suffix}"), &[layer.thickness()]),
             equals(
                 &format!("ν{}", if half_space.material_count() == 1 { "" } else { &index }),
                 &[layer.material().poisson()],
@@ -122,7 +123,7 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
         ];
         part += &stiffness.into_iter().chain(others).collect::<Vec<_>>().join(", ");
         if layer.residual_stress() != 0.0 {
-            part += &format!(", {}", units.pressure_equals(&format!("σᵣ{own}"), &[layer.residual_stress()]));
+            part += &format!(", {}", units.pressure_equals(&format!("σᵣ{suffix}"), &[layer.residual_stress()]));
         }
         match layer.interface() {
             Interface::Bonded => {}
@@ -162,8 +163,8 @@ fn many_layers(half_space: &HalfSpace, units: &Units) -> String {
         let count = layers.iter().filter(|layer| is(&layer.interface())).count();
         (count > 0).then(|| format!("{count} {name} interface{}", if count > 1 { "s" } else { "" }))
     };
-    parts.extend(interfaces("frictionless", |own| matches!(own, Interface::Frictionless)));
-    parts.extend(interfaces("spring", |own| matches!(own, Interface::Spring { .. })));
+    parts.extend(interfaces("frictionless", |interface| matches!(interface, Interface::Frictionless)));
+    parts.extend(interfaces("spring", |interface| matches!(interface, Interface::Spring { .. })));
     parts.join(", ")
 }
 
@@ -175,8 +176,8 @@ fn before(material: Material) -> String {
 fn substrate_words(half_space: &HalfSpace, units: &Units) -> String {
     let Some(substrate) = half_space.substrate().material() else { return "rigid base".to_owned() };
     let index = reference_index(half_space);
-    let own = before(substrate) + &equals(&format!("ν{index}"), &[substrate.poisson()]);
-    std::iter::once(own).chain(young_words(substrate, &index, units)).collect::<Vec<_>>().join(", ")
+    let poisson = before(substrate) + &equals(&format!("ν{index}"), &[substrate.poisson()]);
+    std::iter::once(poisson).chain(young_words(substrate, &index, units)).collect::<Vec<_>>().join(", ")
 }
 
 /// Young's modulus; `None` where pressures are relative to one.
@@ -216,8 +217,8 @@ fn geometry(problem: &Problem, units: &Units) -> Option<String> {
     let cell = problem.cell();
     let mut parts = Vec::new();
     if let Some(sides) = cell.window_sides() {
-        let own = if sides[0] == sides[1] { &sides[..1] } else { &sides };
-        parts.push(format!("isolated, window {}", units.length_equals("w", own)));
+        let shown = if sides[0] == sides[1] { &sides[..1] } else { &sides };
+        parts.push(format!("isolated, window {}", units.length_equals("w", shown)));
     } else if is_oblique(&cell) {
         parts.push(cell_vectors(&cell, units));
     }

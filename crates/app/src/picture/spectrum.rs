@@ -13,8 +13,8 @@ use std::f64::consts::TAU;
 /// The picture; `None` for a flat surface. `random`: the prescribed parameters of a generated surface.
 pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Option<&SelfAffine>) -> Option<Canvas> {
     let heights = topography.own_heights();
-    let own = Spectrum::of(topography.cell(), heights.view()).ok()?;
-    let rings: Vec<[f64; 2]> = own.radial().iter().map(|ring| [ring.wavenumber, ring.density]).collect();
+    let spectrum = Spectrum::of(topography.cell(), heights.view()).ok()?;
+    let rings: Vec<[f64; 2]> = spectrum.radial().iter().map(|ring| [ring.wavenumber, ring.density]).collect();
     let most = rings.iter().map(|[_, density]| *density).fold(0.0, f64::max);
     // Rounding errors of vanishing waves are left out.
     let rings: Vec<[f64; 2]> = rings.into_iter().filter(|[_, density]| *density > 1e-20 * most).collect();
@@ -24,7 +24,9 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
         Curve { label, points, errors: Vec::new(), style, colour }
     };
     let (mut curves, mut marks) = (Vec::new(), Vec::new());
-    if let Some((surface, density)) = random.and_then(|own| Some((own, own.density(topography.cell()).ok()?))) {
+    if let Some((surface, density)) =
+        random.and_then(|surface| Some((surface, surface.density(topography.cell()).ok()?)))
+    {
         let ends = [surface.longest, surface.shortest].map(|length| TAU / length);
         let at = |k: u32| ends[0] * (ends[1] / ends[0]).powf(f64::from(k) / 200.0);
         let prescribed = (0..=200).map(|k| [at(k), density(at(k))]).collect();
@@ -49,7 +51,7 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
          square ⟨h²⟩ of the heights; SurfaceTopography's C is 4π² times this one.{}",
         if title.is_empty() { String::new() } else { format!("{title}. ") },
         units.length().with_unit(statistics.rms_height, |x| format!("Rms height {}", short(x))),
-        short(own.rms_slope()),
+        short(spectrum.rms_slope()),
         if random.is_some() { " Dotted: the longest and the shortest wave, and the roll-off." } else { "" }
     );
     Some(plots(&caption, &[chart]))

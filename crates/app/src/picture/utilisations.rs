@@ -53,7 +53,7 @@ fn limit_marks(limit: &Limit, colour: Ink, most: f64) -> Vec<Curve> {
 /// largest value.
 pub(super) fn utilisation_axis(steps: &[StepRecord]) -> Axis {
     let all = || steps.iter().flat_map(|step| &step.strength);
-    let values = all().map(|own| own.value).filter(|value| value.is_finite() && *value > 0.0);
+    let values = all().map(|utilisation| utilisation.value).filter(|value| value.is_finite() && *value > 0.0);
     let (least, most) = values.fold((1.0f64, 1.0f64), |(least, most), value| (least.min(value), most.max(value)));
     let reach = all().map(Utilisation::most).filter(|most| most.is_finite()).fold(most, f64::max);
     Axis::log("utilisation").from_to(least.max(0.01) / 1.2, reach.min(10.0 * most) * 1.2)
@@ -68,14 +68,16 @@ pub(super) fn utilisation_curves(
 ) -> Vec<Curve> {
     let curve = |criterion: Criterion| {
         let point = |step: &StepRecord| {
-            let own = step.utilisation(criterion).map(|own| own.value);
-            [step.reading.load(quantity), own.filter(|value| value.is_finite()).unwrap_or(f64::NAN)]
+            let value = step.utilisation(criterion).map(|utilisation| utilisation.value);
+            [step.reading.load(quantity), value.filter(|value| value.is_finite()).unwrap_or(f64::NAN)]
         };
-        let error = |step: &StepRecord| step.utilisation(criterion).and_then(|own| own.error).unwrap_or(f64::NAN);
+        let error = |step: &StepRecord| {
+            step.utilisation(criterion).and_then(|utilisation| utilisation.error).unwrap_or(f64::NAN)
+        };
         (steps.iter().map(point).collect(), steps.iter().map(error).collect())
     };
     let criteria: Vec<Criterion> = criteria.into_iter().collect();
-    let own = criteria.iter().enumerate().map(|(index, &criterion)| {
+    let curves = criteria.iter().enumerate().map(|(index, &criterion)| {
         let (style, colour) = drawn(criterion, index, &criteria);
         let (points, errors) = curve(criterion);
         // Markers show the steps of short paths.
@@ -92,16 +94,17 @@ pub(super) fn utilisation_curves(
         style: Style::Dashed,
         colour: 0.into(),
     };
-    own.chain([failure]).collect()
+    curves.chain([failure]).collect()
 }
 
 /// Style and colour of a criterion: solid lines in the order of the criteria, or, for more criteria than colours, styles by the kind
 /// of failure and colours by depth, those of the counterbody behind those of the body.
 fn drawn(criterion: Criterion, index: usize, all: &[Criterion]) -> (Style, Ink) {
     let place = |criterion: &Criterion| match *criterion {
-        Criterion::Yield(own) | Criterion::Cracking(own) | Criterion::Crossland(own) | Criterion::DangVan(own) => {
-            (own.is_counterbody(), own.number)
-        }
+        Criterion::Yield(material)
+        | Criterion::Cracking(material)
+        | Criterion::Crossland(material)
+        | Criterion::DangVan(material) => (material.is_counterbody(), material.number),
         Criterion::Delamination(interface) => (interface.is_counterbody(), interface.number),
     };
     let body = all.iter().map(place).filter(|(above, _)| !above).map(|(_, number)| number).max().unwrap_or(0);
@@ -132,9 +135,10 @@ mod tests {
             (1..=3).map(move |number| MaterialId { side: Some(side), ..MaterialId::numbered(number) })
         });
         let all: Vec<Criterion> = ids.flat_map(|id| [Criterion::Yield(id), Criterion::Cracking(id)]).collect();
-        let drawn: Vec<(Style, Ink)> = all.iter().enumerate().map(|(index, &own)| drawn(own, index, &all)).collect();
-        for (index, own) in drawn.iter().enumerate() {
-            assert!(!drawn[..index].contains(own), "{}: {own:?}", all[index]);
+        let drawn: Vec<(Style, Ink)> =
+            all.iter().enumerate().map(|(index, &criterion)| drawn(criterion, index, &all)).collect();
+        for (index, pair) in drawn.iter().enumerate() {
+            assert!(!drawn[..index].contains(pair), "{}: {pair:?}", all[index]);
         }
     }
 }

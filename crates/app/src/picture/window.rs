@@ -64,13 +64,13 @@ impl View {
         Self { window: around(cell, [long.min(most); 2]), is_part: long > 2.0 * most }
     }
 
-    /// Its width or height over that of a whole, the larger one.
+    /// Width or height of the view over that of a whole, the larger one.
     pub fn part_of(&self, whole: &Self) -> f64 {
         let length = |view: &Self, k: usize| view.window[k][1] - view.window[k][0];
         (length(self, 0) / length(whole, 0)).max(length(self, 1) / length(whole, 1))
     }
 
-    /// Height over width of its plot.
+    /// Height over width of the plot.
     pub fn aspect(&self) -> f64 {
         self.true_aspect().clamp(Self::ASPECT[0], Self::ASPECT[1])
     }
@@ -145,7 +145,7 @@ mod tests {
                 for view in [View::cells(cell), View::one(cell)] {
                     assert!((0.45..=1.6).contains(&view.aspect()), "{view:?}");
                     let [width, height] = view.window.map(|[first, last]| last - first);
-                    // As many cells at most, whole or in parts.
+                    // The most cells shown, whole or in parts.
                     assert!(width > 0.0 && width * height <= (2.0 * ROWS + 1e-6) * cell.area(), "{cell} {view:?}");
                     let is_true = (view.stretch() - 1.0).abs() < 1e-9;
                     assert_eq!(view.words().contains("Not to scale"), !is_true);

@@ -60,7 +60,8 @@ pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Marku
             means: "Relative difference from the prescribed mean pressure, force or penetration.",
         },
     ];
-    let entry = |own: &Condition| vec![tag("dt", margin(own, at_rounding)), tag("dd", own.means)].into();
+    let entry =
+        |condition: &Condition| vec![tag("dt", margin(condition, at_rounding)), tag("dd", condition.means)].into();
     let entries: Markup = conditions.iter().map(entry).collect();
     let converged = steps.iter().filter(|step| step.converged()).count();
     let text = if converged == steps.len() && at_rounding {
@@ -78,16 +79,16 @@ pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Marku
 }
 
 /// A quantity with the ratio of its limit to it; `at_rounding`: whether a step has stopped at rounding.
-fn margin(own: &Condition, at_rounding: bool) -> Markup {
-    let value = if own.value == 0.0 { "0".to_owned() } else { format!("{:.1e}", own.value) };
-    let Some(below) = own.below else { return format!("{}: {value}", own.name).into() };
-    let distance = match below / own.value {
-        ratio if own.value == 0.0 || ratio > 1e6 => "zero to rounding".to_owned(),
+fn margin(condition: &Condition, at_rounding: bool) -> Markup {
+    let value = if condition.value == 0.0 { "0".to_owned() } else { format!("{:.1e}", condition.value) };
+    let Some(below) = condition.below else { return format!("{}: {value}", condition.name).into() };
+    let distance = match below / condition.value {
+        ratio if condition.value == 0.0 || ratio > 1e6 => "zero to rounding".to_owned(),
         ratio if ratio >= 10.0 => format!("{ratio:.0} times below"),
         ratio if ratio > 1.0 => format!("{ratio:.1} times below"),
         ratio if ratio.is_finite() && at_rounding => format!("{:.1} times above, by rounding", 1.0 / ratio),
         ratio if ratio.is_finite() => format!("{:.1} times above, not met", 1.0 / ratio),
         _ => "not a number".to_owned(),
     };
-    format!("{}: {value}; its limit is {below:.0e}: {distance}", own.name).into()
+    format!("{}: {value}; its limit is {below:.0e}: {distance}", condition.name).into()
 }

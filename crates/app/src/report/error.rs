@@ -45,7 +45,7 @@ pub enum ReportError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it, as the words behind its name.
+        /// The damage of the file, as the words behind its name.
         reason: String,
     },
     /// A file cannot be read.

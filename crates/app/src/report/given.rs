@@ -14,7 +14,7 @@ pub(super) fn values(key: &SweptKey) -> String {
 }
 
 pub(super) fn value(key: &SweptKey, row: &Row) -> Option<String> {
-    let (_, text) = row.settings.iter().find(|(own, _)| *own == key.key)?;
+    let (_, text) = row.settings.iter().find(|(name, _)| *name == key.key)?;
     Some(shown(text, is_short(key)))
 }
 

@@ -12,7 +12,7 @@ impl Markup {
     }
 
     /// HTML that is not escaped: percoat's own stylesheet, never a text of a result.
-    pub(super) fn own(text: &str) -> Self {
+    pub(super) fn unescaped(text: &str) -> Self {
         Self(text.to_owned())
     }
 

@@ -60,7 +60,7 @@ fn written(parts: &[Part], missing: &[String]) -> String {
             ],
         ),
         tag("title", format!("{heading} – percoat")),
-        tag("style", Markup::own(include_str!("style.css"))),
+        tag("style", Markup::unescaped(include_str!("style.css"))),
     ];
     let doubt = |text: &String| with("p", &[("class", "doubt"), ("role", "note")], format!("{text}; it is not shown."));
     let doubts = missing.iter().map(doubt).collect::<Markup>();

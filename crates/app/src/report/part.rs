@@ -46,7 +46,7 @@ pub(super) fn warnings(list: &[String]) -> Markup {
 /// The case of a result as TOML.
 ///
 /// # Errors
-/// Where it is not a case.
+/// The reason why `case` is not a case.
 pub(super) fn case_text(case: &Value) -> Result<String, String> {
     if !case.is_object() {
         return Err("`case` is missing, or no table".to_owned());
@@ -70,7 +70,7 @@ pub(super) fn by(version: &str) -> Markup {
     tag("p", format!("Computed by percoat {version}."))
 }
 
-/// What a case assumes, with the default mean lateral stress where it gives none.
+/// Assumptions of a case, with the default mean lateral stress where it gives none.
 fn assumptions(case: &Value) -> Assumptions {
     let mean = match case["stress"]["mean"].as_str() {
         Some("half-space") => MeanStress::HalfSpace,
@@ -89,7 +89,7 @@ fn untested(case: &Value) -> Vec<String> {
     let is_rigid = |part: &Value| part.is_null() || part["rigid"] == true;
     let name = |part: &Value, number: usize| part["name"].as_str().map_or(format!("material {number}"), str::to_owned);
     let of = |layers: &Value, deepest: &Value, side: &str| -> Vec<String> {
-        let parts = layers.as_array().into_iter().flatten().chain(Some(deepest).filter(|own| !is_rigid(own)));
+        let parts = layers.as_array().into_iter().flatten().chain(Some(deepest).filter(|part| !is_rigid(part)));
         let without = (1..).zip(parts).filter(|(_, part)| !has_strength(part));
         without.map(|(number, part)| name(part, number) + side).collect()
     };
@@ -99,7 +99,7 @@ fn untested(case: &Value) -> Vec<String> {
     names
 }
 
-/// What largest stresses, or with them strengths, of a case assume, a paragraph each.
+/// Assumptions of the largest stresses of a case, `with_strength` those of its strengths too, a paragraph each.
 pub(super) fn assumed(case: &Value, with_strength: bool) -> Markup {
-    assumptions(case).sentences(with_strength).into_iter().map(|own| tag("p", upper(&own))).collect()
+    assumptions(case).sentences(with_strength).into_iter().map(|sentence| tag("p", upper(&sentence))).collect()
 }

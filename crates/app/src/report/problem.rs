@@ -83,20 +83,20 @@ fn list<'a>(section: &'a Value, key: &str) -> &'a [Value] {
 
 /// Whether the counterbody is elastic, or its coating.
 pub(super) fn is_elastic(case: &Value) -> bool {
-    let own = &case["counterbody"];
-    !(own.is_null() || on_rigid_base(own) && list(own, "layers").is_empty())
+    let counterbody = &case["counterbody"];
+    !(counterbody.is_null() || on_rigid_base(counterbody) && list(counterbody, "layers").is_empty())
 }
 
 /// The layers of a body and its substrate as one table, with the numbers of their materials.
 fn materials(caption: &str, layers: &[Value], substrate: &Value) -> Markup {
-    let substrate = Some(substrate.clone()).filter(|own| !on_rigid_base(own));
+    let substrate = (!on_rigid_base(substrate)).then(|| substrate.clone());
     let body: Vec<Value> = layers.iter().cloned().chain(substrate).collect();
     let name = |number: usize| {
-        let own = if number > layers.len() { "substrate".to_owned() } else { format!("layer\u{a0}{number}") };
+        let part = if number > layers.len() { "substrate".to_owned() } else { format!("layer\u{a0}{number}") };
         let above: usize = layers.iter().take(number - 1).map(sublayers).sum();
         match layers.get(number - 1).map_or(1, sublayers) {
-            1 => format!("{}\u{a0}({own})", above + 1),
-            several => format!("{} to {} ({own})", above + 1, above + several),
+            1 => format!("{}\u{a0}({part})", above + 1),
+            several => format!("{} to {} ({part})", above + 1, above + several),
         }
     };
     items(caption, "material", &body, name)
@@ -116,16 +116,16 @@ fn on_rigid_base(substrate: &Value) -> bool {
 fn sentence(case: &Value) -> String {
     let (subject, is_one) = counterbody(case);
     let above = match coating(list(&case["counterbody"], "layers").len()) {
-        own if own.is_empty() => own,
-        own => format!("; the counterbody is one{own}"),
+        coating if coating.is_empty() => coating,
+        coating => format!("; the counterbody is one{coating}"),
     };
     let body = match coating(list(case, "layers").len()) {
         _ if on_rigid_base(&case["substrate"]) => match list(case, "layers").len() {
             1 => "an elastic layer on a rigid base".to_owned(),
             layers => format!("{layers} elastic layers on a rigid base"),
         },
-        own if own.is_empty() => "an uncoated elastic half-space".to_owned(),
-        own => format!("an elastic half-space{own}"),
+        coating if coating.is_empty() => "an uncoated elastic half-space".to_owned(),
+        coating => format!("an elastic half-space{coating}"),
     };
     if kind_of(case).is_given {
         return format!("A given pressure acts on {body}.");
@@ -169,7 +169,7 @@ fn counterbody(case: &Value) -> (String, bool) {
 
 /// A list of the case as one table: a row an item, a column for every key of any item.
 fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> String) -> Markup {
-    let known = |key: &str| FRONT.iter().position(|own| *own == key).unwrap_or(FRONT.len());
+    let known = |key: &str| FRONT.iter().position(|front| *front == key).unwrap_or(FRONT.len());
     let mut keys: Vec<&String> = Vec::new();
     for key in items.iter().filter_map(Value::as_object).flat_map(Map::keys) {
         if !keys.contains(&key) {
@@ -207,7 +207,7 @@ fn entries(section: &str, value: &Value, words: &AroundWords) -> Vec<(String, St
 }
 
 fn named(key: &str) -> String {
-    NAMES.iter().find(|(own, _)| *own == key).map_or_else(|| key.replace('_', " "), |(_, name)| (*name).to_owned())
+    NAMES.iter().find(|(known, _)| *known == key).map_or_else(|| key.replace('_', " "), |(_, name)| (*name).to_owned())
 }
 
 /// Most items of a list that is shown whole.

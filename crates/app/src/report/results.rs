@@ -31,7 +31,7 @@ const SHOWN: [&str; 5] = ["summary.json", "limit.json", "life.json", "sweep.json
 pub(super) struct Swept {
     /// `sweep.json`.
     pub description: Description,
-    /// Its combinations, by ascending number.
+    /// Rows of the combinations, by ascending number.
     pub rows: Vec<Row>,
 }
 

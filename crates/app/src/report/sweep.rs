@@ -46,7 +46,8 @@ pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError
         with("p", &[("class", class)], done(description)),
         sentences(rows, keys, &units).into(),
         reasons(rows),
-        best_and_worst(rows, &units).map_or(Markup::default(), |own| table(&sentence(&own.words), &own.table)),
+        best_and_worst(rows, &units)
+            .map_or(Markup::default(), |ranking| table(&sentence(&ranking.words), &ranking.table)),
         ranges(rows, keys, &units),
         table("Keys of the case and their values", &given),
     ];
@@ -122,7 +123,7 @@ fn shown(rows: &[Row], keys: &[SweptKey], quantity: LoadQuantity) -> Markup {
     });
     let all: Vec<Shown<'_>> = all.collect();
     let columns = columns(rows, keys, quantity);
-    let cells = |own: &Shown<'_>| columns.iter().map(|(_, cell)| cell(*own).unwrap_or("–".to_owned())).collect();
+    let cells = |shown: &Shown<'_>| columns.iter().map(|(_, cell)| cell(*shown).unwrap_or("–".to_owned())).collect();
     let head: Vec<&String> = columns.iter().map(|(words, _)| words).collect();
     let what = if are_limits(rows) {
         format!("One row a combination: the {} of each limit", quantity.name())
@@ -139,26 +140,26 @@ fn shown(rows: &[Row], keys: &[SweptKey], quantity: LoadQuantity) -> Markup {
 fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey], quantity: LoadQuantity) -> Vec<(String, Cell<'a>)> {
     let mut columns: Vec<(String, Cell<'a>)> = Vec::new();
     let mut add = |name: String, cell: Cell<'a>| columns.push((name, cell));
-    add("combination".to_owned(), Box::new(|own| Some(own.row.combination.to_string())));
+    add("combination".to_owned(), Box::new(|shown| Some(shown.row.combination.to_string())));
     for key in keys {
-        add(key.key.clone(), Box::new(|own| value(key, own.row)));
+        add(key.key.clone(), Box::new(|shown| value(key, shown.row)));
     }
-    add("status".to_owned(), Box::new(|own| Some(own.row.status.name().replace('_', " "))));
+    add("status".to_owned(), Box::new(|shown| Some(shown.row.status.name().replace('_', " "))));
     let criteria = criteria(rows);
     let steps = || rows.iter().flat_map(|row| &row.results).filter_map(SweepResult::step);
     if criteria.is_empty() {
-        add("step".to_owned(), Box::new(|own| own.result.map(|_| own.number.to_string())));
+        add("step".to_owned(), Box::new(|shown| shown.result.map(|_| shown.number.to_string())));
         if steps().any(|step| step.governing.is_some()) {
-            add("what governs".to_owned(), Box::new(|own| own.result?.foremost_in_words()));
-            let verdict = |own: Shown<'_>| Some(own.result?.step()?.governing.as_ref()?.verdict);
-            add("does it fail".to_owned(), Box::new(move |own| verdict(own).as_ref().map(Verdict::to_string)));
+            add("what governs".to_owned(), Box::new(|shown| shown.result?.foremost_in_words()));
+            let verdict = |shown: Shown<'_>| Some(shown.result?.step()?.governing.as_ref()?.verdict);
+            add("does it fail".to_owned(), Box::new(move |shown| verdict(shown).as_ref().map(Verdict::to_string)));
         }
     } else {
-        add("fails first".to_owned(), Box::new(|own| own.result?.foremost_in_words()));
+        add("fails first".to_owned(), Box::new(|shown| shown.result?.foremost_in_words()));
     }
     for criterion in criteria {
         let name = criterion.map_or("first limit".to_owned(), |criterion| criterion.to_string());
-        let limit = move |own: Shown<'_>| own.result?.limit_value(criterion).as_ref().map(LimitValue::to_string);
+        let limit = move |shown: Shown<'_>| shown.result?.limit_value(criterion).as_ref().map(LimitValue::to_string);
         add(name, Box::new(limit));
     }
     for quantity in shown_with(quantity).filter(|quantity| steps().any(|step| stated(*quantity, step).is_some())) {

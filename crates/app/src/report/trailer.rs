@@ -23,7 +23,7 @@ pub(super) fn with_trailer(page: &str) -> String {
 /// # Errors
 /// When it cannot be read.
 pub fn is_own(path: &Path) -> io::Result<bool> {
-    if disk::found(path)?.is_some_and(|own| !own.is_file()) {
+    if disk::found(path)?.is_some_and(|metadata| !metadata.is_file()) {
         return Ok(false);
     }
     let bytes = disk::read(path)?;
@@ -47,6 +47,6 @@ mod tests {
         assert!(is(&page));
         assert!(!is(&page.replace("0.01", "0.02")) && !is(&format!("{page}\n")) && !is("mine") && !is(""));
         assert!(!is(&page[..page.len() - TRAILER.after.len()]));
-        assert!(is_own(folder.path()).is_ok_and(|own| !own));
+        assert!(is_own(folder.path()).is_ok_and(|is_own| !is_own));
     }
 }

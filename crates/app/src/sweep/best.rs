@@ -69,9 +69,9 @@ fn merits(load: LoadQuantity) -> [Merit; 6] {
 }
 
 /// The first limit; where nothing fails, the least load up to which a criterion was followed, as a bound.
-fn first_limit(own: &SweepResult) -> Option<LimitValue> {
-    own.limit_value(None).or_else(|| {
-        let loads = own.limits()?.iter().filter_map(|limit| match limit.into() {
+fn first_limit(result: &SweepResult) -> Option<LimitValue> {
+    result.limit_value(None).or_else(|| {
+        let loads = result.limits()?.iter().filter_map(|limit| match limit.into() {
             LimitValue::Above(load) => Some(load),
             _ => None,
         });
@@ -122,14 +122,15 @@ fn ends<'a>(rows: &[&'a Row], merit: &Merit) -> Option<Ends<'a>> {
         let order = load(*a).unwrap_or(0.0).total_cmp(&load(*b).unwrap_or(0.0));
         if merit.more { order.reverse() } else { order }
     });
-    let is_unlimited = |own: &Ranked<'_>| matches!(own.0, LimitValue::Above(_));
+    let is_unlimited = |ranked: &Ranked<'_>| matches!(ranked.0, LimitValue::Above(_));
     // Loads of one size: what reaches no limit up to there bears more.
-    let mut best = *values.iter().find(|own| !matches!(own.0, LimitValue::Below(_)))?;
-    if let Some(own) = values.iter().find(|own| is_unlimited(own) && load(own.0) >= load(best.0)) {
-        best = *own;
+    let mut best = *values.iter().find(|ranked| !matches!(ranked.0, LimitValue::Below(_)))?;
+    if let Some(ranked) = values.iter().find(|ranked| is_unlimited(ranked) && load(ranked.0) >= load(best.0)) {
+        best = *ranked;
     }
-    let worst = *values.iter().rfind(|own| !is_unlimited(own))?;
-    let unlimited = values.iter().filter(|own| is_unlimited(own) && own.1.combination != best.1.combination).count();
+    let worst = *values.iter().rfind(|ranked| !is_unlimited(ranked))?;
+    let unlimited =
+        values.iter().filter(|ranked| is_unlimited(ranked) && ranked.1.combination != best.1.combination).count();
     (best.1.combination != worst.1.combination).then_some(Ends { best, worst, unlimited })
 }
 
@@ -216,8 +217,8 @@ mod tests {
     #[test]
     fn the_best_limit_is_the_highest_and_one_below_the_grid_the_worst() {
         let yields = Criterion::yield_of(1);
-        let own = [reached(yields, 0.2, 0.01), reached(yields, 0.7, 0.01), below(yields, 0.1)];
-        let lines = lines(&limits(&own));
+        let limit_loads = [reached(yields, 0.2, 0.01), reached(yields, 0.7, 0.01), below(yields, 0.1)];
+        let lines = lines(&limits(&limit_loads));
         assert_eq!(lines[1], "first limit, mean pressure best 0.70 ± 0.01 GPa 2: a = 2.0000");
         assert_eq!(lines[2], "worst < 0.10000 GPa 3: a = 3.0000");
     }
@@ -226,7 +227,7 @@ mod tests {
     fn what_reaches_no_limit_is_the_best_where_it_was_loaded_as_far() {
         let yields = Criterion::yield_of(1);
         let [least, most] = [reached(yields, 0.2, 0.01), reached(yields, 0.7, 0.01)];
-        let best = |own: &[Limit]| lines(&limits(own))[1].clone();
+        let best = |each: &[Limit]| lines(&limits(each))[1].clone();
         assert_eq!(
             best(&[least, most, never(yields, 2.0)]),
             "first limit, mean pressure best > 2.0000 GPa 3: a = 3.0000"
@@ -241,8 +242,8 @@ mod tests {
     #[test]
     fn utilisations_come_before_stresses_and_no_more_than_three_results_are_ranked() {
         let one = |n: usize| {
-            let own = Utilisation::new(Criterion::yield_of(1), 0.1 * n as f64, Some(0.01), [0.0; 3]);
-            row(n, &[("a", n.to_string())], vec![strained(vec![own])])
+            let utilisation = Utilisation::new(Criterion::yield_of(1), 0.1 * n as f64, Some(0.01), [0.0; 3]);
+            row(n, &[("a", n.to_string())], vec![strained(vec![utilisation])])
         };
         let lines = lines(&[one(1), one(2)]);
         assert_eq!(lines[1], "largest utilisation best 0.10 ± 0.01 1: a = 1");

@@ -50,11 +50,11 @@ impl<'a> Study<'a> {
         Self::read(source, fixed, (combinations, task), room, room.memory)?.unless_all_are_refused()
     }
 
-    /// The same for a sweep whose combinations are solved elsewhere, each as a [part](Self::part): of the `memory` of this machine, in
-    /// bytes, it needs that of all results alone.
+    /// Reads the case of every combination, as [`Study::new`], for solutions elsewhere, each as a [part](Self::part): of the
+    /// `memory` of this machine, bytes, the sweep needs that of all results alone.
     ///
     /// # Errors
-    /// Those of [`Study::new`].
+    /// [`StudyError`], as of [`Study::new`].
     pub fn elsewhere(
         source: &'a Source,
         fixed: &'a [String],

@@ -11,7 +11,7 @@ const MOST: usize = 1_000_000;
 /// Values of the keys of a sweep for which the case is solved once.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Combination {
-    /// Its number in the whole sweep, from 1.
+    /// Number of the combination in the whole sweep, from 1.
     pub number: usize,
     /// One value for each key of the sweep.
     pub values: Vec<String>,
@@ -37,7 +37,7 @@ pub enum CombinationsError {
     /// A key is given twice.
     #[error("`{0}` is given twice; give a key once, with all its values: --set {0}=V1,V2,…")]
     Twice(String),
-    /// The same values are given twice.
+    /// A value, or a row of values, is given twice.
     #[error("{0} is given twice, and would be solved twice: give every value, or row of values, once")]
     Repeated(String),
     /// Keys to be paired have different numbers of values.
@@ -52,7 +52,7 @@ pub enum CombinationsError {
         /// Number of its values.
         other_count: usize,
     },
-    /// There are more than a million.
+    /// More than a million combinations.
     #[error("{0} combinations are more than {MOST}: sweep over fewer values")]
     TooMany(String),
     /// The table cannot be read.
@@ -311,7 +311,7 @@ mod tests {
     fn numbers_make_no_kind_of_their_own_but_counts_and_words_do() {
         let kinds = |texts: &[&str]| {
             let all = product(texts);
-            all.kinds(3).map(|kinds| kinds.iter().map(|(own, count)| (own.number, *count)).collect::<Vec<_>>())
+            all.kinds(3).map(|kinds| kinds.iter().map(|(kind, count)| (kind.number, *count)).collect::<Vec<_>>())
         };
         assert_eq!(kinds(&["a=1:2:50", "b=3:4:20"]), Some(vec![(1, 1000)]));
         assert_eq!(kinds(&["a=1:2:50", "load.mean_pressure.steps=5,7"]), Some(vec![(1, 50), (2, 50)]));
@@ -322,9 +322,13 @@ mod tests {
     #[test]
     fn parts_are_disjoint_and_make_up_the_whole() {
         let whole = product(&["a=1:7:7"]);
-        let mut numbers: Vec<usize> =
-            (1..=3).flat_map(|part| whole.clone().shard(part, 3).all.into_iter().map(|own| own.number)).collect();
-        assert_eq!(whole.clone().shard(2, 3).all.iter().map(|own| own.number).collect::<Vec<_>>(), [2, 5]);
+        let mut numbers: Vec<usize> = (1..=3)
+            .flat_map(|part| whole.clone().shard(part, 3).all.into_iter().map(|combination| combination.number))
+            .collect();
+        assert_eq!(
+            whole.clone().shard(2, 3).all.iter().map(|combination| combination.number).collect::<Vec<_>>(),
+            [2, 5]
+        );
         numbers.sort_unstable();
         assert_eq!(numbers, [1, 2, 3, 4, 5, 6, 7]);
     }

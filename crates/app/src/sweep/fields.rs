@@ -50,7 +50,7 @@ pub(super) fn keep(case: &Case, task: &Solve, folder: &Path) -> Result<Ended, Ou
     let (_, mut clock) = recording.finish()?;
     write_scalars(&claim.staging(), case, &outcome, &warnings, clock.timing())?;
     claim.publish()?;
-    // Its files are part of the sweep's result.
+    // The files of the combination are part of the sweep's result.
     let files = release(folder)?;
     Ok(Ended::solved(Solved { outcome, warnings }).leaving(files))
 }

@@ -33,10 +33,10 @@ impl Study<'_> {
         let (mut found, mut by_print, log) = (Known::default(), HashMap::new(), from.join(SWEEP_LOG));
         for line in read(&log)? {
             match line {
-                Ok(own) if own.row.results.is_empty() => {}
-                Ok(own) => {
+                Ok(logged) if logged.row.results.is_empty() => {}
+                Ok(logged) => {
                     found.solved += 1;
-                    by_print.insert(own.row.fingerprint.clone(), own.row);
+                    by_print.insert(logged.row.fingerprint.clone(), logged.row);
                 }
                 Err(damage) => found.damaged.push(format!("{}, {damage}", plain::path(&log))),
             }
@@ -84,7 +84,7 @@ impl Study<'_> {
             let folder = folder_of(row.combination);
             let place = to.join(&folder);
             output::make_folder(&place)?;
-            let planned = self.planned.iter().find(|own| own.combination.number == row.combination);
+            let planned = self.planned.iter().find(|planned| planned.combination.number == row.combination);
             for name in planned.map_or(&[][..], |planned| &planned.files) {
                 let [old, new] = [from, to].map(|place| place.join(&folder).join(name));
                 if row.files.has(name) && disk::link(&old, &new).is_err() {

@@ -44,7 +44,7 @@ pub struct Logged {
 pub struct Damage {
     /// Number of the line, from 1.
     pub line: usize,
-    /// Its damage.
+    /// The damage of the line.
     pub reason: String,
 }
 
@@ -129,7 +129,9 @@ fn logged(line: usize, text: &str) -> Result<Logged, Damage> {
 /// Whether a line has results without their kind, as versions before [`SweepResult`](super::SweepResult) wrote them.
 fn is_of_earlier_version(line: &str) -> bool {
     let line: Value = serde_json::from_str(line).unwrap_or_default();
-    line["results"][0].as_object().is_some_and(|own| ["step", "limits"].iter().all(|kind| !own.contains_key(*kind)))
+    line["results"][0]
+        .as_object()
+        .is_some_and(|result| ["step", "limits"].iter().all(|kind| !result.contains_key(*kind)))
 }
 
 #[cfg(test)]
@@ -149,7 +151,8 @@ mod tests {
     #[test]
     fn a_log_is_read_back_bit_for_bit_but_for_what_a_kill_left_of_a_line() {
         let folder = tempfile::tempdir().unwrap();
-        let rows = |path: &Path| -> Vec<Row> { read(path).unwrap().into_iter().map(|own| own.unwrap().row).collect() };
+        let rows =
+            |path: &Path| -> Vec<Row> { read(path).unwrap().into_iter().map(|line| line.unwrap().row).collect() };
         let mut log = Log::begin(folder.path(), "1-2", &[row(1)]).unwrap();
         log.add(&row(2)).unwrap();
         // Killed within a letter.
@@ -161,7 +164,7 @@ mod tests {
         let mut log = Log::begin(folder.path(), "1-2", &rows(&path)).unwrap();
         log.add(&row(3)).unwrap();
         assert_eq!(rows(&path), [row(1), row(2), row(3)]);
-        assert!(read(&path).unwrap().iter().all(|own| own.as_ref().unwrap().sweep == "1-2"));
+        assert!(read(&path).unwrap().iter().all(|line| line.as_ref().unwrap().sweep == "1-2"));
     }
 
     #[test]
@@ -184,9 +187,9 @@ mod tests {
         ] {
             std::fs::write(&path, [lines[0], &second, lines[2]].concat()).unwrap();
             let found = read(&path).unwrap();
-            for (number, own) in (1..).zip(&found) {
-                match own {
-                    Ok(own) => assert!(!damaged.contains(&number) && own.line == number, "{second}"),
+            for (number, line) in (1..).zip(&found) {
+                match line {
+                    Ok(logged) => assert!(!damaged.contains(&number) && logged.line == number, "{second}"),
                     Err(damage) => {
                         assert!(damaged.contains(&number) && damage.line == number, "{second}");
                         assert!(damage.to_string().contains(words), "{damage}");

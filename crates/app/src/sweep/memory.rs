@@ -25,7 +25,7 @@ const LISTED: u64 = 16;
 pub(super) fn of_results(case: &Case, task: Task) -> u64 {
     let bodies = case.problem().bodies();
     let criteria = Criterion::all(bodies).len();
-    let layers: usize = bodies.each().map(|own| own.layers().len()).sum();
+    let layers: usize = bodies.each().map(|body| body.layers().len()).sum();
     let scalars = match task {
         Task::Limit => STEP + PEAK * (criteria + 1),
         Task::Solve => {
@@ -41,7 +41,7 @@ pub(super) fn of_results(case: &Case, task: Task) -> u64 {
         }
     };
     let sites: usize = case.levels.iter().flat_map(|level| &level.sites).map(Vec::len).sum();
-    let stress = case.stress.as_ref().map_or(0, |own| 3 * own.points.len() + own.planes.len());
+    let stress = case.stress.as_ref().map_or(0, |request| 3 * request.points.len() + request.planes.len());
     let listed = 2 * sites + stress + case.load.values().len();
     CASE + PART * (layers + case.levels.len()) as u64 + LISTED * listed as u64 + SCALAR * scalars as u64
 }

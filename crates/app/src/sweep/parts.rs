@@ -27,7 +27,7 @@ pub enum PartError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// Its damage.
+        /// The damage of the file, as the words behind its name.
         reason: String,
     },
     /// Two parts have different results of one combination.
@@ -88,10 +88,10 @@ impl Part {
             return Err(damaged(&log, ", which has the rows of the sweep, is missing".to_owned()));
         }
         let (whole, identity) = (lines.len(), description.identity());
-        let line = |own: Result<Logged, Damage>| {
-            let own = own.map_err(|damage| damaged(&log, format!(", {damage}")))?;
-            let (number, combination) = (own.line, own.row.combination);
-            if own.sweep != identity {
+        let line = |logged: Result<Logged, Damage>| {
+            let logged = logged.map_err(|damage| damaged(&log, format!(", {damage}")))?;
+            let (number, combination) = (logged.line, logged.row.combination);
+            if logged.sweep != identity {
                 let reason = format!(
                     ", line {number}: combination {combination} is not of the sweep that sweep.json beside it describes"
                 );
@@ -101,7 +101,7 @@ impl Part {
                 let of = description.of;
                 return Err(damaged(&log, format!(", line {number}: there is no combination {combination} of {of}")));
             }
-            Ok(own)
+            Ok(logged)
         };
         let lines = lines.into_iter().map(line).collect::<Result<Vec<_>, _>>()?;
         if !is_staging(place) && whole != description.combinations {
@@ -111,9 +111,9 @@ impl Part {
         Ok(Some(Self { description, log, lines }))
     }
 
-    /// Its rows, by ascending number.
+    /// Rows of the part, by ascending number.
     pub fn rows(self) -> Vec<Row> {
-        let mut rows: Vec<Row> = self.lines.into_iter().map(|own| own.row).collect();
+        let mut rows: Vec<Row> = self.lines.into_iter().map(|logged| logged.row).collect();
         rows.sort_by_key(|row| row.combination);
         rows
     }
@@ -132,17 +132,17 @@ pub fn join(parts: Vec<Part>) -> Result<(Vec<Row>, usize), PartError> {
             match rows.entry(row.combination) {
                 Entry::Vacant(place) => drop(place.insert((at, row))),
                 Entry::Occupied(mut there) => {
-                    let (first, own) = there.get();
-                    let is_same_case = own.fingerprint == row.fingerprint && own.settings == row.settings;
+                    let (first, known) = there.get();
+                    let is_same_case = known.fingerprint == row.fingerprint && known.settings == row.settings;
                     // Two solutions have the same results, unless one of them failed. In JSON a number that is none equals itself.
-                    let is_equal = || json!(own.results) == json!(row.results);
-                    let is_alike = own.results.is_empty() || row.results.is_empty() || is_equal();
+                    let is_equal = || json!(known.results) == json!(row.results);
+                    let is_alike = known.results.is_empty() || row.results.is_empty() || is_equal();
                     if !is_same_case || !is_alike {
                         let (first, named) = (first.clone(), row.named());
                         return Err(PartError::Unlike { first, second: at, named });
                     }
-                    twice += usize::from(!own.results.is_empty() && !row.results.is_empty());
-                    if own.results.is_empty() {
+                    twice += usize::from(!known.results.is_empty() && !row.results.is_empty());
+                    if known.results.is_empty() {
                         there.insert((at, row));
                     }
                 }
@@ -161,15 +161,15 @@ mod tests {
 
     /// One row of a part, with one step.
     fn logged(penetration: f64) -> Logged {
-        let mut own = step(0.2, None, 0.5);
-        (own.reading.penetration, own.stop) = (penetration, Stop::NotANumber);
-        Logged { line: 1, sweep: String::new(), row: row(1, &[], vec![SweepResult::Step(Box::new(own))]) }
+        let mut record = step(0.2, None, 0.5);
+        (record.reading.penetration, record.stop) = (penetration, Stop::NotANumber);
+        Logged { line: 1, sweep: String::new(), row: row(1, &[], vec![SweepResult::Step(Box::new(record))]) }
     }
 
     #[test]
     fn equal_results_are_joined_where_a_number_is_none() {
         let description = || Description::new("", "", super::super::Task::Solve, String::new(), 1);
-        let part = |own| Part { description: description(), log: PathBuf::new(), lines: vec![own] };
+        let part = |line| Part { description: description(), log: PathBuf::new(), lines: vec![line] };
         assert_eq!(join(vec![part(logged(f64::NAN)), part(logged(f64::NAN))]).unwrap().1, 1);
         assert!(join(vec![part(logged(f64::NAN)), part(logged(0.1))]).is_err());
     }

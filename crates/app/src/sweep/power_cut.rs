@@ -13,7 +13,7 @@ use percoat_common::machine::Capacity;
 use std::collections::HashSet;
 use std::path::Path;
 
-/// For every part of the changes that may have come to the disk.
+/// Power cuts with every part of the changes that may have come to the disk.
 #[test]
 fn after_a_power_cut_the_fields_of_every_combination_of_the_log_are_whole() {
     let source = embedded::source("fig2").unwrap();
@@ -45,7 +45,7 @@ fn after_a_power_cut_the_fields_of_every_combination_of_the_log_are_whole() {
         std::fs::write(found.path().join(SWEEP_LOG), within(SWEEP_LOG).unwrap_or_default()).unwrap();
         // Whole lines are those of combinations, or damaged in whatever way and no rows.
         let lines = read(&found.path().join(SWEEP_LOG)).unwrap();
-        let rows: Vec<Row> = lines.into_iter().flatten().map(|own| own.row).collect();
+        let rows: Vec<Row> = lines.into_iter().flatten().map(|logged| logged.row).collect();
         assert!(rows.len() >= told.iter().filter(|images| **images <= index).count());
         for name in rows.iter().flat_map(|row| {
             ["contact.npz", "case.toml", "summary.json"].map(|name| format!("{}/{name}", folder_of(row.combination)))

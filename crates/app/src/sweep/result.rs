@@ -150,7 +150,7 @@ impl SweepResult {
         Some(format!("{criterion}{}", within_the_errors(&self.rivals())))
     }
 
-    /// Its cells in `sweep.csv`: the scalars of a step, or the first limit under `first` and each under its name.
+    /// Cells of a result in `sweep.csv`: scalars of a step, or the first limit under `first` and each under its name.
     pub(super) fn cells(&self) -> Cells {
         let limits = match self {
             Self::Step(step) => return scalars(&json!(step)),
@@ -178,13 +178,14 @@ impl SweepResult {
 }
 
 impl Foremost {
-    /// What comes first in each of the results, with the number of results; the most frequent first.
+    /// Counts of what comes first in each of the results; the most frequent first.
     pub fn counted<'a>(results: impl Iterator<Item = &'a SweepResult>) -> Vec<(Self, usize)> {
         let all: Vec<Self> = results.filter_map(SweepResult::foremost).collect();
-        let criterion = |own: &Self| if let Self::Criterion(criterion) = own { Some(*criterion) } else { None };
+        let criterion =
+            |foremost: &Self| if let Self::Criterion(criterion) = foremost { Some(*criterion) } else { None };
         let named = Criterion::distinct(all.iter().filter_map(criterion)).into_iter().map(Self::Criterion);
-        let mut counts: BTreeMap<Self, usize> = named.map(|own| (own, 0)).collect();
-        all.into_iter().for_each(|own| *counts.entry(own).or_default() += 1);
+        let mut counts: BTreeMap<Self, usize> = named.map(|foremost| (foremost, 0)).collect();
+        all.into_iter().for_each(|foremost| *counts.entry(foremost).or_default() += 1);
         let mut counted: Vec<(Self, usize)> = counts.into_iter().collect();
         counted.sort_by_key(|(_, count)| usize::MAX - count);
         counted
@@ -220,7 +221,7 @@ impl From<&Limit> for LimitValue {
     }
 }
 
-/// As in tables: 0.007 ± 0.003, < 0.01 or > 2.
+/// The value as in tables: 0.007 ± 0.003, < 0.01 or > 2.
 impl fmt::Display for LimitValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
@@ -248,7 +249,7 @@ mod tests {
             .map(|(name, load)| SweepResult::Limits(vec![reached(named(name), load, 0.01)]));
         let criteria = SweepResult::criteria(results.iter());
         assert_eq!(criteria.iter().map(Criterion::to_string).collect::<Vec<_>>(), ["yield of material 2"]);
-        assert!(results.iter().all(|own| matches!(own.limit_value(Some(criteria[0])), Some(LimitValue::At(..)))));
+        assert!(results.iter().all(|result| matches!(result.limit_value(Some(criteria[0])), Some(LimitValue::At(..)))));
         let counted = Foremost::counted(results.iter());
         assert_eq!((counted.len(), counted[0].1, counted[0].0.to_string()), (1, 2, "yield of material 2".to_owned()));
         assert_eq!(results[0].limit_value(Some(Criterion::cracking_of(2))), None);
@@ -262,11 +263,11 @@ mod tests {
             shown_with(quantity).filter_map(|shown| Some((shown.named().name, stated(shown, step)?.value))).collect()
         };
         let peak = ("peak pressure", 2.0);
-        let own = [("force", 3.0), ("penetration", 2.0), ("contact area", 1.5), peak];
-        assert_eq!(values(&isolated, LoadQuantity::Force), own);
-        assert_eq!(values(&isolated, LoadQuantity::MeanPressure), own[1..]);
-        let own = [("mean pressure", 0.1), ("penetration", 2.0), ("fraction in contact", 0.5), peak];
-        assert_eq!(values(&periodic, LoadQuantity::MeanPressure), own);
+        let expected = [("force", 3.0), ("penetration", 2.0), ("contact area", 1.5), peak];
+        assert_eq!(values(&isolated, LoadQuantity::Force), expected);
+        assert_eq!(values(&isolated, LoadQuantity::MeanPressure), expected[1..]);
+        let expected = [("mean pressure", 0.1), ("penetration", 2.0), ("fraction in contact", 0.5), peak];
+        assert_eq!(values(&periodic, LoadQuantity::MeanPressure), expected);
         assert_eq!(values(&periodic, LoadQuantity::Force)[0], ("force", 0.1));
     }
 
@@ -291,7 +292,7 @@ mod tests {
     fn the_cells_of_limits_are_the_first_and_each_under_its_name() {
         let [yields, parts] = [Criterion::yield_of(2), Criterion::delamination_of(1)];
         let cells = SweepResult::Limits(vec![reached(yields, 0.2, 0.05), reached(parts, 0.24, 0.01)]).cells();
-        let cell = |name: &str| cells.iter().find(|(own, _)| own == name).map(|(_, cell)| cell.clone());
+        let cell = |name: &str| cells.iter().find(|(column, _)| column == name).map(|(_, cell)| cell.clone());
         for (name, value) in [
             ("first_criterion", json!("yield")),
             ("first_material", json!(2)),

@@ -17,12 +17,12 @@ pub enum Status {
     Done,
     /// Something did not converge; the results are there.
     NotConverged,
-    /// There are no results.
+    /// No results: the solution failed.
     Failed,
 }
 
 impl Status {
-    /// Its code in tables.
+    /// Code of the status in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Done => "done",
@@ -35,7 +35,7 @@ impl Status {
 /// A finished combination: a line of `sweep.jsonl`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Its number in the sweep, from 1.
+    /// Number of the combination in the sweep, from 1.
     pub combination: usize,
     /// Each key of the sweep with its value as typed.
     pub settings: Vec<(String, String)>,
@@ -47,11 +47,11 @@ pub struct Row {
     pub reason: Option<String>,
     /// Doubts about the results.
     pub warnings: Vec<String>,
-    /// Its load steps, or one result with the limits; none where it failed.
+    /// A result for each load step, or one with the limits; none where the combination failed.
     pub results: Vec<SweepResult>,
     /// Wall time, seconds.
     pub seconds: f64,
-    /// Its files by their names in its folder, where fields are kept.
+    /// Files of the combination by their names in its folder, where fields are kept.
     #[serde(default, skip_serializing_if = "Files::is_empty")]
     pub files: Files,
 }
@@ -95,7 +95,7 @@ impl Ended {
         Self { status, reason, warnings, results, files: Files::default() }
     }
 
-    /// The same with the files of its fields.
+    /// The ending with the files of its fields.
     pub(super) fn leaving(self, files: Files) -> Self {
         Self { files, ..self }
     }
@@ -127,13 +127,13 @@ impl Row {
         Ok(())
     }
 
-    /// Its number and settings in words.
+    /// Number and settings of the combination in words.
     pub fn named(&self) -> String {
         let settings: Vec<String> = self.settings.iter().map(|(key, value)| format!("{key}={value}")).collect();
         format!("combination {} ({})", self.combination, settings.join(", "))
     }
 
-    /// Its lines in `sweep.csv`: one for each load step, or a single one.
+    /// Lines of the combination in `sweep.csv`: one for each load step, or a single one.
     pub fn cells(&self) -> Vec<Cells> {
         let cell = |name: &str, value: Value| (name.to_owned(), value);
         let line = |(step, results): (Option<usize>, Cells)| {

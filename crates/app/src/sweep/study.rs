@@ -23,7 +23,7 @@ pub enum StudyError {
     /// The case of its first combination is refused.
     #[error(transparent)]
     Case(#[from] CaseError),
-    /// Its first combination cannot be solved, or all together take too much memory.
+    /// The first combination cannot be solved, or all together take too much memory.
     #[error("{0}")]
     Refused(String),
 }
@@ -46,22 +46,23 @@ pub struct Study<'a> {
 pub(super) struct Planned<'a> {
     pub(super) combination: &'a Combination,
     pub(super) fingerprint: String,
-    /// Memory of its solution, bytes.
+    /// Memory of the solution, bytes.
     pub(super) memory: u64,
     pub(super) is_small: bool,
-    /// Names of its files where fields are kept.
+    /// Names of the files of the combination where fields are kept.
     pub(super) files: Vec<String>,
-    /// Its case; `None` where it is refused, and for a topography, whose heights are read again for the solution.
+    /// The case of the combination; `None` where it is refused, and for a topography, whose heights are read again for the
+    /// solution.
     pub(super) case: Option<Box<Case>>,
 }
 
 impl<'a> Study<'a> {
-    /// The same with the fields of every combination kept, as a solved case in `combinations/NNNN`.
+    /// The study with the fields of every combination kept, as a solved case in `combinations/NNNN`.
     pub fn keeping_fields(self) -> Self {
         Self { keeps_fields: true, ..self }
     }
 
-    /// The same, where combinations without fields fail at their next iteration once `stop` is true.
+    /// The study, where combinations without fields fail at their next iteration once `stop` is true.
     pub fn stopped_by(self, stop: Arc<AtomicBool>) -> Self {
         Self { stop, ..self }
     }

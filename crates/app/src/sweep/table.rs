@@ -69,7 +69,7 @@ pub struct Description {
 pub struct SweptKey {
     /// The key as in the case file.
     pub key: String,
-    /// Its values in the order of the combinations.
+    /// Values of the key in the order of the combinations.
     pub values: Vec<String>,
 }
 
@@ -112,11 +112,11 @@ impl Description {
         Self::new(&title, &text, task, fingerprint, combinations.all.len())
     }
 
-    /// The same sweep after these rows and a wall time in seconds.
+    /// The description after these rows and a wall time in seconds.
     #[must_use]
     pub fn after(&self, rows: &[Row], wall: f64) -> Self {
         let keys = rows.first().map_or(&[][..], |row| &row.settings).iter().map(|(key, _)| {
-            let all = rows.iter().flat_map(|row| &row.settings).filter(|(own, _)| own == key);
+            let all = rows.iter().flat_map(|row| &row.settings).filter(|(name, _)| name == key);
             SweptKey { key: key.clone(), values: distinct(all.map(|(_, value)| value)) }
         });
         let count = |status: Status| rows.iter().filter(|row| row.status == status).count();
@@ -145,8 +145,8 @@ impl Description {
         let source = Source { name, text, folder: folder.to_owned(), ..Source::default() };
         let first = rows.iter().find(|row| !row.results.is_empty());
         let set = |row: &Row| row.settings.iter().map(|(key, value)| format!("{key}={value}")).collect::<Vec<_>>();
-        let own = first.and_then(|row| Case::read(&source, &set(row)).ok());
-        own.or_else(|| Case::read(&source, &[]).ok())
+        let case = first.and_then(|row| Case::read(&source, &set(row)).ok());
+        case.or_else(|| Case::read(&source, &[]).ok())
     }
 
     /// The keys that change, in words: with the names of the materials of the common case as these rows have it, unless they change.
@@ -156,7 +156,7 @@ impl Description {
             rows.first().map_or(Vec::new(), |row| row.settings.iter().map(|(key, _)| &key[..]).collect());
         let material = |section: &str| {
             let index: usize = section.strip_prefix("layers.")?.parse().ok()?;
-            let changes = ["name", "material"].iter().any(|own| keys.contains(&format!("{section}.{own}").as_str()));
+            let changes = ["name", "material"].iter().any(|key| keys.contains(&format!("{section}.{key}").as_str()));
             let layer = case.as_ref()?.layers.get(index).filter(|_| !changes)?;
             layer.name.clone().or_else(|| layer.material.clone())
         };
@@ -201,7 +201,7 @@ fn distinct<'a>(texts: impl Iterator<Item = &'a String>) -> Vec<String> {
 
 /// A fingerprint of the common case, the settings of all combinations, and every combination.
 pub fn fingerprint(case: &str, fixed: &[String], combinations: &Combinations) -> String {
-    let each = combinations.all.iter().flat_map(|own| &own.values);
+    let each = combinations.all.iter().flat_map(|combination| &combination.values);
     let parts = [case].into_iter().chain(fixed.iter().chain(&combinations.keys).chain(each).map(String::as_str));
     let text = parts.collect::<Vec<_>>().join("\n");
     let (length, checksum) = checksum(&mut text.as_bytes()).expect("what is in memory can be read");

@@ -43,7 +43,7 @@ impl<'a> FindLimits<'a> {
     /// Searches for the loads.
     ///
     /// # Errors
-    /// Those of [`Run::limits`].
+    /// [`RunError`], as of [`Run::limits`].
     pub fn find<R: Recorder>(&self, recorder: &mut R) -> Result<Limited<'a>, RunError<R::Error>> {
         let limits = self.run.limits(&mut Within { allowed: self.allowed, recorder })?;
         let warnings = [limits.warnings.clone(), plausibility::of_case(self.case)].concat();

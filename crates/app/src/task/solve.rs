@@ -41,7 +41,7 @@ impl<'a> Solve<'a> {
     /// Solves the steps one after another.
     ///
     /// # Errors
-    /// Those of [`Run::solve`].
+    /// [`RunError`], as of [`Run::solve`].
     pub fn solve<R: Recorder>(&self, recorder: &mut R) -> Result<Solved, RunError<R::Error>> {
         let outcome = self.run.solve(&mut Within { allowed: self.allowed, recorder })?;
         let warnings = [outcome.warnings.clone(), plausibility::of_case(self.case)].concat();

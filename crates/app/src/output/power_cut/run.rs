@@ -150,7 +150,7 @@ fn a_run_that_a_power_cut_ends_at_any_moment_goes_on_and_ends_as_if_it_had_not_b
     }
 }
 
-/// From the last step on the first grid to the first one on the second, and some moments after that.
+/// Power cuts from the last step on the first grid to the first one on the second, and at some moments after that.
 #[test]
 fn so_does_a_refinement_when_its_finer_grid_begins() {
     let case = case(REFINED);

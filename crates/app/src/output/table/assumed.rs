@@ -23,11 +23,11 @@ fn mean_stress(mean: MeanStress, line: Option<usize>) -> String {
     }
 }
 
-/// What a counterbody without moduli means for utilisations and limit loads.
+/// Sentence on what a counterbody without moduli means for utilisations and limit loads.
 const RIGID: &str = "the indenters are rigid: elastic ones press less sharply, fail in their own ways, and lead to other \
                      limits; a section [counterbody] with `young` and `poisson`, or `material`, makes them elastic";
 
-/// What largest stresses and limit loads of a case assume.
+/// Assumptions of the largest stresses and limit loads of a case.
 #[derive(Debug, Clone)]
 pub struct Assumptions {
     /// The mean lateral stress; `None` of an isolated contact, which has none.
@@ -43,7 +43,7 @@ pub struct Assumptions {
 }
 
 impl Assumptions {
-    /// Those of a case.
+    /// Assumptions of a case.
     pub fn of(case: &Case) -> Self {
         let problem = case.problem();
         Self {
@@ -73,7 +73,7 @@ impl Assumptions {
 
     /// The sentences in lines of at most `width` letters.
     pub(super) fn lines(&self, with_strength: bool, width: usize) -> String {
-        self.sentences(with_strength).iter().map(|own| lines(own, width)).collect()
+        self.sentences(with_strength).iter().map(|sentence| lines(sentence, width)).collect()
     }
 }
 
@@ -82,11 +82,12 @@ impl Assumptions {
 pub fn library_strengths(case: &Value) -> Vec<String> {
     let all = LibraryStrength::of_case(case);
     let unit = case["units"]["pressure"].as_str().unwrap_or_default();
-    let of = |own: &LibraryStrength| {
-        let known = [own.what.map(str::to_owned), own.range.map(|[low, high]| format!("{low} to {high} {unit}"))];
+    let of = |strength: &LibraryStrength| {
+        let known =
+            [strength.what.map(str::to_owned), strength.range.map(|[low, high]| format!("{low} to {high} {unit}"))];
         let known = known.into_iter().flatten().collect::<Vec<_>>().join(", ");
         let known = if known.is_empty() { known } else { format!(" ({known})") };
-        format!("{} of {} {} {unit}{known}", own.key.replace('_', " "), own.material, own.value)
+        format!("{} of {} {} {unit}{known}", strength.key.replace('_', " "), strength.material, strength.value)
     };
     if all.is_empty() {
         return Vec::new();
@@ -94,7 +95,7 @@ pub fn library_strengths(case: &Value) -> Vec<String> {
     let told = all.iter().map(of).collect::<Vec<_>>().join("; ");
     let told =
         format!("strengths of the library, not of your part: {told}; percoat materials NAME states their sources");
-    let brittle = all.iter().any(|own| own.key == "tensile_strength");
+    let brittle = all.iter().any(|strength| strength.key == "tensile_strength");
     [Some(told), brittle.then(|| BARS.to_owned())].into_iter().flatten().collect()
 }
 
@@ -106,7 +107,7 @@ const BARS: &str = "a tensile strength of the library is that of bars, which bre
 fn untested(bodies: &Bodies) -> Vec<String> {
     let of = |body: &HalfSpace| -> Vec<String> {
         let strengths = (1..).zip(body.strengths());
-        let without = strengths.filter(|(_, own)| own.yielding.is_none() && own.tensile.is_none());
+        let without = strengths.filter(|(_, strength)| strength.yielding.is_none() && strength.tensile.is_none());
         without.map(|(number, _)| body.material_id(number).to_string()).collect()
     };
     let mut names: Vec<String> = bodies.each().flat_map(of).collect();

@@ -67,8 +67,8 @@ pub(super) fn by_step(
 
 /// The place, and where it is undecided within the errors the other one.
 fn places(length: &Prefixed, found: QuantityInStep) -> String {
-    let own = place(length, found.position);
-    found.rival.map_or(own.clone(), |rival| format!("{own} or at {}", place(length, rival)))
+    let first = place(length, found.position);
+    found.rival.map_or(first.clone(), |rival| format!("{first} or at {}", place(length, rival)))
 }
 
 /// Coordinates x, y, z; those below a millionth of the largest are shown as zero.

@@ -17,7 +17,7 @@ struct Hertz {
 }
 
 impl Hertz {
-    /// Under a `force`, of a ball of this radius on bodies with the contact modulus E*.
+    /// The contact under a `force` of a ball of this radius on bodies with the contact modulus E*.
     fn new(force: f64, ball: f64, modulus: f64) -> Self {
         let radius = (0.75 * force * ball / modulus).cbrt();
         Self { radius, peak: 1.5 * force / (PI * radius * radius), approach: radius * radius / ball }
@@ -43,10 +43,10 @@ pub fn hertz(case: &Case, steps: &[StepRecord], units: &Units) -> Option<[String
         units.length().with_unit(hertz.radius, number),
         units.length().with_unit(hertz.approach, number),
     ];
-    let own = step.reading.levels.first()?;
+    let level = step.reading.levels.first()?;
     let changes: Vec<String> = [
-        change("the peak pressure", own.finite_peak(), Some(hertz.peak)),
-        change("the contact radius", own.contact_radius, Some(hertz.radius)),
+        change("the peak pressure", level.finite_peak(), Some(hertz.peak)),
+        change("the contact radius", level.contact_radius, Some(hertz.radius)),
         change("the penetration", Some(penetration), Some(hertz.approach)),
     ]
     .into_iter()

@@ -1,4 +1,4 @@
-//! What happens to a body pass after pass.
+//! Events of a body pass after pass.
 
 use super::{Table, lives};
 use crate::output::LifeFile;
@@ -15,17 +15,17 @@ pub fn events(events: &[Event], units: &Units) -> Option<Table> {
     if events.is_empty() {
         return None;
     }
-    let length = units.length().suited(events.iter().flat_map(|own| [own.depth, own.thickness, own.removed]));
-    let way = units.length().suited(events.iter().filter_map(|own| own.distance));
-    let is_known = events.iter().any(|own| own.distance.is_some());
+    let length = units.length().suited(events.iter().flat_map(|event| [event.depth, event.thickness, event.removed]));
+    let way = units.length().suited(events.iter().filter_map(|event| event.distance));
+    let is_known = events.iter().any(|event| event.distance.is_some());
     let mut header = vec!["passes".to_owned(), "event".to_owned(), "what fails".to_owned()];
     header.extend(is_known.then(|| way.headed("distance")));
     header.extend(["depth", "layers left", "removed"].map(|name| length.headed(name)));
-    let row = |own: &Event| {
+    let row = |event: &Event| {
         let shown = |x: f64| number(length.shown(x));
-        let mut row = vec![number(own.passes), own.what.to_string(), own.part.to_string()];
-        row.extend(is_known.then(|| own.distance.map_or(String::new(), |own| number(way.shown(own)))));
-        row.extend([own.depth, own.thickness, own.removed].map(shown));
+        let mut row = vec![number(event.passes), event.what.to_string(), event.part.to_string()];
+        row.extend(is_known.then(|| event.distance.map_or(String::new(), |distance| number(way.shown(distance)))));
+        row.extend([event.depth, event.thickness, event.removed].map(shown));
         row
     };
     let mut rows: Vec<Vec<String>> = events.iter().map(row).collect();
@@ -48,16 +48,19 @@ pub fn headline(file: &LifeFile, units: &Units) -> String {
         let slid = first.distance.map(|slid| units.length().with_unit(slid, number));
         slid.map_or(String::new(), |slid| format!(", after sliding {slid}"))
     };
-    let foreseen = lives(&file.steps, units).map(|own| own.words);
+    let foreseen = lives(&file.steps, units).map(|lives| lives.words);
     let Some(first) = &file.first else {
-        let passes = file.wear.last().map_or(0.0, |own| own.passes);
+        let passes = file.wear.last().map_or(0.0, |last| last.passes);
         return format!("nothing is worn through in {} passes; no fatigue law is given", number(passes));
     };
-    // Of the unworn surfaces, as the steps have it.
-    let is_foreseen = file.criteria.iter().any(|own| own.life.part == first.part && own.life.passes == first.passes);
+    // The life of the unworn surfaces, as the steps have it.
+    let is_foreseen = file
+        .criteria
+        .iter()
+        .any(|criterion| criterion.life.part == first.part && criterion.life.passes == first.passes);
     match (first.kind, foreseen) {
         (FirstKind::Fatigue | FirstKind::Delamination, Some(words)) if is_foreseen => {
-            let worn = file.wear.iter().any(|own| own.body_depth > 0.0 || own.counterbody_depth > 0.0);
+            let worn = file.wear.iter().any(|state| state.body_depth > 0.0 || state.counterbody_depth > 0.0);
             match (file.events.is_empty() && worn, file.wear.last()) {
                 (true, Some(last)) => format!(
                     "nothing fails in {} passes, as the surfaces wear; unworn: {words}{}",
@@ -78,7 +81,8 @@ pub fn headline(file: &LifeFile, units: &Units) -> String {
     }
 }
 
-/// What is left at the end, in a line, or that nothing ever fails; `None` where it was followed only to the first failure.
+/// Layers left at the end, in a line, or that nothing ever fails; `None` where the life was followed only to the first
+/// failure.
 pub fn left(file: &LifeFile, units: &Units) -> Option<String> {
     let (last, end) = (file.wear.last()?, file.end?);
     let length = |x: f64| units.length().with_unit(x, number);

@@ -1,4 +1,4 @@
-//! What hardness has pressed in, step by step.
+//! Depths pressed in for good where the pressure reaches the hardness, step by step.
 
 use super::{DETAILED, Table};
 use crate::output::number::{in_unit, number};
@@ -13,16 +13,18 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
     let readings = || steps.iter().filter_map(|step| Some((step, step.plastic.as_ref()?)));
     let (_, last) = readings().next_back()?;
     let hardness = units.pressure().with_unit(last.hardness, number);
-    let pressed: Vec<(&StepRecord, &PlasticReading)> = readings().filter(|(_, own)| own.is_pressed_in()).collect();
+    let pressed: Vec<(&StepRecord, &PlasticReading)> =
+        readings().filter(|(_, reading)| reading.is_pressed_in()).collect();
     if pressed.is_empty() {
         let most = readings().map(|(step, _)| step.reading.grid_peak()).fold(0.0, f64::max);
         let part = 100.0 * most / last.hardness;
         let beneath = readings().filter_map(|(step, _)| step.beneath).next_back();
-        let beneath = beneath.map_or(String::new(), |own| {
-            let [pressure, hardness] = [own.pressure, own.hardness].map(|x| units.pressure().with_unit(x, number));
+        let beneath = beneath.map_or(String::new(), |beneath| {
+            let [pressure, hardness] =
+                [beneath.pressure, beneath.hardness].map(|x| units.pressure().with_unit(x, number));
             format!(
                 ", but {pressure} reaches {} beneath, of hardness {hardness}: the elastic answer has ended",
-                own.material
+                beneath.material
             )
         });
         let at = if last.hardness_depth.is_some() { " at the penetration of the last step" } else { "" };
@@ -32,9 +34,9 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
     }
     let shown = if pressed.len() > DETAILED { &pressed[pressed.len() - 1..] } else { &pressed[..] };
     let load = units.load().suited(shown.iter().map(|(step, _)| step.reading.load(units.quantity())));
-    let area = units.area().suited(shown.iter().map(|(_, own)| own.area));
-    let length = units.length().suited(shown.iter().flat_map(|(_, own)| [own.depth, own.permanent_depth]));
-    let pressure = units.pressure().suited(shown.iter().map(|(_, own)| own.hardness));
+    let area = units.area().suited(shown.iter().map(|(_, reading)| reading.area));
+    let length = units.length().suited(shown.iter().flat_map(|(_, reading)| [reading.depth, reading.permanent_depth]));
+    let pressure = units.pressure().suited(shown.iter().map(|(_, reading)| reading.hardness));
     let is_composite = last.hardness_depth.is_some();
     let header = [
         load.headed(units.quantity().name()),

@@ -36,17 +36,21 @@ pub fn utilisations(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units
 /// at or below the latter.
 fn in_words(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units) -> Option<String> {
     let (quantity, symbol) = (units.quantity(), units.quantity().symbol());
-    let at_rest = |bodies| Criterion::all(bodies).into_iter().find(|own| own.at_rest(bodies) >= 1.0);
+    let at_rest = |bodies| Criterion::all(bodies).into_iter().find(|criterion| criterion.at_rest(bodies) >= 1.0);
     if let Some(criterion) = bodies.and_then(at_rest) {
         return Some(format!("first: {criterion}, without load, by residual stress alone"));
     }
-    let taken =
-        || steps.iter().flat_map(|step| step.strength.iter().map(move |own| (step.reading.load(quantity), own)));
+    let taken = || {
+        steps
+            .iter()
+            .flat_map(|step| step.strength.iter().map(move |utilisation| (step.reading.load(quantity), utilisation)))
+    };
     let told = |load: f64| units.load().with_unit(load, number);
     let least = |loads: &mut dyn Iterator<Item = f64>| loads.min_by(f64::total_cmp);
-    let fails = least(&mut taken().filter(|(_, own)| own.verdict == Verdict::Fails).map(|(load, _)| load));
+    let fails =
+        least(&mut taken().filter(|(_, utilisation)| utilisation.verdict == Verdict::Fails).map(|(load, _)| load));
     let Some(above) = fails else {
-        let open = taken().any(|(_, own)| own.verdict == Verdict::Undecided);
+        let open = taken().any(|(_, utilisation)| utilisation.verdict == Verdict::Undecided);
         // The step with the largest utilisation.
         let reach = |step: &&StepRecord| step.strength.iter().map(Utilisation::most).fold(0.0, f64::max);
         let with_strength = steps.iter().filter(|step| !step.strength.is_empty());
@@ -57,14 +61,16 @@ fn in_words(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units) -> Opt
     };
     // Every criterion that may fail up to there may be the first, also between the steps; the one of least load, and at that
     // load of largest value, is named first.
-    let may = |load: f64, own: &Utilisation| load <= above && own.verdict != Verdict::Holds;
-    let mut first: Vec<(f64, &Utilisation)> = taken().filter(|(load, own)| may(*load, own)).collect();
+    let may = |load: f64, utilisation: &Utilisation| load <= above && utilisation.verdict != Verdict::Holds;
+    let mut first: Vec<(f64, &Utilisation)> = taken().filter(|(load, utilisation)| may(*load, utilisation)).collect();
     let open = least(&mut first.iter().map(|(load, _)| *load)).unwrap_or(above);
-    let rank = |(load, own): &(f64, &Utilisation)| (if own.value >= 1.0 { *load } else { f64::INFINITY }, -own.value);
+    let rank = |(load, utilisation): &(f64, &Utilisation)| {
+        (if utilisation.value >= 1.0 { *load } else { f64::INFINITY }, -utilisation.value)
+    };
     first.sort_by(|a, b| rank(a).0.total_cmp(&rank(b).0).then(rank(a).1.total_cmp(&rank(b).1)));
     let mut names: Vec<String> = Vec::new();
-    for (_, own) in first {
-        let name = own.criterion.to_string();
+    for (_, utilisation) in first {
+        let name = utilisation.criterion.to_string();
         if !names.contains(&name) {
             names.push(name);
         }

@@ -46,12 +46,12 @@ impl Table {
         Self { head: head.iter().map(ToString::to_string).collect(), rows, words, keys: vec![0] }
     }
 
-    /// With other columns that name a row.
+    /// The table with other columns that name a row.
     pub(super) fn keyed(self, keys: &[usize]) -> Self {
         Self { keys: keys.to_vec(), ..self }
     }
 
-    /// With the sentences of the first column broken into rows, so that the table has at most `width` letters if possible.
+    /// The table with the sentences of the first column broken into rows: at most `width` letters wide if possible.
     pub fn wrapped(self, width: usize) -> Self {
         /// Fewest letters of a broken line.
         const LEAST: usize = 32;
@@ -89,10 +89,10 @@ impl Table {
         let fits = |columns: &[usize]| columns.iter().map(|&index| self.wide(index)).sum::<usize>() <= width + 1;
         let mut parts: Vec<Vec<usize>> = vec![self.keys.clone()];
         for index in (0..self.head.len()).filter(|index| !self.keys.contains(index)) {
-            let own = parts.last_mut().expect("there is a part from the beginning");
-            own.push(index);
-            if !fits(own) && own.len() > self.keys.len() + 1 {
-                own.pop();
+            let part = parts.last_mut().expect("there is a part from the beginning");
+            part.push(index);
+            if !fits(part) && part.len() > self.keys.len() + 1 {
+                part.pop();
                 parts.push([&self.keys[..], &[index]].concat());
             }
         }

@@ -51,11 +51,11 @@ impl Keys {
             {
                 let load = |step: &StepRecord| units.load_equals(&[step.reading.load(units.quantity())]);
                 let load = result.step().filter(|_| steps > 1).map(load);
-                let (own, label) = if steps > 1 { (step, format!("step {}", step + 1)) } else { (at, label.clone()) };
+                let (place, label) = if steps > 1 { (step, format!("step {}", step + 1)) } else { (at, label.clone()) };
                 let begun = || SweepCurve { label, load: load.clone(), points: Vec::new() };
-                let curve = curves.entry(own).or_insert_with(begun);
+                let curve = curves.entry(place).or_insert_with(begun);
                 // A step whose load differs between rows is labelled by its number.
-                curve.load.take_if(|own| Some(&*own) != load.as_ref());
+                curve.load.take_if(|common| Some(&*common) != load.as_ref());
                 let found = shown.measured(result).unwrap_or(Measured::exact(f64::NAN));
                 curve.points.push(([x, found.value], found.error.unwrap_or(f64::NAN)));
             }

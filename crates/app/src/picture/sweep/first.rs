@@ -1,4 +1,4 @@
-//! Which criterion comes first, over two keys of a sweep: a map in colours, with their names below it.
+//! Map of the criterion that comes first, over two keys of a sweep: in colours, with the names of the criteria below.
 
 use crate::sweep::Foremost;
 use percoat_draw::canvas::{Anchor, Canvas};

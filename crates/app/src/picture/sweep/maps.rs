@@ -72,14 +72,14 @@ impl Keys {
         field.iter().zip(bounds).zip(doubts).map(sign).collect()
     }
 
-    /// What the last results of the rows have, cell by cell: first the lowest row.
+    /// Values of the last results of the rows, cell by cell: first the lowest row.
     fn field<T: Copy>(&self, rows: &[Row], value: impl Fn(&SweepResult) -> Option<T>) -> MapValues<T> {
         let Some(up) = &self.pair else { return Vec::new() };
         let mut field = vec![None; self.along.1.len() * up.1.len()];
         for row in rows {
             let place = |(index, values): &(usize, Vec<f64>)| {
-                let own = number(row, *index)?;
-                values.iter().position(|value| *value == own)
+                let given = number(row, *index)?;
+                values.iter().position(|value| *value == given)
             };
             if let (Some(i), Some(j)) = (place(&self.along), place(up)) {
                 field[j * self.along.1.len() + i] = row.results.last().and_then(&value);
@@ -101,7 +101,7 @@ fn bar(shown: &Number, values: &[f64]) -> Bar {
     let positive = least(&mut values.iter().copied().filter(|value| *value > 0.0));
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let label = shown.quantity.wordless();
-    // What is 0 has the colour of the least that is not, and a word.
+    // A value of 0 has the colour of the least that is not, and a word.
     if low >= 0.0 && high > WIDE * positive {
         return Bar {
             span: [positive, high],
@@ -150,7 +150,7 @@ impl<'a> Plane<'a> {
 
 /// The cells of an axis around its values.
 struct AxisCells {
-    /// Their places.
+    /// Values of the key, one in each cell.
     values: Vec<f64>,
     /// Borders, one more than values.
     borders: Vec<f64>,

@@ -47,7 +47,8 @@ pub fn sweep(title: &str, units: &Units, keys: &[NamedKey], rows: &[Row]) -> Opt
         words.extend(left_out);
         return keys.maps(rows, &numbers, &(words.join("; ") + "."));
     }
-    let (charts, counts): (Vec<Chart>, Vec<usize>) = numbers.iter().map(|own| keys.chart(rows, own, units)).unzip();
+    let (charts, counts): (Vec<Chart>, Vec<usize>) =
+        numbers.iter().map(|number| keys.chart(rows, number, units)).unzip();
     let firsts = Foremost::counted(rows.iter().filter_map(|row| row.results.last()));
     let firsts: Vec<String> = firsts.iter().map(|(first, count)| format!("{first} in {count}")).collect();
     let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.step().is_some());
@@ -63,12 +64,13 @@ pub fn sweep(title: &str, units: &Units, keys: &[NamedKey], rows: &[Row]) -> Opt
     Some(plots(&format!("{}.{bars}", words.join("; ")), &charts))
 }
 
-/// In how many combinations the errors leave something open; empty where they do nowhere.
+/// Numbers of combinations in which the errors leave something open, in words; empty where they do nowhere.
 fn undecided(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
     let last = || rows.iter().filter_map(|row| row.results.last());
     let sign = if is_map { "?: " } else { "" };
     let first = last().filter(|result| !result.rivals().is_empty()).count();
-    let is_open = |result: &&SweepResult| numbers.iter().any(|own| !own.is_limit() && own.is_undecided(result));
+    let is_open =
+        |result: &&SweepResult| numbers.iter().any(|number| !number.is_limit() && number.is_undecided(result));
     let fails = last().filter(is_open).count();
     let told = |count: usize, what: &str| (count > 0).then(|| format!("{sign}{what} in {count}"));
     [told(first, "the errors leave open what comes first"), told(fails, "the errors leave open whether anything fails")]
@@ -82,9 +84,9 @@ fn unknown(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
     let all = || rows.iter().flat_map(|row| numbers.iter().map(move |shown| (row.results.last(), shown)));
     let value =
         |(result, shown): (Option<&SweepResult>, &Number)| shown.value(result?).filter(|value| value.is_finite());
-    let has = |bound: Bound| all().any(|(result, shown)| result.and_then(|own| shown.bound(own)) == Some(bound));
+    let has = |bound: Bound| all().any(|(result, shown)| result.and_then(|result| shown.bound(result)) == Some(bound));
     let mut words = Vec::new();
-    if all().any(|own| value(own).is_none()) {
+    if all().any(|pair| value(pair).is_none()) {
         let place = if is_map { "grey" } else { "a gap in a curve" };
         words.push(format!("{place}: no number, see the table"));
     }
@@ -201,7 +203,7 @@ mod tests {
             (1..).zip([0.1, 0.2, 0.3]).map(|(n, x)| row(n, &[("x", x.to_string())], steps(x))).collect();
         let units = Units::unknown().named(Some("µm"), Some("GPa")).with_loads_in(LoadQuantity::Force);
         let numbers = numbers(&units, &rows);
-        let names: Vec<&str> = numbers.iter().map(|own| own.quantity.text()).collect();
+        let names: Vec<&str> = numbers.iter().map(|number| number.quantity.text()).collect();
         assert_eq!(names, ["peak pressure p", "penetration δ", "contact area A"]);
         let (chart, _) = keys_of(&rows).unwrap().chart(&rows, &numbers[2], &units);
         let labels: Vec<String> = chart.curves.iter().map(|curve| curve.label.replace('\u{a0}', " ")).collect();
@@ -240,15 +242,15 @@ mod tests {
             (0..9).map(|n| row(n + 1, &set(n), vec![limits(n)])).collect()
         };
         let said = words(picture("", &rows(&limits)));
-        for own in
+        for text in
             ["yield of material 2 (7)", "delamination of interface 1 (1)", "nothing fails (1)", " < ", " > ", "grey:"]
         {
-            assert!(said.contains(own), "no {own}: {said}");
+            assert!(said.contains(text), "no {text}: {said}");
         }
         // From 0.008 to 0.512.
         assert!(said.contains("10⁻²") && said.contains("10⁻¹"), "{said}");
         let said = words(picture("", &rows(&|n| step(1.0 + n as f64))));
-        assert!(!["what comes first", " < ", " > ", "grey"].iter().any(|own| said.contains(own)), "{said}");
+        assert!(!["what comes first", " < ", " > ", "grey"].iter().any(|text| said.contains(text)), "{said}");
     }
 
     #[test]
@@ -299,7 +301,9 @@ mod tests {
         let rows = |limits: usize| -> Vec<Row> {
             let result = |p: usize| {
                 let criteria = (1..=limits).map(Criterion::yield_of);
-                SweepResult::Limits(criteria.zip(p..).map(|(own, load)| reached(own, load as f64, 0.01)).collect())
+                SweepResult::Limits(
+                    criteria.zip(p..).map(|(criterion, load)| reached(criterion, load as f64, 0.01)).collect(),
+                )
             };
             let pairs = (0..9).map(|n| (n, [("a", (n / 3).to_string()), ("b", (n % 3).to_string())]));
             pairs.map(|(n, set)| row(n + 1, &set, vec![result(n)])).collect()

@@ -29,11 +29,11 @@ enum Of {
 /// Bound of a limit without a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bound {
-    /// It is reached below the smallest load that the grid resolves.
+    /// A limit below the smallest load that the grid resolves.
     Below,
-    /// It is not reached.
+    /// A limit that is not reached.
     Above,
-    /// Within its error it may be reached.
+    /// A limit that may be reached within the errors.
     Undecided,
 }
 
@@ -42,12 +42,12 @@ impl Number {
         Self { quantity: units.label(quantity.named()), of: Of::Step(quantity) }
     }
 
-    /// Its value; `None` where the result does not have it, or it is infinite.
+    /// Value of the number; `None` where the result does not have it, or it is infinite.
     pub fn value(&self, result: &SweepResult) -> Option<f64> {
         self.measured(result).map(|found| found.value)
     }
 
-    /// Its value and error; `None` where the result does not have it, or it is infinite.
+    /// Value and error of the number; `None` where the result does not have it, or it is infinite.
     pub fn measured(&self, result: &SweepResult) -> Option<Measured> {
         match self.of {
             Of::Step(quantity) => stated(quantity, result.step()?),
@@ -108,7 +108,7 @@ pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
         of_step(&EXTREMES.tau1),
     ];
     let criteria = SweepResult::criteria(rows.iter().flat_map(|row| &row.results));
-    all.extend(criteria.into_iter().map(|own| limit(&own.to_string(), Some(own))));
+    all.extend(criteria.into_iter().map(|criterion| limit(&criterion.to_string(), Some(criterion))));
     let last = || rows.iter().filter_map(|row| row.results.last());
     all.retain(|number| last().any(|result| number.value(result).is_some()));
     all
