@@ -25,7 +25,7 @@ const HEIGHTS: &str = "<array>.npy";
 #[pyclass(frozen, skip_from_py_object, module = "percoat._core")]
 #[derive(Debug, Clone)]
 pub struct Case {
-    pub own: Arc<case::Case>,
+    pub case: Arc<case::Case>,
     pub name: String,
     /// The text or values from which it was read, with the files and arrays in memory.
     pub source: Arc<Source>,
@@ -51,35 +51,35 @@ impl Case {
 
     /// The case as a dict, complete with its defaults; heights in memory are an array.
     fn as_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let own = to_python(py, &*self.own)?;
-        let heights = self.own.surface.as_ref().and_then(|surface| surface.heights.as_ref());
+        let dict = to_python(py, &*self.case)?;
+        let heights = self.case.surface.as_ref().and_then(|surface| surface.heights.as_ref());
         if let Some(heights) = heights.and_then(|name| self.source.arrays.get(name)) {
-            own.get_item("surface")?.set_item("heights", PyArrayDyn::from_array(py, heights))?;
+            dict.get_item("surface")?.set_item("heights", PyArrayDyn::from_array(py, heights))?;
         }
-        Ok(own)
+        Ok(dict)
     }
 
     /// Vectors a₁ and a₂ of the cell, lengths.
     #[getter]
     fn cell(&self) -> [[f64; 2]; 2] {
-        self.own.problem().cell().vectors()
+        self.case.problem().cell().vectors()
     }
 
     /// The values of `percoat check` and its text, as a dict.
     #[pyo3(signature = (threads = None))]
     fn check<'py>(&self, py: Python<'py>, threads: Option<i64>) -> PyResult<Bound<'py, PyAny>> {
-        let Self { own, name, .. } = self.clone();
+        let Self { case, name, .. } = self.clone();
         let room = self.allow(Job::Keep)?;
         let checked = work::run(py, threads, None, move |_| {
-            Check::of(&own, &name, room).map(|check| check.json()).map_err(|error| error.to_string())
+            Check::of(&case, &name, room).map(|check| check.json()).map_err(|error| error.to_string())
         })?;
         to_python(py, &checked.map_err(refused)?)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (py, case) = (slf.py(), slf.get());
-        let own = case.clone();
-        let source = work::run(py, None, None, move |_| own.portable())??;
+        let copy = case.clone();
+        let source = work::run(py, None, None, move |_| copy.portable())??;
         let state = (to_python(py, &source.values)?, in_memory(py, &source)?, &case.name).into_pyobject(py)?;
         Ok((slf.get_type().getattr("_restore")?, state))
     }
@@ -99,34 +99,34 @@ impl Case {
             let read = case::Case::read(&source, &texts);
             (source, read)
         })?;
-        Ok(Self { own: Arc::new(read.map_err(refused)?), name, source: Arc::new(source) })
+        Ok(Self { case: Arc::new(read.map_err(refused)?), name, source: Arc::new(source) })
     }
 
     /// Memory of this machine for a job, or the refusal of a job that needs more.
     pub fn allow(&self, job: Job) -> PyResult<Capacity> {
         let room = work::room();
-        refusal(&self.own, room, job).map_or(Ok(room), |why| Err(refused(why)))
+        refusal(&self.case, room, job).map_or(Ok(room), |why| Err(refused(why)))
     }
 
     /// The case as values with all its files in memory, which any machine can read.
     fn portable(&self) -> PyResult<Source> {
         let mut source = Source {
             name: self.name.clone(),
-            values: Some(values(&self.own)),
+            values: Some(values(&self.case)),
             files: self.source.files.clone(),
             arrays: self.source.arrays.clone(),
             sizes: self.source.sizes.clone(),
             ..Source::default()
         };
-        let mut own = case::Case::clone(&self.own);
-        if let Some((_, name)) = file(&mut own)
+        let mut case = case::Case::clone(&self.case);
+        if let Some((_, name)) = file(&mut case)
             && !source.files.contains_key(name)
             && !source.arrays.contains_key(name)
         {
             let bytes = std::fs::read(&*name).map_err(|error| unreadable(Path::new(name), &error))?;
             source.files.insert(name.clone(), bytes.into());
             let again = case::Case::read(&source, &[]).map_err(refused)?;
-            if output::fingerprint(&again, "") != output::fingerprint(&self.own, "") {
+            if output::fingerprint(&again, "") != output::fingerprint(&self.case, "") {
                 return Err(refused(format!(
                     "{name} has changed since it was read: what was solved cannot be kept without it"
                 )));
@@ -136,7 +136,7 @@ impl Case {
     }
 }
 
-/// What the file of a case has, heights or pressures, and its name in the case; `None` of a case without one.
+/// Content of the file of a case, `heights` or `pressure`, and its name in the case; `None` of a case without a file.
 pub fn file(case: &mut case::Case) -> Option<(&'static str, &mut String)> {
     if let Some(heights) = case.surface.as_mut().and_then(|surface| surface.heights.as_mut()) {
         return Some(("heights", heights));
@@ -150,7 +150,7 @@ pub fn file(case: &mut case::Case) -> Option<(&'static str, &mut String)> {
 /// Files, arrays, and sizes of the arrays of a source in memory, by their names.
 pub type Memory<'py> = (Bound<'py, PyDict>, Bound<'py, PyDict>, BTreeMap<String, ([f64; 2], Option<String>)>);
 
-/// What a source has in memory, as it is pickled.
+/// Files and arrays that a source has in memory, as they are pickled.
 pub fn in_memory<'py>(py: Python<'py>, source: &Source) -> PyResult<Memory<'py>> {
     let (files, arrays) = (PyDict::new(py), PyDict::new(py));
     for (name, bytes) in &source.files {
@@ -159,7 +159,7 @@ pub fn in_memory<'py>(py: Python<'py>, source: &Source) -> PyResult<Memory<'py>>
     for (name, heights) in &source.arrays {
         arrays.set_item(name, PyArrayDyn::from_array(py, heights))?;
     }
-    let sizes = source.sizes.iter().map(|(name, own)| (name.clone(), (own.sides, own.unit.clone())));
+    let sizes = source.sizes.iter().map(|(name, sizes)| (name.clone(), (sizes.sides, sizes.unit.clone())));
     Ok((files, arrays, sizes.collect()))
 }
 
@@ -168,7 +168,7 @@ pub fn with_memory(source: Source, (files, arrays, sizes): Memory<'_>) -> PyResu
     let file = |(name, bytes): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<(String, Arc<[u8]>)> {
         Ok((name.extract()?, Arc::from(bytes.cast::<PyBytes>()?.as_bytes())))
     };
-    let heights = |(name, own): (Bound<'_, PyAny>, Bound<'_, PyAny>)| Ok((name.extract()?, array(&own)?));
+    let heights = |(name, values): (Bound<'_, PyAny>, Bound<'_, PyAny>)| Ok((name.extract()?, array(&values)?));
     let files = files.iter().map(file).collect::<PyResult<_>>()?;
     let arrays = arrays.iter().map(heights).collect::<PyResult<_>>()?;
     let sizes = sizes.into_iter().map(|(name, (sides, unit))| (name, PhysicalSizes { sides, unit })).collect();
@@ -183,8 +183,8 @@ fn values(case: &case::Case) -> Table {
 /// The text or the values of a path, a name, a dict or a case, and what the case is called.
 pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
     if let Ok(known) = case.cast::<Case>() {
-        let Case { own, name, source } = known.get();
-        let (text, values, set) = (String::new(), Some(values(own)), Vec::new());
+        let Case { case, name, source } = known.get();
+        let (text, values, set) = (String::new(), Some(values(case)), Vec::new());
         return Ok((Source { text, values, set, ..(**source).clone() }, name.clone()));
     }
     if let Ok(path) = case.extract::<PathBuf>() {
@@ -207,8 +207,8 @@ pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
         let is_array = |heights: &Bound<'_, PyAny>| !heights.is_none() && heights.extract::<PathBuf>().is_err();
         if let Some(heights) = surface.get_item("heights")?.filter(is_array) {
             let heights = match physical_sizes(&heights)? {
-                Some(own) => {
-                    sizes.insert(HEIGHTS.to_owned(), own);
+                Some(physical) => {
+                    sizes.insert(HEIGHTS.to_owned(), physical);
                     heights.call_method0("heights")?
                 }
                 None => heights,
@@ -227,10 +227,10 @@ fn physical_sizes(heights: &Bound<'_, PyAny>) -> PyResult<Option<PhysicalSizes>>
     if !heights.hasattr("physical_sizes")? || !heights.hasattr("heights")? {
         return Ok(None);
     }
-    let own = heights.getattr("physical_sizes")?;
-    let sides: [f64; 2] = own.extract().map_err(|_| {
+    let given = heights.getattr("physical_sizes")?;
+    let sides: [f64; 2] = given.extract().map_err(|_| {
         PyTypeError::new_err(format!(
-            "`surface.heights` has the physical sizes {own}: a surface has two, along x and y"
+            "`surface.heights` has the physical sizes {given}: a surface has two, along x and y"
         ))
     })?;
     let unit = if heights.hasattr("unit")? { heights.getattr("unit")?.extract().ok() } else { None };
@@ -270,12 +270,12 @@ fn sizes(heights: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
     if let Ok(shape) = heights.getattr("shape") {
         return Ok(shape.extract().unwrap_or_default());
     }
-    let (mut sizes, mut own) = (Vec::new(), heights.clone());
+    let (mut sizes, mut part) = (Vec::new(), heights.clone());
     // No array of NumPy has more axes.
-    while let (true, Ok(size)) = (sizes.len() < 64 && !own.is_instance_of::<PyString>(), own.len()) {
+    while let (true, Ok(size)) = (sizes.len() < 64 && !part.is_instance_of::<PyString>(), part.len()) {
         sizes.push(size);
-        match own.get_item(0) {
-            Ok(first) => own = first,
+        match part.get_item(0) {
+            Ok(first) => part = first,
             Err(_) => break,
         }
     }

@@ -39,9 +39,9 @@ pub fn compare<'py>(
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Compared<'py>> {
-    let own = Arc::clone(&case.get().own);
+    let case = Arc::clone(&case.get().case);
     let compared = work::run(py, threads, progress, move |listener| {
-        let task = Compare::new(&own, work::room(), false).map_err(|error| error.to_string())?;
+        let task = Compare::new(&case, work::room(), false).map_err(|error| error.to_string())?;
         let stop = Arc::clone(listener.stop());
         let compared = task.compare(&mut Stopping(&stop), &mut |[n1, n2], stage| {
             let (unit, points, phase) = ("part", Some((n1, n2)), stage.to_owned());
@@ -59,7 +59,7 @@ pub fn compare<'py>(
         });
         let compared = compared.map_err(|error| error.told())?;
         let comparison = &compared.comparison;
-        let (text, tables) = (table::compared(&own, comparison, width), tables_of(comparison, &own.units()));
+        let (text, tables) = (table::compared(&case, comparison, width), tables_of(comparison, &case.units()));
         let (file, converged) = (compared.file(), compared.converged());
         Ok::<_, String>((file, text, tables, compared.warnings, converged))
     })?;

@@ -16,7 +16,7 @@ use toml::Table;
 #[pyclass(frozen, module = "percoat._core")]
 #[derive(Debug)]
 pub struct HalfSpace {
-    own: percoat::HalfSpace,
+    half_space: percoat::HalfSpace,
     /// The sections `layers`, `substrate`, `units` and `materials` of a case.
     sections: Table,
 }
@@ -35,13 +35,13 @@ impl HalfSpace {
     #[new]
     fn new(sections: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (source, _) = case::source(sections)?;
-        let own = match sections.cast::<case::Case>() {
-            Ok(known) => known.get().own.half_space().clone(),
+        let half_space = match sections.cast::<case::Case>() {
+            Ok(known) => known.get().case.half_space().clone(),
             Err(_) => half_space(&source).map_err(refused)?,
         };
         let mut sections = source.values.map_or_else(|| toml::from_str(&source.text), Ok).map_err(refused)?;
         sections.retain(|key, _| ["layers", "substrate", "units", "materials"].contains(&key));
-        Ok(Self { own, sections })
+        Ok(Self { half_space, sections })
     }
 
     /// ŵ/p̂ at wavenumbers (1/length, one axis), a length over a pressure.
@@ -79,18 +79,18 @@ impl HalfSpace {
         if let Some(z) = depths.iter().find(|z| !(**z == 0.0 || CARRIED.contains(z))) {
             return Err(refused(format!("a depth is a number not less than 0, at most 1e60, not {z}")));
         }
-        if let Some(z) = depths.iter().find(|&&z| self.own.depths(z).is_empty()) {
-            return Err(refused(format!("the depth {z} is below the rigid base at {}", self.own.base_depth())));
+        if let Some(z) = depths.iter().find(|&&z| self.half_space.depths(z).is_empty()) {
+            return Err(refused(format!("the depth {z} is below the rigid base at {}", self.half_space.base_depth())));
         }
         let wavenumbers = wavenumbers.as_array().to_vec();
         checked(&wavenumbers)?;
-        let line = |&q: &f64| output::kernel(self.own.response(), &self.own, q, &depths, traction);
+        let line = |&q: &f64| output::kernel(self.half_space.response(), &self.half_space, q, &depths, traction);
         let lines: Vec<_> = py.detach(|| wavenumbers.iter().map(line).collect());
         to_python(py, &lines)
     }
 
     fn __str__(&self) -> String {
-        self.own.to_string()
+        self.half_space.to_string()
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
@@ -108,7 +108,7 @@ impl HalfSpace {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let wavenumbers = wavenumbers.as_array().to_vec();
         checked(&wavenumbers)?;
-        let response = self.own.response();
+        let response = self.half_space.response();
         let values: Vec<f64> = py.detach(|| wavenumbers.iter().map(|&q| value(response, q)).collect());
         Ok(values.into_pyarray(py))
     }

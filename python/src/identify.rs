@@ -17,7 +17,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What was found as a dict, the arrays of the curve and its fit, the table, and the warnings.
+/// Record of what was found as a dict, the arrays of the curve and its fit, the table, and the warnings.
 type Found<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, String, Vec<String>);
 
 /// The numbers of a case that are `asked` for, and what the instrument is known to add as `offset=0.002`. Their values from a curve,
@@ -34,20 +34,20 @@ pub fn identify<'py>(
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Found<'py>> {
-    let own = Arc::clone(&case.get().own);
-    let measured = measured(data, &own)?;
+    let resolved = Arc::clone(&case.get().case);
+    let measured = measured(data, &resolved)?;
     let curve = measured.clone();
     let (free, known) = asked;
     let known = known_instrument(&known).map_err(|error| refused(format!("known: {error}")))?;
     let (source, _) = case::source(case.as_any())?;
     let found = work::run(py, threads, progress, move |listener| {
         let document = Document::new(&source, &[]).map_err(|error| error.to_string())?;
-        let task = IdentificationTask::new(&document, &own, &free).map_err(|error| format!("free: {error}"))?;
-        let task = Identify::new(&own, task.with_instrument(known), work::room(), false);
+        let task = IdentificationTask::new(&document, &resolved, &free).map_err(|error| format!("free: {error}"))?;
+        let task = Identify::new(&resolved, task.with_instrument(known), work::room(), false);
         let result = task
             .map_err(|error| error.to_string())?
             .find(&measured, &mut |trial| {
-                let phase = output::trial(&own, trial);
+                let phase = output::trial(&resolved, trial);
                 listener.tell(true, |seconds| Progress {
                     unit: "trial",
                     done: trial.number,
@@ -88,6 +88,6 @@ fn measured(data: &Bound<'_, PyAny>, case: &percoat::case::Case) -> PyResult<Mea
     }
     let columns: Vec<(String, PyReadonlyArray1<'_, f64>)> = data.extract()?;
     let columns: Vec<(String, Vec<f64>)> =
-        columns.into_iter().map(|(name, own)| (name, own.as_array().to_vec())).collect();
+        columns.into_iter().map(|(name, values)| (name, values.as_array().to_vec())).collect();
     measurements::of_columns(&columns, &case.units()).map_err(refused)
 }

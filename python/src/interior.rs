@@ -17,8 +17,8 @@ fn depth(half_space: &HalfSpace, z: f64, material: Option<i64>) -> Result<Depth,
     }
     let Some(wanted) = material else { return Ok(depths[0]) };
     depths.iter().find(|depth| depth.material as i64 == wanted).copied().ok_or_else(|| {
-        let own: Vec<String> = depths.iter().map(|depth| depth.material.to_string()).collect();
-        format!("z = {z} is in material {}, not in {wanted}", own.join(" and "))
+        let numbers: Vec<String> = depths.iter().map(|depth| depth.material.to_string()).collect();
+        format!("z = {z} is in material {}, not in {wanted}", numbers.join(" and "))
     })
 }
 
@@ -83,8 +83,8 @@ fn read_at(
         listener.check()?;
         let places: Vec<[f64; 2]> = level.iter().map(|&index| [points[[index, 0]], points[[index, 1]]]).collect();
         for (&index, state) in level.iter().zip(field.points(depths[level[0]], &places)) {
-            let own = read(&state, depths[index]);
-            found.row_mut(index).iter_mut().zip(own).for_each(|(to, value): (&mut f64, f64)| *to = value);
+            let values = read(&state, depths[index]);
+            found.row_mut(index).iter_mut().zip(values).for_each(|(to, value): (&mut f64, f64)| *to = value);
         }
     }
     Ok(found)
@@ -151,7 +151,7 @@ pub fn plane(
     Ok((all, depth.material))
 }
 
-/// The same components on a vertical section: (12, rows, points), with `strain` (22, rows, points), a row a depth.
+/// The twelve components on a vertical section (12, rows, points), with `strain` 22 (22, rows, points), a row a depth.
 pub fn section(field: &StressField, line: &SurfaceLine, depths: &[Depth], strain: bool) -> Array3<f64> {
     let states = field.section(line, depths).states;
     let (rows, points) = states.dim();

@@ -20,9 +20,9 @@ pub fn life<'py>(
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyAny>, bool)> {
-    let own = Arc::clone(&case.get().own);
+    let case = Arc::clone(&case.get().case);
     let found = work::run(py, threads, progress, move |listener| {
-        let task = FollowLife::new(&own, work::room(), false).map_err(|error| error.to_string())?;
+        let task = FollowLife::new(&case, work::room(), false).map_err(|error| error.to_string())?;
         tell(listener, 0, None, "damage of the first pass".to_owned());
         let stop = Arc::clone(listener.stop());
         let goes_on = || !stop.load(Ordering::Relaxed);
@@ -50,5 +50,5 @@ fn tell(listener: &mut Listener, done: usize, points: Option<(usize, usize)>, ph
 #[pyfunction]
 pub fn life_text(case: &Bound<'_, Case>, life: &Bound<'_, PyAny>, width: usize) -> PyResult<String> {
     let file: LifeFile = from_python(life)?;
-    Ok(table::life(&case.get().own, &file, width))
+    Ok(table::life(&case.get().case, &file, width))
 }

@@ -19,10 +19,10 @@ pub fn limit<'py>(
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyAny>, bool)> {
-    let own = Arc::clone(&case.get().own);
+    let case = Arc::clone(&case.get().case);
     let found = work::run(py, threads, progress, move |listener| {
-        let task = FindLimits::new(&own, work::room(), false).map_err(|error| error.to_string())?;
-        let mut keeping = Keeping::new(&own, false, listener, ("load", 0));
+        let task = FindLimits::new(&case, work::room(), false).map_err(|error| error.to_string())?;
+        let mut keeping = Keeping::new(&case, false, listener, ("load", 0));
         let found = task.find(&mut keeping).map_err(|error| error.told())?;
         Ok::<_, String>((found.file(), found.limits.converged()))
     })?;
@@ -34,5 +34,5 @@ pub fn limit<'py>(
 #[pyfunction]
 pub fn limit_text(case: &Bound<'_, Case>, limits: &Bound<'_, PyAny>, width: usize) -> PyResult<String> {
     let file: LimitFile = from_python(limits)?;
-    Ok(table::limited(&case.get().own, &file.limits(), width))
+    Ok(table::limited(&case.get().case, &file.limits(), width))
 }

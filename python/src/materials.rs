@@ -10,12 +10,12 @@ use std::path::PathBuf;
 #[pyfunction]
 #[pyo3(signature = (file = None))]
 pub fn materials(py: Python<'_>, file: Option<PathBuf>) -> PyResult<Bound<'_, PyAny>> {
-    let own = file.map_or(Ok(Vec::new()), |path| {
+    let of_file = file.map_or(Ok(Vec::new()), |path| {
         materials_of_file(&path).map_err(|error| match error {
             MaterialsError::File(error) => no_case(error),
             MaterialsError::Fault(error) => refused(error),
         })
     })?;
-    let all: Vec<&LibraryMaterial> = own.iter().chain(library()).collect();
+    let all: Vec<&LibraryMaterial> = of_file.iter().chain(library()).collect();
     to_python(py, &all)
 }

@@ -22,7 +22,7 @@ fn plain(object: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
     let py = object.py();
     if let Ok(dict) = object.cast::<PyDict>() {
         let copy = PyDict::new(py);
-        dict.iter().try_for_each(|(key, own)| copy.set_item(key, plain(own)?))?;
+        dict.iter().try_for_each(|(key, value)| copy.set_item(key, plain(value)?))?;
         return Ok(copy.into_any());
     }
     if object.is_instance_of::<PyTuple>() || object.is_instance_of::<PyList>() {

@@ -12,14 +12,14 @@ use std::sync::Arc;
 pub struct Row(Arc<sweep::Row>);
 
 impl From<sweep::Row> for Row {
-    fn from(own: sweep::Row) -> Self {
-        Self(Arc::new(own))
+    fn from(row: sweep::Row) -> Self {
+        Self(Arc::new(row))
     }
 }
 
 impl Row {
     /// The row of the library.
-    pub fn own(&self) -> &sweep::Row {
+    pub fn row(&self) -> &sweep::Row {
         &self.0
     }
 }
@@ -68,8 +68,8 @@ impl Row {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        // As in a log, which is read back bit for bit.
-        let entries = to_python(slf.py(), slf.get().own())?;
+        // A row as in a log, which is read back bit for bit.
+        let entries = to_python(slf.py(), slf.get().row())?;
         Ok((slf.get_type().getattr("_restore")?, (entries,).into_pyobject(slf.py())?))
     }
 

@@ -57,10 +57,10 @@ pub fn save_result(
     array: Option<&[u8]>,
 ) -> PyResult<Option<String>> {
     let summary: Summary = from_python(summary)?;
-    let mut own = case::Case::clone(&case.get().own);
-    let beside = beside(&mut own, &case.get().source, array);
+    let mut written = case::Case::clone(&case.get().case);
+    let beside = beside(&mut written, &case.get().source, array);
     let kept: Vec<Arc<Kept>> = steps.iter().map(|step| step.kept()).collect();
-    let saved = work::run(py, None, None, move |_| save_solved(&own, summary, &kept, &folder, beside))?;
+    let saved = work::run(py, None, None, move |_| save_solved(&written, summary, &kept, &folder, beside))?;
     Ok(saved?)
 }
 
@@ -92,16 +92,16 @@ fn save_solved(
     let claim = RunFolder::claim(folder, plan)?;
     let aside = shown(claim.set_aside());
     let mut recording = Recording::new(&claim, &run, case.to_toml(), clock);
-    let Some(points) = kept.first().map(|own| own.step.grid().points()) else {
+    let Some(points) = kept.first().map(|first| first.step.grid().points()) else {
         return Err(SaveError::Refused("there are no load steps to save".to_owned()));
     };
     let solver = Solver::new(Arc::clone(case.problem()), points, case.solver);
     recording.begin(&solver.map_err(|error| SaveError::Refused(error.to_string()))?)?;
     let Summary { steps, accuracy, warnings, timing, .. } = summary;
-    let steps: Vec<StepRecord> = steps.into_iter().zip(kept).map(|(record, own)| whole(record, own)).collect();
-    for (record, own) in steps.iter().zip(kept) {
-        let fields = run.stress.as_ref().map(|request| StressFields::new(own.step.finest(), request.mean));
-        recording.step(&own.step, record, fields.as_ref())?;
+    let steps: Vec<StepRecord> = steps.into_iter().zip(kept).map(|(record, kept)| whole(record, kept)).collect();
+    for (record, kept) in steps.iter().zip(kept) {
+        let fields = run.stress.as_ref().map(|request| StressFields::new(kept.step.finest(), request.mean));
+        recording.step(&kept.step, record, fields.as_ref())?;
     }
     let (_, clock) = recording.finish()?;
     if let Some((name, content)) = beside {
@@ -139,7 +139,7 @@ pub fn save_sweep(
     folder: PathBuf,
 ) -> PyResult<Option<String>> {
     let description: sweep::Description = from_python(description)?;
-    let rows: Vec<sweep::Row> = rows.iter().map(|row| row.own().clone()).collect();
+    let rows: Vec<sweep::Row> = rows.iter().map(|row| row.row().clone()).collect();
     let saved = work::run(py, None, None, move |_| -> Result<_, SaveError> {
         let names = sweep::files().collect();
         let claim = RunFolder::claim(&folder, Plan { names, ..Plan::new(Writer::Sweep) })?;

@@ -50,7 +50,7 @@ impl<'a> Keeping<'a> {
 
     fn tell(&mut self, new: bool, phase: impl FnOnce() -> String, iterated: Option<Progress>) {
         let Self { unit, done, of, points: [n1, n2], .. } = *self;
-        let (iteration, residual) = iterated.map_or((0, f64::NAN), |own| (own.iteration, own.residual));
+        let (iteration, residual) = iterated.map_or((0, f64::NAN), |progress| (progress.iteration, progress.residual));
         self.listener.tell(new, |seconds| Told {
             unit,
             done,
@@ -135,12 +135,12 @@ pub fn solve<'py>(
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyAny>, bool, Places<'py>, Vec<Step>)> {
-    let own = Arc::clone(&case.get().own);
+    let case = Arc::clone(&case.get().case);
     let solved = work::run(py, threads, progress, move |listener| {
-        let task = Solve::new(&own, work::room(), Job::Keep).map_err(|error| error.to_string())?;
-        let mut keeping = Keeping::new(&own, true, listener, ("step", task.run.loads.len()));
+        let task = Solve::new(&case, work::room(), Job::Keep).map_err(|error| error.to_string())?;
+        let mut keeping = Keeping::new(&case, true, listener, ("step", task.run.loads.len()));
         let Solved { outcome, warnings } = task.solve(&mut keeping).map_err(|error| error.told())?;
-        let summary = Summary::new(&own, &warnings, outcome.change, &outcome.steps, keeping.clock.timing());
+        let summary = Summary::new(&case, &warnings, outcome.change, &outcome.steps, keeping.clock.timing());
         let surface = keeping.surface.take().expect("a run begins a grid before its steps");
         Ok::<_, String>((summary, outcome.is_accurate(), places(&surface), keeping.steps))
     })?;
@@ -164,5 +164,5 @@ fn places(surface: &Surface) -> (Array2<f64>, Array2<f64>, Array2<i32>) {
 #[pyfunction]
 pub fn outcome_text(case: &Bound<'_, Case>, summary: &Bound<'_, PyAny>, width: usize) -> PyResult<String> {
     let summary: Summary = from_python(summary)?;
-    Ok(table::outcome(&case.get().own, &summary.steps, summary.accuracy, width))
+    Ok(table::outcome(&case.get().case, &summary.steps, summary.accuracy, width))
 }

@@ -62,7 +62,8 @@ impl Kept {
 /// Twelve components on a plane (12, n₁, n₂), or 22 with its strains, the number of its material, from 1, and the name where it has one.
 type Plane<'py> = (Bound<'py, PyArray3<f64>>, usize, Option<&'static str>);
 
-/// Of a section s, x, y of its points and z of its rows; the materials of the rows; the components (12, rows, points), or 22 with its strains.
+/// Section: s, x, y of its points and z of its rows; the materials of the rows; the components (12, rows, points), or 22
+/// with its strains.
 type Cross<'py> = ([Bound<'py, PyArray1<f64>>; 4], Bound<'py, PyArray1<i32>>, Bound<'py, PyArray3<f64>>);
 
 /// Reader of six components at points of a field.
@@ -183,8 +184,8 @@ impl Step {
         let [x, y] = [0, 1].map(|axis| places.iter().map(|place| place[axis]).collect::<Vec<f64>>());
         let z: Vec<f64> = sides.iter().map(|depth| depth.z).collect();
         let materials: Vec<i32> = sides.iter().map(|depth| depth.material as i32).collect();
-        let own = [line.distances(), x, y, z].map(|values| values.into_pyarray(py));
-        Ok((own, materials.into_pyarray(py), components.into_pyarray(py)))
+        let coordinates = [line.distances(), x, y, z].map(|values| values.into_pyarray(py));
+        Ok((coordinates, materials.into_pyarray(py), components.into_pyarray(py)))
     }
 
     /// The largest stresses, and strains where the case asks for them, as a dict; `None` without contact.
@@ -229,7 +230,7 @@ impl Step {
 #[pyfunction]
 pub fn step(py: Python<'_>, case: &Bound<'_, Case>, index: usize, points: [usize; 2], bytes: &[u8]) -> PyResult<Step> {
     case.get().allow(Job::Keep)?;
-    let (case, bytes) = (Arc::clone(&case.get().own), bytes.to_vec());
+    let (case, bytes) = (Arc::clone(&case.get().case), bytes.to_vec());
     let kept = work::run(py, None, None, move |_| {
         let checkpoint = read_checkpoint(Cursor::new(bytes)).map_err(|error| error.to_string())?;
         let load = *case.load.loads().get(index).ok_or("the case has no such load")?;

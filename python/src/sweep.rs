@@ -126,13 +126,13 @@ impl Sweep {
     /// The row of a combination without results, by its place among all of them, from 0.
     fn failed(&self, index: usize, fingerprint: String, reason: String) -> PyResult<Row> {
         let Self { combinations, .. } = self.part(index)?;
-        let own = &combinations.all[0];
-        Ok(sweep::Row::failed(own.number, combinations.named_values(own), fingerprint, reason).into())
+        let combination = &combinations.all[0];
+        Ok(sweep::Row::failed(combination.number, combinations.named_values(combination), fingerprint, reason).into())
     }
 
     /// Progress after `done` combinations and a number of seconds, of which `row` is the last.
     fn told(&self, row: &Bound<'_, Row>, done: usize, seconds: f64) -> Progress {
-        let own = row.get().own();
+        let row = row.get().row();
         Progress {
             unit: "combination",
             done,
@@ -140,14 +140,14 @@ impl Sweep {
             points: None,
             iteration: 0,
             residual: f64::NAN,
-            phase: format!("{} {}", own.named(), own.status.name()),
+            phase: format!("{} {}", row.named(), row.status.name()),
             seconds,
         }
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let (py, own) = (slf.py(), slf.get());
-        let state = (own.sourced(py)?, own.combined()).into_pyobject(py)?;
+        let (py, sweep) = (slf.py(), slf.get());
+        let state = (sweep.sourced(py)?, sweep.combined()).into_pyobject(py)?;
         Ok((slf.get_type().getattr("_restore")?, state))
     }
 
@@ -174,7 +174,7 @@ fn lost() -> PyErr {
 }
 
 impl Sweep {
-    /// Its source, from which any process that finds the same files under the same paths reads the same cases.
+    /// The source, from which any process that finds the same files under the same paths reads the same cases.
     fn sourced<'py>(&self, py: Python<'py>) -> PyResult<Sourced<'py>> {
         let Source { name, text, values, set, folder, .. } = &*self.source;
         let written = |table: &Table| toml::to_string(table).map_err(refused);
@@ -186,7 +186,8 @@ impl Sweep {
     }
 
     fn combined(&self) -> Combined {
-        let all = self.combinations.all.iter().map(|own| (own.number, own.values.clone())).collect();
+        let all =
+            self.combinations.all.iter().map(|combination| (combination.number, combination.values.clone())).collect();
         (self.fixed.clone(), self.combinations.keys.clone(), all, self.task == Task::Limit)
     }
 }
@@ -194,7 +195,7 @@ impl Sweep {
 /// The columns of the table of a sweep, each a name with a list of cells, by ascending combination.
 #[pyfunction]
 pub fn columns<'py>(py: Python<'py>, rows: Vec<PyRef<'py, Row>>) -> PyResult<Bound<'py, PyAny>> {
-    let rows: Vec<sweep::Row> = rows.iter().map(|row| row.own().clone()).collect();
+    let rows: Vec<sweep::Row> = rows.iter().map(|row| row.row().clone()).collect();
     to_python(py, &sweep::columns(&rows))
 }
 

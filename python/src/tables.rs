@@ -23,14 +23,16 @@ fn worded(Worded { words, table }: Worded) -> Shown {
 /// The tables of a run with this summary.
 #[pyfunction]
 pub fn outcome_tables(case: &Bound<'_, Case>, summary: &Bound<'_, PyAny>) -> PyResult<Vec<Shown>> {
-    let (summary, own): (Summary, _) = (from_python(summary)?, &case.get().own);
-    let (steps, units) = (&summary.steps, own.units());
+    let (summary, case): (Summary, _) = (from_python(summary)?, &case.get().case);
+    let (steps, units) = (&summary.steps, case.units());
     let mut tables = vec![solved(steps, &units)];
-    tables.extend(table::largest_stresses(steps, &units).map(|own| shown("Largest stresses and their places", own)));
+    tables.extend(
+        table::largest_stresses(steps, &units).map(|stresses| shown("Largest stresses and their places", stresses)),
+    );
     tables.extend(
         table::largest_strains(steps, &units).map(|strains| shown("Largest strains and their places", strains)),
     );
-    tables.extend(table::utilisations(steps, Some(own.problem().bodies()), &units).map(worded));
+    tables.extend(table::utilisations(steps, Some(case.problem().bodies()), &units).map(worded));
     tables.extend(table::lives(steps, &units).map(worded));
     Ok(tables)
 }
@@ -43,13 +45,13 @@ fn solved(steps: &[StepRecord], units: &Units) -> Shown {
 #[pyfunction]
 pub fn limit_tables(case: &Bound<'_, Case>, limits: &Bound<'_, PyAny>) -> PyResult<Vec<Shown>> {
     let file: LimitFile = from_python(limits)?;
-    Ok(vec![worded(table::limits(&file.limits(), &case.get().own.units()))])
+    Ok(vec![worded(table::limits(&file.limits(), &case.get().case.units()))])
 }
 
 /// The tables of this life: what tires, and what happens.
 #[pyfunction]
 pub fn life_tables(case: &Bound<'_, Case>, life: &Bound<'_, PyAny>) -> PyResult<Vec<Shown>> {
-    let (file, units): (LifeFile, _) = (from_python(life)?, case.get().own.units());
+    let (file, units): (LifeFile, _) = (from_python(life)?, case.get().case.units());
     let mut tables: Vec<Shown> = table::lives(&file.steps, &units).map(worded).into_iter().collect();
     let events = table::events(&file.events, &units).filter(|_| file.end.is_some());
     tables.extend(events.map(|events| shown("What fails and comes off, pass after pass", events)));

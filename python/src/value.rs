@@ -53,15 +53,15 @@ pub fn value(object: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
 pub fn table(mapping: &Bound<'_, PyMapping>, path: &str) -> PyResult<Table> {
     let (mut table, whole) = (Table::new(), if path.is_empty() { "case" } else { path });
     for pair in mapping.items()?.iter() {
-        let (key, own): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair.extract()?;
+        let (key, object): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair.extract()?;
         let key = text(&key, &format!("`{whole}`"))?;
         // Depth is counted by the path, to which an empty key adds nothing.
         if key.is_empty() {
             return Err(refused(format!("a key of `{whole}` is empty")));
         }
-        if !own.is_none() {
-            let own = value(&own, &join(path, &key))?;
-            table.insert(key, own);
+        if !object.is_none() {
+            let value = value(&object, &join(path, &key))?;
+            table.insert(key, value);
         }
     }
     Ok(table)
@@ -78,10 +78,10 @@ pub fn settings(set: Option<&Bound<'_, PyAny>>) -> PyResult<Settings> {
     }
     if let Ok(mapping) = set.cast::<PyMapping>() {
         let pair = |pair: Bound<'_, PyAny>| {
-            let (key, own): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair.extract()?;
+            let (key, object): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair.extract()?;
             let key = text(&key, "set")?;
-            let own = value(&own, &key)?;
-            Ok((key, own))
+            let value = value(&object, &key)?;
+            Ok((key, value))
         };
         return Ok((mapping.items()?.iter().map(pair).collect::<PyResult<_>>()?, Vec::new()));
     }

@@ -31,7 +31,7 @@ enum Event<T> {
     Done(thread::Result<T>),
 }
 
-/// What the callable of the caller receives.
+/// Message for the callable of the caller.
 enum Message {
     /// A report, and whether it is passed on even where a later one is there.
     Progress(Progress, bool),
@@ -146,7 +146,9 @@ pub fn run<T: Send + 'static>(
             }
         }
         let heard = py.check_signals().and_then(|()| match (next(&mut events), progress) {
-            (Some(Event::Told(Message::Progress(own, _))), Some(callable)) => callable.call1((own,)).map(|_| None),
+            (Some(Event::Told(Message::Progress(progress, _))), Some(callable)) => {
+                callable.call1((progress,)).map(|_| None)
+            }
             (Some(Event::Told(Message::Row(row))), Some(callable)) => callable.call1((row,)).map(|_| None),
             (Some(Event::Done(done)), _) => Ok(Some(done)),
             _ => Ok(None),
@@ -199,9 +201,9 @@ static POOLS: Mutex<Vec<Pool>> = Mutex::new(Vec::new());
 fn pool(threads: Option<i64>) -> PyResult<Arc<ThreadPool>> {
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
-    let is_free = |own: &Pool| threads.is_none() || Arc::strong_count(&own.pool) == 1;
-    if let Some(own) = pools.iter().find(|own| own.process == process && own.threads == threads && is_free(own)) {
-        return Ok(Arc::clone(&own.pool));
+    let is_free = |pool: &Pool| threads.is_none() || Arc::strong_count(&pool.pool) == 1;
+    if let Some(pool) = pools.iter().find(|pool| pool.process == process && pool.threads == threads && is_free(pool)) {
+        return Ok(Arc::clone(&pool.pool));
     }
     let count = Threads::new("threads", threads.map(|threads| threads as usize)).map_err(refused)?.count;
     let pool = ThreadPoolBuilder::new().num_threads(count).build();
@@ -211,10 +213,10 @@ fn pool(threads: Option<i64>) -> PyResult<Arc<ThreadPool>> {
         ))
     };
     let pool = Arc::new(pool.map_err(told)?);
-    let (here, gone): (Vec<Pool>, Vec<Pool>) = pools.drain(..).partition(|own| own.process == process);
-    // To drop a pool is to wait for threads, which the parent has.
+    let (here, gone): (Vec<Pool>, Vec<Pool>) = pools.drain(..).partition(|pool| pool.process == process);
+    // Dropping a pool waits for its threads, which the parent has.
     gone.into_iter().for_each(std::mem::forget);
-    pools.extend(here.into_iter().filter(|own| own.threads.is_none() || threads.is_none()));
+    pools.extend(here.into_iter().filter(|pool| pool.threads.is_none() || threads.is_none()));
     pools.push(Pool { process, threads, pool: Arc::clone(&pool) });
     Ok(pool)
 }
