@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-// That of musl returns every large block to the system and takes it anew, with a page fault for each 4 kB of it.
+// The allocator of musl returns every large block to the system and takes it anew, with a page fault for each 4 kB.
 #[cfg(target_env = "musl")]
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;

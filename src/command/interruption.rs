@@ -83,7 +83,7 @@ pub fn watch() {
     let _ = ctrlc::set_handler(answer);
 }
 
-/// From now on a file beyond the largest size allowed (`ulimit -f`) cannot be written; without this the system ends the
+/// Makes a file beyond the largest size allowed (`ulimit -f`) an error of writing; otherwise the system ends the
 /// process, and no message is printed.
 pub fn outlive_large_files() {
     #[cfg(unix)]

@@ -177,9 +177,9 @@ mod tests {
     #[test]
     fn lines_come_until_their_sender_is_dropped() {
         let count = Arc::new(AtomicUsize::new(0));
-        let own = Arc::clone(&count);
+        let counter = Arc::clone(&count);
         let sender = lines(Duration::from_millis(5), move || {
-            own.fetch_add(1, Ordering::SeqCst);
+            counter.fetch_add(1, Ordering::SeqCst);
         });
         let started = Instant::now();
         while count.load(Ordering::SeqCst) < 3 {
@@ -187,7 +187,7 @@ mod tests {
             thread::sleep(Duration::from_millis(1));
         }
         drop(sender);
-        // It has ended when nothing holds the counter any more.
+        // The thread has ended when nothing holds the counter any more.
         while Arc::strong_count(&count) > 1 {
             assert!(started.elapsed() < Duration::from_secs(60));
             thread::sleep(Duration::from_millis(1));

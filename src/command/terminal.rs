@@ -113,7 +113,7 @@ static CHOSEN: OnceLock<Colour> = OnceLock::new();
 
 /// Sets the use of colours in messages.
 pub fn choose_colour(colour: Colour) {
-    // It is set once, before any message.
+    // The use of colours is set once, before any message.
     let _ = CHOSEN.set(colour);
 }
 

@@ -36,7 +36,7 @@ impl<'a> Document<'a> {
     /// The case with further overrides.
     ///
     /// # Errors
-    /// Those of [`Document::case`], and of an override that does not fit.
+    /// [`CaseError`] of the first fault found, also of an override that does not fit.
     pub fn changed(&self, overrides: &[String]) -> Result<Case, CaseError> {
         let mut tree = self.tree.clone();
         let read = change(&mut tree, self.next(), overrides).and_then(|()| model::read(tree, self.source));
@@ -85,7 +85,7 @@ mod tests {
         assert_eq!(document.case().unwrap(), Case::read(&source, &first).unwrap(), "no change stays");
     }
 
-    /// Of texts, of values in memory, and of what is set in either: each fault with the text in which it stands.
+    /// Faults of texts, of values in memory, and of what is set in either: each with the text in which it stands.
     #[test]
     fn a_fault_is_shown_where_it_stands() {
         let text = embedded::source("fig2").unwrap();

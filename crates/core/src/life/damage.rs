@@ -96,7 +96,7 @@ impl Damage {
     }
 
     /// Follows the lines of `planes` beyond those followed so far too, in a wider window, without damage until then.
-    /// They had less than the outermost line so far: ranges fall with the distance from a contact.
+    /// Damage there was less than on the outermost line so far: ranges fall with the distance from a contact.
     pub fn widen(&mut self, planes: &[RangePlane]) {
         let (Some(plane), &[first, second, ..], &[.., before, last]) = (planes.first(), &self.y[..], &self.y[..])
         else {

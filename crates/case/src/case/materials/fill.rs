@@ -225,7 +225,7 @@ mod tests {
         let young = of("young = 300, tensile_strength = 1");
         assert_eq!((young.young, young.poisson, young.tensile_strength), (Some(300.0), Some(0.16), Some(1.0)));
         assert_eq!((young.hardness, of("hardness = 25").hardness), (Some(27.0), Some(25.0)));
-        // With both moduli it is a name, known or not.
+        // Beside both moduli a name is no more than a name, known or not.
         let graded = of("graded = { young = [2, 1], poisson = [0.2, 0.3] }");
         assert_eq!((graded.young, graded.poisson, graded.tensile_strength), (None, None, None));
         assert_eq!(graded.hardness, None);
