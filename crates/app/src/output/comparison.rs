@@ -1,7 +1,8 @@
 //! `compare.json`: spectral and localized solution side by side.
 
+use super::head::Head;
 use super::json::{Unreadable, indented, read_back};
-use super::summary::{UnitNames, check};
+use super::summary::check;
 use percoat_case::case::Case;
 use percoat_core::comparison::{CircleComparison, Comparison, Deviation, StressPair};
 use percoat_core::localized::{CircleRadius, Stop};
@@ -9,19 +10,14 @@ use percoat_core::reading::LevelReading;
 use percoat_core::run::StepRecord;
 use percoat_core::stress::StressState;
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 /// The content of `compare.json`: a load step of a case by both methods. Infinite numbers are null.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ComparisonFile {
-    /// The version that wrote it.
-    pub percoat: String,
-    /// Title of the case.
-    pub title: String,
-    /// The whole case, with its defaults.
-    pub case: Value,
-    /// Names of the units of all numbers.
-    pub units: UnitNames,
+    /// Version, title, case and units.
+    #[serde(flatten)]
+    pub head: Head,
     /// The load step, from 1.
     pub step: usize,
     /// The spectral solution.
@@ -100,10 +96,7 @@ impl ComparisonFile {
         let circles = |circles: &[CircleComparison]| circles.iter().map(CircleRecord::from).collect::<Vec<_>>();
         let other = OtherRule { rule: task.rule.other(), localized: circles(&comparison.other_rule) };
         Self {
-            percoat: env!("CARGO_PKG_VERSION").to_owned(),
-            title: case.title.clone(),
-            case: json!(case),
-            units: UnitNames::of(case),
+            head: Head::of(case),
             step,
             spectral: comparison.spectral.clone(),
             spectral_error: comparison.grid_error,

@@ -1,24 +1,21 @@
 //! `identification.json` and `identification.csv`: parameters found from a measured indentation curve, and the fit.
 
+use super::head::Head;
 use super::json::indented;
 use super::number::{number, with_error};
-use super::summary::UnitNames;
 use super::table::Table;
 use percoat_case::case::Case;
 use percoat_case::units::Units;
 use percoat_core::identification::{Doubt, Estimate, Identification, LEVEL, Measurement, Missing, Sensitivity, Trial};
 use serde::Serialize;
-use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// The content of `identification.json`.
 #[derive(Debug, Clone, Serialize)]
 pub struct IdentificationFile {
-    percoat: &'static str,
-    title: String,
-    /// The whole case with the values found.
-    case: Value,
-    units: UnitNames,
+    /// Version and units, and the case with the values found.
+    #[serde(flatten)]
+    head: Head,
     parameters: Vec<FoundParameter>,
     correlation: Vec<Vec<f64>>,
     points: usize,
@@ -66,10 +63,7 @@ impl IdentificationFile {
             derivatives: sensitivity.derivatives.clone(),
         };
         Self {
-            percoat: env!("CARGO_PKG_VERSION"),
-            title: case.title.clone(),
-            case: json!(case),
-            units: UnitNames::of(case),
+            head: Head::of(case),
             parameters: found.estimates.iter().map(parameter).collect(),
             correlation: found.correlation.clone(),
             points: found.fitted.len(),

@@ -2,10 +2,11 @@
 
 use super::columns::{csv, scalars};
 use super::finished::CannotGoOn;
+use super::head::Head;
 use super::json::{Unreadable, indented, read_back};
 use super::layout::LIFE_STATE as STATE;
 use super::npz::Archive;
-use super::summary::{UnitNames, check};
+use super::summary::check;
 use super::trailer::{with_checksum, without_checksum};
 use super::{OutputError, disk, write_file, write_text};
 use percoat_case::case::{Case, plausibility};
@@ -21,15 +22,9 @@ use std::path::Path;
 /// The content of `life.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LifeFile {
-    /// The version that wrote it.
-    pub percoat: String,
-    /// Title of the case.
-    pub title: String,
-    /// The whole case, with its defaults.
-    pub case: Value,
-    /// Names of the units of all numbers.
-    #[serde(default)]
-    pub units: UnitNames,
+    /// Version, title, case and units.
+    #[serde(flatten)]
+    pub head: Head,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
     /// Distance that the counterbody slides in one pass, a length; `None` where it is not known.
@@ -71,10 +66,7 @@ impl LifeFile {
         let fatigue = begun.record.fatigue.as_ref();
         let of_life = |life: &Life| LifeCriterion { life: *life, distance: task.slid_after(life.passes) };
         Self {
-            percoat: env!("CARGO_PKG_VERSION").to_owned(),
-            title: case.title.clone(),
-            case: json!(case),
-            units: UnitNames::of(case),
+            head: Head::of(case),
             warnings: [task.warnings(begun, state), plausibility::of_case(case)].concat(),
             distance: task.distance(),
             path: fatigue.map(|fatigue| fatigue.path),

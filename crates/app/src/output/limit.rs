@@ -1,26 +1,21 @@
 //! `limit.json`: the load at which each criterion is reached, the first of them, and every load that was solved.
 
+use super::head::Head;
 use super::json::{Unreadable, indented, read_back};
-use super::summary::{UnitNames, check};
+use super::summary::check;
 use percoat_case::case::Case;
 use percoat_core::load::LoadQuantity;
 use percoat_core::reading::{Criterion, names};
 use percoat_core::run::{Limit, Limits, StepRecord};
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 /// The content of `limit.json`: the limit loads of a case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LimitFile {
-    /// The version that wrote it.
-    pub percoat: String,
-    /// Title of the case.
-    pub title: String,
-    /// The whole case, with its defaults.
-    pub case: Value,
-    /// Names of the units of all numbers.
-    #[serde(default)]
-    pub units: UnitNames,
+    /// Version, title, case and units.
+    #[serde(flatten)]
+    pub head: Head,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
     /// The limit that is reached first; `None` where none is.
@@ -62,10 +57,7 @@ impl LimitFile {
         let ends = limits.steps.first().zip(limits.steps.last());
         let finite = |load: f64| Some(load).filter(|load| load.is_finite());
         Self {
-            percoat: env!("CARGO_PKG_VERSION").to_owned(),
-            title: case.title.clone(),
-            case: json!(case),
-            units: UnitNames::of(case),
+            head: Head::of(case),
             warnings: warnings.to_vec(),
             first: limits.first().map(|limit| FirstLimit { limit: *limit, rivals: limits.rivals() }),
             searched: ends.map(|(first, last)| [load(first), load(last)]),

@@ -3,6 +3,7 @@
 use super::Timing;
 use super::columns::{csv, scalars};
 use super::fingerprint::fingerprint;
+use super::head::Head;
 use super::json::{Unreadable, indented, read_back};
 use percoat_case::case::Case;
 use percoat_core::run::StepRecord;
@@ -12,15 +13,9 @@ use serde_json::{Value, json};
 /// The content of `summary.json`: a whole run. Two runs of one case differ only in `timing` and in the `seconds` of the steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// The version that wrote it.
-    pub percoat: String,
-    /// Title of the case.
-    pub title: String,
-    /// The whole case, with its defaults.
-    pub case: Value,
-    /// Names of the units of all numbers.
-    #[serde(default)]
-    pub units: UnitNames,
+    /// Version, title, case and units.
+    #[serde(flatten)]
+    pub head: Head,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
     /// Fingerprint of the case and the version, by which a run recognises its finished result.
@@ -36,31 +31,11 @@ pub struct Summary {
     pub timing: Option<Timing>,
 }
 
-/// Names of units, `None` where they have none.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct UnitNames {
-    /// Name of the unit of lengths.
-    pub length: Option<String>,
-    /// Name of the unit of pressures.
-    pub pressure: Option<String>,
-}
-
-impl UnitNames {
-    /// The unit names of a case.
-    pub(super) fn of(case: &Case) -> Self {
-        let units = case.units();
-        Self { length: units.length().name(), pressure: units.pressure().name() }
-    }
-}
-
 impl Summary {
     /// The record of a run of a case; `accuracy`: relative change between the two finest grids, where an accuracy was prescribed.
     pub fn new(case: &Case, warnings: &[String], accuracy: Option<f64>, steps: &[StepRecord], timing: Timing) -> Self {
         Self {
-            percoat: env!("CARGO_PKG_VERSION").to_owned(),
-            title: case.title.clone(),
-            case: json!(case),
-            units: UnitNames::of(case),
+            head: Head::of(case),
             warnings: warnings.to_vec(),
             fingerprint: fingerprint(case, ""),
             accuracy,

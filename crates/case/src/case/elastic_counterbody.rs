@@ -1,45 +1,27 @@
 //! `[counterbody]`: the body that the indenters or the topography belong to, elastic, or rigid with a hardness or wear.
 
-use super::durability::{ENDURANCE_LIMITS, EnduranceSection, FATIGUE_LAW, FatigueSection, HARDNESS, WEAR};
 use super::error::Refusal;
 use super::grading::LAYERS;
 use super::keys::{Form, Key, Unit};
-use super::layers::{
-    self, Body, ELASTIC, LAYER, LayerSection, MATERIAL, NAME, POISSON, RIGID, Rigid, SIZE, SubstrateSection, TENSILE,
-    YIELD,
-};
+use super::layers::{self, Body, ELASTIC, LAYER, LayerSection, POISSON, RIGID, Rigid, SIZE, SubstrateSection};
 use super::reader::TableAt;
 use super::section::{KeyValue, ReadTable, section};
 use super::value::ValueAt;
 use percoat_core::body::{Bodies, Durability, HalfSpace, MaterialError};
 use serde::Serialize;
 
-section! {
+section! { of_material
     /// The section `[counterbody]`.
     pub struct CounterbodySection = COUNTERBODY, rules elastic_or_rigid, misplaced [
         ("shear_ratio", "`shear_ratio` relates a layer to its substrate, whose modulus is `young`"),
         ("radius", "the shape of the counterbody stands in [[levels]] or [surface]"),
     ] {
-        /// material of `percoat materials` or of the file `materials`, for moduli, strengths, hardness and name that are not given
-        pub material: Option<String> = MATERIAL,
-        /// name of the material, used in place of its number in tables and pictures
-        pub name: Option<String> = NAME,
         /// Young's modulus
         pub young: Option<f64> = Key::new(&[SIZE], "210.0").unit(Unit::Pressure),
         /// Poisson's ratio
         pub poisson: Option<f64> = Key::new(&[POISSON], "0.3"),
-        /// yield strength, compared with the von Mises stress
-        pub yield_strength: Option<f64> = YIELD,
-        /// tensile strength, compared with the largest principal stress
-        pub tensile_strength: Option<f64> = TENSILE,
-        /// hardness: the pressure never exceeds that of the softer surface
-        pub hardness: Option<f64> = HARDNESS,
-        /// Archard's coefficient of wear k: the pressure p wears off the depth k p ds along the path ds of sliding
-        pub wear: Option<f64> = WEAR,
-        /// fatigue by the range of the principal shear stress τ₁ in a pass
-        pub fatigue: Option<FatigueSection> = FATIGUE_LAW,
-        /// endurance limits, below which any number of passes is borne, for the criteria of Crossland and Dang Van
-        pub endurance: Option<EnduranceSection> = ENDURANCE_LIMITS,
+    }
+    {
         /// whether it is rigid: below its coating, whose last layer its interface joins to it, or uncoated with a hardness or wear
         pub rigid: Rigid = RIGID.and_of(ELASTIC),
         /// its coating, one section `[[counterbody.layers]]` a layer from its surface inward, with the keys of `[[layers]]`

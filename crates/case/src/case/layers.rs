@@ -1,8 +1,6 @@
 //! `[[layers]]` and `[substrate]`: the coated half-space, or layers on a rigid base.
 
-use super::durability::{
-    ENDURANCE_LIMITS, EnduranceSection, FATIGUE, FATIGUE_LAW, FatigueSection, HARDNESS, WEAR, durability,
-};
+use super::durability::{FATIGUE, FatigueSection, durability};
 use super::error::Refusal;
 use super::grading::{GRADING, Grading, LAYERS};
 use super::interface::{INTERFACE_STRENGTH, InterfaceSection, InterfaceStrengthSection, SPRING};
@@ -58,13 +56,9 @@ impl KeyValue for Rigid {
     }
 }
 
-section! {
+section! { of_material
     /// One section of `[[layers]]`, from the surface down.
     pub struct LayerSection = LAYER, rules consistent {
-        /// material of `percoat materials` or of the file `materials`, for moduli, strengths, hardness and name that are not given
-        pub material: Option<String> = MATERIAL,
-        /// name of the material, used in place of its number in tables and pictures
-        pub name: Option<String> = NAME,
         /// the thickness of the layer
         pub thickness: f64 = Key::new(&[SIZE], "0.5").unit(Unit::Length),
         /// shear modulus over that of the substrate, χ
@@ -87,18 +81,8 @@ section! {
             .unit(Unit::Pressure)
             .default("0")
             .omitted_as_nothing(),
-        /// yield strength, compared with the von Mises stress
-        pub yield_strength: Option<f64> = YIELD,
-        /// tensile strength, compared with the largest principal stress
-        pub tensile_strength: Option<f64> = TENSILE,
-        /// hardness: the pressure never exceeds that of the softer surface
-        pub hardness: Option<f64> = HARDNESS,
-        /// Archard's coefficient of wear k: the pressure p wears off the depth k p ds along the path ds of sliding
-        pub wear: Option<f64> = WEAR,
-        /// fatigue by the range of the principal shear stress τ₁ in a pass
-        pub fatigue: Option<FatigueSection> = FATIGUE_LAW,
-        /// endurance limits, below which any number of passes is borne, for the criteria of Crossland and Dang Van
-        pub endurance: Option<EnduranceSection> = ENDURANCE_LIMITS,
+    }
+    {
         /// strengths of the interface below the layer
         pub interface_strength: Option<InterfaceStrengthSection> =
             Key::new(&[Form::Table(&INTERFACE_STRENGTH)], "{ normal = 0.5, shear = 0.8 }")
@@ -110,31 +94,17 @@ section! {
     }
 }
 
-section! {
+section! { of_material
     /// The section `[substrate]`.
     pub struct SubstrateSection = SUBSTRATE, rules elastic_or_rigid, misplaced [
         ("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")
     ] {
-        /// material of `percoat materials` or of the file `materials`, for moduli, strengths, hardness and name that are not given
-        pub material: Option<String> = MATERIAL,
-        /// name of the material, used in place of its number in tables and pictures
-        pub name: Option<String> = NAME,
         /// Young's modulus
         pub young: Option<f64> = Key::new(&[SIZE], "210.0").unit(Unit::Pressure),
         /// Poisson's ratio
         pub poisson: Option<f64> = Key::new(&[POISSON], "0.3"),
-        /// yield strength, compared with the von Mises stress
-        pub yield_strength: Option<f64> = YIELD,
-        /// tensile strength, compared with the largest principal stress
-        pub tensile_strength: Option<f64> = TENSILE,
-        /// hardness: the pressure never exceeds that of the softer surface
-        pub hardness: Option<f64> = HARDNESS,
-        /// Archard's coefficient of wear k: the pressure p wears off the depth k p ds along the path ds of sliding
-        pub wear: Option<f64> = WEAR,
-        /// fatigue by the range of the principal shear stress τ₁ in a pass
-        pub fatigue: Option<FatigueSection> = FATIGUE_LAW,
-        /// endurance limits, below which any number of passes is borne, for the criteria of Crossland and Dang Van
-        pub endurance: Option<EnduranceSection> = ENDURANCE_LIMITS,
+    }
+    {
         /// whether it is a rigid base, without the keys of a material; the interface of the last layer joins it to the base
         pub rigid: Rigid = RIGID.and_of(BELOW),
     }
