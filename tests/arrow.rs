@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folders of the sources of every crate; the published package has `src` alone.
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 11] = [
+    "crates/fft/src",
     "crates/core/src",
     "crates/common/src",
     "crates/surfaces/src",

@@ -7,7 +7,7 @@
 
 use super::Bodies;
 use crate::numeric::chebyshev::{Chebyshev, inside, place};
-use rayon::prelude::*;
+use crate::numeric::parallel;
 
 /// Terms of a series.
 const TERMS: usize = 12;
@@ -52,7 +52,7 @@ impl Panels {
         };
         // Few wavenumbers are not worth it.
         let pays = 2 * count * (TERMS + PROBES.len()) < times;
-        Self { first, series: (0..if pays { count } else { 0 }).into_par_iter().map(series).collect() }
+        Self { first, series: parallel::map(if pays { count } else { 0 }, series) }
     }
 
     fn at(&self, wavenumber: f64) -> Option<f64> {

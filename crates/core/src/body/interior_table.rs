@@ -11,7 +11,7 @@ use super::minors::PlaneStrain;
 use super::strata::{Strata, Stratum};
 use super::stress_function::{Derivatives, amplitudes_of, coefficients, decay, derivatives, derivatives_of};
 use super::{Amplitudes, Antiplane, Depth, InPlane, Interface, LayeredResponse};
-use rayon::prelude::*;
+use crate::numeric::parallel;
 use std::sync::Arc;
 
 /// Largest qz of a wave that still counts at the depth z: its stresses are below (2 + qz)e^{−qz} of the traction, 10⁻¹⁶.
@@ -115,7 +115,7 @@ impl InteriorTable {
             let Some(row) = coefficients.get(number) else { return self.response.amplitudes(traction, q, depth) };
             amplitudes_of(traction, material.functions(traction, row, below, q), material.elasticity(), q)
         };
-        (0..wavenumbers.len()).into_par_iter().with_min_len(MIN_PARALLEL).map(of).collect()
+        parallel::map_by(MIN_PARALLEL, wavenumbers.len(), of)
     }
 
     /// F and its first three derivatives by x at a depth, of the first of the `wavenumbers` that the table was made for. The next
@@ -136,7 +136,7 @@ impl InteriorTable {
                 }
             }
         };
-        (0..wavenumbers.len()).into_par_iter().with_min_len(MIN_PARALLEL).map(of).collect()
+        parallel::map_by(MIN_PARALLEL, wavenumbers.len(), of)
     }
 
     /// Amplitudes at a depth under a shear traction across the wavevector, of the first of the `wavenumbers` that the table was
@@ -158,7 +158,7 @@ impl InteriorTable {
             };
             Antiplane { stz, sqt: -(up + down), ut: (up + down) / (material.shear * q) }
         };
-        (0..wavenumbers.len()).into_par_iter().with_min_len(MIN_PARALLEL).map(of).collect()
+        parallel::map_by(MIN_PARALLEL, wavenumbers.len(), of)
     }
 }
 
@@ -175,7 +175,7 @@ fn in_plane(
         let reached = counts.iter().enumerate().map(|(material, &count)| (number < count).then_some(material));
         reached.map(|material| material.map(|material| coefficients(&interior, material))).collect()
     };
-    let waves: Vec<Vec<Option<[f64; 4]>>> = (0..most).into_par_iter().map(of_wave).collect();
+    let waves: Vec<Vec<Option<[f64; 4]>>> = parallel::map(most, of_wave);
     (0..counts.len()).map(|material| waves.iter().filter_map(|wave| wave[material]).collect()).collect()
 }
 
@@ -183,7 +183,7 @@ fn in_plane(
 fn across(response: &LayeredResponse, wavenumbers: &[f64], counts: &[usize]) -> Vec<Vec<[f64; 2]>> {
     let most = counts.iter().copied().max().unwrap_or(0);
     let faces: Vec<Vec<[Antiplane; 2]>> =
-        wavenumbers[..most].par_iter().map(|&q| at_faces(response.strata(), q)).collect();
+        parallel::map_items(&wavenumbers[..most], |&q| at_faces(response.strata(), q));
     let of = |[upper, lower]: [Antiplane; 2]| [-0.5 * (upper.sqt + upper.stz), -0.5 * (lower.sqt - lower.stz)];
     let table = |(material, &count): (usize, &usize)| faces[..count].iter().map(|wave| of(wave[material])).collect();
     counts.iter().enumerate().map(table).collect()

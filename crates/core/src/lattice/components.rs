@@ -6,7 +6,7 @@
 
 use super::runs::SampleRun;
 use super::{Connectivity, Grid};
-use rayon::prelude::*;
+use crate::numeric::parallel;
 use std::ops::Range;
 
 /// A connected component of samples.
@@ -69,8 +69,7 @@ pub fn components(grid: &Grid, connectivity: Connectivity, members: impl Fn(usiz
     if let Some(along) = along {
         offsets.swap_remove(along);
     }
-    let rows: Vec<Vec<[i32; 2]>> =
-        (0..n1).into_par_iter().map(|row| runs_of_row(n2, along.is_some(), |j| members(row * n2 + j))).collect();
+    let rows: Vec<Vec<[i32; 2]>> = parallel::map(n1, |row| runs_of_row(n2, along.is_some(), |j| members(row * n2 + j)));
     let starts: Vec<usize> = std::iter::once(0)
         .chain(rows.iter().scan(0, |sum, row| {
             *sum += row.len();

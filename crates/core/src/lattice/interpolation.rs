@@ -1,9 +1,7 @@
 //! Interpolation of fields between the samples of a grid that keeps the symmetry of the cell.
 
 use super::Cell;
-use crate::numeric::rows;
-use crate::numeric::sums::BLOCK;
-use rayon::prelude::*;
+use crate::numeric::{parallel, sums};
 
 /// Interpolation of a field between four neighbouring samples of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,17 +49,19 @@ pub(crate) fn resampled(
     value: impl Fn(f64) -> f64 + Sync,
 ) -> Vec<f64> {
     if from == to {
-        return field.par_iter().with_min_len(BLOCK).map(|&x| if x > 0.0 { value(x) } else { 0.0 }).collect();
+        let mut result = field.to_vec();
+        sums::update(&mut result, |_, x| if x > 0.0 { value(x) } else { 0.0 });
+        return result;
     }
     let any_positive = |row: &[f64]| row.iter().any(|&x| x > 0.0);
-    let positive: Vec<bool> = field.par_chunks(from[1]).map(any_positive).collect();
+    let positive: Vec<bool> = parallel::map_chunks(field, from[1], any_positive);
     let place = |index: usize, axis: usize| {
         let (before, rest) = (index * from[axis] / to[axis], index * from[axis] % to[axis]);
         (before, (before + 1) % from[axis], rest as f64 / to[axis] as f64)
     };
     let columns: Vec<(usize, usize, f64)> = (0..to[1]).map(|j| place(j, 1)).collect();
     let mut result = vec![0.0; to[0] * to[1]];
-    rows::each_row(to[1], result.par_chunks_mut(to[1]), |i, row| {
+    parallel::each_chunk(&mut result, to[1], |i, row| {
         let (low, high, s) = place(i, 0);
         if !(positive[low] || positive[high]) {
             return;

@@ -14,7 +14,7 @@
 use super::point::{PointKernel, QUADRATURE};
 use super::quadrature::{Bessel, hankel};
 use crate::numeric::chebyshev::Chebyshev;
-use rayon::prelude::*;
+use crate::numeric::parallel;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Displacement at the distance `s` ≥ 0 from the centre of a disc of `radius` under unit pressure: a length per
@@ -76,7 +76,7 @@ impl<'a> FarField<'a> {
     pub fn new(kernel: &'a PointKernel, radius: f64, reach: f64) -> Self {
         let nodes = Chebyshev::<TERMS>::nodes();
         let distance = |x: f64| reach * (0.5 * (1.0 + x)).sqrt();
-        let values: Vec<f64> = nodes.par_iter().map(|&x| correction(kernel, radius, distance(x))).collect();
+        let values: Vec<f64> = parallel::map_items(&nodes, |&x| correction(kernel, radius, distance(x)));
         let series = Chebyshev::through(&std::array::from_fn(|k| values[k]));
         Self { kernel, radius, reach, series }
     }

@@ -25,7 +25,7 @@ use super::point::QUADRATURE;
 use super::quadrature::{Bessel, hankel};
 use super::system::System;
 use crate::numeric::chebyshev::Chebyshev;
-use rayon::prelude::*;
+use crate::numeric::parallel;
 use std::f64::consts::{PI, SQRT_2};
 
 /// Order n of the bell.
@@ -73,21 +73,14 @@ impl Exterior {
         };
         let end = BELL_CUTOFF * kappa;
         let vectors = system.cell().dual().reduced().vectors_within(end);
-        let half_plane = vectors.into_par_iter().filter(|&[x, y]| x > 0.0 || (x == 0.0 && y > 0.0));
+        let half_plane: Vec<_> = vectors.into_iter().filter(|&[x, y]| x > 0.0 || (x == 0.0 && y > 0.0)).collect();
         let scale = 2.0 * 2.0 * PI * kernel.factor() / area;
-        let waves = half_plane.map(|q| (q, scale * spectrum(length(&q)) / length(&q))).collect();
+        let waves = parallel::map_items(&half_plane, |q| (*q, scale * spectrum(length(q)) / length(q)));
         let interval = 1.0 / kappa;
         let pieces = ((reach + SQRT_2 * half) / interval).ceil() as usize + 1;
         let at = |r: f64| kernel.factor() * hankel(Bessel::Zero, r, end, QUADRATURE, spectrum).value;
-        let blurred =
-            (0..pieces).into_par_iter().map(|k| Chebyshev::of(|x| at((k as f64 + 0.5 * (1.0 + x)) * interval)));
-        Self {
-            circles: system.circles_within(reach),
-            offsets: system.offsets(),
-            waves,
-            blurred: blurred.collect(),
-            interval,
-        }
+        let blurred = parallel::map(pieces, |k| Chebyshev::of(|x| at((k as f64 + 0.5 * (1.0 + x)) * interval)));
+        Self { circles: system.circles_within(reach), offsets: system.offsets(), waves, blurred, interval }
     }
 
     /// Circles around each site, with the images that are summed one by one.

@@ -10,7 +10,7 @@
 
 use super::square::Squares;
 use crate::numeric::chebyshev::Chebyshev;
-use rayon::prelude::*;
+use crate::numeric::parallel;
 
 /// A square mesh of `width` × `width` elements, the central one on the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +100,7 @@ impl Influence {
         let series = (!nowhere).then(|| ChebyshevProduct::new(half, distant));
         let offset = |k: usize| (k as f64 - last) * mesh.size;
         let mut table = vec![0.0; side * side];
-        table.par_chunks_mut(side).enumerate().for_each(|(i, row)| {
+        parallel::each_chunk(&mut table, side, |i, row| {
             let x = offset(i);
             let line = series.as_ref().map(|series| series.at(x / half));
             for (j, value) in row.iter_mut().enumerate() {
@@ -122,7 +122,7 @@ impl Influence {
         let (width, side) = (self.width, 2 * self.width - 1);
         let loaded: Vec<usize> =
             (0..width).filter(|&row| pressure[row * width..(row + 1) * width].iter().any(|&p| p != 0.0)).collect();
-        displacement.par_chunks_mut(width).enumerate().for_each(|(target, out)| {
+        parallel::each_chunk(displacement, width, |target, out| {
             for &source in &loaded {
                 let row = &self.table[(target + width - 1 - source) * side..][..side];
                 for (j, &p) in pressure[source * width..(source + 1) * width].iter().enumerate() {
@@ -144,7 +144,7 @@ impl ChebyshevProduct {
     fn new(half: f64, f: impl Fn(f64, f64) -> f64 + Sync) -> Self {
         let nodes = Chebyshev::<SERIES_TERMS>::nodes();
         let lines: Vec<Chebyshev<SERIES_TERMS>> =
-            nodes.par_iter().map(|x| Chebyshev::of(|y| f(half * x, half * y))).collect();
+            parallel::map_items(&nodes, |x| Chebyshev::of(|y| f(half * x, half * y)));
         Self(std::array::from_fn(|l| Chebyshev::through(&std::array::from_fn(|k| lines[k].coefficients()[l]))))
     }
 

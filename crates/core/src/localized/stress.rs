@@ -10,8 +10,8 @@ use super::solution::Solution;
 use super::subsurface::{ForceStress, Subsurface, add, add_sheared};
 use crate::body::{Depth, MeanStress};
 use crate::friction::Friction;
+use crate::numeric::parallel;
 use crate::stress::StressState;
-use rayon::prelude::*;
 
 /// Least depth at which stresses are computed, in elements.
 pub const LEAST_DEPTH: f64 = 2.0;
@@ -62,7 +62,7 @@ impl<'a> LocalizedField<'a> {
             .map(|traction| (traction, ForceStress::new(|r| self.subsurface.shear_force(depth, r), depth.z, reach)));
         let mean_pressure = self.solution.mean_pressure;
         let residual = self.residual[depth.material - 1];
-        let states = points.par_iter().map(|&[x, y]| {
+        let states = parallel::map_items(points, |&[x, y]| {
             let mut state = StressState { xx: residual, yy: residual, ..StressState::default() };
             for &([u, v], force) in &forces {
                 let (distance, away) = ((x - u).hypot(y - v), [x - u, y - v]);
@@ -85,7 +85,7 @@ impl<'a> LocalizedField<'a> {
             }
             state
         });
-        Some(states.collect())
+        Some(states)
     }
 
     /// Points (x, y) from the axis of a spot, lengths, and forces of all elements inside its circle.

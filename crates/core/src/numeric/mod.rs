@@ -13,6 +13,7 @@ pub(crate) mod limited_cubic;
 pub mod linear;
 pub mod number;
 pub(crate) mod paraboloid;
+pub(crate) mod parallel;
 pub mod quadrature;
 pub(crate) mod rows;
 pub mod search;

@@ -3,7 +3,7 @@
 //! A field is divided into blocks of fixed length; blocks are summed on any thread, their sums added in order. Within a block
 //! several independent sums run in parallel lanes.
 
-use rayon::prelude::*;
+use super::parallel;
 
 /// Length of a block.
 pub const BLOCK: usize = 4096;
@@ -24,18 +24,22 @@ pub fn of<const K: usize>(len: usize, term: impl Fn(usize) -> [f64; K] + Sync + 
         }
         (whole..end).map(&term).fold(sums.into_iter().fold([0.0; K], add), add)
     };
-    let blocks: Vec<[f64; K]> = (0..len.div_ceil(BLOCK)).into_par_iter().map(of_block).collect();
+    let blocks: Vec<[f64; K]> = parallel::map(len.div_ceil(BLOCK), of_block);
     blocks.into_iter().fold([0.0; K], add)
 }
 
 /// Least term(i) over 0 ≤ i < `len`, +∞ for none.
 pub fn least(len: usize, term: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
-    (0..len).into_par_iter().with_min_len(BLOCK).map(term).reduce(|| f64::INFINITY, f64::min)
+    let of_block =
+        |block: usize| (block * BLOCK..len.min((block + 1) * BLOCK)).map(&term).fold(f64::INFINITY, f64::min);
+    parallel::map(len.div_ceil(BLOCK), of_block).into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// Sets every `field[i]` to `value(i, field[i])`.
 pub fn update<T: Copy + Send + Sync>(field: &mut [T], value: impl Fn(usize, T) -> T + Sync + Send) {
-    field.par_iter_mut().with_min_len(BLOCK).enumerate().for_each(|(i, x)| *x = value(i, *x));
+    parallel::each_chunk(field, BLOCK, |block, values| {
+        values.iter_mut().enumerate().for_each(|(i, x)| *x = value(block * BLOCK + i, *x));
+    });
 }
 
 /// Mean of a field.

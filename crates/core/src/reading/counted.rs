@@ -12,7 +12,7 @@
 
 use super::fraction::Fraction;
 use crate::lattice::Grid;
-use rayon::prelude::*;
+use crate::numeric::parallel;
 use std::f64::consts::{LN_2, PI};
 
 /// Yastrebov's factor of the border pairs, (π − 1 + ln 2)/24.
@@ -66,7 +66,7 @@ fn border(grid: &Grid, pressure: &[f64]) -> [f64; 2] {
             let (upper, lower) = (row(i), row((i + down) % n1));
             differing(&upper[..n2 - right], &lower[right..]) + differing(&upper[n2 - right..], &lower[..right])
         };
-        let pairs = direction.weight * (0..n1).into_par_iter().map(of_row).sum::<usize>() as f64;
+        let pairs = direction.weight * parallel::map(n1, of_row).into_iter().sum::<usize>() as f64;
         sum = [sum[0] + pairs, sum[1] + pairs * direction.beside];
     }
     sum

@@ -24,7 +24,7 @@
 use super::edge_transforms::{EdgeTransforms, Wave, euler};
 use crate::body::Bodies;
 use crate::friction::Friction;
-use rayon::prelude::*;
+use crate::numeric::parallel;
 
 /// Pressure and gap near the edge, tabulated over the distance.
 #[derive(Debug, Clone)]
@@ -85,7 +85,7 @@ impl ContactEdge {
                 return vec![[1.0; 2]; entries];
             }
             let ratios = |k: usize| transforms.ratios(&sum, shortest * (k as f64 * LOG_STEP).exp());
-            (0..entries).into_par_iter().map(ratios).collect()
+            parallel::map(entries, ratios)
         };
         let sliding = friction.filter(|friction| friction.couples()).map(|friction| SlidingEdge {
             direction: friction.direction(),

@@ -4,6 +4,7 @@ use super::boundary::{Boundary, ContactSamples, PolarSpot, Sample};
 use super::holes::Holes;
 use crate::lattice::components::Component;
 use crate::lattice::runs::SampleRun;
+use crate::numeric::parallel;
 use crate::spectral::Contact;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -65,7 +66,7 @@ pub fn spots(contact: &Contact, components: &[Component]) -> Vec<SpotReading> {
         .zip(components)
         .flat_map(|(number, component)| component.runs.iter().map(move |run| (number, *run)))
         .collect();
-    let parts: Vec<Vec<Part>> = runs.par_chunks(RUNS_PER_TASK).map(|runs| parts(contact, runs)).collect();
+    let parts: Vec<Vec<Part>> = parallel::map_chunks(&runs, RUNS_PER_TASK, |runs| parts(contact, runs));
     let area = grid.sample_area();
     let mut first: Option<&Part> = None;
     for part in parts.iter().flatten() {

@@ -4,8 +4,8 @@ use super::boundary::constants::MIN_RESOLUTION;
 use super::boundary::{Boundary, ContactSamples, PolarSpot, Sample};
 use super::holes::{Holes, NO_CONTACT};
 use crate::lattice::components::Component;
+use crate::numeric::parallel;
 use crate::spectral::Contact;
-use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::f64::consts::PI;
 
@@ -44,7 +44,7 @@ pub fn boundaries(contact: &Contact, components: &[Component], samples: &Contact
         let spot = PolarSpot::new(grid, centre, farthest, &what);
         spot.stands_alone().then(|| Boundary::locate(&spot, samples, holes.has(number))).flatten()
     };
-    let found: Vec<Option<Boundary>> = fitted.par_iter().map(boundary).collect();
+    let found: Vec<Option<Boundary>> = parallel::map_items(&fitted, boundary);
     fitted.iter().zip(found).for_each(|(number, boundary)| boundaries[*number as usize] = boundary);
     boundaries
 }

@@ -20,6 +20,7 @@ use super::multiplier::{Action, Multiplier, SkewPart, SkewRatio};
 use crate::numeric::aligned::Aligned;
 use crate::numeric::fourier::{Columns, Rows, line};
 use crate::numeric::lanes::{LANES, Real};
+use crate::numeric::parallel;
 use crate::numeric::rows::RowBlocks;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
@@ -140,7 +141,7 @@ impl<T: Real> Convolution<T> {
     fn table(&self, padding: f64, mirrored: bool, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> Vec<f64> {
         let n1 = self.points[0];
         let mut table = vec![padding; self.eights() * n1 * LANES];
-        table.par_chunks_mut(n1 * LANES).enumerate().for_each(|(eight, table)| {
+        parallel::each_chunk(&mut table, n1 * LANES, |eight, table| {
             let k2 = eight * LANES;
             if k2 >= self.half() {
                 return;

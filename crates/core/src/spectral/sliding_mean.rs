@@ -16,7 +16,7 @@
 use super::wear_error::WearError;
 use crate::lattice::{Cell, Grid, Surroundings};
 use crate::numeric::sums;
-use rustfft::FftPlanner;
+use percoat_fft::FftDirection;
 use rustfft::num_complex::Complex64;
 
 /// Lattice vector along a `direction` of any length; `None` where no path along it closes.
@@ -157,11 +157,12 @@ fn component(points: [usize; 2], wave: [i64; 2]) -> [usize; 2] {
 
 /// Values of the lines with a part of each of their waves.
 fn filtered(values: &[f64], parts: &[f64]) -> Vec<f64> {
-    let (count, mut planner) = (values.len(), FftPlanner::new());
+    let count = values.len();
+    let plan = |direction| percoat_fft::complex(count, direction);
     let mut waves: Vec<Complex64> = values.iter().map(|&value| Complex64::from(value)).collect();
-    planner.plan_fft_forward(count).process(&mut waves);
+    plan(FftDirection::Forward).process(&mut waves);
     waves.iter_mut().zip(parts).for_each(|(wave, part)| *wave *= part / count as f64);
-    planner.plan_fft_inverse(count).process(&mut waves);
+    plan(FftDirection::Inverse).process(&mut waves);
     waves.into_iter().map(|value| value.re).collect()
 }
 

@@ -20,8 +20,8 @@ use super::smoothed_surface::{NearEdge, Sharp, SmoothedSurface};
 use super::tensor::StressState;
 use super::transform::Transform;
 use crate::body::Depth;
+use crate::numeric::parallel;
 use crate::numeric::search::{first_largest, largest};
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// The largest value of a stress measure on the surface.
@@ -227,7 +227,7 @@ impl StressField {
         columns.write(&mut fields);
         *buffer = columns.into_buffer();
         let near = |index: usize| [0, 1, 2].map(|k| fields[k * len + index]);
-        let found = (0..len).into_par_iter().filter(|&index| regions.touches(index)).filter_map(|index| {
+        let beside = |index: usize| -> Option<EdgePoint> {
             let open = grid.neighbours(index).filter(|&next| !regions.touches(next));
             let resolution = open.map(|next| regions.resolution(next)).reduce(f64::min)?.min(regions.resolution(index));
             let (mut place, mut pressure, mut u) = (cell.point(grid.fractions(index)), near(index), 0.0);
@@ -239,14 +239,17 @@ impl StressField {
             let [shear, _] = shear.between(&CubicInterpolation::new(grid.points(), cell.fractions(place)), n2);
             let near = NearEdge { pressure, shear };
             (u.abs() < 0.5).then_some(EdgePoint { place, near, resolution, state: StressState::default() })
-        });
+        };
+        let of_row = |i: usize| -> Vec<EdgePoint> {
+            (i * n2..(i + 1) * n2).filter(|&index| regions.touches(index)).filter_map(beside).collect()
+        };
         let band = |i: usize| {
             let samples = (0..n2).map(|j| (j, near(i * n2 + j)));
             let samples = samples.filter(|(_, near)| smoothed.sees_edge(*near));
             let shear = |j: usize| shear.at(i * n2 + j)[0];
             samples.map(|(j, pressure)| (j, NearEdge { pressure, shear: shear(j) })).collect()
         };
-        (found.collect(), (0..grid.points()[0]).into_par_iter().map(band).collect())
+        (parallel::map(grid.points()[0], of_row).into_iter().flatten().collect(), parallel::map(grid.points()[0], band))
     }
 
     /// The points of edges with their stresses, and the samples near edges with their sharpened stresses.

@@ -22,6 +22,7 @@ use super::tensor::StressState;
 use super::transform::Transform;
 use crate::body::Depth;
 use crate::counterbody::LoadedDisc;
+use crate::numeric::parallel;
 use rayon::prelude::*;
 use std::f64::consts::{PI, SQRT_2, TAU};
 use std::sync::Arc;
@@ -139,7 +140,7 @@ impl<'a> SmoothedDiscs<'a> {
             self.sharp(point, std::array::from_fn(|k| between.value(&fields[k * len..(k + 1) * len], n2)))
         };
         let points = self.edge_points();
-        let edges: Vec<(StressState, Point)> = points.into_par_iter().map(|point| (at(point), point)).collect();
+        let edges: Vec<(StressState, Point)> = parallel::map_items(&points, |&point| (at(point), point));
         let of_measure = |(number, measure): (usize, &StressMeasure)| {
             let sample = of_rows.iter().map(|row| row[number]).reduce(|a, b| if b.0 > a.0 { b } else { a });
             let mut ordered: Vec<(f64, Point)> =

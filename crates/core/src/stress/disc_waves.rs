@@ -6,7 +6,7 @@
 use crate::counterbody::LoadedDisc;
 use crate::lattice::Cell;
 use crate::lattice::waves::Waves;
-use rayon::prelude::*;
+use crate::numeric::parallel;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
@@ -15,7 +15,7 @@ pub(super) fn waves_of_discs(waves: &Waves, cell: Cell, discs: &[LoadedDisc]) ->
     let mut radii: Vec<f64> = discs.iter().map(|disc| disc.radius).collect();
     radii.sort_by(f64::total_cmp);
     radii.dedup();
-    let of_radius: Vec<Vec<Complex64>> = radii.par_iter().map(|&radius| of_equal(waves, cell, discs, radius)).collect();
+    let of_radius: Vec<Vec<Complex64>> = parallel::map_items(&radii, |&radius| of_equal(waves, cell, discs, radius));
     let mut sums = vec![Complex64::default(); waves.shells().len()];
     for coefficients in of_radius {
         sums.iter_mut().zip(coefficients).for_each(|(sum, coefficient)| *sum += coefficient);

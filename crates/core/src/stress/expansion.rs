@@ -16,8 +16,8 @@ use super::traction::ShearForm;
 use crate::body::{Depth, InPlane};
 use crate::lattice::waves::WaveRow;
 use crate::numeric::lanes::{LANES, splat, total, vectorised};
+use crate::numeric::parallel;
 use fearless_simd::{f64x8, prelude::*};
-use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 
 /// Stresses around a point, to second order.
@@ -180,7 +180,7 @@ impl DepthFunctions<'_> {
         };
         let count: usize = rows.iter().map(|row| row.len).sum();
         // Rows are added in their order, whatever the threads, so that the sum does not depend on their number.
-        rows.par_iter().with_min_len(PARALLEL_WAVES * rows.len() / count.max(1)).map(of_row).collect()
+        parallel::map_by(PARALLEL_WAVES * rows.len() / count.max(1), rows.len(), |number| of_row(&rows[number]))
     }
 
     /// Terms of the expansion by the waves of a row; `along` are the phases of the point's fraction of a₁, one per wave, `across` that

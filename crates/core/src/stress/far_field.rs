@@ -25,7 +25,7 @@ use crate::lattice::Cell;
 use crate::lattice::waves::WaveRow;
 use crate::numeric::chebyshev::{analysis, inside, polynomials};
 use crate::numeric::lanes::vectorised;
-use rayon::prelude::*;
+use crate::numeric::parallel;
 use rustfft::num_complex::Complex64;
 use std::sync::{Arc, OnceLock};
 
@@ -49,7 +49,7 @@ impl FarField {
     /// the window.
     pub fn new(tables: Arc<FarTables>, traction: &Traction<'_>, series: Cell) -> Self {
         let corner = [0, 1].map(|axis| 2.0 * series.corner()[axis] / tables.window.vectors()[axis][axis]);
-        let coefficients = tables.parts.par_iter().map(|part| part.coefficients(traction)).collect();
+        let coefficients = parallel::map_items(&tables.parts, |part| part.coefficients(traction));
         let segments = tables.segments.iter().map(|(interval, _)| (*interval, OnceLock::new())).collect();
         Self { tables, corner, coefficients, segments }
     }
@@ -69,7 +69,7 @@ impl FarField {
     pub fn read_ahead(&self, depths: impl Iterator<Item = Depth>) {
         let mut numbers: Vec<usize> = depths.filter_map(|depth| self.segment(depth)).collect();
         numbers.dedup();
-        numbers.into_par_iter().for_each(|number| {
+        parallel::map_items(&numbers, |&number| {
             self.in_segment(number);
         });
     }

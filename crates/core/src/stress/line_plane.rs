@@ -159,7 +159,7 @@ impl StressField {
 
     /// Values of `read` for each row of the samples of some components, with the buffer of the transform; rows beyond the window of an
     /// isolated contact are left out.
-    fn line_rows<const K: usize, T: Send, R: Response<K>>(
+    fn line_rows<const K: usize, T: Send + Sync, R: Response<K>>(
         &self,
         lines: &SlidingLines,
         points: LinePoints,

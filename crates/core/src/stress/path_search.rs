@@ -25,8 +25,8 @@ use super::range_plane::{RangePlane, on_common_lines};
 use super::sliding_path::{SlidingLines, SlidingPath};
 use super::tensor::StressState;
 use crate::body::{Depth, Durability, Fatigue, Interface, Layer, Side};
+use crate::numeric::parallel;
 use crate::numeric::search::first_largest;
-use rayon::prelude::*;
 
 /// Largest number of further planes of one maximum.
 const MAX_PLANES: usize = 8;
@@ -301,7 +301,7 @@ impl StressField {
             let path = LinePath { back: back.as_ref(), ..path };
             measures.iter().map(|measure| measure.along(&path)).collect()
         };
-        let values = (0..all.lines.len()).into_par_iter().map(along).collect();
+        let values = parallel::map(all.lines.len(), along);
         SearchedLines {
             depth,
             y: all.lines.iter().map(|line| line.0).collect(),

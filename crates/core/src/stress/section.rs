@@ -11,9 +11,9 @@ use super::tensor::StressState;
 use super::trace::Trace;
 use crate::body::Depth;
 use crate::numeric::array::field;
+use crate::numeric::parallel;
 use crate::numeric::search::first_largest;
 use ndarray::Array2;
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Number of intervals between two points of a line in which the largest stress is searched.
@@ -139,7 +139,7 @@ impl<'a> LineField<'a> {
             }
             _ => self.row(&self.line, *depth),
         };
-        depths.par_iter().map(row).collect()
+        parallel::map_items(depths, row)
     }
 
     /// s at the largest normal stress along the line on the surface, between its points, and that stress; `surface` holds the

@@ -13,7 +13,7 @@ use super::transform::{FieldColumn, FieldColumns, Transform};
 use crate::lattice::Grid;
 use crate::lattice::waves::{WaveRow, Waves};
 use crate::numeric::lanes::{LANES, vectorised};
-use rayon::prelude::*;
+use crate::numeric::parallel;
 use rustfft::num_complex::Complex64;
 use std::ops::Range;
 use std::sync::Arc;
@@ -278,7 +278,7 @@ impl Series {
         let waves: usize = rows.iter().map(|row| row.len).sum();
         // Rows are added in their order, whatever the threads.
         let sums: Vec<[[f64; P]; K]> =
-            rows.par_iter().with_min_len(PARALLEL_WAVES * rows.len() / waves.max(1)).map(of_row).collect();
+            parallel::map_by(PARALLEL_WAVES * rows.len() / waves.max(1), rows.len(), |number| of_row(&rows[number]));
         let mean = response.mean();
         std::array::from_fn(|p| std::array::from_fn(|k| mean[k] + sums.iter().map(|sum| sum[k][p]).sum::<f64>()))
     }

@@ -9,6 +9,7 @@
 use super::far_plane::FarPlane;
 use crate::numeric::fourier::{self, Buffers, LINE, Rows};
 use crate::numeric::lanes::LANES;
+use crate::numeric::parallel;
 use ndarray::ArrayView3;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
@@ -141,9 +142,11 @@ impl Transform {
         let mut values = if is_fresh { vec![0.0; size] } else { buffer };
         values.reserve_exact(size.saturating_sub(values.len()));
         values.resize(size, 0.0);
-        values.par_chunks_exact_mut(K * self.tile()).enumerate().for_each_init(
+        parallel::each_chunk_with(
+            &mut values,
+            K * self.tile(),
             || self.scratch(),
-            |scratch, (tile, lines)| {
+            |scratch, tile, lines| {
                 let columns = tile * LANES..half.min((tile + 1) * LANES);
                 let any = occupied(columns.clone());
                 if any || !is_fresh {
@@ -180,7 +183,7 @@ impl<const K: usize> FieldColumns<'_, K> {
     /// hold all waves along the rows, without aliases.
     pub fn sheared(mut self, by: impl Fn(usize) -> f64 + Sync) -> Self {
         let (tile, half) = (self.transform.tile(), self.transform.half());
-        self.values.par_chunks_exact_mut(K * tile).enumerate().for_each(|(number, fields)| {
+        parallel::each_chunk(&mut self.values, K * tile, |number, fields| {
             for (lane, k2) in (number * LANES..half.min((number + 1) * LANES)).enumerate() {
                 for row in 0..tile / LINE {
                     let phase = Complex64::cis(std::f64::consts::TAU * (k2 as f64 * by(row)).fract());
@@ -239,20 +242,18 @@ impl<const K: usize> FieldColumns<'_, K> {
     }
 
     /// Values of `read` for each row, called with its number and the row of each field.
-    pub fn map<R: Send>(&self, read: impl Fn(usize, [&[f64]; K]) -> R + Sync) -> Vec<R> {
+    pub fn map<R: Send + Sync>(&self, read: impl Fn(usize, [&[f64]; K]) -> R + Sync) -> Vec<R> {
         self.map_first(self.transform.points[0], read)
     }
 
     /// Values of `read` for the first `count` rows.
-    pub fn map_first<R: Send>(&self, count: usize, read: impl Fn(usize, [&[f64]; K]) -> R + Sync) -> Vec<R> {
+    pub fn map_first<R: Send + Sync>(&self, count: usize, read: impl Fn(usize, [&[f64]; K]) -> R + Sync) -> Vec<R> {
         let each = |buffers: &mut [Buffers<f64>; K], group: usize| -> Vec<R> {
             let rows = 0..self.group(group, buffers).min(count - group * LANES);
             let row = |row: usize| std::array::from_fn(|k| self.transform.rows.row(row, &buffers[k]));
             rows.map(|number| read(group * LANES + number, row(number))).collect()
         };
-        let groups = (0..count.div_ceil(LANES)).into_par_iter();
-        let groups: Vec<Vec<R>> = groups.map_init(|| self.buffers(), each).collect();
-        groups.into_iter().flatten().collect()
+        parallel::map_with(count.div_ceil(LANES), || self.buffers(), each).into_iter().flatten().collect()
     }
 
     /// Writes the fields one after the other.
@@ -262,11 +263,13 @@ impl<const K: usize> FieldColumns<'_, K> {
         for field in fields.chunks_exact_mut(n1 * n2) {
             field.chunks_mut(LANES * n2).zip(&mut groups).for_each(|(rows, group)| group.push(rows));
         }
-        groups.into_par_iter().enumerate().for_each_init(
+        parallel::each_chunk_with(
+            &mut groups,
+            1,
             || self.buffers(),
-            |buffers, (group, fields)| {
+            |buffers, group, fields| {
                 self.group(group, buffers);
-                for (rows, buffers) in fields.into_iter().zip(buffers) {
+                for (rows, buffers) in fields[0].iter_mut().zip(buffers) {
                     for (number, row) in rows.chunks_exact_mut(n2).enumerate() {
                         row.copy_from_slice(self.transform.rows.row(number, buffers));
                     }
@@ -288,7 +291,8 @@ impl<const K: usize> FieldColumns<'_, K> {
         let mut batch: Vec<_> = (0..at_a_time).map(|_| (self.buffers(), vec![0.0; C * LANES * n2], 0)).collect();
         for first in (0..groups).step_by(at_a_time) {
             let used = &mut batch[..at_a_time.min(groups - first)];
-            used.par_iter_mut().enumerate().for_each(|(group, (buffers, results, count))| {
+            parallel::each_chunk(used, 1, |group, of_group| {
+                let (buffers, results, count) = &mut of_group[0];
                 *count = self.group(first + group, buffers);
                 for number in 0..*count {
                     let rows: [&[f64]; K] = std::array::from_fn(|k| self.transform.rows.row(number, &buffers[k]));

@@ -5,7 +5,7 @@ use super::traction::Traction;
 use super::traction_waves::TractionWaves;
 use crate::lattice::waves::Waves;
 use crate::lattice::{Cell, Grid};
-use rayon::prelude::*;
+use crate::numeric::parallel;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 
@@ -49,9 +49,9 @@ fn waves_of_samples(waves: &Waves, cell: Cell, grid: &Grid, field: &[f64]) -> Ve
         }
         sums
     };
-    let sums: Vec<Vec<Complex64>> = loaded.par_iter().map(of_row).collect();
+    let sums: Vec<Vec<Complex64>> = parallel::map_items(&loaded, of_row);
     let phases: Vec<Vec<Complex64>> =
-        loaded.par_iter().map(|&i| (first..last).map(|k| phase(k, along[i])).collect()).collect();
+        parallel::map_items(&loaded, |&i| (first..last).map(|k| phase(k, along[i])).collect());
     // A wave and its conjugate share one coefficient.
     let scale = 2.0 * grid.sample_area() / cell.area();
     waves.coefficients(|[k1, k2]| {

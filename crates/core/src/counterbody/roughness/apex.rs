@@ -15,8 +15,8 @@ use super::Spectrum;
 use super::jet::{Jet, WaveRows};
 use crate::lattice::{Cell, LatticeError};
 use crate::numeric::paraboloid;
+use crate::numeric::{parallel, sums};
 use ndarray::ArrayView2;
-use rayon::prelude::*;
 
 /// Largest number of starts, by either measure.
 const MAX_STARTS: usize = 32;
@@ -62,8 +62,7 @@ fn apex_within(cell: Cell, heights: ArrayView2<'_, f64>, allowance: f64) -> Resu
     let grid = spectrum.grid();
     let heights = heights.as_standard_layout();
     let heights = heights.as_slice().expect("in standard layout");
-    let lowest = heights.par_iter().copied().reduce(|| f64::INFINITY, f64::min);
-    let highest = heights.par_iter().copied().reduce(|| f64::NEG_INFINITY, f64::max);
+    let [lowest, highest] = [1.0, -1.0].map(|sign| sign * sums::least(heights.len(), |i| sign * heights[i]));
     let enough = ROUNDING * (highest - lowest);
     let places: Vec<[f64; 2]> = starts(grid.points(), heights).into_iter().map(|index| grid.fractions(index)).collect();
     let points = grid.points().map(|n| n as f64);
@@ -108,8 +107,10 @@ fn starts([n1, n2]: [usize; 2], heights: &[f64]) -> Vec<usize> {
         let height = heights[i * n2 + j];
         around(i, j).as_flattened().iter().filter(|other| **other > height).count() <= 1
     };
-    let of_row = |i: usize| (0..n2).filter(move |&j| is_high(i, j)).map(move |j| (heights[i * n2 + j], i * n2 + j));
-    let mut high: Vec<(f64, usize)> = (0..n1).into_par_iter().flat_map_iter(of_row).collect();
+    let of_row = |i: usize| -> Vec<(f64, usize)> {
+        (0..n2).filter(|&j| is_high(i, j)).map(|j| (heights[i * n2 + j], i * n2 + j)).collect()
+    };
+    let mut high = parallel::map(n1, of_row).concat();
     let samples = highest(&mut high).to_vec();
     let enough = samples.iter().map(|(height, _)| *height).fold(f64::INFINITY, f64::min);
     let lifted = |&(height, index): &(f64, usize)| {
@@ -120,7 +121,7 @@ fn starts([n1, n2]: [usize; 2], heights: &[f64]) -> Vec<usize> {
         let hopeful = height + 0.5 * (top - low) >= enough;
         hopeful.then(|| (height + paraboloid::rise(1, above).unwrap_or(0.0), index))
     };
-    let mut lifted: Vec<(f64, usize)> = high.par_iter().filter_map(lifted).collect();
+    let mut lifted: Vec<(f64, usize)> = parallel::map_items(&high, lifted).into_iter().flatten().collect();
     let mut starts: Vec<usize> = samples.iter().chain(highest(&mut lifted)).map(|(_, index)| *index).collect();
     starts.sort_unstable();
     starts.dedup();

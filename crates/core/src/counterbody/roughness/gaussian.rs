@@ -12,8 +12,8 @@
 
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::numeric::fourier::field;
+use crate::numeric::parallel;
 use ndarray::{Array2, ArrayView2};
-use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 use std::f64::consts::{LN_2, PI, TAU};
 
@@ -85,8 +85,7 @@ fn transmitted(cell: Cell, heights: ArrayView2<'_, f64>, cutoff: f64) -> Result<
     let [_, n2] = grid.points();
     let mut components = field::components(heights);
     let half = components.ncols();
-    let rows = components.as_slice_mut().expect("made row by row").par_chunks_mut(half).enumerate();
-    rows.for_each(|(k1, row)| {
+    parallel::each_chunk(components.as_slice_mut().expect("made row by row"), half, |k1, row| {
         for (k2, value) in row.iter_mut().enumerate() {
             let ratio = cutoff * grid.wavenumber([k1, k2]) / TAU;
             *value *= f64::exp2(-ratio * ratio);

@@ -11,9 +11,9 @@
 
 use super::polynomial::{Polynomial, Samples};
 use crate::lattice::Cell;
+use crate::numeric::parallel;
 use crate::numeric::sums::{self, BLOCK};
 use ndarray::Array2;
-use rayon::prelude::*;
 
 /// Memory for filling, bytes a sample and bytes a hole: numbers of the holes; their neighbours, blocks and vectors on all grids.
 pub const MEMORY: [u64; 2] = [6, 120];
@@ -134,7 +134,7 @@ impl Holes {
 
     /// A value for each hole.
     fn each(&self, value: impl Fn(usize) -> f64 + Sync + Send) -> Vec<f64> {
-        (0..self.neighbours.len()).into_par_iter().with_min_len(BLOCK).map(value).collect()
+        parallel::map_by(BLOCK, self.neighbours.len(), value)
     }
 
     /// Approximate solution of a residual: a cycle to the coarsest grid and back.

@@ -3,8 +3,8 @@
 use super::Spectrum;
 use crate::lattice::Grid;
 use crate::numeric::lanes::{LANES, splat, vectorised};
+use crate::numeric::parallel;
 use fearless_simd::{f64x8, prelude::*};
-use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
@@ -59,7 +59,7 @@ const WITH_CONJUGATE: f64 = 2.0;
 impl<'a> WaveRows<'a> {
     pub fn of(spectrum: &'a Spectrum) -> Self {
         let [n1, _] = spectrum.grid().points();
-        let rows = (0..n1).into_par_iter().map(|k1| runs(spectrum.grid(), k1)).collect();
+        let rows = parallel::map(n1, |k1| runs(spectrum.grid(), k1));
         Self { spectrum, rows }
     }
 
@@ -69,11 +69,12 @@ impl<'a> WaveRows<'a> {
         let values = values.as_slice().expect("made row by row");
         let half = values.len() / self.rows.len();
         let groups: Vec<PointGroup> = places.chunks(LANES).map(|places| PointGroup::new(places, half)).collect();
-        let of_row = |(row, values): (&Vec<WaveRun>, &[Complex<f64>])| -> Vec<Jet> {
+        let of_row = |number: usize| -> Vec<Jet> {
+            let (row, values) = (&self.rows[number], &values[number * half..(number + 1) * half]);
             groups.iter().flat_map(|group| vectorised!(simd => group.jets(simd, row, values))).collect()
         };
         // Rows are added in their order, whatever the threads.
-        let rows: Vec<Vec<Jet>> = self.rows.par_iter().zip(values.par_chunks(half)).map(of_row).collect();
+        let rows = parallel::map(self.rows.len(), of_row);
         let add = |sum: Vec<Jet>, row: Vec<Jet>| sum.into_iter().zip(row).map(|(a, b)| a.plus(b)).collect();
         rows.into_iter().fold(vec![Jet::default(); places.len()], add)
     }

@@ -13,8 +13,8 @@
 //! is [`ABOVE_WAVES`] of the largest height, with this rise, above the highest sample. Measured on ridges along and across the samples, tips of cones and
 //! pyramids at any place between the samples: it holds from 32 samples on, and is at most a few times too wide.
 
+use crate::numeric::parallel;
 use ndarray::ArrayView2;
-use rayon::prelude::*;
 
 /// Weights w_k of the samples k = 1, 3, 5, 7 to both sides.
 const WEIGHTS: [f64; 4] = [1225.0 / 2048.0, -245.0 / 2048.0, 49.0 / 2048.0, -5.0 / 2048.0];
@@ -31,7 +31,7 @@ pub(crate) fn above_waves(heights: ArrayView2<'_, f64>, below: impl Fn(usize, us
     let (n1, n2) = heights.dim();
     let highest_of = |of: &(dyn Fn(usize, usize) -> f64 + Sync)| {
         let row = |i: usize| (0..n2).map(|j| of(i, j)).fold(f64::NEG_INFINITY, f64::max);
-        (0..n1).into_par_iter().map(row).reduce(|| f64::NEG_INFINITY, f64::max)
+        parallel::map(n1, row).into_iter().fold(f64::NEG_INFINITY, f64::max)
     };
     let height = |i: usize, j: usize| heights[[i, j]] - below(i, j);
     let with_rise = |i: usize, j: usize| {

@@ -12,8 +12,8 @@ use super::band::{CUTOFF_TOLERANCE, WaveBand};
 use super::spectrum::{Spectrum, WaveSum};
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::numeric::fourier::fast_points;
+use crate::numeric::parallel;
 use ndarray::Array2;
-use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
@@ -209,8 +209,8 @@ impl SelfAffine {
             });
             terms.fold([0.0; 2], add)
         };
-        let rows: Vec<[f64; 2]> = band.rows().into_par_iter().map(row).collect();
-        let sums = rows.into_iter().fold([0.0; 2], add);
+        let numbers: Vec<i32> = band.rows().collect();
+        let sums = parallel::map_items(&numbers, |&number| row(number)).into_iter().fold([0.0; 2], add);
         if sums[0] > 0.0 {
             return Ok(sums);
         }

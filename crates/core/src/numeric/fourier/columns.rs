@@ -9,7 +9,7 @@
 use super::butterflies::{Complex, LARGEST, root, transform};
 use crate::numeric::lanes::{Real, vectorised};
 use fearless_simd::prelude::*;
-use rustfft::{Fft, FftPlanner, num_complex::Complex64};
+use percoat_fft::{Complex64, Fft, FftDirection};
 use std::sync::Arc;
 
 /// Length of a line of a block in double precision: the real, then the imaginary parts of one row in eight columns.
@@ -51,8 +51,8 @@ impl<T: Real> Columns<T> {
         match radices(len, whole_registers::<T>()) {
             Some(radices) => Self::by(len, radices),
             None => {
-                let mut planner = FftPlanner::new();
-                Self::Library { forward: planner.plan_fft_forward(len), inverse: planner.plan_fft_inverse(len) }
+                let plan = |direction| percoat_fft::complex(len, direction);
+                Self::Library { forward: plan(FftDirection::Forward), inverse: plan(FftDirection::Inverse) }
             }
         }
     }

@@ -4,18 +4,15 @@
 //! are conjugates of these.
 
 use ndarray::{Array2, ArrayView2};
+use percoat_fft::{Complex, FftDirection};
 use rayon::prelude::*;
-use realfft::RealFftPlanner;
-use rustfft::num_complex::Complex;
-use rustfft::{Fft, FftDirection, FftPlanner};
-use std::sync::Arc;
 
 const ZERO: Complex<f64> = Complex::new(0.0, 0.0);
 
 /// Components of a field in standard layout, shape (N₁, N₂/2 + 1).
 pub fn components(field: ArrayView2<'_, f64>) -> Array2<Complex<f64>> {
     let (n1, n2) = field.dim();
-    let plan = RealFftPlanner::new().plan_fft_forward(n2);
+    let plan = percoat_fft::of_real(n2);
     let half = n2 / 2 + 1;
     let mut values = Array2::from_elem((n1, half), ZERO);
     let rows = values.as_slice_mut().expect("made row by row").par_chunks_mut(half);
@@ -36,7 +33,7 @@ pub fn components(field: ArrayView2<'_, f64>) -> Array2<Complex<f64>> {
 
 /// The field of `n2` samples along a₂ with some components; of components that are their own conjugates the real part counts.
 pub fn field(components: Array2<Complex<f64>>, n2: usize) -> Array2<f64> {
-    let plan = RealFftPlanner::new().plan_fft_inverse(n2);
+    let plan = percoat_fft::to_real(n2);
     let mut values = columns(components, FftDirection::Inverse);
     let (n1, half) = values.dim();
     let mut field = Array2::zeros((n1, n2));
@@ -57,7 +54,7 @@ pub fn field(components: Array2<Complex<f64>>, n2: usize) -> Array2<f64> {
 
 /// Transforms every column; in standard layout.
 fn columns(values: Array2<Complex<f64>>, direction: FftDirection) -> Array2<Complex<f64>> {
-    let plan: Arc<dyn Fft<f64>> = FftPlanner::new().plan_fft(values.nrows(), direction);
+    let plan = percoat_fft::complex(values.nrows(), direction);
     let mut transposed = values.reversed_axes().as_standard_layout().into_owned();
     let columns = transposed.as_slice_mut().expect("in standard layout").par_chunks_mut(plan.len());
     columns.for_each_init(

@@ -8,7 +8,7 @@
 
 use crate::numeric::lanes::{LANES, vectorised};
 use fearless_simd::{f64x8, prelude::*};
-use rustfft::FftPlanner;
+use percoat_fft::FftDirection;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::PI;
 
@@ -53,7 +53,7 @@ impl<const K: usize> Nonuniform<K> {
     /// The real parts of the sums at the points.
     pub fn real_parts(self) -> Vec<[f64; K]> {
         let Self { points, numbers, decay, ref gathered, .. } = self;
-        let fft = FftPlanner::new().plan_fft_inverse(numbers);
+        let fft = percoat_fft::complex(numbers, FftDirection::Inverse);
         let restored = |point: usize| {
             let damping = PI * (point as f64 - (points / 2) as f64) / numbers as f64;
             (decay / PI).sqrt() * (damping * damping / decay).exp()

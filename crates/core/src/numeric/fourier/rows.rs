@@ -12,8 +12,7 @@ use super::columns::{Columns, line};
 use crate::numeric::aligned::Aligned;
 use crate::numeric::lanes::{Real, all_zero, vectorised};
 use fearless_simd::prelude::*;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::num_complex::Complex64;
+use percoat_fft::{Complex64, ComplexToReal, RealToComplex};
 use std::sync::Arc;
 
 /// Plan for rows of `len` samples.
@@ -61,8 +60,7 @@ impl<T: Real> Rows<T> {
             let twiddles = (0..=len / 2).map(|k| super::butterflies::root(k, len)).collect();
             Self { len, algorithm: Algorithm::Paired { halves, places, twiddles } }
         } else {
-            let mut planner = RealFftPlanner::new();
-            let (forward, inverse) = (planner.plan_fft_forward(len), planner.plan_fft_inverse(len));
+            let (forward, inverse) = (percoat_fft::of_real(len), percoat_fft::to_real(len));
             Self { len, algorithm: Algorithm::Library { forward, inverse } }
         }
     }

@@ -8,8 +8,8 @@ use super::constants::WEIGHT_RISE;
 use super::fit::Fit;
 use super::spot::NEAREST;
 use crate::numeric::closed_line::{self, ANGLES, angle, series_line, waves_at};
+use crate::numeric::parallel;
 use crate::numeric::series_fit::SeriesFit;
-use rayon::prelude::*;
 use std::iter::once;
 use std::ops::Range;
 
@@ -114,9 +114,10 @@ impl Fit {
         let edge = beside.samples().edge;
         let units = [edge.pressure(self.reach, 0.0)[0].abs(), edge.opening(self.reach, 0.0)[0]];
         let side = |sector: usize, open: bool| self.summed(beside, radii, (sector, open), units[usize::from(open)]);
-        let summed = |&sector: &usize| [false, true].map(|open| side(sector, open));
+        let filled = beside.filled();
+        let summed = |number: usize| [false, true].map(|open| side(filled[number], open));
         let together = if beside.len() < LARGE_FIT { ANGLES } else { SECTORS_PER_TASK };
-        beside.filled().par_iter().with_min_len(together).map(summed).collect()
+        parallel::map_by(together, filled.len(), summed)
     }
 
     /// Sums over the samples of one side of a sector, beside the rim `radii`; `unit` is φ or γ at the reach.

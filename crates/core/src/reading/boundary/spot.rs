@@ -3,8 +3,8 @@
 use super::constants::WEIGHT_RISE;
 use crate::lattice::runs::{SampleRun, annulus, samples};
 use crate::lattice::{Grid, ReducedBasis};
+use crate::numeric::parallel;
 use crate::reading::edge::ContactEdge;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Distance from the edge, in spacings, from which on samples enter the fits.
@@ -85,7 +85,7 @@ impl<'a> PolarSpot<'a> {
 
     /// Results of `take` over the samples at distances from the axis of at least the first and less than the second of two lengths,
     /// one for each task, in their order. `take` is given the flat index of a sample, its offset from the axis and where it lies.
-    pub fn taken<T: Send + Default>(
+    pub fn taken<T: Send + Sync + Default>(
         &self,
         distances: [f64; 2],
         take: impl Fn(&mut T, usize, [f64; 2], Sample) + Sync,
@@ -98,7 +98,7 @@ impl<'a> PolarSpot<'a> {
             }
             taken
         };
-        runs.par_chunks(RUNS_PER_TASK).map(of_task).collect()
+        parallel::map_chunks(&runs, RUNS_PER_TASK, of_task)
     }
 }
 

@@ -6,8 +6,8 @@
 //! the weights w_q, P_a Legendre polynomials, j_a spherical Bessel functions. However many periods a wave has on the zone, it is
 //! integrated exactly: the error is that of the interpolation, the same for every offset m.
 
+use crate::numeric::parallel;
 use crate::numeric::quadrature::gauss;
-use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The wave that a function is multiplied with.
@@ -32,7 +32,7 @@ impl Filon {
         let rule = gauss(nodes);
         let legendre: Vec<Vec<f64>> = rule.iter().map(|&[x, weight]| scaled_legendre(x, weight, nodes)).collect();
         let mut weights = vec![0.0; nodes * offsets];
-        weights.par_chunks_mut(nodes).enumerate().for_each(|(m, weights)| {
+        parallel::each_chunk(&mut weights, nodes, |m, weights| {
             let bessel = spherical_bessel(m, nodes);
             // a ≡ m (mod 2) for the cosine, else for the sine: the others vanish.
             let first = (m + usize::from(wave == Wave::Sine)) % 2;

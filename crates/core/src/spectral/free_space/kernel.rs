@@ -20,8 +20,8 @@
 use super::cut::high_pass;
 use super::filon::{Filon, Wave};
 use super::radial::Radial;
+use crate::numeric::parallel;
 use ndarray::Array2;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Nodes on the shorter side of the zone (70 reach rounding); the longer one has as many more.
@@ -77,10 +77,11 @@ impl Window {
         let radial = Radial::new(bessel, reach, |s| f(s * PI / spacing));
         let rest = Rest::new(self, f, odd);
         let mut table = Array2::zeros((n1, n2));
-        let rows = table.as_slice_mut().expect("made row by row").par_chunks_mut(n2);
-        rows.enumerate().for_each_init(
+        parallel::each_chunk_with(
+            table.as_slice_mut().expect("made row by row"),
+            n2,
             || vec![0.0; n2],
-            |sums, (m, row)| {
+            |sums, m, row| {
                 rest.row(m, sums);
                 for (n, (value, rest)) in row.iter_mut().zip(&*sums).enumerate() {
                     let x = [u1 * m as f64, u2 * n as f64];
@@ -111,7 +112,8 @@ impl Rest {
         };
         let [along, across] = [0, 1].map(filon);
         let mut sums = vec![0.0; along.nodes.len() * points[1]];
-        sums.par_chunks_mut(points[1]).zip(&along.nodes).for_each(|(sums, node)| {
+        parallel::each_chunk(&mut sums, points[1], |number, sums| {
+            let node = along.nodes[number];
             let kx = PI / spacings[0] * node;
             let integrand = |node: &f64| {
                 let ky = PI / spacings[1] * node;
@@ -198,7 +200,7 @@ mod tests {
             angles.map(move |(part, [t, w])| (side, from + width * (part as f64 + 0.5 * (1.0 + t)), 0.5 * width * w))
         });
         let area = window.spacings[0] * window.spacings[1] / (PI * PI);
-        let rays = sectors.collect::<Vec<_>>().into_par_iter().map(|(side, angle, weight)| {
+        let rays = parallel::map_items(&sectors.collect::<Vec<(usize, f64, f64)>>(), |&(side, angle, weight)| {
             let direction = [angle.cos(), angle.sin()];
             let border = sides[side] / direction[side];
             let mut sums = vec![[0.0; 3]; offsets.len()];
@@ -214,7 +216,7 @@ mod tests {
             }
             sums
         });
-        rays.collect::<Vec<_>>().into_iter().fold(vec![[0.0; 3]; offsets.len()], |whole, ray| {
+        rays.into_iter().fold(vec![[0.0; 3]; offsets.len()], |whole, ray| {
             whole.into_iter().zip(ray).map(|(a, b)| [0, 1, 2].map(|kind| a[kind] + b[kind])).collect()
         })
     }

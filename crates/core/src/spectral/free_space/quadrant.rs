@@ -5,8 +5,8 @@
 //! trig the cosine along an even axis, and along an odd one the sine, with K of the sign of the offset.
 
 use ndarray::{Array2, Axis, Slice};
+use percoat_fft::RealToComplex;
 use rayon::prelude::*;
-use realfft::{RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
 /// Columns that are gathered at a time.
@@ -28,7 +28,7 @@ struct Line {
 impl Line {
     /// A line that is transformed with `points` samples.
     fn new(points: usize, parity: Parity) -> Self {
-        Self { plan: RealFftPlanner::new().plan_fft_forward(points), parity }
+        Self { plan: percoat_fft::of_real(points), parity }
     }
 
     /// Calls `value(component, X)` for all components up to half the points.

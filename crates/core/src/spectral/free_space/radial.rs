@@ -12,8 +12,8 @@
 
 use super::cut::low_pass;
 use crate::numeric::chebyshev::{Chebyshev, inside, place};
+use crate::numeric::parallel;
 use crate::numeric::quadrature::gauss;
-use rayon::prelude::*;
 use std::f64::consts::{PI, SQRT_2};
 
 /// Terms of the series of a panel of ρ (18 reach rounding).
@@ -48,17 +48,16 @@ impl Radial {
         let starts = std::iter::once(0.0).chain(ends.iter().copied());
         let panels: Vec<[f64; 2]> = starts.zip(&ends).map(|(start, &end)| [start, end]).collect();
         let rules = Rules::new();
-        let series = panels.into_par_iter().map(|panel| {
+        let series = parallel::map_items(&panels, |&panel| {
             let nodes: Vec<[f64; 2]> = rules.nodes(PI * panel[1]).map(|[s, w]| [s, w * f(s) * low_pass(s)]).collect();
             let value = |x: f64| {
                 let rho = PI * place(panel, x);
                 nodes.iter().map(|[s, weight]| weight * bessel(rho * s)).sum()
             };
-            let mut values = [0.0; TERMS];
-            values.par_iter_mut().zip(Chebyshev::<TERMS>::nodes()).for_each(|(at, x)| *at = value(x));
-            Chebyshev::through(&values)
+            let values = parallel::map_items(&Chebyshev::<TERMS>::nodes(), |&x| value(x));
+            Chebyshev::through(&std::array::from_fn(|k| values[k]))
         });
-        Self { series: series.collect(), ends }
+        Self { series, ends }
     }
 
     /// L(ρ).
@@ -75,7 +74,7 @@ struct Rules(Vec<Vec<[f64; 2]>>);
 impl Rules {
     fn new() -> Self {
         let largest = steps(PHASE);
-        Self((0..=largest).into_par_iter().map(|step| gauss(NODES + step * NODES_STEP)).collect())
+        Self(parallel::map(largest + 1, |step| gauss(NODES + step * NODES_STEP)))
     }
 
     /// Nodes and weights on (0, 1) for functions of s times waves of s up to the wavenumber `rate`.
