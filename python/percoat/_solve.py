@@ -116,14 +116,6 @@ class Section(Field):
         return f"<percoat.Section: {rows} rows × {points} points, s = {self.s[0]:g} … {self.s[-1]:g}>"
 
 
-def _flat(points: ArrayLike) -> tuple[Array, tuple[int, ...]]:
-    """Points (…, 3) as rows (n, 3), and the shape … of them."""
-    array = np.asarray(points, dtype=float)
-    if array.ndim == 0 or array.shape[-1] != 3:
-        raise _core.CaseError(f"points have three coordinates x, y, z along their last axis, not {array.shape}")
-    return np.ascontiguousarray(array.reshape(-1, 3)), array.shape[:-1]
-
-
 class Common:
     """The case, its cell and samples, and the head of the summary, shared by the steps of a result."""
 
@@ -310,8 +302,7 @@ class Step:
         >>> percoat.mises(stress).shape
         (11,)
         """
-        flat, shape = _flat(points)
-        return self._core.stress(flat, material, body).reshape(*shape, 6)
+        return self._at_points(points, material, body, strain=False)
 
     def strain(
         self, points: ArrayLike, *, material: Optional[int] = None, body: Body = "body"
@@ -339,8 +330,15 @@ class Step:
         >>> bool(strain[2] < 0.0)
         True
         """
-        flat, shape = _flat(points)
-        return self._core.strain(flat, material, body).reshape(*shape, 6)
+        return self._at_points(points, material, body, strain=True)
+
+    def _at_points(self, points: ArrayLike, material: Optional[int], body: Body, strain: bool) -> Array:
+        """Six components (…, 6) at points (…, 3)."""
+        array = np.asarray(points, dtype=float)
+        if array.ndim == 0 or array.shape[-1] != 3:
+            raise _core.CaseError(f"points have three coordinates x, y, z along their last axis, not {array.shape}")
+        flat = np.ascontiguousarray(array.reshape(-1, 3))
+        return self._core.at_points(flat, material, body, strain).reshape(*array.shape[:-1], 6)
 
     def plane(
         self,

@@ -70,10 +70,8 @@ impl Case {
     fn check<'py>(&self, py: Python<'py>, threads: Option<i64>) -> PyResult<Bound<'py, PyAny>> {
         let Self { case, name, .. } = self.clone();
         let room = self.allow(Job::Keep)?;
-        let checked = work::run(py, threads, None, move |_| {
-            Check::of(&case, &name, room).map(|check| check.json()).map_err(|error| error.to_string())
-        })?;
-        to_python(py, &checked.map_err(refused)?)
+        let checked = work::try_run(py, threads, None, move |_| Ok(Check::of(&case, &name, room)?.json()))?;
+        to_python(py, &checked)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

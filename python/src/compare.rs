@@ -1,7 +1,6 @@
 //! `percoat.compare`: the spectral and the localized solution side by side.
 
 use crate::case::Case;
-use crate::errors::refused;
 use crate::progress::Progress;
 use crate::record::to_python;
 use crate::tables::{Shown, compared as tables_of};
@@ -40,29 +39,19 @@ pub fn compare<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Compared<'py>> {
     let case = Arc::clone(&case.get().case);
-    let compared = work::run(py, threads, progress, move |listener| {
-        let task = Compare::new(&case, work::room(), false).map_err(|error| error.to_string())?;
+    let (file, text, tables, warnings, converged) = work::try_run(py, threads, progress, move |listener| {
+        let task = Compare::new(&case, work::room(), false)?;
         let stop = Arc::clone(listener.stop());
         let compared = task.compare(&mut Stopping(&stop), &mut |[n1, n2], stage| {
-            let (unit, points, phase) = ("part", Some((n1, n2)), stage.to_owned());
-            listener.tell(true, |seconds| Progress {
-                unit,
-                done: 0,
-                of: 0,
-                points,
-                iteration: 0,
-                residual: f64::NAN,
-                phase,
-                seconds,
-            });
+            let points = Some((n1, n2));
+            listener.tell(true, || Progress { points, ..Progress::new("part", stage.to_owned()) });
             if listener.stops() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         let compared = compared.map_err(|error| error.told())?;
         let comparison = &compared.comparison;
         let (text, tables) = (table::compared(&case, comparison, width), tables_of(comparison, &case.units()));
         let (file, converged) = (compared.file(), compared.converged());
-        Ok::<_, String>((file, text, tables, compared.warnings, converged))
+        Ok((file, text, tables, compared.warnings, converged))
     })?;
-    let (file, text, tables, warnings, converged) = compared.map_err(refused)?;
     Ok((to_python(py, &file)?, text, tables, warnings, converged))
 }

@@ -40,31 +40,18 @@ pub fn identify<'py>(
     let (free, known) = asked;
     let known = known_instrument(&known).map_err(|error| refused(format!("known: {error}")))?;
     let (source, _) = case::source(case.as_any())?;
-    let found = work::run(py, threads, progress, move |listener| {
-        let document = Document::new(&source, &[]).map_err(|error| error.to_string())?;
+    let (file, text, warnings, found) = work::try_run(py, threads, progress, move |listener| {
+        let document = Document::new(&source, &[])?;
         let task = IdentificationTask::new(&document, &resolved, &free).map_err(|error| format!("free: {error}"))?;
-        let task = Identify::new(&resolved, task.with_instrument(known), work::room(), false);
-        let result = task
-            .map_err(|error| error.to_string())?
-            .find(&measured, &mut |trial| {
-                let phase = output::trial(&resolved, trial);
-                listener.tell(true, |seconds| Progress {
-                    unit: "trial",
-                    done: trial.number,
-                    of: 0,
-                    points: None,
-                    iteration: 0,
-                    residual: f64::NAN,
-                    phase,
-                    seconds,
-                });
-                if listener.stops() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            })
-            .map_err(|error| error.to_string())?;
+        let task = Identify::new(&resolved, task.with_instrument(known), work::room(), false)?;
+        let result = task.find(&measured, &mut |trial| {
+            let phase = output::trial(&resolved, trial);
+            listener.tell(true, || Progress { done: trial.number, ..Progress::new("trial", phase) });
+            if listener.stops() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })?;
         let (file, text) = (result.file(), identified(&result.found, &result.best, width));
-        Ok::<_, String>((file, text, result.warnings, result.found))
+        Ok((file, text, result.warnings, result.found))
     })?;
-    let (file, text, warnings, found) = found.map_err(refused)?;
     let arrays = PyDict::new(py);
     let columns = [
         ("force", Some(curve.forces())),

@@ -1,10 +1,10 @@
 //! Stresses and displacements of a field at points, on planes and on sections, as arrays.
 
-use crate::work::Listener;
+use crate::work::{Listener, Reason};
 use ndarray::{Array2, Array3, ArrayView2, Axis, s};
 use percoat::machine::{available_memory, bytes};
 use percoat::stress::{Compliance, StrainState};
-use percoat::{Depth, HalfSpace, StressField, StressState, SurfaceLine};
+use percoat::{Depth, HalfSpace, StressField, SurfaceLine};
 
 /// The depth z ≥ 0 in the material of this number, from 1; without one, in the upper of two that meet there.
 fn depth(half_space: &HalfSpace, z: f64, material: Option<i64>) -> Result<Depth, String> {
@@ -25,44 +25,20 @@ fn depth(half_space: &HalfSpace, z: f64, material: Option<i64>) -> Result<Depth,
 /// Points between two checks whether the work has been stopped.
 const CHUNK: usize = 256;
 
-/// σ_xx, σ_yy, σ_zz, σ_xy, σ_xz, σ_yz (n, 6) at points x, y, z (n, 3).
-pub fn at(
-    field: &StressField,
-    points: ArrayView2<'_, f64>,
-    material: Option<i64>,
-    listener: &Listener,
-) -> Result<Array2<f64>, String> {
-    read_at(field, points, material, listener, |state, _| {
-        let [stress @ .., _, _, _] = state.components();
-        stress
-    })
-}
-
-/// ε_xx, ε_yy, ε_zz, ε_xy, ε_xz, ε_yz (n, 6) at points x, y, z (n, 3).
-pub fn strains_at(
-    field: &StressField,
-    points: ArrayView2<'_, f64>,
-    material: Option<i64>,
-    listener: &Listener,
-) -> Result<Array2<f64>, String> {
-    read_at(field, points, material, listener, |state, depth| compliance(field, depth).strain(state).components())
-}
-
 /// The compliance of the material at a depth.
 fn compliance(field: &StressField, depth: Depth) -> Compliance {
     field.half_space().material(depth.material).into()
 }
 
-/// Six numbers of the states (n, 6) at points x, y, z (n, 3).
-fn read_at(
+/// σ_xx, σ_yy, σ_zz, σ_xy, σ_xz, σ_yz (n, 6) at points x, y, z (n, 3); with `strain` ε_xx … ε_yz instead.
+pub fn at_points(
     field: &StressField,
     points: ArrayView2<'_, f64>,
-    material: Option<i64>,
+    (material, strain): (Option<i64>, bool),
     listener: &Listener,
-    read: impl Fn(&StressState, Depth) -> [f64; 6],
-) -> Result<Array2<f64>, String> {
+) -> Result<Array2<f64>, Reason> {
     if points.iter().any(|x| !x.is_finite()) {
-        return Err("a point has a coordinate that is no finite number".to_owned());
+        return Err("a point has a coordinate that is no finite number".into());
     }
     let cell = field.grid().cell();
     if let Some(point) = points.rows().into_iter().find(|point| !cell.contains([point[0], point[1]])) {
@@ -70,7 +46,8 @@ fn read_at(
         return Err(format!(
             "({}, {}) is beyond the window of {} × {} around the isolated contact: enlarge lattice.size",
             point[0], point[1], a1[0], a2[1]
-        ));
+        )
+        .into());
     }
     let depths = points.rows().into_iter().map(|point| depth(field.half_space(), point[2], material));
     let depths: Vec<Depth> = depths.collect::<Result<_, _>>()?;
@@ -83,7 +60,8 @@ fn read_at(
         listener.check()?;
         let places: Vec<[f64; 2]> = level.iter().map(|&index| [points[[index, 0]], points[[index, 1]]]).collect();
         for (&index, state) in level.iter().zip(field.points(depths[level[0]], &places)) {
-            let values = read(&state, depths[index]);
+            let [stress @ .., _, _, _] = state.components();
+            let values = if strain { compliance(field, depths[index]).strain(&state).components() } else { stress };
             found.row_mut(index).iter_mut().zip(values).for_each(|(to, value): (&mut f64, f64)| *to = value);
         }
     }
@@ -126,7 +104,7 @@ pub fn plane(
     points: [usize; 2],
     (material, strain): (Option<i64>, bool),
     listener: &Listener,
-) -> Result<(Array3<f64>, usize), String> {
+) -> Result<(Array3<f64>, usize), Reason> {
     let depth = depth(field.half_space(), z, material)?;
     let [n1, n2] = points;
     let mut all = Array3::zeros([components(strain), n1, n2]);

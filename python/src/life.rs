@@ -1,15 +1,13 @@
 //! `percoat.life`: passes until something fails, and what is left after that.
 
 use crate::case::Case;
-use crate::errors::refused;
 use crate::progress::Progress;
 use crate::record::{from_python, to_python};
-use crate::work::{self, Listener};
+use crate::work;
 use percoat::output::{LifeFile, number, table};
 use percoat::task::FollowLife;
 use pyo3::prelude::*;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 /// A life: a dict with the keys of `life.json`, and whether its contacts have converged.
 #[pyfunction]
@@ -21,29 +19,21 @@ pub fn life<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyAny>, bool)> {
     let case = Arc::clone(&case.get().case);
-    let found = work::run(py, threads, progress, move |listener| {
-        let task = FollowLife::new(&case, work::room(), false).map_err(|error| error.to_string())?;
-        tell(listener, 0, None, "damage of the first pass".to_owned());
-        let stop = Arc::clone(listener.stop());
-        let goes_on = || !stop.load(Ordering::Relaxed);
+    let (life, converged) = work::try_run(py, threads, progress, move |listener| {
+        let task = FollowLife::new(&case, work::room(), false)?;
+        listener.tell(true, || Progress::new("load", "damage of the first pass".to_owned()));
+        let goes_on = listener.goes_on();
         let followed = task.follow(None, &goes_on, &mut |state, begun| {
             let [n1, n2] = begun.step.grid().points();
             let phase = format!("{} passes, {} events", number(state.passes), state.events.len());
-            tell(listener, state.solved, Some((n1, n2)), phase);
+            let (done, points) = (state.solved, Some((n1, n2)));
+            listener.tell(true, || Progress { done, points, ..Progress::new("load", phase) });
             listener.check()
-        });
-        let followed = followed.map_err(|error| error.to_string())?;
+        })?;
         let converged = followed.converged();
-        Ok::<_, String>((followed.file, converged))
+        Ok((followed.file, converged))
     })?;
-    let (life, converged) = found.map_err(refused)?;
     Ok((to_python(py, &life)?, converged))
-}
-
-/// Reports the `done` loads of a life.
-fn tell(listener: &mut Listener, done: usize, points: Option<(usize, usize)>, phase: String) {
-    let (unit, of, iteration, residual) = ("load", 0, 0, f64::NAN);
-    listener.tell(true, |seconds| Progress { unit, done, of, points, iteration, residual, phase, seconds });
 }
 
 /// The text that the command line prints of this life, a dict of [`life`], in lines of `width` letters.

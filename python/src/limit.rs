@@ -1,7 +1,6 @@
 //! `percoat.limit`: the mean pressure or force at which something first fails.
 
 use crate::case::Case;
-use crate::errors::refused;
 use crate::record::{from_python, to_python};
 use crate::solve::Keeping;
 use crate::work;
@@ -20,13 +19,12 @@ pub fn limit<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyAny>, bool)> {
     let case = Arc::clone(&case.get().case);
-    let found = work::run(py, threads, progress, move |listener| {
-        let task = FindLimits::new(&case, work::room(), false).map_err(|error| error.to_string())?;
+    let (limits, converged) = work::try_run(py, threads, progress, move |listener| {
+        let task = FindLimits::new(&case, work::room(), false)?;
         let mut keeping = Keeping::new(&case, false, listener, ("load", 0));
         let found = task.find(&mut keeping).map_err(|error| error.told())?;
-        Ok::<_, String>((found.file(), found.limits.converged()))
+        Ok((found.file(), found.limits.converged()))
     })?;
-    let (limits, converged) = found.map_err(refused)?;
     Ok((to_python(py, &limits)?, converged))
 }
 

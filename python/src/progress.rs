@@ -32,6 +32,13 @@ pub struct Progress {
     pub seconds: f64,
 }
 
+impl Progress {
+    /// Progress in this phase, with nothing done, iterated or timed, and neither grid nor number of all known.
+    pub fn new(unit: &'static str, phase: String) -> Self {
+        Self { unit, done: 0, of: 0, points: None, iteration: 0, residual: f64::NAN, phase, seconds: 0.0 }
+    }
+}
+
 #[pymethods]
 impl Progress {
     fn __str__(&self) -> String {

@@ -1,7 +1,6 @@
 //! `percoat.solve`: every load step of a case, in memory.
 
 use crate::case::Case;
-use crate::errors::refused;
 use crate::progress::Progress as Told;
 use crate::record::{from_python, to_python};
 use crate::step::{Kept, Step};
@@ -51,16 +50,8 @@ impl<'a> Keeping<'a> {
     fn tell(&mut self, new: bool, phase: impl FnOnce() -> String, iterated: Option<Progress>) {
         let Self { unit, done, of, points: [n1, n2], .. } = *self;
         let (iteration, residual) = iterated.map_or((0, f64::NAN), |progress| (progress.iteration, progress.residual));
-        self.listener.tell(new, |seconds| Told {
-            unit,
-            done,
-            of,
-            points: Some((n1, n2)),
-            iteration,
-            residual,
-            phase: phase(),
-            seconds,
-        });
+        let points = Some((n1, n2));
+        self.listener.tell(new, || Told { done, of, points, iteration, residual, ..Told::new(unit, phase()) });
     }
 }
 
@@ -136,15 +127,14 @@ pub fn solve<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyAny>, bool, Places<'py>, Vec<Step>)> {
     let case = Arc::clone(&case.get().case);
-    let solved = work::run(py, threads, progress, move |listener| {
-        let task = Solve::new(&case, work::room(), Job::Keep).map_err(|error| error.to_string())?;
+    let (summary, accurate, (x, y, owner), kept) = work::try_run(py, threads, progress, move |listener| {
+        let task = Solve::new(&case, work::room(), Job::Keep)?;
         let mut keeping = Keeping::new(&case, true, listener, ("step", task.run.loads.len()));
         let Solved { outcome, warnings } = task.solve(&mut keeping).map_err(|error| error.told())?;
         let summary = Summary::new(&case, &warnings, outcome.change, &outcome.steps, keeping.clock.timing());
         let surface = keeping.surface.take().expect("a run begins a grid before its steps");
-        Ok::<_, String>((summary, outcome.is_accurate(), places(&surface), keeping.steps))
+        Ok((summary, outcome.is_accurate(), places(&surface), keeping.steps))
     })?;
-    let (summary, accurate, (x, y, owner), kept) = solved.map_err(refused)?;
     let places = (x.into_pyarray(py), y.into_pyarray(py), owner.into_pyarray(py));
     Ok((to_python(py, &summary)?, accurate, places, kept.into_iter().map(Step::from).collect()))
 }

@@ -5,20 +5,19 @@ use crate::errors::refused;
 use crate::interior;
 use crate::record::to_python;
 use crate::value::value;
-use crate::work::{self, Listener};
-use ndarray::{Array2, ArrayView2};
+use crate::work;
+use ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use percoat::case::resources::Job;
 use percoat::output::{read_checkpoint, write_checkpoint};
 use percoat::reading::StressReading;
 use percoat::run::StressRequest;
 use percoat::spectral::Checkpoint;
-use percoat::{HalfSpace, Solver, StressField, StressFields, case};
+use percoat::{HalfSpace, Solver, StressFields, case};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::io::Cursor;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 /// A solved load step, its case, and the checkpoint from which it can be restored.
 #[derive(Debug)]
@@ -66,27 +65,6 @@ type Plane<'py> = (Bound<'py, PyArray3<f64>>, usize, Option<&'static str>);
 /// with its strains.
 type Cross<'py> = ([Bound<'py, PyArray1<f64>>; 4], Bound<'py, PyArray1<i32>>, Bound<'py, PyArray3<f64>>);
 
-/// Reader of six components at points of a field.
-type AtPoints = fn(&StressField, ArrayView2<'_, f64>, Option<i64>, &Listener) -> Result<Array2<f64>, String>;
-
-impl Step {
-    /// Six components (n, 6) at points (n, 3) of a body, as `read` has them.
-    fn at_points<'py>(
-        &self,
-        py: Python<'py>,
-        points: PyReadonlyArray2<'py, f64>,
-        material: Option<i64>,
-        body: &str,
-        read: AtPoints,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let side = self.0.half_space(body).map_err(refused)?.side();
-        let (kept, points) = (Arc::clone(&self.0), points.as_array().to_owned());
-        let found =
-            work::run(py, None, None, move |listener| read(kept.fields().on(side), points.view(), material, listener))?;
-        Ok(found.map_err(refused)?.into_pyarray(py))
-    }
-}
-
 #[pymethods]
 impl Step {
     /// Contact pressure (n₁, n₂), a view of the memory of the step.
@@ -107,28 +85,22 @@ impl Step {
         Ok(work::run(py, None, None, move |_| kept.step.displacement())?.into_pyarray(py))
     }
 
-    /// Stresses (n, 6) at points (n, 3); on an interface in the material of this number, from 1.
-    #[pyo3(signature = (points, material = None, body = "body"))]
-    fn stress<'py>(
+    /// Stresses (n, 6) at points (n, 3), or their strains; on an interface in the material of this number, from 1.
+    #[pyo3(signature = (points, material = None, body = "body", strain = false))]
+    fn at_points<'py>(
         &self,
         py: Python<'py>,
         points: PyReadonlyArray2<'py, f64>,
         material: Option<i64>,
         body: &str,
+        strain: bool,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.at_points(py, points, material, body, interior::at)
-    }
-
-    /// Strains (n, 6) at points (n, 3); on an interface in the material of this number, from 1.
-    #[pyo3(signature = (points, material = None, body = "body"))]
-    fn strain<'py>(
-        &self,
-        py: Python<'py>,
-        points: PyReadonlyArray2<'py, f64>,
-        material: Option<i64>,
-        body: &str,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.at_points(py, points, material, body, interior::strains_at)
+        let side = self.0.half_space(body).map_err(refused)?.side();
+        let (kept, points) = (Arc::clone(&self.0), points.as_array().to_owned());
+        let components = work::try_run(py, None, None, move |listener| {
+            interior::at_points(kept.fields().on(side), points.view(), (material, strain), listener)
+        })?;
+        Ok(components.into_pyarray(py))
     }
 
     /// Twelve components on a plane (12, n₁, n₂), at the samples of the contact without `points`, or 22 with its strains; the number of
@@ -147,10 +119,9 @@ impl Step {
         let (side, kept) = (half_space.side(), Arc::clone(&self.0));
         let points = points.map_or(Ok(kept.step.grid().points()), |points| interior::counts(&points, strain));
         let points = points.map_err(refused)?;
-        let plane = work::run(py, None, None, move |listener| {
+        let (components, material) = work::try_run(py, None, None, move |listener| {
             interior::plane(kept.fields().on(side), z, points, (material, strain), listener)
         })?;
-        let (components, material) = plane.map_err(refused)?;
         let name = half_space.material_id(material).name;
         Ok((components.into_pyarray(py), material, name.map(|name| name.text())))
     }
@@ -193,10 +164,8 @@ impl Step {
         let kept = Arc::clone(&self.0);
         let stress = work::run(py, None, None, move |listener| {
             let reading = kept.step.reading();
-            let stop = listener.stop();
-            let goes_on = || !stop.load(Ordering::Relaxed);
             (reading.max_pressure > 0.0)
-                .then(|| StressReading::of_while(&kept.step, &reading, &kept.fields(), &goes_on))
+                .then(|| StressReading::of_while(&kept.step, &reading, &kept.fields(), &listener.goes_on()))
                 .flatten()
         })?;
         stress.map(|stress| to_python(py, &stress)).transpose()
@@ -231,13 +200,12 @@ impl Step {
 pub fn step(py: Python<'_>, case: &Bound<'_, Case>, index: usize, points: [usize; 2], bytes: &[u8]) -> PyResult<Step> {
     case.get().allow(Job::Keep)?;
     let (case, bytes) = (Arc::clone(&case.get().case), bytes.to_vec());
-    let kept = work::run(py, None, None, move |_| {
-        let checkpoint = read_checkpoint(Cursor::new(bytes)).map_err(|error| error.to_string())?;
+    let kept = work::try_run(py, None, None, move |_| {
+        let checkpoint = read_checkpoint(Cursor::new(bytes))?;
         let load = *case.load.loads().get(index).ok_or("the case has no such load")?;
-        let mut solver =
-            Solver::new(Arc::clone(case.problem()), points, case.solver).map_err(|error| error.to_string())?;
-        let step = solver.restore(load, checkpoint.clone()).map_err(|error| error.to_string())?;
-        Ok::<_, String>(Kept { case, step, checkpoint })
+        let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver)?;
+        let step = solver.restore(load, checkpoint.clone())?;
+        Ok(Kept { case, step, checkpoint })
     })?;
-    Ok(kept.map_err(refused)?.into())
+    Ok(kept.into())
 }

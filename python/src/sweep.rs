@@ -60,8 +60,8 @@ impl Sweep {
     #[pyo3(signature = (threads = None, done = None))]
     fn solve(&self, py: Python<'_>, threads: Option<i64>, done: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Row>> {
         let Self { source, fixed, combinations, task } = self.clone();
-        let rows = work::run(py, threads, done, move |listener| {
-            let study = Study::new(&source, &fixed, &combinations, task, room()).map_err(|error| error.to_string())?;
+        work::try_run(py, threads, done, move |listener| {
+            let study = Study::new(&source, &fixed, &combinations, task, room())?;
             let study = study.stopped_by(Arc::clone(listener.stop()));
             let mut rows = Vec::new();
             let ended = study.run(&HashSet::new(), Path::new("."), |row| {
@@ -71,33 +71,30 @@ impl Sweep {
             });
             // The caller of a sweep that was stopped has raised already.
             drop(ended);
-            Ok::<_, String>(rows)
-        })?;
-        rows.map_err(refused)
+            Ok(rows)
+        })
     }
 
     /// Reads and checks the case of every combination, for solutions elsewhere; the fingerprints, empty ones of refused cases.
     fn check(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let Self { source, fixed, combinations, task } = self.clone();
-        let checked = work::run(py, None, None, move |_| {
-            let study = Study::elsewhere(&source, &fixed, &combinations, task, available_memory());
-            study.map(|study| study.fingerprints()).map_err(|error| error.to_string())
-        })?;
-        checked.map_err(refused)
+        work::try_run(py, None, None, move |_| {
+            Ok(Study::elsewhere(&source, &fixed, &combinations, task, available_memory())?.fingerprints())
+        })
     }
 
     /// The description of the sweep before it is solved, a dict with the keys of `sweep.json`. It has the case as its files are now.
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let Self { source, fixed, combinations, task } = self.clone();
-        let description = work::run(py, None, None, move |_| {
+        let description = work::try_run(py, None, None, move |_| {
             let mut source = Source::clone(&source);
             // The text stands for a case that is refused without the keys that vary.
             if let Some(values) = &source.values {
-                source.text = toml::to_string(values).map_err(|error| error.to_string())?;
+                source.text = toml::to_string(values)?;
             }
-            Ok::<_, String>(Description::of(&source, &fixed, &combinations, task))
+            Ok(Description::of(&source, &fixed, &combinations, task))
         })?;
-        to_python(py, &description.map_err(refused)?)
+        to_python(py, &description)
     }
 
     /// One combination alone, by its place among all of them, from 0.
@@ -133,16 +130,8 @@ impl Sweep {
     /// Progress after `done` combinations and a number of seconds, of which `row` is the last.
     fn told(&self, row: &Bound<'_, Row>, done: usize, seconds: f64) -> Progress {
         let row = row.get().row();
-        Progress {
-            unit: "combination",
-            done,
-            of: self.combinations.all.len(),
-            points: None,
-            iteration: 0,
-            residual: f64::NAN,
-            phase: format!("{} {}", row.named(), row.status.name()),
-            seconds,
-        }
+        let phase = format!("{} {}", row.named(), row.status.name());
+        Progress { done, of: self.combinations.all.len(), seconds, ..Progress::new("combination", phase) }
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {

@@ -13,6 +13,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::collections::VecDeque;
+use std::error::Error;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
@@ -62,12 +63,6 @@ impl From<OutputError> for Stopped {
     }
 }
 
-impl From<Stopped> for String {
-    fn from(stopped: Stopped) -> Self {
-        stopped.to_string()
-    }
-}
-
 impl Listener {
     /// Whether the work is to stop.
     pub fn stops(&self) -> bool {
@@ -84,12 +79,19 @@ impl Listener {
         &self.stop
     }
 
-    /// Reports progress: a `new` phase always, the present one at most once a [`PAUSE`].
-    pub fn tell(&mut self, new: bool, progress: impl FnOnce(f64) -> Progress) {
+    /// A function that says whether the work goes on, for use beside [`Self::tell`].
+    pub fn goes_on(&self) -> impl Fn() -> bool + use<> {
+        let stop = Arc::clone(&self.stop);
+        move || !stop.load(Ordering::Relaxed)
+    }
+
+    /// Reports progress with the time so far: a `new` phase always, the present one at most once a [`PAUSE`].
+    pub fn tell(&mut self, new: bool, progress: impl FnOnce() -> Progress) {
         let Some(tell) = &self.tell else { return };
         if new || self.told.is_none_or(|told| told.elapsed() > PAUSE) {
             self.told = Some(Instant::now());
-            tell(Message::Progress(progress(self.began.elapsed().as_secs_f64()), new));
+            let seconds = self.began.elapsed().as_secs_f64();
+            tell(Message::Progress(Progress { seconds, ..progress() }, new));
         }
     }
 
@@ -102,6 +104,19 @@ impl Listener {
 /// Memory of this machine for work that writes nothing.
 pub fn room() -> Capacity {
     Capacity { disk: u64::MAX, memory: available_memory() }
+}
+
+/// Why work has no result.
+pub type Reason = Box<dyn Error + Send + Sync>;
+
+/// The result of the work as of [`run`]; the reason why it has none becomes a `CaseError`.
+pub fn try_run<T: Send + 'static>(
+    py: Python<'_>,
+    threads: Option<i64>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&mut Listener) -> Result<T, Reason> + Send + 'static,
+) -> PyResult<T> {
+    run(py, threads, progress, work)?.map_err(refused)
 }
 
 /// The result of the work on this number of threads, without one on all cores; `progress` receives reports, and rows of a sweep.
