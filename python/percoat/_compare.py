@@ -9,7 +9,7 @@ from percoat import _core, _html
 from percoat._case import CaseLike, Settings
 from percoat._record import Record
 from percoat._solve import Listener, listener
-from percoat._warnings import NotConverged, warn
+from percoat._warnings import warn_of
 
 
 class Comparison(Record):
@@ -60,7 +60,5 @@ def compare(
     width = shutil.get_terminal_size().columns
     found, text, tables, warnings, converged = _core.compare(_core.Case(case, set), width, threads, listener(progress))
     comparison = Comparison({**found, "text": text.rstrip(), "warnings": warnings, "converged": converged}, tables)
-    warn(warnings)
-    if not converged:
-        warn(["a solution or the accuracy did not converge"], NotConverged)
+    warn_of(comparison, "a solution or the accuracy did not converge")
     return comparison

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import shutil
-from typing import Any, Optional
+from typing import Optional
 
-from percoat import _core, _html
+from percoat import _core
 from percoat._case import CaseLike, Settings
+from percoat._limit import FirstFailure
 from percoat._record import Record
 from percoat._solve import Listener, listener
-from percoat._warnings import NotConverged, warn
+from percoat._warnings import warn_of
 
 
-class Life(Record):
+class Life(FirstFailure):
     """A life, as ``life.json`` has it. It prints the text of the command line.
 
     ``first`` is the first event of any kind, ``None`` where nothing tires and nothing is worn through: with ``kind`` (``"fatigue"``,
@@ -21,33 +21,17 @@ class Life(Record):
     ``events`` have what comes off, each with ``passes``, ``what``, ``depth``, ``thickness`` and ``removed``, and ``wear`` the course.
     """
 
-    title: str
-    first: Optional[Record]
     criteria: list[Record]
     events: list[Record]
     wear: list[Record]
     distance: Optional[float]
-    warnings: list[str]
-    converged: bool
 
-    def __init__(self, entries: Any, case: Optional[_core.Case] = None) -> None:
-        super().__init__(entries)
-        self.__dict__["_case"] = case
-
-    def __str__(self) -> str:
-        width = shutil.get_terminal_size().columns
-        return _core.life_text(self.__dict__["_case"], self.to_dict(), width).rstrip()
-
-    def _repr_html_(self) -> str:
-        return _html.page(self.title, _core.life_tables(self.__dict__["_case"], self.to_dict()))
+    _shown = _core.life_text, _core.life_tables
 
     def __repr__(self) -> str:
         if self.first is None:
             return f"<percoat.Life {self.title!r}: nothing fails>"
         return f"<percoat.Life {self.title!r}: {self.first.passes:.4g} passes, {len(self.events)} events>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Life, (dict(self), self.__dict__["_case"])
 
 
 def life(
@@ -69,7 +53,5 @@ def life(
     checked = _core.Case(case, set)
     found, converged = _core.life(checked, threads, listener(progress))
     followed = Life({**found, "converged": converged}, checked)
-    warn(followed.warnings)
-    if not converged:
-        warn(["a contact or the accuracy did not converge"], NotConverged)
+    warn_of(followed, "a contact or the accuracy did not converge")
     return followed

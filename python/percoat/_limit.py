@@ -1,15 +1,15 @@
-"""Limit loads."""
+"""Limit loads, and what they share with lives: the first failure of a case."""
 
 from __future__ import annotations
 
 import shutil
-from typing import Any, Optional
+from typing import Any, Callable, ClassVar, Optional, Sequence, Tuple
 
 from percoat import _core, _html
 from percoat._case import CaseLike, Settings
 from percoat._record import Record
 from percoat._solve import Listener, listener
-from percoat._warnings import NotConverged, warn
+from percoat._warnings import warn_of
 
 
 def criterion_name(entry: Record) -> str:
@@ -18,7 +18,33 @@ def criterion_name(entry: Record) -> str:
     return f"{entry.criterion} of {entry.get('name', number)}"
 
 
-class Limits(Record):
+class FirstFailure(Record):
+    """The first failure of a case, as ``limit.json`` or ``life.json`` has it. It prints what the command line prints."""
+
+    title: str
+    first: Optional[Record]
+    warnings: list[str]
+    converged: bool
+
+    _shown: ClassVar[Tuple[Callable[..., str], Callable[..., Sequence[_html.Table]]]]
+    """Functions that write its text and its tables."""
+
+    def __init__(self, entries: Any, case: Optional[_core.Case] = None) -> None:
+        super().__init__(entries)
+        self.__dict__["_case"] = case
+
+    def __str__(self) -> str:
+        width = shutil.get_terminal_size().columns
+        return self._shown[0](self.__dict__["_case"], self.to_dict(), width).rstrip()
+
+    def _repr_html_(self) -> str:
+        return _html.page(self.title, self._shown[1](self.__dict__["_case"], self.to_dict()))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (dict(self), self.__dict__["_case"])
+
+
+class Limits(FirstFailure):
     """Limit loads, as ``limit.json`` has them. They print the table of the command line.
 
     ``first`` is the one that is reached first, ``None`` where nothing fails; ``limits`` has all of them, each with
@@ -27,33 +53,17 @@ class Limits(Record):
     solved where an isolated contact outgrew its own, else ``None``; ``steps`` have ``stress`` at the first limits only.
     """
 
-    title: str
-    first: Optional[Record]
     limits: list[Record]
     steps: list[Record]
     window: Optional[list[float]]
-    warnings: list[str]
-    converged: bool
 
-    def __init__(self, entries: Any, case: Optional[_core.Case] = None) -> None:
-        super().__init__(entries)
-        self.__dict__["_case"] = case
-
-    def __str__(self) -> str:
-        width = shutil.get_terminal_size().columns
-        return _core.limit_text(self.__dict__["_case"], self.to_dict(), width).rstrip()
-
-    def _repr_html_(self) -> str:
-        return _html.page(self.title, _core.limit_tables(self.__dict__["_case"], self.to_dict()))
+    _shown = _core.limit_text, _core.limit_tables
 
     def __repr__(self) -> str:
         if self.first is None:
             return f"<percoat.Limits {self.title!r}: nothing fails>"
         of, load = ("force", self.first.force) if "force" in self.first else ("mean pressure", self.first.mean_pressure)
         return f"<percoat.Limits {self.title!r}: {criterion_name(self.first)} at {of} {load}>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Limits, (dict(self), self.__dict__["_case"])
 
 
 def limit(
@@ -73,7 +83,5 @@ def limit(
     checked = _core.Case(case, set)
     found, converged = _core.limit(checked, threads, listener(progress))
     limits = Limits({**found, "converged": converged}, checked)
-    warn(limits.warnings)
-    if not converged:
-        warn(["a load or the accuracy did not converge"], NotConverged)
+    warn_of(limits, "a load or the accuracy did not converge")
     return limits

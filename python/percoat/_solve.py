@@ -15,7 +15,7 @@ from percoat import _core, _html
 from percoat._case import CaseLike, Settings
 from percoat._quantities import QUANTITIES, unit_name
 from percoat._record import Record
-from percoat._warnings import NotConverged, warn
+from percoat._warnings import warn, warn_of
 
 if TYPE_CHECKING:
     import xarray
@@ -790,8 +790,6 @@ def solve(
     common = Common(checked, head, accurate, places)
     steps = [_step(common, index, record, core) for index, (record, core) in enumerate(zip(records, cores))]
     result = Result(common, steps)
-    warn(result.warnings)
-    if not result.converged:
-        reasons = [f"step {n}: {step.stop_reason}" for n, step in enumerate(result, 1) if not step.converged]
-        warn(["not converged: " + (", ".join(reasons) or "the accuracy is not reached")], NotConverged)
+    reasons = [f"step {n}: {step.stop_reason}" for n, step in enumerate(result, 1) if not step.converged]
+    warn_of(result, "not converged: " + (", ".join(reasons) or "the accuracy is not reached"))
     return result

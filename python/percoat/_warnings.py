@@ -7,7 +7,7 @@ import sys
 import warnings
 from pathlib import Path
 from types import FrameType
-from typing import Iterable, Optional
+from typing import Any, Iterable, Optional
 
 HERE = str(Path(__file__).parent) + os.sep
 
@@ -28,3 +28,10 @@ def warn(messages: Iterable[str], category: type[Warning] = PercoatWarning) -> N
         level, frame = level + 1, frame.f_back
     for message in messages:
         warnings.warn(message, category, stacklevel=level)
+
+
+def warn_of(answer: Any, unsettled: str) -> None:
+    """Warn of the doubts of an answer, and with ``unsettled`` where it has not converged."""
+    warn(answer.warnings)
+    if not answer.converged:
+        warn([unsettled], NotConverged)
