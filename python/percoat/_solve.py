@@ -129,17 +129,12 @@ class Common:
         self.case, self.summary, self.accurate = case, Record(summary), accurate
         self.x, self.y, self.owner = places
         self.a1, self.a2 = map(np.array, case.cell)
+        self.units: Record = self.summary.units
         as_run = self.summary.case
         self.isolated: bool = as_run.get("lattice", {}).get("kind") == "isolated"
         self.quantity = "force" if self.isolated or "force" in as_run.load else "mean_pressure"
         for array in (*places, self.a1, self.a2):
             array.flags.writeable = False
-
-    @property
-    def units(self) -> Record:
-        """Names of the units of ``length`` and ``pressure``, ``None`` where they have none."""
-        names: Record = self.summary.units
-        return names
 
     def places(self, n1: int, n2: int) -> tuple[Array, Array]:
         """x and y of so many points along a₁ and a₂."""
@@ -154,7 +149,33 @@ class Common:
         return Common, (self.case, self.summary.to_dict(), self.accurate, (self.x, self.y, self.owner))
 
 
-class Step:
+class Sampled:
+    """Places of the samples and names of the units, those of a result and of each of its steps."""
+
+    _common: Common
+
+    @property
+    def x(self) -> Array:
+        """Places of the samples (n₁, n₂), a length."""
+        return self._common.x
+
+    @property
+    def y(self) -> Array:
+        """Places of the samples (n₁, n₂), a length."""
+        return self._common.y
+
+    @property
+    def owner(self) -> NDArray[np.int32]:
+        """The level whose indenter faces the sample (n₁, n₂), from 1; 0 for a topography."""
+        return self._common.owner
+
+    @property
+    def units(self) -> Record:
+        """Names of the units of ``length`` and ``pressure``, ``None`` where they have none."""
+        return self._common.units
+
+
+class Step(Sampled):
     """A solved load step: everything that ``summary.json`` has of it is an attribute, and so are its fields.
 
     Attributes
@@ -162,6 +183,8 @@ class Step:
     pressure, gap, displacement
         Arrays (n₁, n₂), axes along a₁ and a₂; a pressure ≥ 0, and lengths. They cannot be written to, and none is a copy:
         take ``step.pressure.copy()`` to change one.
+    x, y, owner, units
+        Those of the :class:`Result`.
     mean_pressure, force, penetration, contact_fraction, contact_area, max_pressure, levels, certificate, converged, …
         As in ``summary.json``; ``levels``, ``certificate`` and the like have attributes in turn. An isolated contact has a
         force, an area and a ``contact_stiffness`` ∂P/∂δ, no mean pressure and no fraction in contact: they are ``None``. ``stress`` is what
@@ -204,16 +227,14 @@ class Step:
         self._common = common
         self._index = index
         self._record = record
-        self._own: Optional[_core.Step] = core if isinstance(core, _core.Step) else None
-        self._kept: Optional[bytes] = core if isinstance(core, bytes) else None
+        self._kept = core
 
     @property
     def _core(self) -> _core.Step:
-        if self._own is None:
-            assert self._kept is not None, "a step is here or kept"
-            self._own = _core.step(self._common.case, self._index, self._record.points, self._kept)
-            self._kept = None
-        return self._own
+        kept = self._kept
+        if isinstance(kept, bytes):
+            kept = self._kept = _core.step(self._common.case, self._index, self._record.points, kept)
+        return kept
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
@@ -227,26 +248,6 @@ class Step:
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._record]
-
-    @property
-    def x(self) -> Array:
-        """Places of the samples (n₁, n₂), a length."""
-        return self._common.x
-
-    @property
-    def y(self) -> Array:
-        """Places of the samples (n₁, n₂), a length."""
-        return self._common.y
-
-    @property
-    def owner(self) -> NDArray[np.int32]:
-        """The level whose indenter faces the sample (n₁, n₂), from 1; 0 for a topography."""
-        return self._common.owner
-
-    @property
-    def units(self) -> Record:
-        """Names of the units of ``length`` and ``pressure``, ``None`` where they have none."""
-        return self._common.units
 
     @property
     def isolated(self) -> bool:
@@ -460,10 +461,8 @@ class Step:
 
     def _bytes(self) -> bytes:
         """The checkpoint of which the step is made again."""
-        if self._own is not None:
-            return self._own.checkpoint()
-        assert self._kept is not None, "a step is here or kept"
-        return self._kept
+        kept = self._kept
+        return kept if isinstance(kept, bytes) else kept.checkpoint()
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _step, (self._common, self._index, self.to_dict(), self._bytes())
@@ -487,7 +486,7 @@ class Step:
         return _html.page("", [first])
 
 
-class Result:
+class Result(Sampled):
     """Every load step of a case, solved. It prints the table of the command line.
 
     Attributes
@@ -500,6 +499,8 @@ class Result:
         Vectors of the cell (2,), lengths.
     owner
         The level whose indenter faces the sample (n₁, n₂), from 1; 0 for a topography.
+    units
+        Names of the units of ``length`` and ``pressure``, ``None`` where they have none.
     summary
         All scalars, as ``summary.json`` has them.
     warnings
@@ -534,16 +535,6 @@ class Result:
         return Record({**entries, "steps": [step._record for step in self.steps], "timing": head.timing})
 
     @property
-    def x(self) -> Array:
-        """Places of the samples (n₁, n₂), a length."""
-        return self._common.x
-
-    @property
-    def y(self) -> Array:
-        """Places of the samples (n₁, n₂), a length."""
-        return self._common.y
-
-    @property
     def a1(self) -> Array:
         """Vector of the cell (2,), a length."""
         return self._common.a1
@@ -554,11 +545,6 @@ class Result:
         return self._common.a2
 
     @property
-    def owner(self) -> NDArray[np.int32]:
-        """The level whose indenter faces the sample (n₁, n₂), from 1; 0 for a topography."""
-        return self._common.owner
-
-    @property
     def title(self) -> str:
         """Title of the case."""
         return str(self._common.summary.title)
@@ -567,11 +553,6 @@ class Result:
     def case(self) -> dict[str, Any]:
         """The case as run, complete with defaults."""
         return self._common.case.as_dict()
-
-    @property
-    def units(self) -> Record:
-        """Names of the units of ``length`` and ``pressure``, ``None`` where they have none."""
-        return self._common.units
 
     @property
     def warnings(self) -> list[str]:

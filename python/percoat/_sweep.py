@@ -49,10 +49,8 @@ class Columns(Dict[str, NDArray[Any]]):
 
         Raises
         ------
-        CaseError
-            The folder holds a file of somebody else that would be replaced, or another run writes into it.
-        OSError
-            A file cannot be written.
+        CaseError, OSError
+            As by :meth:`percoat.Result.save`.
         TypeError
             The columns are not those of a sweep.
         """

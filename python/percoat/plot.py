@@ -175,13 +175,8 @@ def section(
     ----------
     section
         From :meth:`percoat.Step.section`.
-    quantity
-        One of :data:`percoat.COMPONENTS`, or of :data:`percoat.STRAINS` where the section has strains. What takes both
-        signs has white for zero.
-    ax, artist
-        As for :func:`pressure`.
-    units
-        ``result.units``, for the labels.
+    quantity, ax, units, artist
+        As for :func:`plane`.
 
     Examples
     --------
