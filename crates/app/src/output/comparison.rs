@@ -161,7 +161,7 @@ mod tests {
         let case = Case::read(&embedded::source("fig2").unwrap(), &coarse).unwrap();
         let mut comparison = case.comparison().compare([32, 32], &mut |_| ControlFlow::Continue(())).unwrap();
         // The step as a file keeps it: without what only the estimate of errors and pictures need.
-        comparison.spectral = serde_json::from_value(json!(comparison.spectral)).unwrap();
+        comparison.spectral = serde_json::from_value(serde_json::json!(comparison.spectral)).unwrap();
         let mut written = ComparisonFile::new(&comparison, &case, 1);
         for circle in written.localized.iter_mut().chain(&mut written.lattice_sum) {
             circle.levels.iter_mut().for_each(|level| level.uncertainty = Default::default());

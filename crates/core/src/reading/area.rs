@@ -9,7 +9,7 @@
 use super::fraction::Fraction;
 use crate::lattice::Grid;
 use crate::lattice::components::Component;
-use rayon::prelude::*;
+use crate::numeric::parallel;
 
 /// Fewest samples of an interval through which a parabola is fitted.
 const FEWEST_SAMPLES: usize = 6;
@@ -32,7 +32,8 @@ pub(super) fn contact_fraction(
     let mut mean = [0.0; 2];
     for direction in grid.directions() {
         let lines = direction.lines(points);
-        let read = |line: &mut Vec<f64>, &start: &usize| {
+        let read = |line: &mut Vec<f64>, number: usize| {
+            let start = lines[number];
             line.clear();
             line.extend(direction.line(points, start).map(|index| pressure[index]));
             let at = |k: usize| direction.sample(points, start, k as i64);
@@ -46,7 +47,7 @@ pub(super) fn contact_fraction(
             .fraction()
         };
         // Lines are added in their order, whichever thread has read them.
-        let all: Vec<[f64; 2]> = lines.par_iter().map_init(Vec::new, read).collect();
+        let all: Vec<[f64; 2]> = parallel::map_with(lines.len(), Vec::new, read);
         let sum = all.iter().fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
         mean = [0, 1].map(|k| mean[k] + 0.5 * direction.weight * (sum[k] / lines.len() as f64));
     }
