@@ -20,36 +20,15 @@ pub struct Paper {
     pub pressure: f64,
 }
 
+const FIG2: Paper =
+    Paper { name: "fig2", chi: 2.0, thickness: 0.5, poisson: [0.2, 0.3], radii: [0.8; 3], step: 0.01, pressure: 0.06 };
+
 /// Figs 2, 3a, 3b, 4 and 5 of Goryacheva & Torskaya (2019), each with one of its loads.
 pub const PAPER: [Paper; 5] = [
-    Paper { name: "fig2", chi: 2.0, thickness: 0.5, poisson: [0.2, 0.3], radii: [0.8; 3], step: 0.01, pressure: 0.06 },
-    Paper {
-        name: "fig3a",
-        chi: 0.5,
-        thickness: 0.5,
-        poisson: [0.45, 0.3],
-        radii: [0.8; 3],
-        step: 0.01,
-        pressure: 0.008,
-    },
-    Paper {
-        name: "fig3b",
-        chi: 0.5,
-        thickness: 0.5,
-        poisson: [0.2, 0.3],
-        radii: [0.8; 3],
-        step: 0.01,
-        pressure: 0.008,
-    },
-    Paper {
-        name: "fig4",
-        chi: 0.2,
-        thickness: 0.12,
-        poisson: [0.22, 0.3],
-        radii: [0.8; 3],
-        step: 0.01,
-        pressure: 0.01,
-    },
+    FIG2,
+    Paper { name: "fig3a", chi: 0.5, poisson: [0.45, 0.3], pressure: 0.008, ..FIG2 },
+    Paper { name: "fig3b", chi: 0.5, pressure: 0.008, ..FIG2 },
+    Paper { name: "fig4", chi: 0.2, thickness: 0.12, poisson: [0.22, 0.3], pressure: 0.01, ..FIG2 },
     Paper {
         name: "fig5",
         chi: 3.0,

@@ -16,38 +16,21 @@ use std::fs;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-/// Three loads with volumes of stresses; two loads on grids that are refined.
-const PLAIN: &str = r#"
-[lattice]
-kind = "square"
-period = 1.0
-[[levels]]
-shape = "sphere"
-radius = 0.8
-[substrate]
-young = 1.0
-poisson = 0.3
-[load]
-mean_pressure = [0.01, 0.03, 0.02]
-[grid]
-points = 16
-[stress]
-volume = { depth = 0.2, rows = 2, points = 2 }
+const SPHERES: &str = r#"
+lattice = { kind = "square", period = 1.0 }
+levels = [{ shape = "sphere", radius = 0.8 }]
+substrate = { young = 1.0, poisson = 0.3 }
 "#;
+/// Three loads with volumes of stresses.
+const PLAIN: &str = r#"
+load = { mean_pressure = [0.01, 0.03, 0.02] }
+grid = { points = 16 }
+stress = { volume = { depth = 0.2, rows = 2, points = 2 } }
+"#;
+/// Two loads on grids that are refined.
 const REFINED: &str = r#"
-[lattice]
-kind = "square"
-period = 1.0
-[[levels]]
-shape = "sphere"
-radius = 0.8
-[substrate]
-young = 1.0
-poisson = 0.3
-[load]
-mean_pressure = [0.01, 0.03]
-[grid]
-accuracy = 1e-9
+load = { mean_pressure = [0.01, 0.03] }
+grid = { accuracy = 1e-9 }
 "#;
 /// The largest grid that there is room for.
 const ROOM: usize = 192;
@@ -127,8 +110,9 @@ fn cut(case: &Case) -> (BTreeMap<String, Vec<u8>>, Vec<Image>, Vec<usize>) {
     (fields(place.path()), images, steps)
 }
 
-fn case(text: &str) -> Case {
-    Case::read(&Source { name: "cut".to_owned(), text: text.to_owned(), ..Source::default() }, &[]).unwrap()
+/// Spheres under loads, which stand in `task` with their grid.
+fn case(task: &str) -> Case {
+    Case::read(&Source { name: "cut".to_owned(), text: [SPHERES, task].concat(), ..Source::default() }, &[]).unwrap()
 }
 
 #[test]
