@@ -42,7 +42,7 @@ fn the_page_fits_a_phone_loads_nothing_and_prints() {
     let arguments =
         ["dlc-on-steel", "--pictures", "svg", "--set", "grid.points=48", "--set", "load.mean_pressure=[0.05, 0.2]"];
     desk.solve("run", &arguments);
-    assert_eq!(desk.percoat(&["report", "run"]).code, 0);
+    desk.succeeds(&["report", "run"]);
     let page = Folder(desk.path("run")).text("report.html");
     desk.write("phone.html", PHONE.replace("PAGE", &page.replace('&', "&amp;").replace('"', "&quot;")));
     let browse = |arguments: &[String], file: &str| {

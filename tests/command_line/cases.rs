@@ -44,16 +44,6 @@ fn a_case_is_printed_byte_for_byte() {
     }
 }
 
-#[test]
-fn a_printed_case_is_a_case_file() {
-    let desk = Desk::new();
-    desk.write("mine.toml", desk.percoat(&["cases", "fig3a"]).out);
-    let by_file = desk.solve("file", &["mine.toml", "--set", "grid.points=48"]);
-    let by_name = desk.solve("name", &["fig3a", "--set", "grid.points=48"]);
-    assert!(by_file.result("summary.json") == by_name.result("summary.json"));
-    assert!(by_file.bytes("contact.npz") == by_name.bytes("contact.npz"));
-}
-
 /// At the first and the last of its loads.
 #[test]
 fn every_case_runs() {

@@ -5,17 +5,18 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 
 /// Small grids, few elements.
-const SMALL: [&str; 6] =
-    ["--set", "grid.points=64", "--set", "localized.elements=12", "--set", "localized.indenters=[7, 13]"];
+const SMALL: [&str; 4] = ["--set", "grid.points=64", "--set", "localized.elements=12"];
+/// Indenters inside the circles: of one, or of two that can be compared.
+const ONE: [&str; 2] = ["--set", "localized.indenters=[7]"];
+const TWO: [&str; 2] = ["--set", "localized.indenters=[7, 13]"];
 
-fn compare(desk: &Desk, name: &str, arguments: &[&str]) -> Folder {
-    let answer = desk.percoat(&[&["compare", "--output", name], &SMALL[..], arguments].concat());
-    assert_eq!(answer.code, 0, "{arguments:?}: {}", answer.err);
+fn compare(desk: &Desk, name: &str, circles: &[&str], arguments: &[&str]) -> Folder {
+    desk.succeeds(&[&["compare", "--output", name], &SMALL[..], circles, arguments].concat());
     Folder(desk.path(name))
 }
 
 fn read(folder: &Folder) -> Value {
-    serde_json::from_str(&folder.text("compare.json")).unwrap()
+    folder.json("compare.json")
 }
 
 fn list<'a>(value: &'a Value, pointer: &str) -> &'a Vec<Value> {
@@ -25,7 +26,7 @@ fn list<'a>(value: &'a Value, pointer: &str) -> &'a Vec<Value> {
 #[test]
 fn both_solutions_stand_side_by_side_in_a_file_and_a_picture() {
     let desk = Desk::new();
-    let folder = compare(&desk, "both", &[]);
+    let folder = compare(&desk, "both", &TWO, &[]);
     assert_eq!(folder.names(), ["compare.json", "comparison.png", "comparison.svg"].map(str::to_owned).into());
     let file = read(&folder);
     assert_eq!(file["percoat"], env!("CARGO_PKG_VERSION"));
@@ -66,20 +67,15 @@ fn both_solutions_stand_side_by_side_in_a_file_and_a_picture() {
             assert!((a - b).abs() < 0.02 * largest, "{component}: {pair}");
         }
     }
-}
-
-#[test]
-fn no_picture_is_drawn_when_none_is_wanted_and_an_earlier_one_goes() {
-    let desk = Desk::new();
-    compare(&desk, "run", &["--pictures", "svg"]);
-    let folder = compare(&desk, "run", &["--no-pictures"]);
-    assert_eq!(folder.names(), BTreeSet::from(["compare.json".to_owned()]));
+    // Earlier pictures go when none are wanted.
+    let again = compare(&desk, "both", &TWO, &["--no-pictures"]);
+    assert_eq!(again.names(), BTreeSet::from(["compare.json".to_owned()]));
 }
 
 #[test]
 fn without_mutual_effect_every_indenter_is_alone() {
     let desk = Desk::new();
-    let file = read(&compare(&desk, "alone", &["--set", "localized.mutual_effect=false"]));
+    let file = read(&compare(&desk, "alone", &ONE, &["--no-pictures", "--set", "localized.mutual_effect=false"]));
     let [circle] = &list(&file, "/localized")[..] else { panic!("one solution") };
     assert_eq!((&circle["indenters"], &file["other_rule"]), (&1.into(), &Value::Null));
     assert!(list(circle, "/radius").iter().all(Value::is_null));
@@ -90,7 +86,7 @@ fn without_mutual_effect_every_indenter_is_alone() {
 #[test]
 fn with_the_lattice_sum_outside_circles_of_any_size_agree() {
     let desk = Desk::new();
-    let file = read(&compare(&desk, "sum", &["--set", "localized.radius=lattice-sum"]));
+    let file = read(&compare(&desk, "sum", &TWO, &["--no-pictures", "--set", "localized.radius=lattice-sum"]));
     assert_eq!((&file["rule"], &file["other_rule"]["rule"]), (&"lattice-sum".into(), &"load-balanced".into()));
     assert_eq!(file["lattice_sum"], Value::Null);
     let [seven, thirteen] = &list(&file, "/localized")[..] else { panic!("two circles") };
@@ -124,7 +120,7 @@ fn a_topography_is_refused() {
 fn merged_contacts_are_told_and_what_is_there_is_written() {
     let desk = Desk::new();
     let arguments = ["compare", "-o", "merged", "--no-pictures", "--set", "load.mean_pressure=1.5"];
-    desk.percoat(&[&arguments[..], &SMALL[..]].concat()).complains(3, &["7 indenters", "merged"]);
+    desk.percoat(&[&arguments[..], &SMALL, &ONE].concat()).complains(3, &["7 indenters", "merged"]);
     let file = read(&Folder(desk.path("merged")));
     let circle = &file["localized"][0];
     assert_eq!(circle["converged"], false);
@@ -145,7 +141,7 @@ fn penetrations_near_complete_contact_come_to_an_end_and_those_beyond_are_refuse
     let compare = |penetration: f64| {
         let load = format!("load={{ penetration = [{penetration}] }}");
         let arguments = ["compare", "-o", "deep", "--no-pictures", "--set", &load];
-        desk.percoat(&[&arguments[..], &SMALL[..]].concat())
+        desk.percoat(&[&arguments[..], &SMALL, &TWO].concat())
     };
     compare(0.1).complains(2, &["load.penetration", "0.1", "complete"]);
     assert!(desk.names().is_empty(), "{:?} is written", desk.names());
@@ -155,7 +151,7 @@ fn penetrations_near_complete_contact_come_to_an_end_and_those_beyond_are_refuse
 #[test]
 fn loads_too_small_for_the_grid_are_solved_by_the_localized_method() {
     let desk = Desk::new();
-    let file = read(&compare(&desk, "tiny", &["--no-pictures", "--set", "load.mean_pressure=1e-9"]));
+    let file = read(&compare(&desk, "tiny", &ONE, &["--no-pictures", "--set", "load.mean_pressure=1e-9"]));
     let circle = &file["localized"][0];
     // Hertz on the coating: a³ = 3PR/(4E₁*), E₁* = 2G₁/(1 − ν₁).
     let radius = (0.6 * 1e-9 * 1.5 * 3f64.sqrt() / (4.0 / 2.6 / 0.8)).cbrt();
@@ -166,6 +162,6 @@ fn loads_too_small_for_the_grid_are_solved_by_the_localized_method() {
 #[test]
 fn the_number_of_threads_does_not_change_a_bit() {
     let desk = Desk::new();
-    let [one, two] = ["1", "2"].map(|threads| compare(&desk, threads, &["--no-pictures", "--threads", threads]));
+    let [one, two] = ["1", "2"].map(|threads| compare(&desk, threads, &ONE, &["--no-pictures", "--threads", threads]));
     assert!(one.bytes("compare.json") == two.bytes("compare.json"));
 }

@@ -1,9 +1,9 @@
 //! Expectations of any command line: help, completions, a manual, colour, standard input, JSON.
 
-use crate::program::{Desk, Folder};
+use crate::program::{Answer, Desk, Folder, assert_says};
 use serde_json::Value;
 use std::io::Write;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 const COMMANDS: [&str; 14] = [
     "solve",
@@ -29,9 +29,7 @@ fn every_help_has_an_example_and_the_exit_codes_and_fits_a_terminal() {
     for command in COMMANDS {
         assert!(listed.contains(&format!("\n  {command}")), "{command} does not stand in\n{listed}");
         let help = desk.percoat(&[command, "--help"]).out;
-        for words in ["Examples:\n  percoat ", "Exit codes: 0 "] {
-            assert!(help.contains(words), "\"{words}\" does not stand in\n{help}");
-        }
+        assert_says(&help, &["Examples:\n  percoat ", "Exit codes: 0 "]);
         let examples = help.split("Examples:").nth(1).unwrap();
         assert!(examples.lines().all(|line| line.chars().count() <= 80), "{examples}");
     }
@@ -53,7 +51,7 @@ fn examples_of_the_help_are_read() {
             let words: Vec<&str> = words.skip(1).collect();
             // A command line that is refused says so with its usage; with `--help` nothing is solved.
             let probe: Vec<&str> = words.iter().copied().chain(["--help"]).collect();
-            assert_eq!(desk.percoat(&probe).code, 0, "{example}");
+            desk.succeeds(&probe);
             let known = words[1..].iter().filter(|word| word.starts_with("--"));
             let unknown: Vec<_> = known.filter(|word| !help.contains(**word)).collect();
             assert!(unknown.is_empty(), "{example}: {unknown:?}");
@@ -65,8 +63,7 @@ fn examples_of_the_help_are_read() {
 fn completions_and_the_manual_know_every_command() {
     let desk = Desk::new();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        let answer = desk.percoat(&["completions", shell]);
-        assert_eq!(answer.code, 0, "{}", answer.err);
+        let answer = desk.succeeds(&["completions", shell]);
         assert!(COMMANDS.iter().all(|command| answer.out.contains(command)), "{shell}");
     }
     let page = desk.percoat(&["man"]).out;
@@ -92,27 +89,18 @@ fn a_case_comes_from_standard_input_and_its_summary_goes_to_standard_output() {
     let desk = Desk::new();
     let case = desk.percoat(&["cases", "fig2"]).out;
     let run = |arguments: &[&str]| {
-        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("percoat"))
-            .args(arguments)
-            .current_dir(desk.path(""))
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let [stdin, stdout, stderr] = [(); 3].map(|()| Stdio::piped());
+        let mut child = desk.command(arguments).stdin(stdin).stdout(stdout).stderr(stderr).spawn().unwrap();
         child.stdin.take().unwrap().write_all(case.as_bytes()).unwrap();
-        child.wait_with_output().unwrap()
+        Answer::from(child)
     };
-    let output = run(&["solve", "-", "--json", "--no-pictures", "--no-fields", "--set", "grid.points=48"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let solved = run(&["solve", "-", "--json", "--no-pictures", "--no-fields", "--set", "grid.points=48"]);
+    let printed: Value = serde_json::from_str(&solved.succeeds().out).unwrap();
     let folder = Folder(desk.path("out/stdin"));
     assert_eq!(printed, folder.summary());
     let names: Vec<String> = folder.names().into_iter().collect();
     assert_eq!(names, ["case.toml", "curve.csv", "summary.json"], "--no-fields keeps scalars");
-    let output = run(&["check", "-", "--set", "layers.0.poisson=2"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("poisson"));
+    run(&["check", "-", "--set", "layers.0.poisson=2"]).complains(2, &["poisson"]);
 }
 
 #[test]

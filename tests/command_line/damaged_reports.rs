@@ -17,10 +17,8 @@ fn a_report_is_made_of_whole_results_alone() {
     desk.write("case.toml", CASE.replace("[0.01, 0.03, 0.0, 0.02]", "[0.01, 0.02]"));
     desk.solve("run", &["case.toml"]);
     let strong = ["--set", "layers.0.yield_strength=0.2", "--set", "substrate.yield_strength=0.05"];
-    let limit = desk.percoat(&[&["limit", "case.toml", "-o", "limit", "--no-pictures"], &strong[..]].concat());
-    assert_eq!(limit.code, 0, "{}", limit.err);
-    let sweep = desk.percoat(&[&["sweep", "case.toml", "-o", "sweep"], &VALUES[..]].concat());
-    assert_eq!(sweep.code, 0, "{}", sweep.err);
+    desk.succeeds(&[&["limit", "case.toml", "-o", "limit", "--no-pictures"], &strong[..]].concat());
+    desk.succeeds(&[&["sweep", "case.toml", "-o", "sweep"], &VALUES[..]].concat());
     let report = |base: &str, listed: bool, damage: &dyn Fn(&Path)| {
         let _ = fs::remove_dir_all(desk.path("damaged"));
         copy(&desk.path(base), &desk.path("damaged"));

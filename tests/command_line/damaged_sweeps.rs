@@ -22,7 +22,7 @@ fn a_combination_that_is_damaged_is_solved_again_and_the_others_are_not() {
     let sweep = |name: &str, more: &[&str]| {
         desk.percoat(&[&["sweep", "case.toml", "-o", name, "--keep-fields"], &VALUES[..], more].concat())
     };
-    assert_eq!(sweep("whole", &[]).code, 0);
+    sweep("whole", &[]).succeeds();
     killed_sweep(&desk, "whole", "base");
     let expected = |name: &str| {
         let folder = Folder(desk.path(name));
@@ -117,8 +117,7 @@ fn parts_that_are_damaged_or_of_another_sweep_are_refused_with_file_line_and_wha
     let desk = Desk::new();
     desk.write("case.toml", CASE.replace("[0.01, 0.03, 0.0, 0.02]", "[0.01, 0.02]"));
     let shard = |name: &str, part: &str, more: &[&str]| {
-        let answer = desk.percoat(&[&["sweep", "case.toml", "-o", name, "--shard", part], &VALUES[..], more].concat());
-        assert_eq!(answer.code, 0, "{}", answer.err);
+        desk.succeeds(&[&["sweep", "case.toml", "-o", name, "--shard", part], &VALUES[..], more].concat());
     };
     shard("one", "1/2", &[]);
     shard("two", "2/2", &[]);
@@ -130,9 +129,9 @@ fn parts_that_are_damaged_or_of_another_sweep_are_refused_with_file_line_and_wha
         ends("merge", &answer);
         answer
     };
-    assert_eq!(merge(&["one", "two"]).code, 0);
+    merge(&["one", "two"]).succeeds();
     let whole = Folder(desk.path("joined")).text("sweep.csv");
-    assert_eq!(merge(&["two", "begun"]).code, 0);
+    merge(&["two", "begun"]).succeeds();
     assert_eq!(Folder(desk.path("joined")).text("sweep.csv"), whole);
     let twice = merge(&["one", "begun", "two"]);
     assert!(twice.code == 0 && twice.err.contains("2 combinations stand in several parts"), "{}", twice.err);

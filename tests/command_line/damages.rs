@@ -11,26 +11,13 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 /// Loads up and down on a coating, with fields of every kind.
 pub const CASE: &str = r#"
-[lattice]
-kind = "square"
-period = 1.0
-[[levels]]
-shape = "sphere"
-radius = 0.8
-[[layers]]
-thickness = 0.1
-young = 3.0
-poisson = 0.25
-[substrate]
-young = 1.0
-poisson = 0.3
-[load]
-mean_pressure = [0.01, 0.03, 0.0, 0.02]
-[grid]
-points = [16, 12]
-[stress]
-planes = [0.0, 0.1]
-volume = { depth = 0.2, rows = 2, points = 4 }
+lattice = { kind = "square", period = 1.0 }
+levels = [{ shape = "sphere", radius = 0.8 }]
+layers = [{ thickness = 0.1, young = 3.0, poisson = 0.25 }]
+substrate = { young = 1.0, poisson = 0.3 }
+load = { mean_pressure = [0.01, 0.03, 0.0, 0.02] }
+grid = { points = [16, 12] }
+stress = { planes = [0.0, 0.1], volume = { depth = 0.2, rows = 2, points = 4 } }
 "#;
 
 /// Values of a sweep, and two loads of each.

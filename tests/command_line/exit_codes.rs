@@ -1,8 +1,8 @@
 //! Exit codes 2, 3 and 4, what is said and what is written.
 
-use crate::program::{Desk, Folder};
+use crate::program::{Answer, Desk, Folder};
 use std::collections::BTreeSet;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 #[test]
 fn a_misspelt_key_is_refused_with_its_place_and_a_suggestion() {
@@ -35,18 +35,14 @@ fn what_the_command_line_does_not_know_is_refused() {
     assert!(desk.names().is_empty(), "{:?} is written", desk.names());
 }
 
-#[test]
-fn a_penetration_beyond_full_contact_is_refused() {
-    let desk = Desk::new();
-    let answer = desk.percoat(&["solve", "--set", "grid.points=64", "--set", "load.penetration=[0.01, 0.2]"]);
-    answer.complains(2, &["load.penetration", "0.2", "complete"]);
-    assert!(desk.names().is_empty(), "{:?} is written", desk.names());
-}
+/// A run that ends without having converged.
+const SHORT: [&str; 8] =
+    ["solve", "-o", "short", "--no-pictures", "--set", "grid.points=64", "--set", "solver.max_iterations=2"];
 
 #[test]
 fn too_few_iterations_are_told_and_what_is_there_is_written() {
     let desk = Desk::new();
-    let answer = desk.percoat(&["solve", "-o", "short", "--set", "grid.points=64", "--set", "solver.max_iterations=2"]);
+    let answer = desk.percoat(&SHORT);
     answer.complains(3, &["warning: not converged: step 1"]);
     assert!(answer.out.contains("0 of 1 load steps converged"), "{}", answer.out);
     let short = Folder(desk.path("short"));
@@ -61,18 +57,9 @@ fn too_few_iterations_are_told_and_what_is_there_is_written() {
 #[test]
 fn who_stops_reading_still_learns_that_a_run_has_not_converged() {
     let desk = Desk::new();
-    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("percoat"))
-        .args(["solve", "-o", "short", "--no-pictures", "--set", "grid.points=64", "--set", "solver.max_iterations=2"])
-        .current_dir(desk.path("."))
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut child = desk.command(&SHORT).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());
-    let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(3), "{said}");
-    assert!(said.contains("warning: not converged: step 1"), "{said}");
+    Answer::from(child).complains(3, &["warning: not converged: step 1"]);
 }
 
 #[test]
@@ -111,9 +98,10 @@ fn a_folder_that_cannot_be_made_is_an_output_failure() {
 #[test]
 fn a_folder_with_the_name_of_an_embedded_case_does_not_hide_it() {
     let desk = Desk::new();
-    desk.solve("fig2", &["--set", "grid.points=48"]);
-    desk.solve("fig2", &["--set", "grid.points=48"]);
-    desk.solve("again", &["fig2", "--set", "grid.points=48"]);
+    let small = ["--no-pictures", "--set", "grid.points=48"];
+    desk.solve("fig2", &small);
+    desk.solve("fig2", &small);
+    desk.solve("again", &[&["fig2"], &small[..]].concat());
     desk.write("fig3a", "no case");
     desk.percoat(&["solve", "fig3a"]).complains(2, &["fig3a:1"]);
 }

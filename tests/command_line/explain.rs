@@ -1,6 +1,6 @@
 //! `percoat explain`: what the keys of a case are, for people and for editors.
 
-use crate::program::Desk;
+use crate::program::{Desk, assert_says};
 use serde_json::Value;
 
 #[test]
@@ -19,17 +19,16 @@ fn a_key_is_told_with_type_range_unit_default_and_an_example_that_runs() {
     let desk = Desk::new();
     let told = |key: &str| desk.percoat(&["explain", key]).out;
     let poisson = told("layers.poisson");
-    for line in ["type      number", "range     0 to 0.5", "unit      none", "it, graded or material must be given"] {
-        assert!(poisson.contains(line), "{line} does not stand in\n{poisson}");
-    }
+    assert_says(
+        &poisson,
+        &["type      number", "range     0 to 0.5", "unit      none", "it, graded or material must be given"],
+    );
     let set = poisson.split("--set ").nth(1).unwrap().trim();
-    assert_eq!(desk.percoat(&["check", "fig2", "--set", "grid.points=48", "--set", set]).code, 0, "{set}");
+    desk.succeeds(&["check", "fig2", "--set", "grid.points=48", "--set", set]);
     let from = told("load.mean_pressure.from");
     assert!(from.contains("unit      pressure") && from.contains("[load]\n"), "{from}");
     let points = told("points");
-    for path in ["grid.points:", "stress.points:", "stress.volume.points:"] {
-        assert!(points.contains(path), "{points}");
-    }
+    assert_says(&points, &["grid.points:", "stress.points:", "stress.volume.points:"]);
     let layers = told("layers");
     assert!(layers.contains("\n  thickness ") && layers.contains("length > 0; required"), "{layers}");
     assert!(told("levels.slope").contains("only for  cone") && told("layers.young").contains("excludes  shear_ratio"));

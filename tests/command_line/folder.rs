@@ -6,9 +6,11 @@ use std::collections::BTreeSet;
 
 const FILES: [&str; 4] = ["case.toml", "contact.npz", "curve.csv", "summary.json"];
 
+const SMALL: [&str; 3] = ["--no-pictures", "--set", "grid.points=48"];
+
 /// The default case in two steps on a grid that has a sample at each apex.
 fn two_steps(desk: &Desk) -> Folder {
-    desk.solve("two", &["--set", "grid.points=48", "--set", "load.mean_pressure=[0.02, 0.06]"])
+    desk.solve("two", &[&SMALL[..], &["--set", "load.mean_pressure=[0.02, 0.06]"]].concat())
 }
 
 /// Whether the folder holds the files of a finished run, and beside them at most pictures.
@@ -25,14 +27,9 @@ fn assert_keys(value: &Value, keys: &[&str]) {
 }
 
 #[test]
-fn a_finished_run_leaves_its_files_and_nothing_temporary() {
-    assert_finished(&two_steps(&Desk::new()));
-}
-
-#[test]
-fn a_second_run_replaces_the_first() {
+fn a_finished_run_leaves_its_files_and_nothing_temporary_and_a_second_one_replaces_them() {
     let desk = Desk::new();
-    two_steps(&desk);
+    assert_finished(&two_steps(&desk));
     let again = desk.solve("two", &["--set", "grid.points=64", "--set", "load.mean_pressure=0.03"]);
     let fresh = desk.solve("fresh", &["--set", "grid.points=64", "--set", "load.mean_pressure=0.03"]);
     assert_finished(&again);
@@ -235,7 +232,7 @@ fn scalars(value: &Value, name: &str) -> Vec<(String, Value)> {
 fn the_case_as_run_runs_again_to_the_same_numbers() {
     let desk = Desk::new();
     let first = two_steps(&desk);
-    let again = desk.solve("again", &["two/case.toml"]);
+    let again = desk.solve("again", &["two/case.toml", "--no-pictures"]);
     for name in FILES {
         assert!(first.result(name) == again.result(name), "{name} differs");
     }
@@ -248,8 +245,6 @@ fn own_case(desk: &Desk, name: &str) -> String {
     desk.write(&format!("{name}/case.toml"), &text);
     text
 }
-
-const SMALL: [&str; 3] = ["--no-pictures", "--set", "grid.points=48"];
 
 fn solve_into(desk: &Desk, name: &str, arguments: &[&str]) -> crate::program::Answer {
     desk.percoat(&[&["solve", "-o", name], arguments, &SMALL[..]].concat())
@@ -270,7 +265,7 @@ fn a_users_case_that_is_the_one_to_be_written_stays_theirs() {
     let text = desk.solve("run", &SMALL).text("case.toml");
     std::fs::create_dir(desk.path("mine")).unwrap();
     desk.write("mine/case.toml", &text);
-    assert_eq!(solve_into(&desk, "mine", &["mine/case.toml"]).code, 0);
+    solve_into(&desk, "mine", &["mine/case.toml"]).succeeds();
     assert_finished(&Folder(desk.path("mine")));
     solve_into(&desk, "mine", &["--set", "load.mean_pressure=0.01"]).complains(2, &["mine/case.toml"]);
     assert_eq!(Folder(desk.path("mine")).text("case.toml"), text);
@@ -285,7 +280,7 @@ fn a_users_picture_is_in_the_way_only_of_a_run_that_draws_one_of_that_name() {
     let with_section = ["solve", "-o", "mine", "fig6b", "--set", "grid.points=48"];
     desk.percoat(&with_section).complains(2, &["mine/section.png"]);
     assert_eq!(mine.all_names(), ["section.png".to_owned()].into());
-    assert_eq!(solve_into(&desk, "mine", &["fig6b"]).code, 0);
+    solve_into(&desk, "mine", &["fig6b"]).succeeds();
     assert_eq!(mine.text("section.png"), "an electron micrograph");
     assert!(mine.names().contains("stress.npz"));
 }
@@ -298,7 +293,7 @@ fn files_and_folders_of_a_user_that_a_run_does_not_write_stay_whatever_they_are_
         ["mine/stress.0007.vts", "mine/contact.partial/notes.txt", "mine/.summary.json.4711.tmp", "mine/curve.svg"];
     names.iter().for_each(|name| desk.write(name, "mine"));
     for _ in 0..2 {
-        assert_eq!(solve_into(&desk, "mine", &[]).code, 0);
+        solve_into(&desk, "mine", &[]).succeeds();
         let texts = names.map(|name| std::fs::read_to_string(desk.path(name)).unwrap());
         assert_eq!(texts, names.map(|_| "mine".to_owned()));
     }
@@ -309,11 +304,11 @@ fn files_of_the_run_before_that_the_next_one_does_not_have_go() {
     let desk = Desk::new();
     let stress = ["fig6b", "--set", "load.mean_pressure=[0.001, 0.002]", "--set"];
     let volume = "stress.volume={ depth = 1.0, points = 8, rows = 8 }";
-    assert_eq!(solve_into(&desk, "run", &[&stress[..], &[volume]].concat()).code, 0);
+    solve_into(&desk, "run", &[&stress[..], &[volume]].concat()).succeeds();
     let run = Folder(desk.path("run"));
     assert!(["stress.npz", "stress.0001.vts", "stress.0002.vts"].iter().all(|&name| run.names().contains(name)));
     desk.write("run/stress.0003.vts", "mine");
-    assert_eq!(solve_into(&desk, "run", &[]).code, 0);
+    solve_into(&desk, "run", &[]).succeeds();
     let left: BTreeSet<String> = FILES.iter().copied().chain(["stress.0003.vts"]).map(str::to_owned).collect();
     assert_eq!(run.names(), left);
     let kept = Folder(desk.path("run/.percoat")).all_names();
@@ -330,7 +325,7 @@ fn a_result_that_was_edited_or_is_not_listed_is_not_replaced() {
     solve_into(&desk, "run", &[]).complains(2, &["run/curve.csv", "changed since"]);
     assert!(run.files() == before && !run.names().contains("unfinished"));
     desk.write("run/curve.csv", &curve);
-    assert_eq!(solve_into(&desk, "run", &[]).code, 0);
+    solve_into(&desk, "run", &[]).succeeds();
     before = run.files();
     // The folder as versions that kept no list left it.
     std::fs::remove_dir_all(desk.path("run/.percoat")).unwrap();
@@ -343,15 +338,14 @@ fn solve_and_compare_share_a_folder_and_replace_their_own_files_alone() {
     let desk = Desk::new();
     let compare = || {
         let small = ["--set", "localized.elements=8", "--set", "localized.indenters=[7]"];
-        let answer = desk.percoat(&[&["compare", "-o", "run"], &SMALL[..], &small].concat());
-        assert_eq!(answer.code, 0, "{}", answer.err);
+        desk.succeeds(&[&["compare", "-o", "run"], &SMALL[..], &small].concat());
     };
     let run = desk.solve("run", &SMALL);
     let solved = run.files();
     compare();
     let mut both = run.files();
     assert!(solved.iter().all(|(name, content)| both[name] == *content));
-    assert_eq!(solve_into(&desk, "run", &["--set", "load.mean_pressure=0.01"]).code, 0);
+    solve_into(&desk, "run", &["--set", "load.mean_pressure=0.01"]).succeeds();
     assert!(run.bytes("compare.json") == both["compare.json"] && run.bytes("curve.csv") != both["curve.csv"]);
     both = run.files();
     compare();

@@ -17,8 +17,7 @@ grid = { points = 48 }
 fn the_end_of_the_elastic_answer_stands_beside_the_numbers_once() {
     let desk = Desk::new();
     desk.write("thin.toml", THIN);
-    let answer = desk.percoat(&["solve", "thin.toml", "-o", "run", "--no-pictures"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    let answer = desk.succeeds(&["solve", "thin.toml", "-o", "run", "--no-pictures"]);
     let words = "the elastic answer has ended in step 1, 2: yield of C45 has the utilisation";
     assert_eq!(answer.err.matches("the elastic answer has ended").count(), 1, "{}", answer.err);
     assert!(answer.err.contains(words), "{}", answer.err);
@@ -30,8 +29,7 @@ fn the_end_of_the_elastic_answer_stands_beside_the_numbers_once() {
     assert!(summary["warnings"].as_array().unwrap().iter().any(|warning| warning.as_str().unwrap().starts_with(words)));
     let beneath = &folder.steps()[1]["beneath"];
     assert_eq!((&beneath["material"], &beneath["name"]), (&2.into(), &"C45".into()), "{beneath}");
-    let report = desk.percoat(&["report", "run"]);
-    assert_eq!(report.code, 0, "{}", report.err);
+    desk.succeeds(&["report", "run"]);
     assert!(folder.text("report.html").contains(words));
     // A load that the steel bears.
     let light = desk.percoat(&["solve", "thin.toml", "-o", "light", "--no-pictures", "--set", "load.force=1e-4"]);
@@ -58,8 +56,7 @@ fn a_composite_hardness_is_stated_with_its_law_and_depth() {
     let check = desk.percoat(&["check", "thin.toml"]);
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words(&check.out).contains("composite hardness by Korsunsky and others (1998), k = 3"), "{}", check.out);
-    let answer = desk.percoat(&["solve", "thin.toml", "-o", "run", "--no-pictures"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    let answer = desk.succeeds(&["solve", "thin.toml", "-o", "run", "--no-pictures"]);
     assert!(words(&answer.out).contains("composite hardness of the penetration: where"), "{}", answer.out);
     assert!(!answer.err.contains("not theirs alone"), "{}", answer.err);
     let folder = Folder(desk.path("run"));
@@ -78,8 +75,7 @@ fn a_composite_hardness_is_stated_with_its_law_and_depth() {
         assert!((of(step, "hardness") / known - 1.0).abs() < 1e-4, "{record}, {known}");
     }
     assert!(of(1, "hardness") < of(0, "hardness"), "{}", answer.out);
-    let report = desk.percoat(&["report", "run"]);
-    assert_eq!(report.code, 0, "{}", report.err);
+    desk.succeeds(&["report", "run"]);
     assert!(folder.text("report.html").contains("omposite hardness"));
     for (set, says) in [
         ("load.force=[150.0, 100.0]", "the loads fall"),
@@ -107,8 +103,7 @@ fn a_load_is_judged_by_the_largest_composite_hardness() {
     desk.write("both.toml", format!("{soft}composite_hardness = {{ law = \"korsunsky\", constant = 3.0 }}\n"));
     let check = desk.percoat(&["check", "both.toml"]);
     assert!(check.out.contains("at most 2.12"), "{}{}", check.out, check.err);
-    let answer = desk.percoat(&["solve", "both.toml", "-o", "run", "--no-pictures"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    desk.succeeds(&["solve", "both.toml", "-o", "run", "--no-pictures"]);
     let steps = Folder(desk.path("run")).steps();
     let hardness = steps[0]["plastic"]["hardness"].as_f64().unwrap();
     assert!(steps[0]["converged"] == true && 0.5 < hardness && hardness < 2.12, "{hardness}");

@@ -3,50 +3,31 @@
 
 #![cfg(unix)]
 
-use crate::program::{Desk, Folder};
+use crate::damages::copy;
+use crate::program::{Answer, Desk, Folder};
 use percoat::case::{Case, Source};
 use percoat::output::{self, Clock, Recording, RunFolder, solved_plan};
 use std::fs;
 use std::os::unix::fs::{FileTypeExt, MetadataExt, symlink};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 const CASE: &str = r#"
-[lattice]
-kind = "square"
-period = 1.0
-[[levels]]
-shape = "sphere"
-radius = 0.8
-[substrate]
-young = 1.0
-poisson = 0.3
-yield_strength = 0.3
-[load]
-mean_pressure = [0.01, 0.02]
-[grid]
-points = 16
-[localized]
-indenters = [5]
-elements = 6
+lattice = { kind = "square", period = 1.0 }
+levels = [{ shape = "sphere", radius = 0.8 }]
+substrate = { young = 1.0, poisson = 0.3, yield_strength = 0.3 }
+load = { mean_pressure = [0.01, 0.02] }
+grid = { points = 16 }
+localized = { indenters = [5], elements = 6 }
 "#;
 const ROUGH: &str = r#"
-[lattice]
-kind = "square"
-period = 1.0
-[surface.random]
-hurst = 0.8
-shortest = 0.1
-rms_slope = 0.1
-[substrate]
-young = 1.0
-poisson = 0.3
-[load]
-mean_pressure = 0.01
-[grid]
-points = 32
+lattice = { kind = "square", period = 1.0 }
+surface.random = { hurst = 0.8, shortest = 0.1, rms_slope = 0.1 }
+substrate = { young = 1.0, poisson = 0.3 }
+load = { mean_pressure = 0.01 }
+grid = { points = 32 }
 "#;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,8 +85,7 @@ fn desk() -> Desk {
     desk.write("mine/notes.txt", "notes");
     desk.write("mine/folder/thesis.tex", "thesis");
     for command in ["solve", "sweep"] {
-        let answer = desk.percoat(arguments(command));
-        assert_eq!(answer.code, 0, "{}", answer.err);
+        desk.succeeds(arguments(command));
     }
     fs::rename(desk.path("run"), desk.path("finished")).unwrap();
     kill(&desk);
@@ -132,18 +112,6 @@ fn kill(desk: &Desk) {
     }
     let log = Folder(sweep.clone()).text("sweep.jsonl");
     fs::write(sweep.join("sweep.jsonl"), log.split_inclusive('\n').next().unwrap()).unwrap();
-}
-
-fn copy(from: &Path, to: &Path) {
-    fs::create_dir_all(to).unwrap();
-    for entry in fs::read_dir(from).unwrap().map(Result::unwrap) {
-        let to = to.join(entry.file_name());
-        if entry.file_type().unwrap().is_dir() {
-            copy(&entry.path(), &to)
-        } else {
-            fs::copy(entry.path(), to).unwrap();
-        }
-    }
 }
 
 /// Puts an attack in a place, and in the place of what stands there.
@@ -188,9 +156,8 @@ fn has(desk: &Desk, attack: Attack, path: &Path) -> bool {
 
 /// Runs a command that must end; its exit code, and what it says.
 fn ended(desk: &Desk, command: &str) -> (i32, String) {
-    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("percoat"))
-        .args(arguments(command))
-        .current_dir(desk.path("."))
+    let mut child = desk
+        .command(arguments(command))
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
@@ -395,22 +362,14 @@ fn a_case_whose_name_leads_elsewhere_writes_nothing_there() {
         let before = Folder(desk.path("deep")).all_names();
         for command in [&["solve"][..], &["limit"], &["compare"], &["sweep", "--set", "levels.0.radius=0.7,0.9"]] {
             let [verb, rest @ ..] = command else { unreachable!() };
-            let path: PathBuf = ["."].iter().collect::<PathBuf>().join(name);
-            let output = assert_cmd::cargo::cargo_bin_cmd!("percoat")
-                .arg(verb)
-                .arg(path)
-                .args(rest)
-                .arg("--no-pictures")
-                .current_dir(desk.path("deep"))
-                .output()
-                .unwrap();
-            let said = String::from_utf8(output.stderr).unwrap();
-            assert_eq!(output.status.code(), Some(2), "{name:?} {verb}: {said}");
-            assert!(said.contains("-o") && said.lines().count() == 1, "{said}");
+            let path = format!("./{name}");
+            let arguments = [&[*verb, &path, "--no-pictures"], rest].concat();
+            let answer = Answer::from(desk.command(&arguments).current_dir(desk.path("deep")).output().unwrap());
+            answer.complains(2, &["-o"]);
+            assert_eq!(answer.err.lines().count(), 1, "{name:?} {verb}: {}", answer.err);
         }
         assert_eq!(Folder(desk.path("deep")).all_names(), before);
         assert!(Folder(desk.path("deep/out")).all_names().is_empty());
     }
-    let given = desk.percoat(&["solve", "deep/...toml", "-o", "run", "--no-pictures"]);
-    assert_eq!(given.code, 0, "{}", given.err);
+    desk.succeeds(&["solve", "deep/...toml", "-o", "run", "--no-pictures"]);
 }

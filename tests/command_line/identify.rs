@@ -1,36 +1,20 @@
 //! `percoat identify`: what it prints, writes and refuses.
 
-use crate::program::{Desk, number};
-use serde_json::Value;
+use crate::program::{Desk, assert_says, number};
 use std::fs;
-#[cfg(target_os = "linux")]
-use std::process::Command;
 
 const CURVE: &str = include_str!("../../validation/identification/indentation_noisy.csv");
 
 /// The ball and the coating of the curve, its moduli not yet known.
 const CASE: &str = r#"
 title = "Ball of 10 µm on a coating of 1 µm"
-[lattice]
-kind = "isolated"
-size = 4.0
-[[levels]]
-shape = "paraboloid"
-radius = 10.0
-[[layers]]
-thickness = 1.0
-young = 200.0
-poisson = 0.2
-[substrate]
-young = 100.0
-poisson = 0.3
-[load]
-force = 10.0
-[units]
-length = "µm"
-pressure = "GPa"
-[grid]
-points = 48
+lattice = { kind = "isolated", size = 4.0 }
+levels = [{ shape = "paraboloid", radius = 10.0 }]
+layers = [{ thickness = 1.0, young = 200.0, poisson = 0.2 }]
+substrate = { young = 100.0, poisson = 0.3 }
+load = { force = 10.0 }
+units = { length = "µm", pressure = "GPa" }
+grid = { points = 48 }
 "#;
 
 fn desk() -> Desk {
@@ -48,14 +32,12 @@ fn desk() -> Desk {
 fn moduli_are_found_and_written_with_their_fit() {
     let desk = desk();
     let free = ["identify", "curve.csv", "case.toml", "--free", "layers.0.young,substrate.young", "-o", "out"];
-    let answer = desk.percoat(&free);
-    assert_eq!(answer.code, 0, "{}", answer.err);
-    for words in ["layers.0.young", "substrate.young", "95 % interval", "correlation of", "8 points", "written to out"]
-    {
-        assert!(answer.out.contains(words), "\"{words}\" does not stand in\n{}", answer.out);
-    }
-    let found: Value =
-        serde_json::from_str(&fs::read_to_string(desk.path("out/identification.json")).unwrap()).unwrap();
+    let answer = desk.succeeds(&free);
+    assert_says(
+        &answer.out,
+        &["layers.0.young", "substrate.young", "95 % interval", "correlation of", "8 points", "written to out"],
+    );
+    let found = desk.json("out/identification.json");
     for (index, known) in [300.0, 70.0].into_iter().enumerate() {
         let read = |key: &str| number(&found, &format!("/parameters/{index}/{key}"));
         assert!((read("value") - known).abs() < 3.0 * read("standard_error") + 5e-3 * known, "{found:#}");
@@ -116,14 +98,14 @@ fn what_the_fit_does_not_know_is_told() {
     let desk = desk();
     changed(&desk, "shifted.csv", |_, penetration| penetration - 0.01);
     let free = ["identify", "shifted.csv", "case.toml", "--free", "substrate.young", "--set", "layers.0.young=300"];
-    let answer = desk.percoat(&[&free[..], &["--no-pictures", "-o", "out"]].concat());
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    let answer = desk.succeeds(&[&free[..], &["--no-pictures", "-o", "out"]].concat());
     let zero = "the zero of the penetration seems to be missed by -";
     assert!(answer.err.contains(zero) && answer.err.contains("free `offset`"), "{}", answer.err);
-    for words in ["d substrate.young", "levels.0.radius", "substrate.poisson", "frame_compliance", "offset"] {
-        assert!(answer.out.contains(words), "\"{words}\" does not stand in\n{}", answer.out);
-    }
-    let file: Value = serde_json::from_str(&fs::read_to_string(desk.path("out/identification.json")).unwrap()).unwrap();
+    assert_says(
+        &answer.out,
+        &["d substrate.young", "levels.0.radius", "substrate.poisson", "frame_compliance", "offset"],
+    );
+    let file = desk.json("out/identification.json");
     let names: Vec<&str> =
         file["sensitivities"].as_array().unwrap().iter().map(|row| row["name"].as_str().unwrap()).collect();
     let known = ["levels.0.radius", "layers.0.thickness", "layers.0.young", "layers.0.poisson", "substrate.poisson"];
@@ -133,8 +115,7 @@ fn what_the_fit_does_not_know_is_told() {
     let answer = desk.percoat(&[&free[..], &known].concat());
     assert!(answer.code == 0 && !answer.err.contains(zero), "{}", answer.err);
     assert!(answer.err.contains("exceeds the hardness 2.0000\u{a0}GPa of the body in 8 of 8 points"), "{}", answer.err);
-    let file: Value =
-        serde_json::from_str(&fs::read_to_string(desk.path("known/identification.json")).unwrap()).unwrap();
+    let file = desk.json("known/identification.json");
     let read = |key: &str| number(&file, &format!("/parameters/0/{key}"));
     assert!((read("value") - 70.0).abs() < 3.0 * read("standard_error") + 0.35, "{file:#}");
 }
@@ -162,13 +143,10 @@ fn records_of_more_than_loading_are_refused_with_their_lines() {
 #[test]
 fn what_memory_does_not_hold_is_refused_before_anything_is_written() {
     let desk = desk();
-    let percoat = assert_cmd::cargo::cargo_bin!("percoat");
-    let arguments = "identify curve.csv case.toml --free layers.0.young --threads 1 -o out";
+    let arguments = ["curve.csv", "case.toml", "--free", "layers.0.young", "--threads", "1", "-o", "out"];
     // glibc reserves address space for an arena of each thread, how much varies from run to run: one arena for all. The outcome is the same
     // for limits from 130 to 200 MB.
-    let command = format!("ulimit -v 180000 && MALLOC_ARENA_MAX=1 exec {} {arguments}", percoat.display());
-    let ended = Command::new("sh").args(["-c", &command]).current_dir(desk.path("")).output().unwrap();
-    let said = String::from_utf8(ended.stderr).unwrap();
-    assert!(ended.status.code() == Some(2) && said.contains("48 × 48 samples take about"), "{said}");
+    let limits = "ulimit -v 180000; export MALLOC_ARENA_MAX=1";
+    desk.limited(limits, &[&["identify"], &arguments[..]].concat()).complains(2, &["48 × 48 samples take about"]);
     assert!(!desk.path("out").exists());
 }

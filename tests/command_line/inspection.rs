@@ -1,13 +1,12 @@
 //! `percoat check` and `percoat kernel`: a look at a case without solving it.
 
-use crate::program::{Desk, assert_close, number};
+use crate::program::{Desk, assert_close, assert_says, number};
 use serde_json::Value;
 
 #[test]
-fn check_says_what_a_case_means_and_writes_nothing() {
+fn check_says_what_a_case_means_with_its_loads_of_first_touch_and_writes_nothing() {
     let desk = Desk::new();
-    let answer = desk.percoat(&["check", "fig5"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    let answer = desk.succeeds(&["check", "fig5"]);
     let words = [
         "Fig. 5",
         "cell",
@@ -23,16 +22,9 @@ fn check_says_what_a_case_means_and_writes_nothing() {
         "40 steps",
         "first touch",
     ];
-    for word in words {
-        assert!(answer.out.contains(word), "\"{word}\" does not stand in\n{}", answer.out);
-    }
+    assert_says(&answer.out, &words);
     assert!(desk.names().is_empty(), "check wrote {:?}", desk.names());
-}
-
-/// The loads that the comments of `fig5.toml` give from a grid of 1024 points.
-#[test]
-fn check_finds_the_loads_of_first_touch() {
-    let answer = Desk::new().percoat(&["check", "fig5"]);
+    // The loads that the comments of `fig5.toml` give from a grid of 1024 points.
     let touch = |level: usize| -> f64 {
         let mark = format!("  level {level}: mean pressure ");
         let stated = answer.out.lines().find_map(|line| line.strip_prefix(&mark)).unwrap();
@@ -65,8 +57,7 @@ fn first_touches_in_a_long_cell_take_no_more_than_the_grid_of_the_case() {
 
 fn lines(arguments: &[&str]) -> Vec<Value> {
     let desk = Desk::new();
-    let answer = desk.percoat(&[&["kernel"], arguments].concat());
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    let answer = desk.succeeds(&[&["kernel"], arguments].concat());
     assert!(desk.names().is_empty(), "kernel wrote {:?}", desk.names());
     answer.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }

@@ -2,18 +2,17 @@
 
 use crate::archive::{Archive, read_npy};
 use crate::damages::copy;
-use crate::program::{Desk, Folder, number, timeless};
+use crate::program::{Answer, Desk, Folder, LONG_ENOUGH, SIGNALS, kill, number, send, timeless};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// How a run that is stopped ends its last line.
 const GO_ON: &str = "; the same command with --resume goes on from there";
-const LONG_ENOUGH: Duration = Duration::from_secs(120);
 /// Forty steps that take their time.
 const LONG: [&str; 4] = ["fig5", "--set", "grid.points=256", "--no-pictures"];
 /// Some steps that do not, and others on the same grid.
@@ -28,46 +27,14 @@ const FIRST: [&str; 6] = [
 const SECOND: [&str; 6] =
     ["fig5", "--no-pictures", "--set", "grid.points=96", "--set", "load.mean_pressure=[0.001, 0.002, 0.003, 0.004]"];
 
-/// `percoat solve` with `arguments` into `folder`, on its way.
-fn start(folder: &Path, arguments: &[&str]) -> Child {
-    // Whoever runs the tests may have signals ignored.
-    start_with(&["--default-signal=HUP,INT,TERM"], folder, arguments)
+/// `percoat solve` with `arguments` into the folder `name`, on its way.
+fn start(desk: &Desk, name: &str, arguments: &[&str]) -> Child {
+    desk.start(&SIGNALS, &[&["solve", "-o", name], arguments].concat())
 }
 
-/// `percoat solve` with `arguments` into `folder`, on its way, with signals treated as `env` is told.
-fn start_with(signals: &[&str], folder: &Path, arguments: &[&str]) -> Child {
-    Command::new("env")
-        .args(signals)
-        .arg(assert_cmd::cargo::cargo_bin!("percoat"))
-        .args(["solve", "--output"])
-        .arg(folder)
-        .args(arguments)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
-}
-
-/// Starts a run and waits until it has finished so many steps.
-fn start_and_wait(steps: usize, folder: &Path, arguments: &[&str]) -> Child {
-    wait_for(steps, folder, start(folder, arguments))
-}
-
-/// Waits until a run on its way has finished so many steps.
-fn wait_for(steps: usize, folder: &Path, mut child: Child) -> Child {
-    let started = Instant::now();
-    let unfinished = folder.join("unfinished");
-    while finished_steps(&unfinished).len() < steps {
-        assert!(child.try_wait().unwrap().is_none(), "the run ended before it could be stopped");
-        assert!(started.elapsed() < LONG_ENOUGH, "no step is finished after {LONG_ENOUGH:?}");
-        sleep(Duration::from_millis(2));
-    }
-    child
-}
-
-fn kill(mut child: Child) {
-    child.kill().unwrap();
-    child.wait().unwrap();
+/// [`LONG`] into the folder `name`, on its way, once it has finished so many steps.
+fn begin_long(desk: &Desk, name: &str, steps: usize) -> Child {
+    desk.wait_for(start(desk, name, &LONG), &format!("{name}/unfinished/steps.jsonl"), steps)
 }
 
 /// The finished steps of an unfinished folder: every line that ends is a whole one.
@@ -102,7 +69,7 @@ fn readable_steps(unfinished: &Path) -> usize {
 fn a_killed_run_leaves_its_finished_steps_and_the_next_one_keeps_them() {
     let desk = Desk::new();
     let folder = Folder(desk.path("long"));
-    kill(start_and_wait(2, &folder.0, &LONG));
+    kill(begin_long(&desk, "long", 2));
     assert_eq!(folder.names(), ["unfinished".to_owned()].into());
     let killed = Folder(folder.0.join("unfinished"));
     let steps = readable_steps(&killed.0);
@@ -118,30 +85,16 @@ fn a_killed_run_leaves_its_finished_steps_and_the_next_one_keeps_them() {
 }
 
 #[test]
-fn a_finished_result_stands_untouched_until_the_next_one_is_complete() {
-    let desk = Desk::new();
-    let folder = desk.solve("run", &FIRST);
-    let before = folder.files();
-    kill(start_and_wait(1, &folder.0, &LONG));
-    assert!(folder.files() == before, "{:?}", folder.names());
-    assert!(readable_steps(&folder.0.join("unfinished")) >= 1);
-}
-
-#[test]
 fn an_end_that_is_asked_for_is_answered_with_the_steps_that_are_saved() {
     for signal in ["INT", "TERM"] {
         let desk = Desk::new();
-        let folder = desk.path("long");
-        let child = start_and_wait(2, &folder, &LONG);
-        Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
-        let output = child.wait_with_output().unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(130), "{signal}: {said}");
-        let steps = readable_steps(&folder.join("unfinished"));
+        let child = begin_long(&desk, "long", 2);
+        send(signal, &child);
+        let Answer { code, err: said, .. } = child.into();
+        assert_eq!(code, 130, "{signal}: {said}");
+        let steps = readable_steps(&desk.path("long/unfinished"));
         // Between the files of a step and the count of it.
-        let expected = |steps: usize| {
-            format!("interrupted: {steps} of 40 steps saved in {}{GO_ON}\n", folder.join("unfinished").display())
-        };
+        let expected = |steps: usize| format!("interrupted: {steps} of 40 steps saved in long/unfinished{GO_ON}\n");
         assert!([steps, steps - 1].iter().any(|&steps| said == expected(steps)), "{signal}: {said}, found {steps}");
     }
 }
@@ -149,19 +102,16 @@ fn an_end_that_is_asked_for_is_answered_with_the_steps_that_are_saved() {
 #[test]
 fn a_signal_that_is_ignored_stays_so_and_the_others_are_answered() {
     let desk = Desk::new();
-    let folder = desk.path("long");
     let signals = ["--default-signal=TERM", "--ignore-signal=INT"];
-    let mut child = wait_for(2, &folder, start_with(&signals, &folder, &LONG));
-    let id = child.id().to_string();
-    let send = |signal: &str| Command::new("kill").args(["-s", signal, &id]).status().unwrap();
-    send("INT");
+    let child = desk.start(&signals, &[&["solve", "-o", "long"], &LONG[..]].concat());
+    let mut child = desk.wait_for(child, "long/unfinished/steps.jsonl", 2);
+    send("INT", &child);
     sleep(Duration::from_millis(100));
     assert!(child.try_wait().unwrap().is_none(), "an ignored signal is answered");
-    send("TERM");
-    let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.code() == Some(130) && said.starts_with("interrupted: "), "{said}");
-    assert!(readable_steps(&folder.join("unfinished")) >= 2);
+    send("TERM", &child);
+    let Answer { code, err: said, .. } = child.into();
+    assert!(code == 130 && said.starts_with("interrupted: "), "{said}");
+    assert!(readable_steps(&desk.path("long/unfinished")) >= 2);
 }
 
 #[test]
@@ -169,10 +119,13 @@ fn a_run_that_cannot_say_anything_ends_as_it_would_have() {
     let desk = Desk::new();
     let run = |arguments: &[&str]| {
         let full = || fs::OpenOptions::new().write(true).open("/dev/full");
-        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("percoat"));
-        let command = command.args(arguments).current_dir(desk.path(".")).stdout(Stdio::null());
         // The other end of a pipe is closed where there is no such device.
-        let mut child = command.stderr(full().map_or_else(|_| Stdio::piped(), Stdio::from)).spawn().unwrap();
+        let mut child = desk
+            .command(arguments)
+            .stdout(Stdio::null())
+            .stderr(full().map_or_else(|_| Stdio::piped(), Stdio::from))
+            .spawn()
+            .unwrap();
         drop(child.stderr.take());
         child.wait().unwrap().code()
     };
@@ -185,7 +138,7 @@ fn a_run_that_cannot_say_anything_ends_as_it_would_have() {
 #[test]
 fn a_second_run_into_a_folder_is_refused_and_the_first_goes_on() {
     let desk = Desk::new();
-    let mut child = start_and_wait(1, &desk.path("shared"), &LONG);
+    let mut child = begin_long(&desk, "shared", 1);
     let process = format!("process {}", child.id());
     let solve = ["solve", "-o", "shared", "--set", "grid.points=48"];
     desk.percoat(&solve).complains(2, &["another run", &process, "shared", "-o"]);
@@ -196,7 +149,7 @@ fn a_second_run_into_a_folder_is_refused_and_the_first_goes_on() {
         sleep(Duration::from_millis(2));
     }
     kill(child);
-    desk.solve("shared", &solve[3..]);
+    desk.solve("shared", &[&solve[3..], &["--no-pictures"]].concat());
 }
 
 /// Files of a run beside the result before it, in order of appearance; a number waits for so many finished steps.
@@ -251,14 +204,16 @@ fn killed_in_every_phase_the_old_result_or_the_finished_steps_stand_readable() {
             .iter()
             .all(|(name, content)| fs::read(folder.0.join(name)).is_ok_and(|found| timeless(name, found) == *content))
     };
-    let folder = Folder(desk.path("run"));
+    let (old, folder) = (Folder(desk.path("first")).files(), Folder(desk.path("run")));
     for phase in PHASES {
         copy(&desk.path("first"), &folder.0);
-        let mut child = start(&folder.0, &SECOND);
+        let mut child = start(&desk, "run", &SECOND);
         wait_for_phase(phase, &folder.0, &mut child);
         kill(child);
         let unfinished = Folder(folder.0.join("unfinished"));
-        let stands = [whole(&folder, &first), whole(&folder, &second), whole(&unfinished, &second)];
+        let found = folder.files();
+        let is_old = old.iter().all(|(name, content)| found.get(name) == Some(content));
+        let stands = [is_old, whole(&folder, &second), whole(&unfinished, &second)];
         assert!(stands.contains(&true), "{phase}: {stands:?}, {:?}", folder.names());
         // A published result leaves no folder `unfinished/`.
         let finished = if stands[1] || stands[2] { 0 } else { readable_steps(&unfinished.0) };
@@ -271,14 +226,14 @@ fn killed_in_every_phase_the_old_result_or_the_finished_steps_stand_readable() {
     }
 }
 
-/// `percoat solve` of `fig2` into a folder, killed while it writes a file whose name begins so, before its first step is
+/// `percoat solve` of `fig2` into the folder `run`, killed while it writes a file whose name begins so, before its first step is
 /// finished. Where the kill came too late, it is tried again.
-fn killed_while_writing(beginning: &str, folder: &Folder, arguments: &[&str]) {
+fn killed_while_writing(beginning: &str, desk: &Desk, arguments: &[&str]) {
     const TRIES: usize = 100;
-    let unfinished = Folder(folder.0.join("unfinished"));
+    let unfinished = Folder(desk.path("run/unfinished"));
     let is_written = || unfinished.0.is_dir() && unfinished.names().iter().any(|name| name.starts_with(beginning));
     for _ in 0..TRIES {
-        let mut child = start(&folder.0, &[&["fig2", "--no-pictures", "-q"], arguments].concat());
+        let mut child = start(desk, "run", &[&["fig2", "--no-pictures", "-q"], arguments].concat());
         while !is_written() && child.try_wait().unwrap().is_none() {
             std::thread::yield_now();
         }
@@ -299,7 +254,7 @@ fn killed_within_its_first_step_a_run_leaves_nothing_to_set_aside_and_the_same_o
     let case = ["--set", "grid.points=48", "--set", "load.mean_pressure=[0.02, 0.06]", "--set", volume];
     let folder = Folder(desk.path("run"));
     let killed = || {
-        killed_while_writing(".stress.0001.vts", &folder, &case);
+        killed_while_writing(".stress.0001.vts", &desk, &case);
         assert!(folder.0.join("unfinished/checkpoint.npz").is_file());
     };
     killed();
@@ -321,9 +276,8 @@ fn a_line_that_was_being_written_is_cut_off_what_is_set_aside() {
     let desk = Desk::new();
     let loads: Vec<String> = (1..=200).map(|load| format!("{}", 1e-4 * f64::from(load))).collect();
     let loads = format!("load.mean_pressure=[{}]", loads.join(", "));
-    // Files of more than 32 or 64 KiB fail within a write: blocks are of 512 or 1024 bytes.
-    let (code, said) = solve_without_room(&desk, 64, &["--no-fields", "--set", "grid.points=16", "--set", &loads]);
-    assert!(code == Some(4) && said.contains("steps.jsonl: File too large"), "{said}");
+    let arguments = ["--no-fields", "--set", "grid.points=16", "--set", &loads];
+    solve_without_room(&desk, 32, &arguments).complains(4, &["steps.jsonl: File too large"]);
     let folder = Folder(desk.path("run"));
     let log = folder.text("unfinished/steps.jsonl");
     let whole = &log[..=log.rfind('\n').unwrap()];
@@ -333,32 +287,24 @@ fn a_line_that_was_being_written_is_cut_off_what_is_set_aside() {
     assert_eq!(folder.text("interrupted-1/steps.jsonl"), whole);
 }
 
-/// Into the folder `run`, where files of more than so many blocks of 512 or 1024 bytes fail as they do on a full disk. The code,
-/// and what is said.
-fn solve_without_room(desk: &Desk, blocks: usize, arguments: &[&str]) -> (Option<i32>, String) {
-    let output = Command::new("sh")
-        .args(["-c", &format!("ulimit -f {blocks}; exec \"$0\" \"$@\"")])
-        .arg(assert_cmd::cargo::cargo_bin!("percoat"))
-        .args(["solve", "-o", "run", "fig2", "--no-pictures"])
-        .args(arguments)
-        .current_dir(desk.path("."))
-        .output()
-        .unwrap();
-    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+/// `percoat solve` of `fig2` into the folder `run`, where files of more than so many KiB fail within a write as on a full disk.
+fn solve_without_room(desk: &Desk, size: usize, arguments: &[&str]) -> Answer {
+    let solve = ["solve", "-o", "run", "fig2", "--no-pictures"];
+    desk.limited(&format!("ulimit -f {size}"), &[&solve, arguments].concat())
 }
 
 /// The state of the solver takes 189 KiB on 96² samples and its coarser grids, on 192² four times as much.
 #[test]
 fn a_run_that_fails_on_a_finer_grid_says_what_the_coarser_one_has_saved() {
     let desk = Desk::new();
-    let (code, said) = solve_without_room(&desk, 450, &["--set", "grid.accuracy=1e-9"]);
-    assert_eq!(code, Some(4), "{said}");
-    assert!(said.contains("run/unfinished/checkpoint.npz: File too large"), "{said}");
+    let answer = solve_without_room(&desk, 225, &["--set", "grid.accuracy=1e-9"]);
+    answer.complains(4, &["run/unfinished/checkpoint.npz: File too large"]);
     assert!(
-        said.ends_with(&format!(
+        answer.err.ends_with(&format!(
             "0 of 1 steps saved in run/unfinished, all of them on a coarser grid in run/unfinished/coarser{GO_ON}\n"
         )),
-        "{said}"
+        "{}",
+        answer.err
     );
     assert_eq!(readable_steps(&desk.path("run/unfinished/coarser")), 1);
 }
@@ -370,8 +316,8 @@ fn a_disk_without_room_is_one_error_with_path_and_reason_and_the_steps_stay() {
     let before = folder.files();
     // The archive has twelve times 96² numbers.
     let load = "load.mean_pressure=[0.01, 0.02, 0.03]";
-    let (code, said) = solve_without_room(&desk, 450, &["--set", "grid.points=96", "--set", load]);
-    assert_eq!(code, Some(4), "{said}");
+    let Answer { code, err: said, .. } = solve_without_room(&desk, 225, &["--set", "grid.points=96", "--set", load]);
+    assert_eq!(code, 4, "{said}");
     let lines: Vec<&str> = said.lines().collect();
     assert!(
         matches!(lines[..], [error, saved] if error.starts_with("error: cannot write run/unfinished/contact.npz: File too large")

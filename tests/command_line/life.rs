@@ -1,26 +1,20 @@
 //! `percoat life`: what it prints, writes, refuses, and goes on with.
 
 use crate::damages::{BLOWS, strike};
-use crate::program::{Answer, Desk, Folder, number};
+use crate::program::{Answer, Desk, Folder, assert_says, kill, number};
 use percoat::case::{Case, embedded};
 use percoat::life::LifeState;
 use percoat::output::{self, Plan, RunFolder, Writer};
-use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
 const COARSE: [&str; 2] = ["--set", "grid.points=64"];
 
-fn file(desk: &Desk) -> Value {
-    serde_json::from_str(&fs::read_to_string(desk.path("out/life.json")).unwrap()).unwrap()
-}
-
 #[test]
 fn without_a_case_a_coating_that_tires_is_followed_to_its_end() {
     let desk = Desk::new();
-    let answer = desk.percoat(&[&["life", "-o", "out"], &COARSE[..]].concat());
-    assert_eq!(answer.code, 0, "{}", answer.err);
-    let life = file(&desk);
+    let answer = desk.succeeds(&[&["life", "-o", "out"], &COARSE[..]].concat());
+    let life = desk.json("out/life.json");
     let first = &life["first"];
     assert!(first["interface"] == 1 && first["name"] == "TiN/tool steel" && number(first, "/z") == 2.0, "{first}");
     assert!(
@@ -41,18 +35,14 @@ fn without_a_case_a_coating_that_tires_is_followed_to_its_end() {
         assert!(desk.path("out").join(name).is_file(), "{name}");
     }
     assert!(!desk.path("out/unfinished-life").exists());
-    for words in
-        ["first damage at", "after sliding", "delamination", "distance (", "passes until damage 1", "loads solved"]
-    {
-        assert!(answer.out.contains(words), "\"{words}\" does not stand in\n{}", answer.out);
-    }
+    assert_says(
+        &answer.out,
+        &["first damage at", "after sliding", "delamination", "distance (", "passes until damage 1", "loads solved"],
+    );
     assert!(answer.out.lines().all(|line| line.chars().count() <= 80), "wider than a terminal:\n{}", answer.out);
-    let report = desk.percoat(&["report", "out"]);
-    assert_eq!(report.code, 0, "{}", report.err);
+    desk.succeeds(&["report", "out"]);
     let page = fs::read_to_string(desk.path("out/report.html")).unwrap();
-    for words in ["Passes until damage 1", "<td class=\"number\">delamination</td>"] {
-        assert!(page.contains(words), "\"{words}\" does not stand in the report");
-    }
+    assert_says(&page, &["Passes until damage 1", "<td class=\"number\">delamination</td>"]);
 }
 
 /// Passes of `life` are those of `solve`, and to the first failure one solution is enough.
@@ -60,12 +50,10 @@ fn without_a_case_a_coating_that_tires_is_followed_to_its_end() {
 fn the_passes_are_those_of_a_solved_case() {
     let desk = Desk::new();
     desk.percoat(&[&["life", "tin-fatigue", "-o", "out", "--no-pictures", "--set", "life={}"], &COARSE[..]].concat());
-    let life = file(&desk);
+    let life = desk.json("out/life.json");
     assert!(life["solved"] == 1 && life["end"].is_null() && life["events"].as_array().unwrap().len() == 1);
-    let solved = desk.percoat(&[&["solve", "tin-fatigue", "-o", "run", "--no-pictures"], &COARSE[..]].concat());
-    assert_eq!(solved.code, 0, "{}", solved.err);
-    let summary: Value = serde_json::from_str(&fs::read_to_string(desk.path("run/summary.json")).unwrap()).unwrap();
-    assert_eq!(number(&summary, "/steps/0/fatigue/first/passes"), number(&life, "/first/passes"));
+    desk.succeeds(&[&["solve", "tin-fatigue", "-o", "run", "--no-pictures"], &COARSE[..]].concat());
+    assert_eq!(number(&desk.json("run/summary.json"), "/steps/0/fatigue/first/passes"), number(&life, "/first/passes"));
 }
 
 #[test]
@@ -86,17 +74,12 @@ fn a_life_that_was_interrupted_is_resumed_to_the_same_end() {
         let set = ["--set", "grid.points=32", "--set", "life.passes=1e5"];
         [&["life", "running-in", "-o", folder, "--no-pictures"][..], &set].concat()
     };
-    let whole = desk.percoat(&arguments("out"));
-    assert_eq!(whole.code, 0, "{}", whole.err);
-    let expected = file(&desk);
-    let mut killed = desk.begin(&arguments("killed"), "killed/unfinished-life/life-state.json", 1);
-    killed.kill().unwrap();
-    killed.wait().unwrap();
-    let resumed = desk.percoat(&[&arguments("killed")[..], &["--resume"]].concat());
-    assert_eq!(resumed.code, 0, "{}", resumed.err);
+    desk.succeeds(&arguments("out"));
+    let expected = desk.json("out/life.json");
+    kill(desk.begin(&arguments("killed"), "killed/unfinished-life/life-state.json", 1));
+    let resumed = desk.succeeds(&[&arguments("killed")[..], &["--resume"]].concat());
     assert!(resumed.err.contains("goes on after"), "{}", resumed.err);
-    let text = fs::read_to_string(desk.path("killed/life.json")).unwrap();
-    let resumed: Value = serde_json::from_str(&text).unwrap();
+    let resumed = desk.json("killed/life.json");
     for key in ["first", "events", "wear", "end", "solved"] {
         assert_eq!(resumed[key], expected[key], "{key}");
     }
@@ -183,44 +166,30 @@ fn a_life_of_another_case_is_refused_and_a_damaged_one_is_kept_aside() {
     killed_after(&LifeState { points: [40; 2], ..state.clone() }, &case, &killed.0);
     life(&desk, "killed", &PIECES, &["--resume"]).complains(2, &["is of another run", "the grid"]);
 
-    assert_eq!(life(&desk, "whole", &PIECES, &[]).code, 0);
+    life(&desk, "whole", &PIECES, &[]).succeeds();
     let whole = Folder(desk.path("whole")).results();
     for (what, blow) in BLOWS.iter().filter(|(what, _)| *what != "missing") {
         fs::remove_dir_all(&killed.0).unwrap();
         killed_after(state, &case, &killed.0);
         strike(&killed.0.join(STATE), *blow);
         let damaged = killed.bytes(STATE);
-        let again = life(&desk, "killed", &PIECES, &["--resume", "--quiet"]);
-        assert_eq!(again.code, 0, "{what}: {}", again.err);
-        for words in
-            ["warning: killed/unfinished-life/life-state.json: it", "interrupted-1; all passes are followed again"]
-        {
-            assert!(again.err.contains(words), "{what}: {}", again.err);
-        }
+        let again = life(&desk, "killed", &PIECES, &["--resume", "--quiet"]).succeeds();
+        assert_says(
+            &again.err,
+            &["warning: killed/unfinished-life/life-state.json: it", "interrupted-1; all passes are followed again"],
+        );
         assert!(killed.results() == whole && killed.bytes("interrupted-1/life-state.json") == damaged, "{what}");
     }
 }
 
 /// A ball whose counterbody tires, and of the body nothing.
 const COUNTERBODY: &str = r#"
-[lattice]
-kind = "square"
-period = 1.0
-[[levels]]
-shape = "sphere"
-radius = 0.8
-[substrate]
-young = 1.0
-poisson = 0.3
-[counterbody]
-name = "pin"
-young = 1.0
-poisson = 0.3
-fatigue = { amplitude = 0.1, passes = 1e3, exponent = 6 }
-[load]
-mean_pressure = 0.02
-[grid]
-points = 32
+lattice = { kind = "square", period = 1.0 }
+levels = [{ shape = "sphere", radius = 0.8 }]
+substrate = { young = 1.0, poisson = 0.3 }
+counterbody = { name = "pin", young = 1.0, poisson = 0.3, fatigue = { amplitude = 0.1, passes = 1e3, exponent = 6 } }
+load = { mean_pressure = 0.02 }
+grid = { points = 32 }
 "#;
 
 #[test]
@@ -228,9 +197,8 @@ fn a_counterbody_that_fails_is_warned_of_since_only_the_body_is_followed() {
     let desk = Desk::new();
     desk.write("case.toml", COUNTERBODY);
     let life = |passes: &str| {
-        let answer = desk.percoat(&["life", "case.toml", "-o", "out", "--set", passes]);
-        assert_eq!(answer.code, 0, "{}", answer.err);
-        (answer, file(&desk))
+        let answer = desk.succeeds(&["life", "case.toml", "-o", "out", "--set", passes]);
+        (answer, desk.json("out/life.json"))
     };
     let warning = "warning: the counterbody fails: pin of the counterbody after ";
     let (answer, first) = life("life={}");
@@ -245,39 +213,16 @@ fn a_counterbody_that_fails_is_warned_of_since_only_the_body_is_followed() {
 
 /// A ball on a coated disc that wear both.
 const BALL: &str = r#"
-[lattice]
-kind = "isolated"
-size = 100.0
-[[levels]]
-shape = "sphere"
-radius = 3000.0
-[[layers]]
-name = "soft layer"
-thickness = 0.02
-young = 100.0
-poisson = 0.3
-wear = 1e-5
-[substrate]
-name = "base"
-young = 210.0
-poisson = 0.3
-[counterbody]
-name = "ball"
-young = 210.0
-poisson = 0.3
-wear = 1e-7
-[load]
-force = 100
-[friction]
-coefficient = 0.2
-[units]
-length = "µm"
-pressure = "GPa"
-[grid]
-points = 40
-[life]
-passes = 2000
-tolerance = 0.1
+lattice = { kind = "isolated", size = 100.0 }
+levels = [{ shape = "sphere", radius = 3000.0 }]
+layers = [{ name = "soft layer", thickness = 0.02, young = 100.0, poisson = 0.3, wear = 1e-5 }]
+substrate = { name = "base", young = 210.0, poisson = 0.3 }
+counterbody = { name = "ball", young = 210.0, poisson = 0.3, wear = 1e-7 }
+load = { force = 100 }
+friction = { coefficient = 0.2 }
+units = { length = "µm", pressure = "GPa" }
+grid = { points = 40 }
+life = { passes = 2000, tolerance = 0.1 }
 "#;
 
 #[test]
@@ -288,9 +233,8 @@ fn a_ball_that_wears_needs_the_length_of_its_track_and_has_a_scar() {
     desk.percoat(&["life", "case.toml"]).complains(2, &track);
     desk.percoat(&["life", "case.toml", "--set", "life.distance=1e4", "--set", "life.stroke=1e4"])
         .complains(2, &["`life.stroke` and `life.distance`", "there and back"]);
-    let answer = desk.percoat(&["life", "case.toml", "-o", "out", "--set", "life.distance=1e4"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
-    let life = file(&desk);
+    let answer = desk.succeeds(&["life", "case.toml", "-o", "out", "--set", "life.distance=1e4"]);
+    let life = desk.json("out/life.json");
     let last = life["wear"].as_array().unwrap().last().unwrap();
     assert!(last["body"].is_null() && last["counterbody"].is_null() && number(last, "/distance") == 2e7, "{last}");
     assert!((number(last, "/specific_rate") / 1e-7 - 1.0).abs() < 1e-2, "{last}");
@@ -298,15 +242,16 @@ fn a_ball_that_wears_needs_the_length_of_its_track_and_has_a_scar() {
     assert!((number(last, "/scar/volume") / (1e-7 * 2e7 * 100.0) - 1.0).abs() < 1e-2, "{last}");
     assert!(number(last, "/scar/diameter") > 0.0 && number(last, "/scar/depth") > 0.0);
     let text = answer.out.split_whitespace().collect::<Vec<_>>().join(" ");
-    for words in [
-        "the scar of the counterbody has a diameter of",
-        "a specific wear rate of",
-        "mm³/(N·m)",
-        "µm³",
-        "its groove is",
-    ] {
-        assert!(text.contains(words), "\"{words}\" does not stand in\n{}", answer.out);
-    }
+    assert_says(
+        &text,
+        &[
+            "the scar of the counterbody has a diameter of",
+            "a specific wear rate of",
+            "mm³/(N·m)",
+            "µm³",
+            "its groove is",
+        ],
+    );
     // Without a law of fatigue the layer that is worn through is what happens first.
     let first = &life["first"];
     assert!(first["kind"] == "worn_through" && first["name"] == "soft layer" && first["range"].is_null(), "{first}");
@@ -317,8 +262,7 @@ fn a_ball_that_wears_needs_the_length_of_its_track_and_has_a_scar() {
     for column in ["scar_diameter", "scar_depth", "scar_volume", "specific_rate", "groove", "distance"] {
         assert!(csv.lines().next().unwrap().split(',').any(|head| head == column), "{column}");
     }
-    let report = desk.percoat(&["report", "out"]);
-    assert_eq!(report.code, 0, "{}", report.err);
+    desk.succeeds(&["report", "out"]);
     let page = fs::read_to_string(desk.path("out/report.html")).unwrap();
     assert!(page.contains("is worn through after") && page.contains("specific wear rate"));
 }

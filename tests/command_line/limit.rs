@@ -1,13 +1,12 @@
 //! `percoat limit`: what it prints and writes.
 
-use crate::program::{Desk, number};
+use crate::program::{Desk, Folder, assert_says, number};
 use serde_json::Value;
 use std::fs;
 
 fn limit(desk: &Desk, arguments: &[&str]) -> (Value, String) {
-    let answer = desk.percoat(&[&["limit", "-o", "out"], arguments].concat());
-    assert_eq!(answer.code, 0, "{}", answer.err);
-    (serde_json::from_str(&fs::read_to_string(desk.path("out/limit.json")).unwrap()).unwrap(), answer.out)
+    let answer = desk.succeeds(&[&["limit", "-o", "out"], arguments].concat());
+    (desk.json("out/limit.json"), answer.out)
 }
 
 #[test]
@@ -17,10 +16,7 @@ fn without_a_case_a_coating_in_service_is_answered_with_what_fails_first() {
     let sections = ["-2.png", "-2.svg", "-3.png", "-3.svg", "-4.png", "-4.svg", ".png", ".svg"];
     let sections = sections.map(|ending| format!("limit-section{ending}"));
     let names = [&sections[..], &["limit.csv", "limit.json", "limit.png", "limit.svg"].map(str::to_owned)].concat();
-    let files = fs::read_dir(desk.path("out")).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    let mut files: Vec<String> = files.filter(|name| !name.starts_with('.')).collect();
-    files.sort();
-    assert_eq!(files, names);
+    assert_eq!(Folder(desk.path("out")).names(), names.into_iter().collect());
     // Chromium below the coating, right under the sphere.
     let first = &limits["first"];
     assert_eq!((first["criterion"].as_str(), first["material"].as_u64()), (Some("yield"), Some(2)));
@@ -36,9 +32,10 @@ fn without_a_case_a_coating_in_service_is_answered_with_what_fails_first() {
     }
     let steps = limits["steps"].as_array().unwrap().len();
     assert_eq!(fs::read_to_string(desk.path("out/limit.csv")).unwrap().lines().count(), steps + 1);
-    for words in ["first: yield of chromium at the mean pressure", "delamination of DLC/chromium", "loads solved"] {
-        assert!(out.contains(words), "\"{words}\" does not stand in\n{out}");
-    }
+    assert_says(
+        &out,
+        &["first: yield of chromium at the mean pressure", "delamination of DLC/chromium", "loads solved"],
+    );
     assert!(out.lines().all(|line| line.chars().count() <= 80), "wider than a terminal:\n{out}");
 }
 
@@ -46,16 +43,14 @@ fn without_a_case_a_coating_in_service_is_answered_with_what_fails_first() {
 #[test]
 fn a_solved_case_with_strengths_says_what_governs() {
     let desk = Desk::new();
-    let answer = desk.percoat(&["solve", "dlc-on-steel", "-o", "out", "--no-pictures", "--set", "grid.points=96"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    let answer = desk.succeeds(&["solve", "dlc-on-steel", "-o", "out", "--no-pictures", "--set", "grid.points=96"]);
     assert!(
         answer.out.contains("\nfirst: yield of chromium between p̄ = 0.020000\u{a0}GPa and 0.050397\u{a0}GPa\n"),
         "{}",
         answer.out
     );
-    let text = fs::read_to_string(desk.path("out/summary.json")).unwrap();
-    let summary: Value = serde_json::from_str(&text).unwrap();
-    let step = summary["steps"].as_array().unwrap().last().unwrap();
+    let steps = Folder(desk.path("out")).steps();
+    let step = steps.last().unwrap();
     let taken = |index: usize| number(step, &format!("/strength/{index}/utilisation"));
     let stress = |path: &str| number(step, &format!("/stress/{path}/value"));
     let known = [
@@ -80,11 +75,8 @@ fn what_the_errors_leave_open_is_said_to_be_open() {
     let desk = Desk::new();
     let sets = ["grid.points=64", "friction.coefficient=0.5", "layers.0.residual_stress=0", "load.mean_pressure=0.004"];
     let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", *set]).collect();
-    let answer = desk.percoat(&[&["solve", "dlc-on-steel", "-o", "out", "--no-pictures"], &sets[..]].concat());
-    assert_eq!(answer.code, 0, "{}", answer.err);
-    let text = fs::read_to_string(desk.path("out/summary.json")).unwrap();
-    let summary: Value = serde_json::from_str(&text).unwrap();
-    let step = &summary["steps"][0];
+    let answer = desk.succeeds(&[&["solve", "dlc-on-steel", "-o", "out", "--no-pictures"], &sets[..]].concat());
+    let step = &Folder(desk.path("out")).steps()[0];
     let taken = |row: &Value| [number(row, "/utilisation"), row["error"].as_f64().unwrap_or(0.0)];
     let all = step["strength"].as_array().unwrap();
     let [first, error] = taken(all.iter().max_by(|a, b| taken(a)[0].total_cmp(&taken(b)[0])).unwrap());
@@ -105,32 +97,22 @@ fn what_the_errors_leave_open_is_said_to_be_open() {
     assert!(answer.out.contains("undecided by the errors whether anything fails"), "{}", answer.out);
 }
 
-const BOND: &str = r#"
-[lattice]
-kind = "square"
-period = 20.0
-[[levels]]
-shape = "sphere"
-radius = 50.0
-[[layers]]
-thickness = 1.0
-young = 400.0
-poisson = 0.25
-interface_strength = { shear = 1.0 }
-[substrate]
-young = 210.0
-poisson = 0.3
-[load]
-mean_pressure = 0.05
-[grid]
-points = 48
+/// Spheres on a coating of which nothing but the bond has a strength.
+pub const BOND: &str = r#"
+title = "Spheres on a bond"
+lattice = { kind = "square", period = 20.0 }
+levels = [{ shape = "sphere", radius = 50.0 }]
+layers = [{ thickness = 1.0, young = 400.0, poisson = 0.25, interface_strength = { shear = 1.0 } }]
+substrate = { young = 210.0, poisson = 0.3 }
+load = { mean_pressure = 0.07 }
+grid = { points = 48 }
 "#;
 
 /// Without friction four places around a sphere fail alike; the cut goes through the one that is marked.
 #[test]
 fn the_place_that_fails_is_marked_whatever_the_first_load() {
     let desk = Desk::new();
-    fs::write(desk.path("bond.toml"), BOND).unwrap();
+    desk.write("bond.toml", BOND);
     for load in ["0.05", "0.06", "0.09", "0"] {
         let load = format!("load.mean_pressure={load}");
         let (found, _) = limit(&desk, &["bond.toml", "--pictures", "svg", "--set", &load]);
@@ -147,8 +129,8 @@ fn the_place_that_fails_is_marked_whatever_the_first_load() {
 #[test]
 fn what_residual_stress_alone_breaks_needs_no_load() {
     let desk = Desk::new();
-    let broken = BOND.replace("interface_strength = { shear = 1.0 }", "residual_stress = 3.0\ntensile_strength = 1.0");
-    fs::write(desk.path("broken.toml"), broken).unwrap();
+    let broken = BOND.replace("interface_strength = { shear = 1.0 }", "residual_stress = 3.0, tensile_strength = 1.0");
+    desk.write("broken.toml", broken);
     let (found, out) = limit(&desk, &["broken.toml"]);
     assert_eq!((&found["first"]["mean_pressure"], number(&found, "/first/error")), (&0.0.into(), 0.0));
     assert!(out.contains("cracking of material 1, without load") && !desk.path("out/limit.csv").exists(), "{out}");
@@ -171,7 +153,7 @@ fn what_has_no_strength_is_refused_and_nothing_written() {
 #[test]
 fn a_limit_that_is_not_converged_is_written_and_marked() {
     let desk = Desk::new();
-    fs::write(desk.path("bond.toml"), BOND).unwrap();
+    desk.write("bond.toml", BOND);
     let arguments =
         ["limit", "bond.toml", "-o", "out", "--no-pictures", "--set=solver.max_iterations=1", "--set=grid.points=24"];
     let answer = desk.percoat(&arguments);

@@ -21,8 +21,8 @@ fn numpy_reads_the_archive_back() {
     }
     let desk = Desk::new();
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/numpy/read_back.py");
-    let periodic = ["--set", "grid.points=[48, 64]", "--set", "load.mean_pressure=[0.02, 0.06]"];
-    let isolated = ["ball-on-disc", "--set", "grid.points=[48, 64]"];
+    let periodic = ["--no-pictures", "--set", "grid.points=[48, 64]", "--set", "load.mean_pressure=[0.02, 0.06]"];
+    let isolated = ["ball-on-disc", "--no-pictures", "--set", "grid.points=[48, 64]"];
     for (name, arguments) in [("two", &periodic[..]), ("ball", &isolated[..])] {
         let folder = desk.solve(name, arguments);
         let output = Command::new(&python).arg(&script).arg(&folder.0).output().unwrap();

@@ -19,7 +19,8 @@ fn named(ending: &str) -> BTreeSet<String> {
 }
 
 #[test]
-fn a_run_leaves_pictures_one_or_two_columns_wide_in_both_formats_without_being_asked() {
+fn a_run_leaves_pictures_one_or_two_columns_wide_in_both_formats_without_being_asked_and_they_go_when_none_are_wanted()
+{
     let desk = Desk::new();
     let folder = desk.solve("run", &ARGUMENTS);
     assert_eq!(pictures(&folder), &named("png") | &named("svg"));
@@ -32,6 +33,9 @@ fn a_run_leaves_pictures_one_or_two_columns_wide_in_both_formats_without_being_a
         assert!(width.abs_diff(1004 * columns) < 3, "{name}: {width} pixels wide");
         assert!((400..4000).contains(&height), "{name}: {height} pixels high");
     }
+    desk.write("run/my own.png", "not of a run");
+    let folder = desk.solve("run", &[&ARGUMENTS[..], &["--no-pictures"]].concat());
+    assert_eq!(pictures(&folder), BTreeSet::from(["my own.png".to_owned()]));
 }
 
 #[test]
@@ -58,21 +62,12 @@ fn svg_pictures_hold_the_words_of_their_axes_and_captions() {
 }
 
 #[test]
-fn no_pictures_are_drawn_when_none_are_wanted_and_earlier_ones_go() {
-    let desk = Desk::new();
-    let folder = desk.solve("run", &[&ARGUMENTS[..], &["--pictures", "png,svg"]].concat());
-    assert_eq!(pictures(&folder).len(), 12);
-    desk.write("run/my own.png", "not of a run");
-    let folder = desk.solve("run", &[&ARGUMENTS[..], &["--no-pictures"]].concat());
-    assert_eq!(pictures(&folder), BTreeSet::from(["my own.png".to_owned()]));
-}
-
-#[test]
 fn a_load_without_contact_and_merged_contacts_are_drawn_too() {
     let desk = Desk::new();
     let open = desk.solve("open", &["fig2", "--set", "grid.points=32", "--set", "load={ penetration = 0.0 }"]);
     assert!(!pictures(&open).contains("pressure.png"));
-    let merged = desk.solve("merged", &["fig2", "--set", "grid.points=32", "--set", "load.mean_pressure=0.6"]);
+    let sets = ["--set", "grid.points=32", "--set", "load.mean_pressure=0.6"];
+    let merged = desk.solve("merged", &[&["fig2", "--pictures", "png,svg"], &sets[..]].concat());
     assert!(["pressure.png", "contact.png", "profiles.png"].iter().all(|&name| pictures(&merged).contains(name)));
 }
 

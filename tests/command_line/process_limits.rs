@@ -5,29 +5,8 @@
 use crate::program::{Answer, Desk};
 use std::fs::{self, File, Permissions};
 use std::os::unix::fs::PermissionsExt;
-use std::process::{Command, Output, Stdio};
+use std::process::Command;
 use std::time::Instant;
-
-fn answer(output: Output) -> Answer {
-    let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
-    Answer { code: output.status.code().unwrap_or(-1), out: text(output.stdout), err: text(output.stderr) }
-}
-
-/// Runs `percoat` under limits of `ulimit`; under those of threads as somebody who is bound by them, for an administrator is not.
-fn under(desk: &Desk, limits: &str, arguments: &[&str]) -> Option<Answer> {
-    let program = assert_cmd::cargo::cargo_bin!("percoat");
-    let shell = ["bash", "-c", &format!("{limits}; exec \"$0\" \"$@\"")].map(str::to_owned);
-    let is_bound = Command::new("id").arg("-u").output().is_ok_and(|output| output.stdout != b"0\n");
-    let words: Vec<String> = if limits.contains("-u") && !is_bound {
-        ["setpriv", "--reuid=4242", "--clear-groups"].map(str::to_owned).into_iter().chain(shell).collect()
-    } else {
-        shell.into_iter().collect()
-    };
-    fs::set_permissions(desk.path("."), Permissions::from_mode(0o777)).unwrap();
-    let mut command = Command::new(&words[0]);
-    let output = command.args(&words[1..]).arg(program).args(arguments).current_dir(desk.path(".")).output().ok()?;
-    Some(answer(output)).filter(|answer| answer.code != 126)
-}
 
 /// Asserts that the command has done its work, or says in a line why not.
 fn assert_ended_well(answer: &Answer, what: &str) {
@@ -40,6 +19,14 @@ fn assert_ended_well(answer: &Answer, what: &str) {
 #[test]
 fn few_threads_are_an_error_of_one_line() {
     let desk = Desk::new();
+    fs::set_permissions(desk.path("."), Permissions::from_mode(0o777)).unwrap();
+    let is_bound = Command::new("id").arg("-u").output().is_ok_and(|output| output.stdout != b"0\n");
+    // An administrator is not bound by limits of threads: the shell of somebody who is.
+    let shell = || {
+        let mut shell = Command::new(if is_bound { "bash" } else { "setpriv" });
+        shell.args(["--reuid=4242", "--clear-groups", "bash"].iter().filter(|_| !is_bound));
+        shell
+    };
     let mut failed = 0;
     for most in 1..=8 {
         let folder = format!("out{most}");
@@ -50,7 +37,11 @@ fn few_threads_are_an_error_of_one_line() {
             &["kernel", "fig2", "--wavenumber", "1"],
             &["check", "fig2", "--threads", "7"],
         ] {
-            let Some(answer) = under(&desk, &format!("ulimit -u {most}"), arguments) else { return };
+            let Ok(output) = desk.limited_by(shell(), &format!("ulimit -u {most}"), arguments).output() else { return };
+            if output.status.code() == Some(126) {
+                return;
+            }
+            let answer = Answer::from(output);
             let what = format!("{most} threads: {arguments:?}");
             if answer.code == 0 {
                 // A coarse grid is warned of.
@@ -73,7 +64,7 @@ fn a_small_stack_is_enough() {
         for arguments in
             [&["check", "fig2"][..], &["explain"], &["--help"], &["cases", "fig2", "--set", "grid.points=64"]]
         {
-            let answer = under(&desk, &format!("ulimit -s {most}"), arguments).unwrap();
+            let answer = desk.limited(&format!("ulimit -s {most}"), arguments);
             assert_eq!(answer.code, 0, "{most} kB, {arguments:?}: {}", answer.err);
         }
     }
@@ -92,7 +83,7 @@ fn few_addresses_are_an_error_of_one_line() {
             &["sweep", "fig2", "--set=grid.points=1024,2048", "--no-pictures"],
             &["check", "fig2", "--threads", "8"],
         ] {
-            let answer = under(&desk, &format!("ulimit -v {most}"), arguments).unwrap();
+            let answer = desk.limited(&format!("ulimit -v {most}"), arguments);
             assert_ended_well(&answer, &format!("{most} kB of addresses: {arguments:?}"));
             failed += usize::from(answer.code != 0);
         }
@@ -105,9 +96,8 @@ fn few_addresses_are_an_error_of_one_line() {
 fn the_end_of_the_time_allowed_is_answered_with_what_is_saved() {
     let desk = Desk::new();
     // The whole search takes many times as long.
-    let answer = under(&desk, "ulimit -St 1", &["limit", "--set=grid.points=192", "--no-pictures"]).unwrap();
-    assert_eq!(answer.code, 130, "{}", answer.err);
-    assert!(answer.err.contains("interrupted: nothing is saved"), "{}", answer.err);
+    let answer = desk.limited("ulimit -St 1", &["limit", "--set=grid.points=192", "--no-pictures"]);
+    answer.complains(130, &["interrupted: nothing is saved"]);
 }
 
 /// A file that may not grow is a full disk: what is finished stays, and the same command ends once it may.
@@ -126,7 +116,7 @@ fn small_files_are_an_error_and_what_is_finished_stays() {
             let arguments =
                 if arguments[0] == "check" { arguments.to_vec() } else { [arguments, &["-o", "out"]].concat() };
             let what = format!("files of {most} kB: {arguments:?}");
-            let answer = under(&desk, &format!("ulimit -f {most}"), &arguments).unwrap();
+            let answer = desk.limited(&format!("ulimit -f {most}"), &arguments);
             if answer.code == 0 {
                 continue;
             }
@@ -142,7 +132,7 @@ fn small_files_are_an_error_and_what_is_finished_stays() {
                 "{what}: {}",
                 answer.err
             );
-            let again = under(&desk, "ulimit -f unlimited", &arguments).unwrap();
+            let again = desk.percoat(&arguments);
             assert_eq!(again.code, 0, "{what}, then allowed: {}", again.err);
             for folder in ["out", "checked"] {
                 let _ = fs::remove_dir_all(desk.path(folder));
@@ -171,9 +161,8 @@ fn help_that_cannot_be_written_is_an_error() {
         &["kernel", "fig2", "--wavenumber", "1"],
     ] {
         let full = File::options().write(true).open("/dev/full").unwrap();
-        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("percoat"));
-        let output = command.args(arguments).current_dir(desk.path(".")).stdout(full).stderr(Stdio::piped()).output();
-        answer(output.unwrap()).complains(4, &["error: cannot write standard output"]);
+        let output = desk.command(arguments).stdout(full).output().unwrap();
+        Answer::from(output).complains(4, &["error: cannot write standard output"]);
     }
 }
 
@@ -182,13 +171,13 @@ fn more_threads_than_cores_have_use_for_are_lowered_with_a_word() {
     let desk = Desk::new();
     let arguments = ["check", "fig2", "--set", "grid.points=48"];
     let with = |variable: Option<&str>, more: &[&str]| {
-        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("percoat"));
-        command.args(arguments).args(more).current_dir(desk.path(".")).env_remove("RAYON_NUM_THREADS");
+        let mut command = desk.command(&[&arguments[..], more].concat());
+        command.env_remove("RAYON_NUM_THREADS");
         if let Some(value) = variable {
             command.env("RAYON_NUM_THREADS", value);
         }
         let began = Instant::now();
-        let answer = answer(command.output().unwrap());
+        let answer = Answer::from(command.output().unwrap());
         assert!(began.elapsed().as_secs() < 60, "{variable:?} {more:?}");
         answer
     };
@@ -200,8 +189,7 @@ fn more_threads_than_cores_have_use_for_are_lowered_with_a_word() {
         (Some("99999999999999999999999"), &[], "RAYON_NUM_THREADS"),
         (Some("3"), &["--threads", "20000"], "--threads"),
     ] {
-        let answer = with(variable, more);
-        assert_eq!(answer.code, 0, "{}", answer.err);
+        let answer = with(variable, more).succeeds();
         assert!(
             answer.err.contains("note: ") && answer.err.contains(&format!("of {source}: more than 4")),
             "{}",

@@ -6,10 +6,15 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
+
+/// Options of `env` by which signals act as they do in a terminal.
+pub const SIGNALS: [&str; 1] = ["--default-signal=HUP,INT,TERM"];
+/// Longest wait of a test.
+pub const LONG_ENOUGH: Duration = Duration::from_secs(120);
 
 /// A temporary folder in which commands run.
 pub struct Desk(TempDir);
@@ -42,33 +47,55 @@ impl Desk {
         names(self.0.path())
     }
 
+    /// `percoat` with `arguments`, not yet started.
+    pub fn command(&self, arguments: &[&str]) -> Command {
+        self.here(Command::new(assert_cmd::cargo::cargo_bin!("percoat")), arguments)
+    }
+
+    fn here(&self, mut command: Command, arguments: &[&str]) -> Command {
+        command.args(arguments).current_dir(self.0.path());
+        command
+    }
+
     /// Runs `percoat` with `arguments`.
     pub fn percoat(&self, arguments: &[&str]) -> Answer {
-        let output =
-            assert_cmd::cargo::cargo_bin_cmd!("percoat").args(arguments).current_dir(self.0.path()).output().unwrap();
-        Answer {
-            code: output.status.code().unwrap(),
-            out: String::from_utf8(output.stdout).unwrap(),
-            err: String::from_utf8(output.stderr).unwrap(),
-        }
+        self.command(arguments).output().unwrap().into()
+    }
+
+    /// Runs `percoat` with `arguments`; it must end with the exit code 0.
+    pub fn succeeds(&self, arguments: &[&str]) -> Answer {
+        self.percoat(arguments).succeeds()
+    }
+
+    /// Runs `percoat` in a shell that first limits itself by `ulimit`, sizes in KiB.
+    pub fn limited(&self, limits: &str, arguments: &[&str]) -> Answer {
+        self.limited_by(Command::new("bash"), limits, arguments).output().unwrap().into()
+    }
+
+    /// The same, not yet started, by the command of a shell.
+    pub fn limited_by(&self, mut shell: Command, limits: &str, arguments: &[&str]) -> Command {
+        shell.args(["-c", &format!("{limits}; exec \"$0\" \"$@\"")]).arg(assert_cmd::cargo::cargo_bin!("percoat"));
+        self.here(shell, arguments)
+    }
+
+    /// Starts `percoat` with `arguments`, by `env` with these options for signals: whoever runs the tests may have some ignored.
+    pub fn start(&self, signals: &[&str], arguments: &[&str]) -> Child {
+        let mut env = Command::new("env");
+        env.args(signals).arg(assert_cmd::cargo::cargo_bin!("percoat"));
+        self.here(env, arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
     }
 
     /// Starts `percoat` with `arguments` and waits until its log has so many lines: on its way, and ready to be stopped.
     pub fn begin(&self, arguments: &[&str], log: &str, lines: usize) -> Child {
-        // Whoever runs the tests may have signals ignored.
-        let mut child = Command::new("env")
-            .arg("--default-signal=HUP,INT,TERM")
-            .arg(assert_cmd::cargo::cargo_bin!("percoat"))
-            .args(arguments)
-            .current_dir(self.0.path())
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        self.wait_for(self.start(&SIGNALS, arguments), log, lines)
+    }
+
+    /// Waits until the log of what was started has so many lines.
+    pub fn wait_for(&self, mut child: Child, log: &str, lines: usize) -> Child {
         let started = Instant::now();
         while whole_lines(&self.path(log)) < lines {
             assert!(child.try_wait().unwrap().is_none(), "it ended before it could be stopped");
-            assert!(started.elapsed() < Duration::from_secs(120));
+            assert!(started.elapsed() < LONG_ENOUGH, "{log} has not {lines} lines after {LONG_ENOUGH:?}");
             sleep(Duration::from_millis(1));
         }
         child
@@ -76,9 +103,26 @@ impl Desk {
 
     /// `percoat solve` with `arguments` into the folder `name`; it must converge.
     pub fn solve(&self, name: &str, arguments: &[&str]) -> Folder {
-        let answer = self.percoat(&[&["solve", "--output", name], arguments].concat());
-        assert_eq!(answer.code, 0, "{arguments:?}: {}", answer.err);
+        self.succeeds(&[&["solve", "--output", name], arguments].concat());
         Folder(self.path(name))
+    }
+
+    /// The content of a JSON file.
+    pub fn json(&self, name: &str) -> Value {
+        Folder(self.path("")).json(name)
+    }
+}
+
+impl From<Output> for Answer {
+    fn from(output: Output) -> Self {
+        let [out, err] = [output.stdout, output.stderr].map(|said| String::from_utf8(said).unwrap());
+        Self { code: output.status.code().unwrap_or_else(|| panic!("{}: {err}", output.status)), out, err }
+    }
+}
+
+impl From<Child> for Answer {
+    fn from(child: Child) -> Self {
+        child.wait_with_output().unwrap().into()
     }
 }
 
@@ -86,9 +130,13 @@ impl Answer {
     /// The command was refused or failed with `code`, and says each of `words`.
     pub fn complains(&self, code: i32, words: &[&str]) {
         assert_eq!(self.code, code, "{}", self.err);
-        for word in words {
-            assert!(self.err.contains(word), "\"{word}\" does not stand in\n{}", self.err);
-        }
+        assert_says(&self.err, words);
+    }
+
+    /// The command ended with the exit code 0.
+    pub fn succeeds(self) -> Self {
+        assert_eq!(self.code, 0, "{}", self.err);
+        self
     }
 }
 
@@ -144,8 +192,13 @@ impl Folder {
         self.files().into_iter().map(|(name, content)| (name.clone(), timeless(&name, content))).collect()
     }
 
+    /// The content of a JSON file.
+    pub fn json(&self, name: &str) -> Value {
+        serde_json::from_str(&self.text(name)).unwrap()
+    }
+
     pub fn summary(&self) -> Value {
-        serde_json::from_str(&self.text("summary.json")).unwrap()
+        self.json("summary.json")
     }
 
     /// The load steps of the summary.
@@ -156,6 +209,16 @@ impl Folder {
     pub fn contact(&self) -> Archive {
         Archive::open(&self.0.join("contact.npz"))
     }
+}
+
+pub fn kill(mut child: Child) {
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+/// Sends a signal, such as `INT`.
+pub fn send(signal: &str, child: &Child) {
+    assert!(Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap().success());
 }
 
 /// Number of the lines of a file that end; none where it is not.
@@ -185,6 +248,13 @@ pub fn timeless(name: &str, content: Vec<u8>) -> Vec<u8> {
             text.lines().map(rest).collect::<String>().into_bytes()
         }
         _ => content,
+    }
+}
+
+/// Asserts that each of `words` stands in the text.
+pub fn assert_says(text: &str, words: &[&str]) {
+    for word in words {
+        assert!(text.contains(word), "\"{word}\" does not stand in\n{text}");
     }
 }
 

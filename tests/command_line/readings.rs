@@ -20,8 +20,7 @@ const CONE: [&str; 8] = [
 #[test]
 fn under_a_tip_nothing_is_a_number_that_is_infinite() {
     let desk = Desk::new();
-    let answer = desk.percoat(&[&["solve", "-o", "cone", "--set", "grid.points=72"], &CONE[..]].concat());
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    let answer = desk.succeeds(&[&["solve", "-o", "cone", "--set", "grid.points=72"], &CONE[..]].concat());
     // Values and places stand below each other where a place is undecided.
     let tau1: Vec<&str> = answer.out.lines().filter(|line| line.contains("τ₁ in material 1")).collect();
     assert!(tau1[0].contains("singular") && tau1[tau1.len() - 1].ends_with("(0, 0, 0)"), "{tau1:?}");
@@ -54,8 +53,7 @@ fn an_accuracy_leaves_out_what_is_infinite_and_says_when_it_is_not_reached() {
         let set = format!("grid={{ accuracy = {accuracy} }}");
         desk.percoat(&[&["solve", "-o", "cone", "--set", &set], &CONE[..], &["--threads", "2"]].concat())
     };
-    let reached = accuracy("0.05");
-    assert_eq!(reached.code, 0, "{}", reached.err);
+    accuracy("0.05").succeeds();
     let steps = Folder(desk.path("cone")).steps();
     assert!(number(&steps[0], "/points/0") <= 768.0, "{}", steps[0]["points"]);
     // No grid is that fine.
@@ -68,8 +66,7 @@ fn an_accuracy_leaves_out_what_is_infinite_and_says_when_it_is_not_reached() {
 #[test]
 fn rings_and_merged_contacts_are_called_so() {
     let desk = Desk::new();
-    let answer = desk.percoat(&["solve", "ring", "-o", "ring", "--no-pictures", "--set", "grid.points=128"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    let answer = desk.succeeds(&["solve", "ring", "-o", "ring", "--no-pictures", "--set", "grid.points=128"]);
     let rows: Vec<&str> = answer.out.lines().collect();
     assert!(rows.iter().any(|row| row.contains("ring 0.1") && row.contains(" to 0.19")), "{}", answer.out);
     let steps = Folder(desk.path("ring")).steps();

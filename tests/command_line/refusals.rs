@@ -59,7 +59,7 @@ fn cases_prints_a_changed_case_that_runs_as_the_override_would() {
     desk.write("mine.toml", &changed.out);
     let mine = desk.solve("mine", &["mine.toml", "--no-pictures"]);
     let direct = desk.solve("own", &["fig2", "--set=grid.points=48", "--set=layers.0.thickness=0.3", "--no-pictures"]);
-    assert!(mine.bytes("contact.npz") == direct.bytes("contact.npz"));
+    assert!(mine.results() == direct.results());
     desk.percoat(&["cases", "fig2", "--set", "grid.point=48"]).complains(2, &["did you mean `points`?"]);
     let list = desk.percoat(&["cases", "fig2", "--set", "load.mean_pressure=0.02,0.06"]);
     list.complains(2, &["'load.mean_pressure=[0.02,0.06]'", "percoat sweep"]);
@@ -102,6 +102,7 @@ fn check_refuses_a_penetration_that_solve_refuses() {
         answer.complains(2, &["load.penetration = 0.2 is out of reach", "complete"]);
         assert_eq!(answer.out, "");
     }
+    assert!(desk.names().is_empty(), "{:?} is written", desk.names());
 }
 
 #[test]
@@ -111,8 +112,7 @@ fn what_double_precision_cannot_carry_is_refused_and_not_printed() {
         let wavenumber = format!("--wavenumber={wavenumber}");
         desk.percoat(&["kernel", &wavenumber]).complains(2, &["between 1e-60 and 1e60"]);
     }
-    let edges = desk.percoat(&["kernel", "--wavenumber=1e-60,1e60", "--depth=0,1e-60,1,1e60"]);
-    assert_eq!(edges.code, 0, "{}", edges.err);
+    let edges = desk.succeeds(&["kernel", "--wavenumber=1e-60,1e60", "--depth=0,1e-60,1,1e60"]);
     assert!(!edges.out.contains("null"), "{}", edges.out);
     for set in ["layers.0.thickness=1e155", "substrate.young=1e200", "layers.0.young=1e200"] {
         desk.percoat(&["solve", "--set", set]).complains(2, &["between 1e-60 and 1e60"]);
@@ -124,8 +124,7 @@ fn what_double_precision_cannot_carry_is_refused_and_not_printed() {
 fn mixed_units_are_told_by_check_and_solve_and_stand_in_the_summary() {
     let desk = Desk::new();
     let settings = ["--set=grid.points=48", "--set=load.mean_pressure=0.9"];
-    let checked = desk.percoat(&[&["check", "fig2"], &settings[..]].concat());
-    assert_eq!(checked.code, 0, "{}", checked.err);
+    let checked = desk.succeeds(&[&["check", "fig2"], &settings[..]].concat());
     assert!(
         checked.err.contains("warning: load.mean_pressure = 0.90000 is 0.90 of Young's modulus"),
         "{}",
@@ -138,7 +137,7 @@ fn mixed_units_are_told_by_check_and_solve_and_stand_in_the_summary() {
     let few = ["--set=localized={indenters=[7],elements=8}", "--no-pictures"];
     let compared = desk.percoat(&[&["compare", "fig2", "-o", "both"], &settings[..], &few].concat());
     assert!(compared.err.contains("warning: load.mean_pressure"), "{}", compared.err);
-    let summary = crate::program::Folder(desk.path("run")).summary();
+    let summary = desk.json("run/summary.json");
     let warnings = summary["warnings"].as_array().unwrap();
     assert!(warnings.iter().any(|text| text.as_str().unwrap().contains("MPa")), "{warnings:?}");
 }
@@ -148,23 +147,17 @@ fn mixed_units_are_told_by_check_and_solve_and_stand_in_the_summary() {
 #[test]
 fn a_grid_that_memory_does_not_hold_is_refused_with_the_largest_that_fits() {
     let desk = Desk::new();
-    let percoat = assert_cmd::cargo::cargo_bin!("percoat");
-    let shell = |arguments: &str| {
-        let command = format!("ulimit -v 1000000 && exec {} {arguments}", percoat.display());
-        let output = Command::new("sh").args(["-c", &command]).current_dir(desk.path("")).output().unwrap();
-        (output.status.code(), String::from_utf8(output.stderr).unwrap())
-    };
-    for command in ["solve fig2", "check fig2", "compare fig2"] {
-        let (code, said) = shell(&format!("{command} --set grid.points=8192 --threads 1"));
-        assert_eq!(code, Some(2), "{command}: {said}");
-        assert!(said.contains("8192 × 8192 samples take about"), "{said}");
-        let fits = said.split("the largest grid that fits is grid.points = [").nth(1).unwrap();
+    let limited = |arguments: &[&str]| desk.limited("ulimit -v 1000000", arguments);
+    for command in ["solve", "check", "compare"] {
+        let answer = limited(&[command, "fig2", "--set=grid.points=8192", "--threads=1"]);
+        answer.complains(2, &["8192 × 8192 samples take about"]);
+        let fits = answer.err.split("the largest grid that fits is grid.points = [").nth(1).unwrap();
         let points: usize = fits.split(',').next().unwrap().parse().unwrap();
-        assert!((512..4096).contains(&points), "{said}");
+        assert!((512..4096).contains(&points), "{}", answer.err);
     }
-    let volume = "stress={volume={depth=1.0,rows=2048,points=2048}}";
-    let (code, said) = shell(&format!("solve fig2 --set grid.points=64 --set '{volume}'"));
-    assert!(code == Some(2) && said.contains("fewer rows or points in stress.volume"), "{said}");
+    let volume = "--set=stress={volume={depth=1.0,rows=2048,points=2048}}";
+    limited(&["solve", "fig2", "--set=grid.points=64", volume])
+        .complains(2, &["fewer rows or points in stress.volume"]);
     assert!(desk.names().is_empty());
 }
 
@@ -194,12 +187,8 @@ fn the_memory_that_check_states_is_the_peak_of_the_run() {
     for settings in [&["--set=grid.points=512"][..], &["--set=grid.points=512", "--set=stress={planes=[0.0]}"]] {
         let checked = desk.percoat(&[&["check", "fig2"], settings].concat());
         let stated: f64 = between(&checked.out, "(", " MiB without pictures").parse().unwrap();
-        let run = Command::new(assert_cmd::cargo::cargo_bin!("percoat"))
-            .args([&["solve", "fig2", "--no-pictures", "-q", "-o", "run"], settings].concat())
-            .current_dir(desk.path(""))
-            .stdin(Stdio::null())
-            .spawn();
-        let mut run = run.unwrap();
+        let solve = [&["solve", "fig2", "--no-pictures", "-q", "-o", "run"], settings].concat();
+        let mut run = desk.command(&solve).stdin(Stdio::null()).spawn().unwrap();
         let mut peak = 0.0;
         while run.try_wait().unwrap().is_none() {
             let status = std::fs::read_to_string(format!("/proc/{}/status", run.id())).unwrap_or_default();

@@ -1,35 +1,24 @@
 //! `solve --resume`: a run that was stopped at any moment and goes on ends as one that was not.
 
 use crate::mortal::{case, run};
-use crate::program::{Desk, Folder};
+use crate::program::{Desk, Folder, kill};
 use std::collections::BTreeMap;
 use std::fs;
 
 /// Loads up and down on a coating with strengths; stresses of every kind; on one grid.
 const STRESSES: &str = r#"
-[lattice]
-kind = "oblique"
-a1 = [1.0, 0.0]
-a2 = [0.3, 0.9]
-[[levels]]
-shape = "sphere"
-radius = 0.8
-sites = [[0.0, 0.0]]
+lattice = { kind = "oblique", a1 = [1.0, 0.0], a2 = [0.3, 0.9] }
+levels = [{ shape = "sphere", radius = 0.8, sites = [[0.0, 0.0]] }]
+substrate = { young = 1.0, poisson = 0.3 }
+load = { mean_pressure = [0.01, 0.03, 0.0, 0.02] }
+friction = { coefficient = 0.3 }
+grid = { points = [24, 20] }
 [[layers]]
 thickness = 0.1
 young = 3.0
 poisson = 0.25
 yield_strength = 0.3
 interface_strength = { normal = 0.1, shear = 0.2 }
-[substrate]
-young = 1.0
-poisson = 0.3
-[load]
-mean_pressure = [0.01, 0.03, 0.0, 0.02]
-[friction]
-coefficient = 0.3
-[grid]
-points = [24, 20]
 [stress]
 planes = [0.0, 0.1]
 points = [[0.1, 0.2, 0.05]]
@@ -40,44 +29,21 @@ volume = { depth = 0.2, rows = 2, points = 4 }
 /// Cones between spheres, refined; the second grid is the last that is allowed here. The finite peaks have a part in the
 /// change.
 const REFINED: &str = r#"
-[lattice]
-kind = "square"
-period = 1.0
-[[levels]]
-shape = "cone"
-slope = 0.2
-sites = [[0.0, 0.0]]
-[[levels]]
-shape = "sphere"
-radius = 0.5
-sites = [[0.5, 0.5]]
-[substrate]
-young = 1.0
-poisson = 0.3
-[load]
-mean_pressure = [0.001, 0.01]
-[grid]
-accuracy = 1e-9
+lattice = { kind = "square", period = 1.0 }
+levels = [{ shape = "cone", slope = 0.2, sites = [[0.0, 0.0]] }, { shape = "sphere", radius = 0.5, sites = [[0.5, 0.5]] }]
+substrate = { young = 1.0, poisson = 0.3 }
+load = { mean_pressure = [0.001, 0.01] }
+grid = { accuracy = 1e-9 }
 "#;
 
 /// A rough surface, one of whose penetrations touches too little to be resolved, and one iteration too few for some.
 const ROUGH: &str = r#"
-[lattice]
-kind = "square"
-period = 1.0
-[surface.random]
-hurst = 0.8
-shortest = 0.1
-rms_slope = 0.1
-[substrate]
-young = 1.0
-poisson = 0.3
-[load]
-penetration = [1e-6, 0.002, 0.01, 0.012]
-[grid]
-points = 32
-[solver]
-max_iterations = 9
+lattice = { kind = "square", period = 1.0 }
+surface.random = { hurst = 0.8, shortest = 0.1, rms_slope = 0.1 }
+substrate = { young = 1.0, poisson = 0.3 }
+load = { penetration = [1e-6, 0.002, 0.01, 0.012] }
+grid = { points = 32 }
+solver = { max_iterations = 9 }
 "#;
 
 /// Kills a run after every call, its successor some calls later, and compares what the third leaves.
@@ -130,16 +96,13 @@ fn a_killed_run_goes_on_and_leaves_the_same_files_and_pictures() {
     let desk = Desk::new();
     let whole = desk.solve("whole", &LONG);
     let folder = Folder(desk.path("killed"));
-    let mut child = desk.begin(&[&["solve", "-o", "killed"], &LONG[..]].concat(), "killed/unfinished/steps.jsonl", 5);
-    child.kill().unwrap();
-    child.wait().unwrap();
+    kill(desk.begin(&[&["solve", "-o", "killed"], &LONG[..]].concat(), "killed/unfinished/steps.jsonl", 5));
     let resume = |change: &[&str]| desk.percoat(&[&["solve", "-o", "killed", "--resume"], &LONG[..], change].concat());
     // Another run is refused, and nothing is lost.
     for change in [&["--no-fields"][..], &["--set", "substrate.poisson=0.2"]] {
         resume(change).complains(2, &["is of another run", "--resume"]);
     }
-    let again = resume(&[]);
-    assert_eq!(again.code, 0, "{}", again.err);
+    let again = resume(&[]).succeeds();
     assert!(again.err.contains("note: goes on after step"), "{}", again.err);
     let (found, expected) = (folder.results(), whole.results());
     assert_eq!(folder.names(), whole.names());

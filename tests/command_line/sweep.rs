@@ -1,30 +1,18 @@
 //! `percoat sweep` and `percoat merge`: every combination a row, whatever happens on the way.
 
-use crate::program::{Answer, Desk, Folder, number, whole_lines};
+use crate::program::{Answer, Desk, Folder, kill, number, send, whole_lines};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
-use std::process::Command;
 
 const CASE: &str = r#"
 title = "A small one"
-[lattice]
-kind = "square"
-period = 1.0
-[[levels]]
-shape = "paraboloid"
-radius = 1.0
-[[layers]]
-thickness = 0.2
-shear_ratio = 2.0
-poisson = 0.3
-[substrate]
-young = 1.0
-poisson = 0.3
-[load]
-mean_pressure = [0.01, 0.02]
-[grid]
-points = 32
+lattice = { kind = "square", period = 1.0 }
+levels = [{ shape = "paraboloid", radius = 1.0 }]
+layers = [{ thickness = 0.2, shear_ratio = 2.0, poisson = 0.3 }]
+substrate = { young = 1.0, poisson = 0.3 }
+load = { mean_pressure = [0.01, 0.02] }
+grid = { points = 32 }
 "#;
 
 fn desk() -> Desk {
@@ -51,8 +39,8 @@ fn column<'a>(table: &[Vec<&'a str>], name: &str) -> Vec<&'a str> {
 fn every_combination_and_step_is_a_row_with_what_solve_finds() {
     let desk = desk();
     let answer =
-        sweep(&desk, "out", &["--set", "layers.0.thickness=0.1,0.3", "--set", "layers[0].poisson=0.2,0.4,0.5"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
+        sweep(&desk, "out", &["--set", "layers.0.thickness=0.1,0.3", "--set", "layers[0].poisson=0.2,0.4,0.5"])
+            .succeeds();
     assert!(answer.out.contains("6 of 6 combinations done"), "{}", answer.out);
     let folder = Folder(desk.path("out"));
     assert_eq!(folder.names(), BTreeSet::from(["sweep.csv", "sweep.json", "sweep.jsonl"].map(str::to_owned)));
@@ -107,7 +95,7 @@ fn what_fails_is_a_row_that_says_why() {
     assert_eq!(column(&table, "status"), status);
     assert!(column(&table, "reason")[4].contains("poisson") && column(&table, "reason")[3].is_empty());
     assert!(column(&table, "penetration")[4].is_empty() && !column(&table, "penetration")[0].is_empty());
-    let summary: Value = serde_json::from_str(&Folder(desk.path("out")).text("sweep.json")).unwrap();
+    let summary = desk.json("out/sweep.json");
     assert_eq!(
         [&summary["done"], &summary["not_converged"], &summary["failed"]],
         [&1, &1, &2].map(|n| Value::from(*n)).each_ref()
@@ -160,8 +148,8 @@ fn pairs_and_tables_make_the_same_rows() {
     let desk = desk();
     desk.write("table.csv", "# mine\nlayers.0.thickness; layers.0.interface\n0.1; bonded\n0.2; \"frictionless\"\n");
     let zip = ["--zip", "--set", "layers.0.thickness=0.1,0.2", "--set", "layers.0.interface=bonded,frictionless"];
-    assert_eq!(sweep(&desk, "zip", &zip).code, 0);
-    assert_eq!(sweep(&desk, "table", &["--table", "table.csv"]).code, 0);
+    sweep(&desk, "zip", &zip).succeeds();
+    sweep(&desk, "table", &["--table", "table.csv"]).succeeds();
     let [zip, table] = ["zip", "table"].map(|name| Folder(desk.path(name)).text("sweep.csv"));
     assert_eq!(zip, table);
     assert_eq!(zip.lines().count(), 5);
@@ -173,19 +161,16 @@ const MANY: [&str; 4] = ["--set", "layers.0.thickness=0.05:0.5:10", "--set", "la
 fn a_killed_sweep_goes_on_and_ends_with_the_same_table() {
     let desk = desk();
     let larger = ["--set", "grid.points=96"];
-    assert_eq!(sweep(&desk, "whole", &[&MANY[..], &larger].concat()).code, 0);
+    sweep(&desk, "whole", &[&MANY[..], &larger].concat()).succeeds();
     let log = "killed/unfinished-sweep/sweep.jsonl";
     let command = ["sweep", "case.toml", "-o", "killed", "--no-pictures"];
-    let mut child = desk.begin(&[&command[..], &MANY, &larger].concat(), log, 5);
+    kill(desk.begin(&[&command[..], &MANY, &larger].concat(), log, 5));
     let log = desk.path(log);
-    child.kill().unwrap();
-    child.wait().unwrap();
     // The log as if the sweep had been killed within a line.
     let text = fs::read_to_string(&log).unwrap();
     let done: Vec<&str> = text.split_inclusive('\n').filter(|line| line.ends_with('\n')).collect();
     fs::write(&log, format!("{text}{}", &done[0][..40])).unwrap();
-    let answer = sweep(&desk, "killed", &[&MANY[..], &larger, &["--resume"]].concat());
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    let answer = sweep(&desk, "killed", &[&MANY[..], &larger, &["--resume"]].concat()).succeeds();
     assert!(answer.err.contains(&format!("{} of 60 combinations are done already", done.len())), "{}", answer.err);
     let [whole, killed] = ["whole", "killed"].map(|name| Folder(desk.path(name)));
     assert_eq!(whole.text("sweep.csv"), killed.text("sweep.csv"));
@@ -206,17 +191,16 @@ fn a_killed_sweep_goes_on_and_ends_with_the_same_table() {
 fn a_sweep_that_is_interrupted_keeps_its_rows_and_goes_on() {
     let desk = desk();
     let values = ["--set", "layers.0.thickness=0.05:0.5:12", "--set", "grid.points=64"];
-    assert_eq!(sweep(&desk, "out", &values).code, 0);
+    sweep(&desk, "out", &values).succeeds();
     let whole = Folder(desk.path("out")).text("sweep.csv");
     let log = "out/unfinished-sweep/sweep.jsonl";
     let command = ["sweep", "case.toml", "-o", "out", "--no-pictures"];
     let child = desk.begin(&[&command[..], &values].concat(), log, 3);
     // Files read while the sweep writes might not belong together.
     desk.percoat(&["report", "out"]).complains(2, &["out", "another run"]);
-    Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap();
-    let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{said}");
+    send("INT", &child);
+    let Answer { code, err: said, .. } = child.into();
+    assert_eq!(code, 130, "{said}");
     let done = whole_lines(&desk.path(log));
     assert!(done >= 3 && said.contains(&format!("interrupted: {done} of 12 combinations")), "{said}");
     let answer = sweep(&desk, "out", &[&values[..], &["--resume"]].concat());
@@ -233,12 +217,10 @@ fn a_part_without_combinations_is_a_part() {
     let desk = desk();
     let values = ["--set", "layers.0.thickness=0.1,0.2"];
     for part in ["1/3", "2/3", "3/3"] {
-        let answer = sweep(&desk, &format!("parts/{}", &part[..1]), &[&values[..], &["--shard", part]].concat());
-        assert_eq!(answer.code, 0, "{part}: {}", answer.err);
+        sweep(&desk, &format!("parts/{}", &part[..1]), &[&values[..], &["--shard", part]].concat()).succeeds();
     }
-    let answer = desk.percoat(&["merge", "--no-pictures", "parts/1", "parts/2", "parts/3"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
-    assert_eq!(sweep(&desk, "whole", &values).code, 0);
+    desk.succeeds(&["merge", "--no-pictures", "parts/1", "parts/2", "parts/3"]);
+    sweep(&desk, "whole", &values).succeeds();
     assert_eq!(Folder(desk.path("whole")).text("sweep.csv"), Folder(desk.path("parts")).text("sweep.csv"));
 }
 
@@ -247,7 +229,7 @@ fn what_cannot_be_used_again_is_not_lost() {
     let desk = desk();
     let done = |name: &str| fs::read_to_string(desk.path(name)).unwrap_or_default().lines().count();
     let values = ["--set", "layers.0.thickness=0.1,0.2,0.3"];
-    assert_eq!(sweep(&desk, "out", &values).code, 0);
+    sweep(&desk, "out", &values).succeeds();
     // The folder as a sweep that was killed at its end leaves it.
     fs::create_dir(desk.path("out/unfinished-sweep")).unwrap();
     desk.write("out/unfinished-sweep/.percoat", "");
@@ -255,8 +237,7 @@ fn what_cannot_be_used_again_is_not_lost() {
     let other = sweep(&desk, "out", &[&values[..], &["--set", "substrate.poisson=0.2", "--resume"]].concat());
     other.complains(2, &["none of the 3 combinations", "--set", "--resume"]);
     assert_eq!((done("out/unfinished-sweep/sweep.jsonl"), done("out/sweep.jsonl")), (3, 3));
-    let fewer = sweep(&desk, "out", &["--set", "layers.0.thickness=0.1,0.2,0.4", "--resume"]);
-    assert_eq!(fewer.code, 0, "{}", fewer.err);
+    let fewer = sweep(&desk, "out", &["--set", "layers.0.thickness=0.1,0.2,0.4", "--resume"]).succeeds();
     assert!(fewer.err.contains("interrupted-1") && fewer.err.contains("2 of 3 combinations"), "{}", fewer.err);
     assert_eq!((done("out/interrupted-1/sweep.jsonl"), done("out/sweep.jsonl")), (3, 3));
 }
@@ -264,21 +245,20 @@ fn what_cannot_be_used_again_is_not_lost() {
 #[test]
 fn parts_are_joined_to_the_table_of_the_whole() {
     let desk = desk();
-    assert_eq!(sweep(&desk, "whole", &MANY).code, 0);
+    sweep(&desk, "whole", &MANY).succeeds();
     for part in ["1/3", "2/3", "3/3"] {
         let folder = format!("parts/shard-{}", &part[..1]);
-        assert_eq!(sweep(&desk, &folder, &[&MANY[..], &["--shard", part]].concat()).code, 0);
+        sweep(&desk, &folder, &[&MANY[..], &["--shard", part]].concat()).succeeds();
     }
     let merge = |folders: &[&str]| desk.percoat(&[&["merge", "--no-pictures"], folders].concat());
     merge(&["parts/shard-1", "parts/shard-3"]).complains(3, &["20 of 60 combinations are missing: 2, 5, 8"]);
-    let answer = merge(&["parts/shard-3", "parts/shard-1", "parts/shard-2"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    merge(&["parts/shard-3", "parts/shard-1", "parts/shard-2"]).succeeds();
     let [whole, parts] = ["whole", "parts"].map(|name| Folder(desk.path(name)));
     assert_eq!(whole.text("sweep.csv"), parts.text("sweep.csv"));
-    assert_eq!(sweep(&desk, "other", &["--set", "grid.points=16,24"]).code, 0);
+    sweep(&desk, "other", &["--set", "grid.points=16,24"]).succeeds();
     // Another sweep of as many combinations.
     let others = ["--set", "layers.0.thickness=0.05:0.6:10", "--set", "layers.0.poisson=0:0.5:6", "--shard", "2/3"];
-    assert_eq!(sweep(&desk, "changed", &others).code, 0);
+    sweep(&desk, "changed", &others).succeeds();
     merge(&["parts/shard-1", "changed", "-o", "both"]).complains(2, &["not parts of one sweep", "fingerprint"]);
     merge(&["parts/shard-1", "other"]).complains(2, &["not parts of one sweep"]);
     merge(&["parts/shard-1", "."]).complains(2, &["holds no sweep"]);
@@ -291,23 +271,13 @@ fn what_a_merge_that_ended_rudely_has_left_goes_with_the_next_one() {
     let desk = desk();
     for part in ["1/2", "2/2"] {
         let arguments = ["--set", "layers.0.thickness=0.1,0.2,0.3,0.4", "--shard", part];
-        assert_eq!(sweep(&desk, &format!("parts/shard-{}", &part[..1]), &arguments).code, 0);
+        sweep(&desk, &format!("parts/shard-{}", &part[..1]), &arguments).succeeds();
     }
-    let merge = |blocks: &str| {
-        let output = Command::new("sh")
-            .args(["-c", &format!("ulimit -f {blocks}; exec \"$0\" \"$@\"")])
-            .arg(assert_cmd::cargo::cargo_bin!("percoat"))
-            .args(["merge", "parts/shard-1", "parts/shard-2", "--pictures", "png"])
-            .current_dir(desk.path("."))
-            .output()
-            .unwrap();
-        (output.status.code(), String::from_utf8(output.stderr).unwrap())
-    };
-    // There is room for the log, and none for the picture: blocks are of 512 or 1024 bytes.
-    let (code, said) = merge("64");
-    assert!(code == Some(4) && said.contains("sweep.png: File too large"), "{code:?} {said}");
-    let (code, said) = merge("unlimited");
-    assert!(code == Some(0) && !said.contains("interrupted"), "{code:?} {said}");
+    let merge = ["merge", "parts/shard-1", "parts/shard-2", "--pictures", "png"];
+    // There is room for the log, and none for the picture.
+    desk.limited("ulimit -f 32", &merge).complains(4, &["sweep.png: File too large"]);
+    let again = desk.succeeds(&merge);
+    assert!(!again.err.contains("interrupted"), "{}", again.err);
     let names = Folder(desk.path("parts")).names();
     assert!(names.iter().all(|name| !name.starts_with("interrupted") && !name.starts_with("unfinished")), "{names:?}");
     assert!(!desk.path("parts/.percoat/merge").exists());
@@ -316,8 +286,7 @@ fn what_a_merge_that_ended_rudely_has_left_goes_with_the_next_one() {
 #[test]
 fn fields_are_kept_where_they_are_asked_for() {
     let desk = desk();
-    let answer = sweep(&desk, "out", &["--keep-fields", "--set", "layers.0.thickness=0.1,0.2"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    sweep(&desk, "out", &["--keep-fields", "--set", "layers.0.thickness=0.1,0.2"]).succeeds();
     let alone = desk.solve("alone", &["case.toml", "--no-pictures", "--set", "layers.0.thickness=0.2"]);
     let kept = |number: &str| Folder(desk.path(&format!("out/combinations/{number}"))).results();
     assert_eq!(kept("0002"), alone.results());
@@ -337,24 +306,13 @@ fn fields_are_kept_where_they_are_asked_for() {
 #[test]
 fn fields_without_room_end_the_sweep_with_an_error_also_when_quiet() {
     let desk = desk();
-    let limited = |blocks: &str| {
-        let arguments = ["sweep", "case.toml", "-o", "out", "--no-pictures", "--keep-fields", "-q", "--resume"];
-        let output = Command::new("sh")
-            .args(["-c", &format!("ulimit -f {blocks}; exec \"$0\" \"$@\"")])
-            .arg(assert_cmd::cargo::cargo_bin!("percoat"))
-            .args(arguments)
-            .args(["--set", "layers.0.thickness=0.1,0.2", "--threads", "1"])
-            .current_dir(desk.path("."))
-            .output()
-            .unwrap();
-        (output.status.code(), String::from_utf8(output.stderr).unwrap())
-    };
-    let (code, said) = limited("16");
-    assert_eq!(code, Some(4), "{said}");
-    assert!(said.starts_with("error: cannot write out/") && said.contains("File too large"), "{said}");
+    let options = ["--keep-fields", "-q", "--resume", "--threads", "1", "--set", "layers.0.thickness=0.1,0.2"];
+    let arguments = [&["sweep", "case.toml", "-o", "out", "--no-pictures"], &options[..]].concat();
+    let full = desk.limited("ulimit -f 8", &arguments);
+    full.complains(4, &["File too large"]);
+    assert!(full.err.starts_with("error: cannot write out/"), "{}", full.err);
     assert!(!desk.path("out/sweep.csv").exists());
-    let (code, said) = limited("unlimited");
-    assert_eq!((code, &said[..]), (Some(0), ""));
+    assert_eq!(desk.succeeds(&arguments).err, "");
     assert_eq!(Folder(desk.path("out/combinations")).names().len(), 2);
 }
 
@@ -363,17 +321,15 @@ fn limits_of_every_combination_are_a_row() {
     let desk = desk();
     let strengths = ["--set", "layers.0.yield_strength=0.1", "--set", "substrate.yield_strength=0.05"];
     let keys = ["--set", "layers.0.shear_ratio=1,2", "--limit", "--json"];
-    let answer = sweep(&desk, "out", &[&strengths[..], &keys].concat());
-    assert_eq!(answer.code, 0, "{}", answer.err);
+    let answer = sweep(&desk, "out", &[&strengths[..], &keys].concat()).succeeds();
     let printed: Value = serde_json::from_str(&answer.out).unwrap();
     assert_eq!((&printed["task"], &printed["done"]), (&"limit".into(), &2.into()));
     let text = Folder(desk.path("out")).text("sweep.csv");
     let table = cells(&text);
     let limits: Vec<f64> = column(&table, "first_mean_pressure").iter().map(|cell| cell.parse().unwrap()).collect();
     assert!(limits.len() == 2 && limits.iter().all(|limit| *limit > 0.0));
-    let answer = desk.percoat(&[&["limit", "case.toml", "-o", "own", "--no-pictures"], &strengths[..]].concat());
-    assert_eq!(answer.code, 0, "{}", answer.err);
-    let limit: Value = serde_json::from_str(&Folder(desk.path("own")).text("limit.json")).unwrap();
+    desk.succeeds(&[&["limit", "case.toml", "-o", "own", "--no-pictures"], &strengths[..]].concat());
+    let limit = desk.json("own/limit.json");
     assert_eq!(limits[1], number(&limit, "/first/mean_pressure"));
     let material = column(&table, "first_material")[1];
     assert_eq!(column(&table, &format!("yield_of_material_{material}_mean_pressure"))[1], limits[1].to_string());

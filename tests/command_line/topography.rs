@@ -42,7 +42,7 @@ fn solve(desk: &Desk) -> Folder {
     array.finish().unwrap();
     desk.write("surface.npy", file);
     desk.write("waves.toml", CASE);
-    desk.solve("waves", &["waves.toml"])
+    desk.solve("waves", &["waves.toml", "--no-pictures"])
 }
 
 #[test]
@@ -73,7 +73,7 @@ const ROUGH: [&str; 6] =
 #[test]
 fn a_rough_contact_has_its_area_spots_gap_stiffness_and_histograms() {
     let desk = Desk::new();
-    let folder = desk.solve("rough", &[&["rough"], &ROUGH[..]].concat());
+    let folder = desk.solve("rough", &[&["rough", "--no-pictures"], &ROUGH[..]].concat());
     let steps = folder.steps();
     let mut contact = folder.contact();
     let gap = contact.field("gap");
@@ -110,10 +110,8 @@ fn the_table_and_the_report_of_a_topography_print_the_same_numbers_with_their_er
     let desk = Desk::new();
     let sets =
         ["--set", "grid.points=64", "--set", "surface.random.shortest=5", "--set", "load.mean_pressure=[0.05, 0.1]"];
-    let answer = desk.percoat(&[&["solve", "rough", "-o", "out", "--no-pictures"], &sets[..]].concat());
-    assert_eq!(answer.code, 0, "{}", answer.err);
-    let page = desk.percoat(&["report", "out"]);
-    assert_eq!(page.code, 0, "{}", page.err);
+    let answer = desk.succeeds(&[&["solve", "rough", "-o", "out", "--no-pictures"], &sets[..]].concat());
+    desk.succeeds(&["report", "out"]);
     let page = Folder(desk.path("out")).text("report.html").replace('\u{a0}', " ");
     let mut rows = answer.out.lines().filter(|line| line.contains('%'));
     let last = rows.next_back().expect("a row of the last step");
@@ -178,8 +176,7 @@ fn the_border_of_a_window_carries_nothing_and_load_on_tapered_heights_is_told() 
         let set = format!("surface={{ heights = \"surface.txt\", level = true, window = \"{window}\" }}");
         let arguments = ["solve", "waves.toml", "-o", window, "--no-pictures", "--set", &set, "--set"];
         let load = format!("load.mean_pressure={load}");
-        let answer = desk.percoat(&[&arguments[..], &[&load]].concat());
-        assert_eq!(answer.code, 0, "{}", answer.err);
+        let answer = desk.succeeds(&[&arguments[..], &[&load]].concat());
         let folder = Folder(desk.path(window));
         let pressure = folder.contact().field("pressure").values;
         let is_border = |k: usize| [k / 48, k % 48].iter().any(|index| [0, 47].contains(index));

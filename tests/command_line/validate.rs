@@ -1,16 +1,16 @@
 //! `percoat validate`.
 
-use crate::program::{Desk, Folder};
+use crate::program::{Desk, Folder, assert_says};
 use std::collections::BTreeSet;
 
 #[test]
 fn one_study_prints_its_table_and_leaves_report_figure_and_data() {
     let desk = Desk::new();
-    let answer = desk.percoat(&["validate", "kernel"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
-    for word in ["study", "quantity", "value", "reference", "error", "tolerance", "verdict", "kernel", "holds"] {
-        assert!(answer.out.contains(word), "no {word} in\n{}", answer.out);
-    }
+    let answer = desk.succeeds(&["validate", "kernel"]);
+    assert_says(
+        &answer.out,
+        &["study", "quantity", "value", "reference", "error", "tolerance", "verdict", "kernel", "holds"],
+    );
     let folder = Folder(desk.path("out/validate/kernel"));
     let expected = ["REPORT.md", "figure.png", "compliance.data.csv", "interior.data.csv", "tangential.data.csv"];
     assert_eq!(folder.names(), expected.map(str::to_owned).into());
@@ -31,7 +31,7 @@ fn an_unknown_study_is_refused_with_the_names_of_all() {
 #[test]
 fn another_verdict_or_row_than_expected_fails() {
     let desk = Desk::new();
-    assert_eq!(desk.percoat(&["validate", "kernel", "--quiet", "--output", "first"]).code, 0);
+    desk.succeeds(&["validate", "kernel", "--quiet", "--output", "first"]);
     let report = Folder(desk.path("first/kernel")).text("REPORT.md");
     let expect = |report: String| {
         desk.write("expected.md", report);
@@ -74,13 +74,13 @@ fn a_study_renews_its_own_files_and_what_was_changed_since_stays() {
     let desk = Desk::new();
     let validate = |study: &str| desk.percoat(&["validate", study, "-o", "mine", "-q"]);
     for study in ["kernel", "lattice-sums", "kernel"] {
-        assert_eq!(validate(study).code, 0, "{study}");
+        validate(study).succeeds();
     }
     let folder = Folder(desk.path("mine"));
     assert!(["kernel/figure.png", "lattice-sums/figure.png"].iter().all(|name| !folder.bytes(name).is_empty()));
     // A page of one's own beside them is no obstacle, a figure that was drawn over is.
     desk.write("mine/kernel/README.md", "# Mine\n");
-    assert_eq!(validate("kernel").code, 0);
+    validate("kernel").succeeds();
     desk.write("mine/kernel/figure.png", "mine");
     validate("kernel").complains(2, &["kernel/figure.png", "changed", "-o"]);
     assert_eq!(["figure.png", "README.md"].map(|name| folder.text(&format!("kernel/{name}"))), ["mine", "# Mine\n"]);
@@ -96,7 +96,7 @@ fn what_stands_in_the_place_of_a_study_is_refused_before_it_is_run() {
     // Other pictures beside those of a study are nobody's business.
     std::fs::create_dir(desk.path("lattice-sums")).unwrap();
     desk.write("lattice-sums/photo.png", "mine");
-    assert_eq!(desk.percoat(&["validate", "lattice-sums", "-o", ".", "-q"]).code, 0);
+    desk.succeeds(&["validate", "lattice-sums", "-o", ".", "-q"]);
     assert_eq!(Folder(desk.path("lattice-sums")).text("photo.png"), "mine");
 }
 
