@@ -500,7 +500,7 @@ def test_limits_need_strengths() -> None:
 
 
 def test_a_comparison_needs_levels() -> None:
-    assert "the localized method needs indenters" in refusal(lambda: percoat.compare(wave()))
+    assert "compare needs [[levels]]" in refusal(lambda: percoat.compare(wave()))
 
 
 @pytest.mark.parametrize(
