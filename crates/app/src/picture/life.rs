@@ -28,9 +28,11 @@ const LEAST: f64 = 1e-6;
 pub fn damage(snapshot: &Snapshot, fatigue: &FatigueReading, planes: &[RangePlane]) -> Option<Canvas> {
     let half_space = snapshot.step.problem().half_space();
     let laws: Vec<Option<Fatigue>> = half_space.durabilities().map(|durability| durability.fatigue).collect();
-    let of = |plane: &RangePlane, range: f64| laws[plane.depth.material - 1].map_or(0.0, |law| law.damage(range));
-    let all = || planes.iter().flat_map(|plane| plane.lines.iter().map(move |[y, range]| (*y, of(plane, *range))));
-    let most = all().map(|(_, damage)| damage).filter(|damage| damage.is_finite()).fold(0.0, f64::max);
+    let of = |material: usize, range: f64| laws[material - 1].map_or(0.0, |law| law.damage(range));
+    let damages = |plane: &RangePlane| -> Vec<f64> {
+        plane.lines.iter().map(|[_, range]| of(plane.depth.material, *range)).collect()
+    };
+    let most = planes.iter().flat_map(damages).filter(|damage| damage.is_finite()).fold(0.0, f64::max);
     if most <= 0.0 {
         return None;
     }
@@ -39,18 +41,13 @@ pub fn damage(snapshot: &Snapshot, fatigue: &FatigueReading, planes: &[RangePlan
     let across = worst.position[1] * ex - worst.position[0] * ey;
     let [first, last] = about(planes, across)?;
     // Down to where damage is next to nothing.
-    let visible = planes.iter().filter(|plane| plane.lines.iter().any(|[_, range]| of(plane, *range) > LEAST * most));
+    let visible = planes.iter().filter(|plane| damages(plane).iter().any(|damage| *damage > LEAST * most));
     let depth = 1.1 * visible.map(|plane| plane.depth.z).fold(0.0, f64::max);
     let value = |[y, z]: [f64; 2]| {
         let z = z.max(0.0);
         let material = half_space.depths(z).last()?.material;
-        let of_material = || planes.iter().filter(|plane| plane.depth.material == material);
-        let above = of_material().filter(|plane| plane.depth.z <= z).max_by(|a, b| a.depth.z.total_cmp(&b.depth.z))?;
-        let below = of_material().filter(|plane| plane.depth.z >= z).min_by(|a, b| a.depth.z.total_cmp(&b.depth.z))?;
-        let apart = below.depth.z - above.depth.z;
-        let part = if apart > 0.0 { (z - above.depth.z) / apart } else { 0.0 };
-        let range = (1.0 - part) * above.at(y) + part * below.at(y);
-        Some(of(above, range)).filter(|damage| *damage > LEAST * most)
+        let damage = of(material, between_planes(planes, material, [y, z])?);
+        Some(damage).filter(|damage| *damage > LEAST * most)
     };
     let bar = Bar {
         label: "damage in a pass, Q".into(),
@@ -90,6 +87,16 @@ pub fn damage(snapshot: &Snapshot, fatigue: &FatigueReading, planes: &[RangePlan
         worst.in_words(percoat_draw::number::short)
     );
     Some(sheet(&snapshot.caption(&words), &[&map]))
+}
+
+/// Range of τ₁ in a material at y and z, linear in z between its planes; `None` above and below all of them.
+fn between_planes(planes: &[RangePlane], material: usize, [y, z]: [f64; 2]) -> Option<f64> {
+    let of_material = || planes.iter().filter(|plane| plane.depth.material == material);
+    let above = of_material().filter(|plane| plane.depth.z <= z).max_by(|a, b| a.depth.z.total_cmp(&b.depth.z))?;
+    let below = of_material().filter(|plane| plane.depth.z >= z).min_by(|a, b| a.depth.z.total_cmp(&b.depth.z))?;
+    let apart = below.depth.z - above.depth.z;
+    let part = if apart > 0.0 { (z - above.depth.z) / apart } else { 0.0 };
+    Some((1.0 - part) * above.at(y) + part * below.at(y))
 }
 
 /// First and last y shown of planes: one period about a place where lines repeat.

@@ -5,7 +5,7 @@ use super::answer::{answer, doubts};
 use super::certificate::certificate;
 use super::figures::{PictureText, figures};
 use super::markup::{tag, with};
-use super::part::{Part, assumed, by, case_text, case_to_copy, section, warnings};
+use super::part::{Part, Section, assumed, by, case_text, case_to_copy, section, warnings};
 use super::problem::problem;
 use super::resolution::{resolution, upper};
 use super::results::Results;
@@ -13,7 +13,10 @@ use super::table::table;
 use super::units::{case_of, measured_in, units_of};
 use crate::output::{Summary, table as tables};
 use percoat_case::case::kind_of;
+use percoat_case::units::Units;
 use percoat_case::words::AroundWords;
+use percoat_core::run::StepRecord;
+use serde_json::Value;
 
 /// The pictures of a run; those of an isolated contact have no neighbours.
 fn pictures(words: &AroundWords) -> [PictureText; 7] {
@@ -39,6 +42,14 @@ fn pictures(words: &AroundWords) -> [PictureText; 7] {
             "The same stresses along the surface and both sides of each interface.",
         ),
     ]
+}
+
+/// The section of the largest stresses and strains; `None` without stresses.
+fn stresses(case: &Value, steps: &[StepRecord], units: &Units) -> Option<Section> {
+    let stresses = table("Largest stresses and their places", &tables::largest_stresses(steps, units)?);
+    let strains = tables::largest_strains(steps, units);
+    let strains = strains.map(|strains| table("Largest strains and their places", &strains)).unwrap_or_default();
+    Some(section("stresses", "Largest stresses", vec![stresses, strains, assumed(case, false)]))
 }
 
 /// The part of the page for a run, from `summary.json`.
@@ -80,19 +91,7 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         let pressed = pressed.map(|pressed| table(caption, &pressed)).unwrap_or_default();
         sections.push(section("hardness", "Hardness", vec![tag("p", upper(&words)), pressed]));
     }
-    let strains =
-        tables::largest_strains(steps, &units).map(|strains| table("Largest strains and their places", &strains));
-    if let Some(largest) = tables::largest_stresses(steps, &units) {
-        sections.push(section(
-            "stresses",
-            "Largest stresses",
-            vec![
-                table("Largest stresses and their places", &largest),
-                strains.unwrap_or_default(),
-                assumed(case, false),
-            ],
-        ));
-    }
+    sections.extend(stresses(case, steps, &units));
     if let Some(taken) = &taken {
         let caption = "Utilisations: 1 is where the material or interface fails";
         sections.push(section("strengths", "Strengths", vec![table(caption, &taken.table), assumed(case, true)]));

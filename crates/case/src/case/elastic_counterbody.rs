@@ -90,34 +90,30 @@ impl CounterbodySection {
         }
     }
 
+    /// Durability of the surface of a rigid and uncoated counterbody.
+    fn rigid_durability(&self) -> Durability {
+        Durability { hardness: self.hardness, wear: self.wear, ..Durability::default() }
+    }
+
     /// Half-space with twice the sublayers in graded layers; `None` without graded layers.
     pub fn refined(&self) -> Option<HalfSpace> {
         layers::refined(&self.layers.0, &self.substrate())
     }
 }
 
-/// The body of the section `[counterbody]`.
-pub(super) enum Above<'a> {
-    /// Layers on a substrate.
-    Elastic(Box<Body<'a>>),
-    /// Rigid and uncoated, with the durability of its surface.
-    Rigid(Durability),
+/// The section `[counterbody]` with its body.
+pub(super) struct Above<'a> {
+    pub(super) section: CounterbodySection,
+    /// Layers and substrate; `None` of a rigid and uncoated counterbody, which has the durability of its surface alone.
+    pub(super) body: Option<Body<'a>>,
 }
 
-impl<'a> Above<'a> {
-    /// Layers and substrate; `None` of a rigid and uncoated counterbody.
-    pub(super) fn body(&self) -> Option<&Body<'a>> {
-        match self {
-            Self::Elastic(body) => Some(body),
-            Self::Rigid(_) => None,
-        }
-    }
-
+impl Above<'_> {
     /// Both bodies, it above `body`.
     pub(super) fn bodies(&self, body: HalfSpace) -> Result<Bodies, MaterialError> {
-        match self {
-            Self::Elastic(above) => Ok(Bodies::elastic(body, above.half_space.clone())),
-            Self::Rigid(durability) => Bodies::from(body).with_rigid_durability(*durability),
+        match &self.body {
+            Some(above) => Ok(Bodies::elastic(body, above.half_space.clone())),
+            None => Bodies::from(body).with_rigid_durability(self.section.rigid_durability()),
         }
     }
 }
@@ -127,14 +123,13 @@ const UNCOATED: &str =
     "without [counterbody] it is rigid; a rigid [counterbody] has layers, or a `hardness` or `wear` of its own";
 
 /// Reads `[counterbody]`, with the half-space and the sections of its layers.
-pub(super) fn read<'a>(section: &TableAt<'a>) -> Result<(CounterbodySection, Above<'a>), Refusal> {
+pub(super) fn read<'a>(section: &TableAt<'a>) -> Result<Above<'a>, Refusal> {
     let counterbody = CounterbodySection::read_table(section)?;
-    let durability = Durability { hardness: counterbody.hardness, wear: counterbody.wear, ..Durability::default() };
-    if !counterbody.is_elastic() && durability != Durability::default() {
-        return Ok((counterbody, Above::Rigid(durability)));
+    if !counterbody.is_elastic() && counterbody.rigid_durability() != Durability::default() {
+        return Ok(Above { section: counterbody, body: None });
     }
     let sections = section.sections("layers")?;
     let body = layers::build_body(counterbody.layers.0.clone(), sections, counterbody.substrate(), section)
         .map_err(|refusal| if counterbody.is_elastic() { refusal } else { refusal.help(UNCOATED) })?;
-    Ok((counterbody, Above::Elastic(Box::new(body))))
+    Ok(Above { section: counterbody, body: Some(body) })
 }

@@ -8,9 +8,11 @@ use super::given::{DISCS, GivenSection};
 use super::keys::{Form, Key, Keys, Range, Unit, measured_in};
 use super::node::Value;
 use super::reader::TableAt;
-use super::section::{KeyValue, Words, demanded, section, words};
+use super::section::{KeyValue, ReadTable, Words, demanded, section, words};
+use super::source::Source;
 use super::value::ValueAt;
-use percoat_core::load::Load;
+use percoat_core::counterbody::LoadedBy;
+use percoat_core::load::{Load, LoadQuantity};
 
 /// Most load steps a case can have.
 const STEPS: usize = 10_000;
@@ -100,8 +102,19 @@ fn one(_: &LoadSection, section: &TableAt<'_>) -> Result<(), Refusal> {
     section.one_of(["mean_pressure", "force", "penetration", "pressure"]).map(drop)
 }
 
+/// Reads `[load]` of a case with what loads its body: a counterbody, or a given pressure, whose load is kept.
+pub(super) fn read(section: &TableAt<'_>, source: &Source, loaded_by: &LoadedBy) -> Result<LoadSection, Refusal> {
+    let quantity = loaded_by.kind().load_quantity();
+    if quantity == LoadQuantity::Force {
+        of_isolated(section)?;
+    }
+    let load = LoadSection::read_table(section)?;
+    let given = loaded_by.pressure().map(|given| quantity.of_force(given.force(), given.cell()));
+    Ok(LoadSection { pressure: load.pressure.map(|given| given.located(source)), given, ..load })
+}
+
 /// Refuses a section without a load of an isolated contact, which has no cell over which a pressure has a mean.
-pub(super) fn of_isolated(section: &TableAt<'_>) -> Result<(), Refusal> {
+fn of_isolated(section: &TableAt<'_>) -> Result<(), Refusal> {
     section.only()?;
     if let Some(mean) = section.optional("mean_pressure") {
         let message = "`load.mean_pressure` has no meaning for an isolated contact, which has no cell to spread over";
@@ -182,7 +195,6 @@ impl LoadRange {
 mod tests {
     use super::super::error::CaseError;
     use super::super::node::{Node, Table};
-    use super::super::section::ReadTable;
     use super::*;
 
     fn read(value: &str) -> Result<LoadSection, Refusal> {

@@ -2,7 +2,7 @@
 
 use super::composite_hardness::COMPOSITE_HARDNESS;
 use super::counterbody::{self, CounterbodySections};
-use super::elastic_counterbody::{self, COUNTERBODY};
+use super::elastic_counterbody::{self, Above, COUNTERBODY};
 use super::error::{CaseError, Refusal};
 use super::feasibility::{hardness, magnitude};
 use super::friction::FRICTION;
@@ -33,6 +33,7 @@ use super::{
 use crate::units::Units;
 use percoat_core::body::{Bodies, HalfSpace, MeanStress};
 use percoat_core::comparison::ComparisonTask;
+use percoat_core::lattice::Cell;
 use percoat_core::life::LifeTask;
 use percoat_core::load::LoadQuantity;
 use percoat_core::problem::Problem;
@@ -219,8 +220,7 @@ impl Case {
             let root = source.tree(&CASE)?;
             let root = TableAt::root(&root, &CASE, Span::NOWHERE);
             let sliding = self.friction.map(|friction| friction.direction);
-            let base = base_depth(self.problem.bodies());
-            let section = StressSection::read_in(&root.required_section("stress")?, &self.problem, sliding, base)?;
+            let section = StressSection::read_in(&root.required_section("stress")?, &self.problem, sliding)?;
             Ok(section.request(&self.problem))
         })
     }
@@ -246,28 +246,9 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
     let title = title(&root)?;
     let CounterbodySections { levels, lattice, cell_section, grid_section, surface, doubts: file_doubts, loaded_by } =
         counterbody::read(&root, source)?;
-    let body = layers::read(&root)?;
-    let elastic_section = root.section("counterbody")?;
-    let elastic = elastic_section.as_ref().map(elastic_counterbody::read).transpose()?;
-    let above = elastic.as_ref().and_then(|(_, above)| above.body());
-    for body in [&body].into_iter().chain(above) {
-        magnitude::layers(&body.half_space, &body.places(), loaded_by.cell())?;
-    }
-    let bodies = match (&elastic, &elastic_section) {
-        (Some((_, above)), Some(section)) => above
-            .bodies(body.half_space.clone())
-            .map_err(|error| Refusal::new(section.span, format!("`counterbody`: {error}"), "this counterbody"))?,
-        _ => Bodies::from(body.half_space.clone()),
-    };
-
+    let (body, above, bodies) = bodies(&root, loaded_by.cell())?;
     let load_section = root.required_section("load")?;
-    let quantity = loaded_by.kind().load_quantity();
-    if quantity == LoadQuantity::Force {
-        load::of_isolated(&load_section)?;
-    }
-    let mut load = LoadSection::read_table(&load_section)?;
-    load.pressure = load.pressure.map(|given| given.located(source));
-    load.given = loaded_by.pressure().map(|given| quantity.of_force(given.force(), given.cell()));
+    let load = load::read(&load_section, source, &loaded_by)?;
     let file_points = loaded_by.samples().map(|samples| samples.dim().into());
     let (surface, sampling) = match surface {
         Some((section, sampling)) => (Some(section), sampling),
@@ -280,19 +261,16 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
     let mut friction = None;
     if let Some(section) = root.section("friction")? {
         let keys = FrictionSection::read_table(&section)?;
-        let places = [body.places(), above.map_or(Vec::new(), Body::places)];
+        let places = [body.places(), above.iter().flat_map(|above| &above.body).flat_map(Body::places).collect()];
         problem = keys.slide(&section, &places, (problem, settings), &solver_section)?;
         friction = Some(keys);
     }
-    let composite_hardness = root.section("composite_hardness")?;
-    let composite_hardness = match composite_hardness {
-        Some(section) => {
-            let hardness = CompositeHardnessSection::read_table(&section)?;
-            problem = hardness.harden(&section, &load, problem)?;
-            Some(hardness)
-        }
-        None => None,
-    };
+    let mut composite_hardness = None;
+    if let Some(section) = root.section("composite_hardness")? {
+        let keys = CompositeHardnessSection::read_table(&section)?;
+        problem = keys.harden(&section, &load, problem)?;
+        composite_hardness = Some(keys);
+    }
     hardness::bears(&load, &load_section, &problem)?;
     Ok(Case {
         title,
@@ -305,10 +283,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         units: root.section("units")?.as_ref().map(UnitsSection::read_table).transpose()?,
         stress: root
             .section("stress")?
-            .map(|section| {
-                let (sliding, base) = (friction.map(|friction| friction.direction), base_depth(problem.bodies()));
-                StressSection::read_in(&section, &problem, sliding, base)
-            })
+            .map(|section| StressSection::read_in(&section, &problem, friction.map(|friction| friction.direction)))
             .transpose()?,
         localized: LocalizedSection::read_table(&root.section_or_empty("localized")?)?,
         life: root.section("life")?.as_ref().map(LifeSection::read_table).transpose()?,
@@ -316,16 +291,28 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         surface,
         layers: body.layers,
         substrate: body.substrate,
-        counterbody: elastic.map(|(counterbody, _)| counterbody),
+        counterbody: above.map(|above| above.section),
         load,
         file_doubts,
         problem: Arc::new(problem),
     })
 }
 
-/// Depth of the deepest rigid base, a length; infinite where a body has none.
-fn base_depth(bodies: &Bodies) -> f64 {
-    bodies.each().map(HalfSpace::base_depth).fold(0.0, f64::max)
+/// Reads the body and the section `[counterbody]`, with layers that are possible in the cell, and both bodies together.
+fn bodies<'a>(root: &TableAt<'a>, cell: Cell) -> Result<(Body<'a>, Option<Above<'a>>, Bodies), Refusal> {
+    let body = layers::read(root)?;
+    let section = root.section("counterbody")?;
+    let above = section.as_ref().map(elastic_counterbody::read).transpose()?;
+    for body in [&body].into_iter().chain(above.iter().flat_map(|above| &above.body)) {
+        magnitude::layers(&body.half_space, &body.places(), cell)?;
+    }
+    let bodies = match (&above, &section) {
+        (Some(above), Some(section)) => above
+            .bodies(body.half_space.clone())
+            .map_err(|error| Refusal::new(section.span, format!("`counterbody`: {error}"), "this counterbody"))?,
+        _ => Bodies::from(body.half_space.clone()),
+    };
+    Ok((body, above, bodies))
 }
 
 fn title(root: &TableAt<'_>) -> Result<String, Refusal> {

@@ -10,7 +10,7 @@ use super::reader::TableAt;
 use super::section::{KeyValue, ReadTable, Words, demanded, section, words};
 use super::value::ValueAt;
 use percoat_common::plain::float;
-use percoat_core::body::MeanStress;
+use percoat_core::body::{HalfSpace, MeanStress};
 use percoat_core::counterbody::Indenters;
 use percoat_core::lattice::Lattice;
 use percoat_core::notation::number;
@@ -126,18 +126,18 @@ fn no_line(section: &TableAt<'_>) -> Result<Refusal, Refusal> {
 }
 
 impl StressSection {
-    /// Reads the section of a case with this `problem`, which slides along a direction; `base`: depth of the rigid base, infinite
-    /// without one.
+    /// Reads the section of a case with this `problem`, which slides along a direction.
     pub(super) fn read_in(
         section: &TableAt<'_>,
         problem: &Problem,
         sliding: Option<[f64; 2]>,
-        base: f64,
     ) -> Result<Self, Refusal> {
         if let Some(cut) = section.optional("section") {
             check_levels(&cut, problem.levels().len())?;
         }
         let stress = Self::read_table(section)?;
+        // The deepest rigid base; infinite where a body has none.
+        let base = problem.bodies().each().map(HalfSpace::base_depth).fold(0.0, f64::max);
         for key in ["planes", "points"] {
             within(section, key, base)?;
         }

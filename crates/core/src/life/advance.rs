@@ -67,8 +67,7 @@ impl LifeTask {
         if state.end.is_some() {
             return Ok(state);
         }
-        let original = self.problem.half_space();
-        let Some((body, gone)) = original.uncovered(state.removed()) else {
+        let Some((body, gone)) = self.problem.half_space().uncovered(state.removed()) else {
             return Ok(self.ended(state, LifeEnd::NothingLeft));
         };
         let mut solver = self.worn_solver(&Arc::new(self.problem_of(&state, body)), &state)?;
@@ -77,11 +76,23 @@ impl LifeTask {
             0 => begun.clone(),
             _ => self.contact(&mut solver, goes_on)?,
         };
-        let mut next = LifeState { solved: state.solved + 1, ..state };
+        let next = LifeState { solved: state.solved + 1, ..state };
         let stop = contact.step.report.stop;
         if !stop.solved() {
             return Ok(self.without_contact(next, stop));
         }
+        self.age(next, &mut solver, (&contact, gone), goes_on)
+    }
+
+    /// The state that damage and wear make of `next` under a solved contact; `gone` layers of the original body have come off.
+    fn age(
+        &self,
+        mut next: LifeState,
+        solver: &mut Solver,
+        (contact, gone): (&Beginning, usize),
+        goes_on: &dyn Fn() -> bool,
+    ) -> Result<LifeState, LifeError> {
+        let original = self.problem.half_space();
         if next.doubled > 0 {
             next.damage.widen(&contact.planes);
         }
@@ -89,7 +100,7 @@ impl LifeTask {
         let rates = Rates::new(original, gone, &contact.planes, reading, next.damage.y());
         let pending = std::mem::take(&mut next.pending);
         next.damage.add(&rates, pending, next.removed());
-        self.record(&mut next, &contact, &rates);
+        self.record(&mut next, contact, &rates);
         let last = self.passes.unwrap_or(f64::INFINITY);
         if next.passes >= last {
             return Ok(LifeState { end: Some(LifeEnd::Passes), ..next });
@@ -105,7 +116,7 @@ impl LifeTask {
         let (before, begun) = (next.removed(), next.passes);
         let mut mean = None;
         let until = if wears && self.passes.is_some() {
-            mean = self.wear_on(&mut next, &mut solver, (&wear, room), (&rates, &contact), goes_on)?;
+            mean = self.wear_on(&mut next, solver, (&wear, room), (&rates, contact), goes_on)?;
             next.passes
         } else {
             keep_indented(&mut next, &contact.step);
@@ -122,13 +133,13 @@ impl LifeTask {
             }
             None => rates,
         };
-        self.tire(&mut next, &rates, &contact, until, room);
+        self.tire(&mut next, &rates, contact, until, room);
         if let Some(stop) = next.stop {
             return Ok(self.without_contact(next, stop));
         }
         // Surfaces that stay as they are have this contact to the end.
         if next.end.is_none() && next.passes >= last && next.removed() == before && next.pending == 0.0 {
-            self.record(&mut next, &contact, &rates);
+            self.record(&mut next, contact, &rates);
             next.end = Some(LifeEnd::Passes);
         }
         Ok(next)

@@ -20,24 +20,7 @@ impl StepRecord {
         let reading = &self.reading;
         let Certificate { energy_gap, penetration, load } = self.certificate;
         at_least_zero("force", reading.force)?;
-        // An isolated contact has no cell, and neither of the two.
-        if reading.mean_pressure.or(reading.contact_fraction).is_some() {
-            at_least_zero("mean_pressure", due(reading.mean_pressure))?;
-            at_least_zero("contact_fraction", due(reading.contact_fraction))?;
-        }
-        // Nor has its topography parts of one.
-        let parts = self.rough.as_ref().and_then(|rough| reading.surroundings().per_cell(rough));
-        if let Some(rough) = parts {
-            for (name, value) in [
-                ("rough.counted_fraction", rough.counted_fraction),
-                ("rough.corrected_fraction", rough.corrected_fraction),
-                ("rough.perimeter_density", rough.perimeter_density),
-                ("rough.spots.density", rough.spots.density),
-                ("rough.mean_gap", rough.mean_gap),
-            ] {
-                finite(name, due(value))?;
-            }
-        }
+        self.check_cell()?;
         if let Some(plastic) = &self.plastic {
             PLASTIC
                 .each()
@@ -75,41 +58,61 @@ impl StepRecord {
             }
             stress.interfaces.iter().try_for_each(|carried| known(&CARRIED.each(), carried))?;
         }
-        for utilisation in &self.strength {
-            number(&format!("utilisation of {}", utilisation.criterion), utilisation.value)?;
-            let due =
-                Utilisation::new(utilisation.criterion, utilisation.value, utilisation.error, utilisation.position)
-                    .verdict;
-            // An error that is not finite is null in a file, and leaves the criterion undecided.
-            if utilisation.verdict != due && (utilisation.verdict != Verdict::Undecided || utilisation.error.is_some())
-            {
-                let (criterion, is) = (utilisation.criterion, utilisation.verdict);
-                let value = utilisation
-                    .error
-                    .map_or(utilisation.value.to_string(), |error| format!("{} ± {error}", utilisation.value));
-                return Err(format!("`state` of {criterion} is `{is}`, and its utilisation {value} makes it `{due}`"));
-            }
-        }
-        if let Some(fatigue) = &self.fatigue {
-            for life in &fatigue.lives {
-                at_least_zero_or_infinite(&format!("range of {}", life.part), life.range)?;
-                at_least_zero_or_infinite(&format!("passes of {}", life.part), life.passes)?;
-            }
-            let due = FatigueReading::new(fatigue.path, fatigue.lives.clone());
-            if due.as_ref().is_none_or(|due| due.first != fatigue.first) {
-                let due = due.map_or("nothing".to_owned(), |due| due.first.part.to_string());
-                return Err(format!(
-                    "`fatigue.first` is {}, and the shortest life is that of {due}",
-                    fatigue.first.part
-                ));
-            }
-        }
+        self.strength.iter().try_for_each(as_judged)?;
+        self.fatigue.as_ref().map_or(Ok(()), shortest_first)?;
         let governing = |governing: Option<&Governing>| {
             governing.map_or("nothing".to_owned(), |governing| governing.criterion.to_string())
         };
         let [is, due] = [self.governing.as_ref(), Governing::of(&self.strength).as_ref()].map(governing);
         if is == due { Ok(()) } else { Err(format!("`governing` is {is}, and the largest utilisation is of {due}")) }
     }
+
+    /// Refuses numbers per cell that are missing or out of range; an isolated contact has none of them.
+    fn check_cell(&self) -> Result<(), String> {
+        let reading = &self.reading;
+        if reading.mean_pressure.or(reading.contact_fraction).is_some() {
+            at_least_zero("mean_pressure", due(reading.mean_pressure))?;
+            at_least_zero("contact_fraction", due(reading.contact_fraction))?;
+        }
+        let Some(rough) = self.rough.as_ref().and_then(|rough| reading.surroundings().per_cell(rough)) else {
+            return Ok(());
+        };
+        let numbers = [
+            ("rough.counted_fraction", rough.counted_fraction),
+            ("rough.corrected_fraction", rough.corrected_fraction),
+            ("rough.perimeter_density", rough.perimeter_density),
+            ("rough.spots.density", rough.spots.density),
+            ("rough.mean_gap", rough.mean_gap),
+        ];
+        numbers.into_iter().try_for_each(|(name, value)| finite(name, due(value)))
+    }
+}
+
+/// A utilisation with the verdict that its value and error make.
+fn as_judged(utilisation: &Utilisation) -> Result<(), String> {
+    let Utilisation { criterion, value, error, verdict, position, .. } = *utilisation;
+    number(&format!("utilisation of {criterion}"), value)?;
+    let due = Utilisation::new(criterion, value, error, position).verdict;
+    // An error that is not finite is null in a file, and leaves the criterion undecided.
+    if verdict == due || verdict == Verdict::Undecided && error.is_none() {
+        return Ok(());
+    }
+    let value = error.map_or(value.to_string(), |error| format!("{value} ± {error}"));
+    Err(format!("`state` of {criterion} is `{verdict}`, and its utilisation {value} makes it `{due}`"))
+}
+
+/// Lives with the shortest one as the first.
+fn shortest_first(fatigue: &FatigueReading) -> Result<(), String> {
+    for life in &fatigue.lives {
+        at_least_zero_or_infinite(&format!("range of {}", life.part), life.range)?;
+        at_least_zero_or_infinite(&format!("passes of {}", life.part), life.passes)?;
+    }
+    let due = FatigueReading::new(fatigue.path, fatigue.lives.clone()).map(|due| due.first);
+    if due == Some(fatigue.first) {
+        return Ok(());
+    }
+    let due = due.map_or("nothing".to_owned(), |due| due.part.to_string());
+    Err(format!("`fatigue.first` is {}, and the shortest life is that of {due}", fatigue.first.part))
 }
 
 /// A number that is due, not a number where it is null.

@@ -178,15 +178,8 @@ impl WearPath {
                 path.end = PathEnd::StepLimit;
                 break;
             }
-            // The distance left is not cut into a last step of next to no length.
             let left = self.distance - slid;
-            length = if left > 2.0 * length {
-                length
-            } else if left > length {
-                0.5 * left
-            } else {
-                left
-            };
+            length = fitted(length, left);
             let tried = self.tried(solver, started, &present, length)?;
             convolutions += tried.convolutions;
             let excess = tried.excess(self);
@@ -322,6 +315,17 @@ impl Tried {
     /// The larger of two ratios: error over tolerance, and change of the largest pressure over its limit. A step of at most 1 is accepted.
     fn excess(&self, path: &WearPath) -> f64 {
         (self.relative / path.tolerance).max(self.change / path.change)
+    }
+}
+
+/// Length of the next step: `length`, or all or half of what is `left` of the path, so that no last step has next to no length.
+fn fitted(length: f64, left: f64) -> f64 {
+    if left > 2.0 * length {
+        length
+    } else if left > length {
+        0.5 * left
+    } else {
+        left
     }
 }
 

@@ -60,8 +60,8 @@ pub(super) struct LimitSearch<'a, R: Recorder> {
 }
 
 impl<'a, R: Recorder> LimitSearch<'a, R> {
-    /// Searches the limits of a run on a grid of `points`.
-    pub fn on_grid(run: &'a Run, points: [usize; 2], recorder: &'a mut R) -> Result<Limits, RunError<R::Error>> {
+    /// A search for the limits of a run on a grid of `points`, before its first load.
+    fn new(run: &'a Run, points: [usize; 2], recorder: &'a mut R) -> Result<Self, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&run.problem), points, run.settings)?;
         recorder.begin(&solver).map_err(RunError::Recorder)?;
         // A flat surface is in complete contact under any load, but its stresses grow with the load all the same.
@@ -76,7 +76,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let hardness_load = if kind.is_indentation() { f64::INFINITY } else { borne };
         let windows = Windows::new(Arc::clone(&run.problem), complete.min(hardness_load));
         let (tables, steps) = (Arc::default(), Vec::new());
-        let mut search = Self {
+        Ok(Self {
             run,
             windows,
             window: 0,
@@ -89,7 +89,13 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             steps,
             last: None,
             recorder,
-        };
+        })
+    }
+
+    /// Searches the limits of a run on a grid of `points`.
+    pub fn on_grid(run: &'a Run, points: [usize; 2], recorder: &'a mut R) -> Result<Limits, RunError<R::Error>> {
+        let mut search = Self::new(run, points, recorder)?;
+        let Self { quantity, complete, hardness_load, .. } = search;
         let bodies = run.problem.bodies();
         let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
             Criterion::all(bodies).into_iter().partition(|criterion| criterion.at_rest(bodies) >= 1.0);

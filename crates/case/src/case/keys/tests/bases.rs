@@ -32,19 +32,38 @@ pub fn all_keys() -> Vec<(String, &'static Key)> {
     keys.map(|(path, key)| (path.trim_start_matches('.').to_owned(), key)).collect()
 }
 
+/// A folder with the files that the cases name.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let surface = |name: &str, height: fn(u32) -> u32| {
+        let head = b"{'descr': '<f8', 'fortran_order': False, 'shape': (8, 8)}";
+        let values: Vec<u8> = (0..64).flat_map(|k| f64::from(height(k)).to_le_bytes()).collect();
+        let npy = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &values].concat();
+        std::fs::write(folder.path().join(name), npy).unwrap();
+    };
+    surface("surface.npy", |k| k * k % 7);
+    // Heights along one side of the cell.
+    surface("lines.npy", |k| (k / 8).pow(2) % 7);
+    let material = "[[material]]\nname = \"own\"\nyoung = 210.0\npoisson = 0.3\n";
+    std::fs::write(folder.path().join("own.toml"), material).unwrap();
+    folder
+}
+
+/// A case under a counterbody with layers.
+fn below_layers(case: &Table, layers: Value) -> String {
+    let mut counterbody: Table =
+        "young = 2e11\npoisson = 0.3\nyield_strength = 1e9\ntensile_strength = 2e9\nname = \"ball\"\n\
+         fatigue = { amplitude = 4e8, passes = 1e6, exponent = 8 }\nendurance = { torsion = 4e8, bending = 6e8 }\n"
+            .parse()
+            .unwrap();
+    counterbody.insert("layers".to_owned(), layers);
+    let mut case = case.clone();
+    case.insert("counterbody".to_owned(), Value::Table(counterbody));
+    toml::to_string(&case).unwrap()
+}
+
 impl Bases {
     pub fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let head = b"{'descr': '<f8', 'fortran_order': False, 'shape': (8, 8)}";
-        let values: Vec<u8> = (0..64u32).flat_map(|k| f64::from(k * k % 7).to_le_bytes()).collect();
-        let npy = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &values].concat();
-        std::fs::write(folder.path().join("surface.npy"), npy).unwrap();
-        // Heights along one side of the cell.
-        let values: Vec<u8> = (0..64u32).flat_map(|k| f64::from((k / 8).pow(2) % 7).to_le_bytes()).collect();
-        let npy = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &values].concat();
-        std::fs::write(folder.path().join("lines.npy"), npy).unwrap();
-        let material = "[[material]]\nname = \"own\"\nyoung = 210.0\npoisson = 0.3\n";
-        std::fs::write(folder.path().join("own.toml"), material).unwrap();
         let linear = RICH.replace("\"log\"", "\"linear\"");
         let plain =
             "lattice = { kind = \"hexagonal\", period = 1.0 }\nlevels = [{ shape = \"paraboloid\", radius = 1.0 }]\n";
@@ -55,19 +74,8 @@ impl Bases {
             "lattice = { kind = \"isolated\", size = 2.0 }\nlevels = [{ shape = \"paraboloid\", radius = 1.0 }]\n";
         // The counterbody has the layers of the rich case, and a graded one.
         let rich: Table = linear.parse().unwrap();
-        let above = |layers: Value| {
-            let mut counterbody: Table =
-                "young = 2e11\npoisson = 0.3\nyield_strength = 1e9\ntensile_strength = 2e9\nname = \"ball\"\n\
-                 fatigue = { amplitude = 4e8, passes = 1e6, exponent = 8 }\nendurance = { torsion = 4e8, bending = 6e8 }\n"
-                    .parse()
-                    .unwrap();
-            counterbody.insert("layers".to_owned(), layers);
-            let mut case = rich.clone();
-            case.insert("counterbody".to_owned(), Value::Table(counterbody));
-            toml::to_string(&case).unwrap()
-        };
-        let elastic = above(rich["layers"].clone());
-        let graded_above = above(graded.parse::<Table>().unwrap()["layers"].clone());
+        let elastic = below_layers(&rich, rich["layers"].clone());
+        let graded_above = below_layers(&rich, graded.parse::<Table>().unwrap()["layers"].clone());
         let limits = "endurance = { torsion = 0.4, bending = 0.5 }";
         let spectrum = "hurst = 0.5, shortest = 0.3, longest = 1.0, rolloff = 0.6, rms_slope = 0.2";
         let texts = [
@@ -110,7 +118,7 @@ impl Bases {
             ),
             BODY.to_owned(),
         ];
-        Self { folder, cases: texts.iter().map(|text| text.parse().unwrap()).collect() }
+        Self { folder: folder(), cases: texts.iter().map(|text| text.parse().unwrap()).collect() }
     }
 
     /// Texts of all of them that are cases as they stand.
