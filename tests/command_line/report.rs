@@ -47,7 +47,7 @@ fn assert_well_formed(page: &str) {
     for link in page.split("href=\"").skip(1).map(|rest| rest.split('"').next().unwrap()) {
         assert!(link.strip_prefix('#').is_some_and(|name| names.contains(&name)), "{link} leads nowhere");
     }
-    assert_says(&page, &["lang=\"en\"", "name=\"viewport\"", "<main>", "@media print", "prefers-color-scheme: dark"]);
+    assert_says(page, &["lang=\"en\"", "name=\"viewport\"", "<main>", "@media print", "prefers-color-scheme: dark"]);
 }
 
 /// Asserts that the page loads nothing and that nothing in it runs.
@@ -112,7 +112,7 @@ fn the_page_of_an_isolated_contact_has_its_force_its_window_and_hertz_beside() {
     let hertz: Vec<&str> = out.lines().skip_while(|line| !line.starts_with("Hertz, ")).take(2).collect();
     assert!(hertz.len() == 2 && page.contains(&format!("{}.", hertz.join(" "))), "{hertz:?}");
     assert_says(
-        &page,
+        page,
         &[
             "One elastic indenter is pressed into an elastic half-space with a coating of one layer.",
             "The indenters, level by level",
@@ -146,7 +146,7 @@ fn the_page_of_a_sweep_of_isolated_contacts_has_forces_and_areas() {
     let page = words(&report(&desk, "out"));
     let page = told(&page);
     assert_says(
-        &page,
+        page,
         &[">force<", ">contact area<", ">1000.0<", ">5000.0<", "in the last load step of each combination"],
     );
     assert!(!page.contains("NaN") && !page.contains(">mean pressure<") && !page.contains(">contact<"), "{page}");

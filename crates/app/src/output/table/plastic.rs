@@ -61,6 +61,11 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
         ];
         row.into_iter().chain(is_composite.then(|| text(&pressure, PLASTIC.hardness.of(plastic)))).collect()
     };
+    Some((pressed_in(&hardness, is_composite), Some(Table::new(&header, shown.iter().map(row).collect(), 0))))
+}
+
+/// What a hardness does, and the assumption behind it.
+fn pressed_in(hardness: &str, is_composite: bool) -> String {
     let (of, assumption) = match is_composite {
         false => (format!("hardness {hardness}"), "the hardness does not depend on the depth"),
         true => (
@@ -68,8 +73,5 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
             "by a law of indentation tests with pyramids, whose depth is taken for the penetration",
         ),
     };
-    let words = format!(
-        "{of}: where the pressure reaches it the surface is pressed in for good (without pile-up; {assumption})"
-    );
-    Some((words, Some(Table::new(&header, shown.iter().map(row).collect(), 0))))
+    format!("{of}: where the pressure reaches it the surface is pressed in for good (without pile-up; {assumption})")
 }
