@@ -17,19 +17,19 @@ def linked(target, package):
     graph = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
     packages = {package["id"]: package for package in graph["packages"]}
     nodes = {node["id"]: node for node in graph["resolve"]["nodes"]}
-    root = next(own["id"] for own in graph["packages"] if own["name"] == package and own["source"] is None)
+    root = next(one["id"] for one in graph["packages"] if one["name"] == package and one["source"] is None)
     found, left = set(), [root]
     while left:
-        own = left.pop()
-        is_macro = any("proc-macro" in part["kind"] for part in packages[own]["targets"])
-        if own in found or is_macro:
+        key = left.pop()
+        is_macro = any("proc-macro" in part["kind"] for part in packages[key]["targets"])
+        if key in found or is_macro:
             continue
-        found.add(own)
-        for edge in nodes[own]["deps"]:
+        found.add(key)
+        for edge in nodes[key]["deps"]:
             if any(kind["kind"] is None for kind in edge["dep_kinds"]):
                 left.append(edge["pkg"])
     found.remove(root)
-    return sorted((packages[own] for own in found), key=lambda package: (package["name"], package["version"]))
+    return sorted((packages[key] for key in found), key=lambda package: (package["name"], package["version"]))
 
 
 def texts(folder):
@@ -39,7 +39,7 @@ def texts(folder):
 
 
 target, package = sys.argv[1:]
-packages = [own for own in linked(target, package) if own["name"] != "percoat"]
+packages = [one for one in linked(target, package) if one["name"] != "percoat"]
 owners = {}
 libraries = "the Rust standard library (MIT OR Apache-2.0)" + (" and musl (MIT)" if target.endswith("-musl") else "")
 print(f"percoat is linked from these packages and from {libraries};")

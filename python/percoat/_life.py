@@ -19,6 +19,7 @@ class Life(FirstFailure):
     ``"delamination"``, ``"worn_through"``), ``material`` or ``interface``, ``passes``, the ``distance`` slid by then and a relative
     ``error``, of fatigue ``range`` of the shear stress and ``x``, ``y``, ``z``; ``criteria`` has all lives. With ``life.passes`` in the case
     ``events`` have what comes off, each with ``passes``, ``what``, ``depth``, ``thickness`` and ``removed``, and ``wear`` the course.
+    ``title`` and ``warnings`` are as in ``life.json``; ``converged`` says whether every contact was solved.
     """
 
     criteria: list[Record]

@@ -50,7 +50,8 @@ class Limits(FirstFailure):
     ``first`` is the one that is reached first, ``None`` where nothing fails; ``limits`` has all of them, each with
     ``criterion``, ``material`` or ``interface``, ``mean_pressure`` (where the case gives forces, and of an isolated
     contact, ``force``) and its ``error``, ``x``, ``y``, ``z``. ``window`` has the sides of the largest window in which loads were
-    solved where an isolated contact outgrew its own, else ``None``; ``steps`` have ``stress`` at the first limits only.
+    solved where an isolated contact outgrew its own, else ``None``; ``steps`` have ``stress`` at the first limits only. ``title``
+    and ``warnings`` are as in ``limit.json``; ``converged`` says whether every load was solved.
     """
 
     limits: list[Record]

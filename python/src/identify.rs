@@ -43,7 +43,7 @@ pub fn identify<'py>(
     let (file, text, warnings, found) = work::try_run(py, threads, progress, move |listener| {
         let document = Document::new(&source, &[])?;
         let task = IdentificationTask::new(&document, &resolved, &free).map_err(|error| format!("free: {error}"))?;
-        let task = Identify::new(&resolved, task.with_instrument(known), work::room(), false)?;
+        let task = Identify::new(task.with_instrument(known), work::room(), false)?;
         let result = task.find(&measured, &mut |trial| {
             let phase = output::trial(&resolved, trial);
             listener.tell(true, || Progress { done: trial.number, ..Progress::new("trial", phase) });

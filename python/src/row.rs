@@ -26,13 +26,13 @@ impl Row {
 
 #[pymethods]
 impl Row {
-    /// Its number in the sweep, from 1.
+    /// Number of the combination in the sweep, from 1.
     #[getter]
     fn combination(&self) -> usize {
         self.0.combination
     }
 
-    /// Its number and settings in words.
+    /// Number and settings of the combination in words.
     #[getter]
     fn name(&self) -> String {
         self.0.named()
@@ -62,7 +62,7 @@ impl Row {
         self.0.warnings.clone()
     }
 
-    /// Its lines in the table of the sweep, each a list of names with their cells.
+    /// Lines of the combination in the table of the sweep, each a list of names with their cells.
     fn lines<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, &self.0.cells())
     }

@@ -9,7 +9,6 @@ use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use percoat::Progress;
 use percoat::case;
-use percoat::case::resources::Job;
 use percoat::output::{Clock, Phase, Summary, number, table};
 use percoat::run::{Recorder, StepRecord};
 use percoat::spectral::Checkpoint;
@@ -128,7 +127,7 @@ pub fn solve<'py>(
 ) -> PyResult<(Bound<'py, PyAny>, bool, Places<'py>, Vec<Step>)> {
     let case = Arc::clone(&case.get().case);
     let (summary, accurate, (x, y, owner), kept) = work::try_run(py, threads, progress, move |listener| {
-        let task = Solve::new(&case, work::room(), Job::Keep)?;
+        let task = Solve::in_memory(&case, work::room())?;
         let mut keeping = Keeping::new(&case, true, listener, ("step", task.run.loads.len()));
         let Solved { outcome, warnings } = task.solve(&mut keeping).map_err(|error| error.told())?;
         let summary = Summary::new(&case, &warnings, outcome.change, &outcome.steps, keeping.clock.timing());

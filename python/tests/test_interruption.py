@@ -181,6 +181,7 @@ def test_ctrl_c_ends_the_command_line(tmp_path: Any) -> None:
 
 WITHOUT_ITERATIONS = {
     "compare": 'percoat.compare("fig2", set={"grid.points": 512})',
+    "refine": 'percoat.compare("fig2", set={"grid.accuracy": 1e-6})',
     "stress": "step.stress(np.random.default_rng(1).uniform(0.0, 0.4, (10_000, 3)))",
     "maxima": "step.maxima()",
     "check": 'percoat.check("fig5", set={"grid.points": 2048})',

@@ -37,7 +37,7 @@ pub fn run(
     let known = known_instrument(stated).map_err(|error| Failure::Refused(format!("--known: {error}")))?;
     let folder = output_folder(common, &name)?;
     let room = Capacity::on_this_machine(&folder);
-    let task = Identify::new(&case, task.with_instrument(known), room, pictures.wanted())?;
+    let task = Identify::new(task.with_instrument(known), room, pictures.wanted())?;
     let results = Results::claim(folder, plan(Writer::Identify, &files(), pictures), common.saying())?;
     let progress = Progress::new("", 0, 0, common);
     let result = task.find(&measured, &mut |trial| {

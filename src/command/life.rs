@@ -39,7 +39,7 @@ pub fn run(case: Option<&Path>, set: &[String], options: &LifeOptions, common: &
     let fingerprint = output::fingerprint(&case, "life");
     let saved = earlier(&mut results, &fingerprint)?;
     let progress = Progress::new("", 0, 0, common);
-    progress.tell(format_args!("{}", task.task.problem));
+    progress.tell(format_args!("{}", task.life.problem));
     progress.say("damage of the first pass");
     let followed = task.follow(saved, &|| true, &mut |state, _| -> Result<(), OutputError> {
         save(state, &results, &fingerprint)?;

@@ -25,7 +25,7 @@ mod report;
 mod results;
 mod roughness;
 mod solve;
-mod solved;
+mod solved_pictures;
 mod sweep;
 mod sweep_files;
 mod terminal;

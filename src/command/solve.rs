@@ -8,7 +8,7 @@ use super::options::Common;
 use super::progress::Progress;
 use super::progress_recorder::ProgressRecorder;
 use super::results::Results;
-use super::solved::{Pictured, of_case};
+use super::solved_pictures::{Pictured, of_case};
 use super::terminal::{self, tell};
 use clap::Args;
 use percoat_app::output::{
@@ -18,7 +18,6 @@ use percoat_app::output::{
 use percoat_app::picture::Snapshot;
 use percoat_app::task::{Solve, Solved};
 use percoat_case::case::Case;
-use percoat_case::case::resources::Job;
 use percoat_common::machine::Capacity;
 use percoat_common::plain;
 use percoat_core::run::{EarlierRun, Outcome, Run, Sampling, StepRecord};
@@ -46,8 +45,7 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
     // An earlier run that has solved its first load and finished no step leaves nothing to set aside; a run of the same case
     // takes over that load.
     let resumes = options.resume || output::has_solved_alone(&folder);
-    let (room, job) = (room(&folder, resumes), Job::Solve { pictures: pictures.wanted(), fields });
-    let task = Solve::new(&case, room, job)?;
+    let task = Solve::into_files(&case, room(&folder, resumes), fields, pictures.wanted())?;
     let (run, steps) = (&task.run, task.run.loads.len());
     let drawn = of_case(&case, steps);
     let mut plan = Plan { resumes, ..solved_plan(&case, steps, fields) };

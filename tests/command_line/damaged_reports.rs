@@ -80,6 +80,8 @@ fn a_report_is_made_of_whole_results_alone() {
         ("run", "summary.json", "/warnings", "none".into(), "`warnings`"),
         ("run", "summary.json", "/case/load", Value::Null, "`case` is no case"),
         ("run", "summary.json", "/case", Value::Null, "`case` is missing"),
+        ("run", "summary.json", "/title", Value::Null, "`title`: invalid type"),
+        ("limit", "limit.json", "/units", 5.into(), "`units`: invalid type"),
         ("run", "summary.json", "/steps", Value::Null, "`steps`"),
         ("limit", "limit.json", "/limits/0/criterion", "x".into(), "`limits[0]`: unknown variant `x`"),
         ("limit", "limit.json", "/limits/0/reached", "x".into(), "`limits[0].reached`: unknown variant `x`"),

@@ -7,7 +7,6 @@ use percoat_app::output::summary;
 use percoat_app::output::table::{self, Assumptions};
 use percoat_app::picture::{self, Canvas, Format, Snapshot};
 use percoat_app::task::{FindLimits, Limited, Solve, Solved};
-use percoat_case::case::resources::Job;
 use percoat_case::case::{Case, Source, library, plausibility};
 use percoat_common::machine::Capacity;
 use percoat_core::localized::isolated;
@@ -76,7 +75,7 @@ impl Page {
             self.kept = None;
         }
         let case = read(case)?;
-        let task = Solve::new(&case, room(), Job::Keep).map_err(|error| error.to_string())?;
+        let task = Solve::in_memory(&case, room()).map_err(|error| error.to_string())?;
         let cut = task.run.stress.as_ref().and_then(|stress| stress.cut.clone());
         let cut = pictures.and_then(|coarse| Some((cut?, coarse)));
         // Pictures of the surface of the step that was last begun: its stresses do not change them.

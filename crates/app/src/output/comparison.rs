@@ -1,6 +1,6 @@
 //! `compare.json`: spectral and localized solution side by side.
 
-use super::head::Head;
+use super::head::{Head, with_head};
 use super::json::{Unreadable, indented, read_back};
 use super::summary::check;
 use percoat_case::case::Case;
@@ -12,32 +12,31 @@ use percoat_core::stress::StressState;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// The content of `compare.json`: a load step of a case by both methods. Infinite numbers are null.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ComparisonFile {
-    /// Version, title, case and units.
-    #[serde(flatten)]
-    pub head: Head,
-    /// The load step, from 1.
-    pub step: usize,
-    /// The spectral solution.
-    pub spectral: StepRecord,
-    /// Change of the spectral solution from the grid of half the points.
-    pub spectral_error: Deviation,
-    /// Rule for the radius of the circles.
-    pub rule: CircleRadius,
-    /// Whether the indenters outside the circle act.
-    pub mutual_effect: bool,
-    /// Elements across the largest contact.
-    pub elements: usize,
-    /// The circles under the rule.
-    pub localized: Vec<CircleRecord>,
-    /// The circles under the other rule; `None` where they have none.
-    pub other_rule: Option<OtherRule>,
-    /// The first circle with the lattice sum of the indenters outside.
-    pub lattice_sum: Option<CircleRecord>,
-    /// Stresses of both methods, with the last circle under the rule.
-    pub stresses: Vec<PointStresses>,
+with_head! {
+    /// The content of `compare.json`: a load step of a case by both methods. Infinite numbers are null.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    pub struct ComparisonFile {
+        /// The load step, from 1.
+        pub step: usize,
+        /// The spectral solution.
+        pub spectral: StepRecord,
+        /// Change of the spectral solution from the grid of half the points.
+        pub spectral_error: Deviation,
+        /// Rule for the radius of the circles.
+        pub rule: CircleRadius,
+        /// Whether the indenters outside the circle act.
+        pub mutual_effect: bool,
+        /// Elements across the largest contact.
+        pub elements: usize,
+        /// The circles under the rule.
+        pub localized: Vec<CircleRecord>,
+        /// The circles under the other rule; `None` where they have none.
+        pub other_rule: Option<OtherRule>,
+        /// The first circle with the lattice sum of the indenters outside.
+        pub lattice_sum: Option<CircleRecord>,
+        /// Stresses of both methods, with the last circle under the rule.
+        pub stresses: Vec<PointStresses>,
+    }
 }
 
 /// Circles under the rule that the case does not prescribe.
@@ -95,8 +94,12 @@ impl ComparisonFile {
         let task = &comparison.task;
         let circles = |circles: &[CircleComparison]| circles.iter().map(CircleRecord::from).collect::<Vec<_>>();
         let other = OtherRule { rule: task.rule.other(), localized: circles(&comparison.other_rule) };
+        let Head { percoat, title, case: keys, units } = Head::of(case);
         Self {
-            head: Head::of(case),
+            percoat,
+            title,
+            case: keys,
+            units,
             step,
             spectral: comparison.spectral.clone(),
             spectral_error: comparison.grid_error,

@@ -1,6 +1,6 @@
 //! `identification.json` and `identification.csv`: parameters found from a measured indentation curve, and the fit.
 
-use super::head::Head;
+use super::head::{Head, with_head};
 use super::json::indented;
 use super::number::{number, with_error};
 use super::table::Table;
@@ -10,23 +10,22 @@ use percoat_core::identification::{Doubt, Estimate, Identification, LEVEL, Measu
 use serde::Serialize;
 use std::fmt::Write;
 
-/// The content of `identification.json`.
-#[derive(Debug, Clone, Serialize)]
-pub struct IdentificationFile {
-    /// Version and units, and the case with the values found.
-    #[serde(flatten)]
-    head: Head,
-    parameters: Vec<FoundParameter>,
-    correlation: Vec<Vec<f64>>,
-    points: usize,
-    degrees_of_freedom: usize,
-    rms_residual: f64,
-    reduced_chi_square: Option<f64>,
-    model_error: Option<f64>,
-    contact_radii: [f64; 2],
-    sensitivities: Vec<KnownNumber>,
-    warnings: Vec<String>,
-    steps: usize,
+with_head! {
+    /// The content of `identification.json`.
+    #[derive(Debug, Clone, Serialize)]
+    pub struct IdentificationFile {
+        parameters: Vec<FoundParameter>,
+        correlation: Vec<Vec<f64>>,
+        points: usize,
+        degrees_of_freedom: usize,
+        rms_residual: f64,
+        reduced_chi_square: Option<f64>,
+        model_error: Option<f64>,
+        contact_radii: [f64; 2],
+        sensitivities: Vec<KnownNumber>,
+        warnings: Vec<String>,
+        steps: usize,
+    }
 }
 
 /// A number that was taken as known, and the derivatives of the parameters by it.
@@ -62,8 +61,12 @@ impl IdentificationFile {
             value: sensitivity.fixed.start,
             derivatives: sensitivity.derivatives.clone(),
         };
+        let Head { percoat, title, case: keys, units } = Head::of(case);
         Self {
-            head: Head::of(case),
+            percoat,
+            title,
+            case: keys,
+            units,
             parameters: found.estimates.iter().map(parameter).collect(),
             correlation: found.correlation.clone(),
             points: found.fitted.len(),

@@ -2,7 +2,7 @@
 
 use super::columns::{csv, scalars};
 use super::finished::CannotGoOn;
-use super::head::Head;
+use super::head::{Head, with_head};
 use super::json::{Unreadable, indented, read_back};
 use super::layout::LIFE_STATE as STATE;
 use super::npz::Archive;
@@ -19,35 +19,34 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The content of `life.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct LifeFile {
-    /// Version, title, case and units.
-    #[serde(flatten)]
-    pub head: Head,
-    /// Warnings, a sentence each.
-    pub warnings: Vec<String>,
-    /// Distance that the counterbody slides in one pass, a length; `None` where it is not known.
-    pub distance: Option<f64>,
-    /// The path along which points of the body meet the stresses; `None` where nothing tires.
-    pub path: Option<SlidingPath>,
-    /// The first event, of any kind; `None` where nothing tires and nothing is worn through.
-    pub first: Option<First>,
-    /// The life of each material and interface that tires, under the unworn surfaces.
-    pub criteria: Vec<LifeCriterion>,
-    /// Events up to the prescribed number of passes.
-    pub events: Vec<Event>,
-    /// Layers left and heights worn, state by state.
-    pub wear: Vec<Course>,
-    /// Why the life ends; `None` where it was followed only to the first failure, and there is one.
-    pub end: Option<LifeEnd>,
-    /// Why the last contact was not solved; `None` where it was.
-    #[serde(default)]
-    pub stop: Option<Stop>,
-    /// Number of loads that were solved.
-    pub solved: usize,
-    /// The contact before the first pass.
-    pub steps: Vec<StepRecord>,
+with_head! {
+    /// The content of `life.json`.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    pub struct LifeFile {
+        /// Warnings, a sentence each.
+        pub warnings: Vec<String>,
+        /// Distance that the counterbody slides in one pass, a length; `None` where it is not known.
+        pub distance: Option<f64>,
+        /// The path along which points of the body meet the stresses; `None` where nothing tires.
+        pub path: Option<SlidingPath>,
+        /// The first event, of any kind; `None` where nothing tires and nothing is worn through.
+        pub first: Option<First>,
+        /// The life of each material and interface that tires, under the unworn surfaces.
+        pub criteria: Vec<LifeCriterion>,
+        /// Events up to the prescribed number of passes.
+        pub events: Vec<Event>,
+        /// Layers left and heights worn, state by state.
+        pub wear: Vec<Course>,
+        /// Why the life ends; `None` where it was followed only to the first failure, and there is one.
+        pub end: Option<LifeEnd>,
+        /// Why the last contact was not solved; `None` where it was.
+        #[serde(default)]
+        pub stop: Option<Stop>,
+        /// Number of loads that were solved.
+        pub solved: usize,
+        /// The contact before the first pass.
+        pub steps: Vec<StepRecord>,
+    }
 }
 
 /// The life of a material or an interface.
@@ -65,8 +64,12 @@ impl LifeFile {
     pub fn new(case: &Case, task: &LifeTask, begun: &Beginning, state: &LifeState) -> Self {
         let fatigue = begun.record.fatigue.as_ref();
         let of_life = |life: &Life| LifeCriterion { life: *life, distance: task.slid_after(life.passes) };
+        let Head { percoat, title, case: keys, units } = Head::of(case);
         Self {
-            head: Head::of(case),
+            percoat,
+            title,
+            case: keys,
+            units,
             warnings: [task.warnings(begun, state), plausibility::of_case(case)].concat(),
             distance: task.distance(),
             path: fatigue.map(|fatigue| fatigue.path),

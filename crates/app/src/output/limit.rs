@@ -1,6 +1,6 @@
 //! `limit.json`: the load at which each criterion is reached, the first of them, and every load that was solved.
 
-use super::head::Head;
+use super::head::{Head, with_head};
 use super::json::{Unreadable, indented, read_back};
 use super::summary::check;
 use percoat_case::case::Case;
@@ -10,33 +10,32 @@ use percoat_core::run::{Limit, Limits, StepRecord};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// The content of `limit.json`: the limit loads of a case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct LimitFile {
-    /// Version, title, case and units.
-    #[serde(flatten)]
-    pub head: Head,
-    /// Warnings, a sentence each.
-    pub warnings: Vec<String>,
-    /// The limit that is reached first; `None` where none is.
-    pub first: Option<FirstLimit>,
-    /// The least and the largest load that were solved; `None` where none was.
-    pub searched: Option<[f64; 2]>,
-    /// Load at which contact becomes complete, with hardness at the latest; `None` where it never does, or not below `hardness_load`.
-    pub complete_contact: Option<f64>,
-    /// Load that is 0.999 of the most that the hardness bears, beyond which none is solved; `None` without hardness and for an isolated
-    /// contact.
-    #[serde(default)]
-    pub hardness_load: Option<f64>,
-    /// Sides of the largest window in which loads were solved; `None` where an isolated contact had room in its own in all.
-    #[serde(default)]
-    pub window: Option<[f64; 2]>,
-    /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
-    pub change: Option<f64>,
-    /// The limit of each criterion.
-    pub limits: Vec<Limit>,
-    /// Every load that was solved on the last grid.
-    pub steps: Vec<StepRecord>,
+with_head! {
+    /// The content of `limit.json`: the limit loads of a case.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    pub struct LimitFile {
+        /// Warnings, a sentence each.
+        pub warnings: Vec<String>,
+        /// The limit that is reached first; `None` where none is.
+        pub first: Option<FirstLimit>,
+        /// The least and the largest load that were solved; `None` where none was.
+        pub searched: Option<[f64; 2]>,
+        /// Load at which contact becomes complete, with hardness at the latest; `None` where it never does, or not below `hardness_load`.
+        pub complete_contact: Option<f64>,
+        /// Load that is 0.999 of the most that the hardness bears, beyond which none is solved; `None` without hardness and for an isolated
+        /// contact.
+        #[serde(default)]
+        pub hardness_load: Option<f64>,
+        /// Sides of the largest window in which loads were solved; `None` where an isolated contact had room in its own in all.
+        #[serde(default)]
+        pub window: Option<[f64; 2]>,
+        /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
+        pub change: Option<f64>,
+        /// The limit of each criterion.
+        pub limits: Vec<Limit>,
+        /// Every load that was solved on the last grid.
+        pub steps: Vec<StepRecord>,
+    }
 }
 
 /// The limit that is reached first, with its rivals.
@@ -56,8 +55,12 @@ impl LimitFile {
         let load = |step: &StepRecord| step.reading.load(limits.quantity);
         let ends = limits.steps.first().zip(limits.steps.last());
         let finite = |load: f64| Some(load).filter(|load| load.is_finite());
+        let Head { percoat, title, case: keys, units } = Head::of(case);
         Self {
-            head: Head::of(case),
+            percoat,
+            title,
+            case: keys,
+            units,
             warnings: warnings.to_vec(),
             first: limits.first().map(|limit| FirstLimit { limit: *limit, rivals: limits.rivals() }),
             searched: ends.map(|(first, last)| [load(first), load(last)]),

@@ -95,7 +95,7 @@ pub use fingerprint::fingerprint;
 pub use finished::{CannotGoOn, finished};
 pub use folder::RunFolder;
 pub use folder_error::FolderError;
-pub use head::{Head, UnitNames};
+pub use head::UnitNames;
 pub use histograms::histograms;
 pub use identification::{IdentificationFile, doubts, fitted, identified, trial};
 pub use interrupted::{coarser, has_begun, has_solved_alone, staged_bytes};

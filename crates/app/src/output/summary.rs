@@ -3,39 +3,42 @@
 use super::Timing;
 use super::columns::{csv, scalars};
 use super::fingerprint::fingerprint;
-use super::head::Head;
+use super::head::{Head, with_head};
 use super::json::{Unreadable, indented, read_back};
 use percoat_case::case::Case;
 use percoat_core::run::StepRecord;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-/// The content of `summary.json`: a whole run. Two runs of one case differ only in `timing` and in the `seconds` of the steps.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Summary {
-    /// Version, title, case and units.
-    #[serde(flatten)]
-    pub head: Head,
-    /// Warnings, a sentence each.
-    pub warnings: Vec<String>,
-    /// Fingerprint of the case and the version, by which a run recognises its finished result.
-    #[serde(default)]
-    pub fingerprint: String,
-    /// Change between the two finest grids, where an accuracy was prescribed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accuracy: Option<f64>,
-    /// The load steps.
-    pub steps: Vec<StepRecord>,
-    /// Wall times by phases.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub timing: Option<Timing>,
+with_head! {
+    /// The content of `summary.json`: a whole run. Two runs of one case differ only in `timing` and in the `seconds` of the steps.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    pub struct Summary {
+        /// Warnings, a sentence each.
+        pub warnings: Vec<String>,
+        /// Fingerprint of the case and the version, by which a run recognises its finished result.
+        #[serde(default)]
+        pub fingerprint: String,
+        /// Change between the two finest grids, where an accuracy was prescribed.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub accuracy: Option<f64>,
+        /// The load steps.
+        pub steps: Vec<StepRecord>,
+        /// Wall times by phases.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub timing: Option<Timing>,
+    }
 }
 
 impl Summary {
     /// The record of a run of a case; `accuracy`: relative change between the two finest grids, where an accuracy was prescribed.
     pub fn new(case: &Case, warnings: &[String], accuracy: Option<f64>, steps: &[StepRecord], timing: Timing) -> Self {
+        let Head { percoat, title, case: keys, units } = Head::of(case);
         Self {
-            head: Head::of(case),
+            percoat,
+            title,
+            case: keys,
+            units,
             warnings: warnings.to_vec(),
             fingerprint: fingerprint(case, ""),
             accuracy,

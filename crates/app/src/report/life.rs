@@ -29,9 +29,9 @@ const PICTURES: [PictureText; 2] = [
 /// The part of the page for a life, from `life.json`.
 pub(super) fn part(results: &Results, file: &LifeFile) -> Result<Part, ReportError> {
     let path = results.folder.join("life.json");
-    let case = &file.head.case;
-    let text = case_text(case).map_err(|reason| ReportError::version(&path, &file.head.percoat, reason))?;
-    let units = units_of(&file.head.units, case_of(&text, &results.folder).as_ref(), case);
+    let case = &file.case;
+    let text = case_text(case).map_err(|reason| ReportError::version(&path, &file.percoat, reason))?;
+    let units = units_of(&file.units, case_of(&text, &results.folder).as_ref(), case);
     let lives = tables::lives(&file.steps, &units);
     let answer = |words: &str| with("p", &[("class", "answer")], numbers(&upper(words)));
     let mut found = vec![doubts(&file.steps)];
@@ -56,7 +56,7 @@ pub(super) fn part(results: &Results, file: &LifeFile) -> Result<Part, ReportErr
     sections.push(section("resolution", "Resolution", vec![resolution(&file.steps, None)]));
     let tolerance = case["solver"]["tolerance"].as_f64();
     sections.push(section("certificate", "Certificate", vec![certificate(&file.steps, tolerance)]));
-    sections.push(section("time", "Version", vec![by(&file.head.percoat)]));
+    sections.push(section("time", "Version", vec![by(&file.percoat)]));
     sections.push(section("case", "Case", vec![case_to_copy(&text, "life")]));
-    Ok(Part { name: "life", kind: "Life", title: file.head.title.clone(), sections })
+    Ok(Part { name: "life", kind: "Life", title: file.title.clone(), sections })
 }

@@ -42,9 +42,9 @@ const SECTION_TEXT: [&str; 2] = [
 /// The part of the page for a search for limit loads, from `limit.json`.
 pub(super) fn part(results: &Results, file: &LimitFile) -> Result<Part, ReportError> {
     let path = results.folder.join("limit.json");
-    let (case, limits) = (&file.head.case, file.limits());
-    let text = case_text(case).map_err(|reason| ReportError::version(&path, &file.head.percoat, reason))?;
-    let units = units_of(&file.head.units, case_of(&text, &results.folder).as_ref(), case);
+    let (case, limits) = (&file.case, file.limits());
+    let text = case_text(case).map_err(|reason| ReportError::version(&path, &file.percoat, reason))?;
+    let units = units_of(&file.units, case_of(&text, &results.folder).as_ref(), case);
     let found = tables::limits(&limits, &units);
     let mut sections = vec![
         section(
@@ -76,9 +76,9 @@ pub(super) fn part(results: &Results, file: &LimitFile) -> Result<Part, ReportEr
         let tolerance = case["solver"]["tolerance"].as_f64();
         sections.push(section("certificate", "Certificate", vec![certificate(&limits.steps, tolerance)]));
     }
-    sections.push(section("time", "Version", vec![by(&file.head.percoat)]));
+    sections.push(section("time", "Version", vec![by(&file.percoat)]));
     sections.push(section("case", "Case", vec![case_to_copy(&text, "limit")]));
-    Ok(Part { name: "limit", kind: "Limit loads", title: file.head.title.clone(), sections })
+    Ok(Part { name: "limit", kind: "Limit loads", title: file.title.clone(), sections })
 }
 
 /// The criterion that fails first with its load, where no other one may be first within the errors.

@@ -55,15 +55,15 @@ fn stresses(case: &Value, steps: &[StepRecord], units: &Units) -> Option<Section
 /// The part of the page for a run, from `summary.json`.
 pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportError> {
     let path = results.folder.join("summary.json");
-    let (case, steps) = (&summary.head.case, &summary.steps);
-    let refused = |reason: String| ReportError::version(&path, &summary.head.percoat, reason);
+    let Summary { case, steps, .. } = summary;
+    let refused = |reason: String| ReportError::version(&path, &summary.percoat, reason);
     let text = case_text(case).map_err(refused)?;
     // Without it the body is not known beyond its tables.
     let read = case_of(&text, &results.folder);
     if let Some(loads) = read.as_ref().map(|case| case.load.values().len()).filter(|loads| *loads != steps.len()) {
         return Err(refused(format!("it has {} steps, and its case {loads} loads", steps.len())));
     }
-    let units = units_of(&summary.head.units, read.as_ref(), case);
+    let units = units_of(&summary.units, read.as_ref(), case);
     let taken = tables::utilisations(steps, read.as_ref().map(|case| case.problem().bodies()), &units);
     let fails = taken.as_ref().map(|taken| with("p", &[("class", "answer")], upper(&taken.words)));
     let hertz = read.as_ref().and_then(|case| tables::hertz(case, steps, &units));
@@ -104,7 +104,7 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         vec![certificate(steps, case["solver"]["tolerance"].as_f64())],
     ));
     let timing = summary.timing.as_ref().map(|timing| tag("p", format!("Seconds: {}.", tables::timing(timing))));
-    sections.push(section("time", "Time and version", timing.into_iter().chain([by(&summary.head.percoat)]).collect()));
+    sections.push(section("time", "Time and version", timing.into_iter().chain([by(&summary.percoat)]).collect()));
     sections.push(section("case", "Case", vec![case_to_copy(&text, "solve")]));
-    Ok(Part { name: "run", kind: "Run", title: summary.head.title.clone(), sections })
+    Ok(Part { name: "run", kind: "Run", title: summary.title.clone(), sections })
 }

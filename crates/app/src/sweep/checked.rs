@@ -66,10 +66,10 @@ impl<'a> Study<'a> {
         Self::read(source, fixed, (combinations, task), room, memory)?.unless_all_are_refused()
     }
 
-    /// Some combinations of a sweep that is checked already: a refused one ends as a failed row, also where all are refused.
+    /// Some combinations of a sweep that is checked already: one whose case is refused ends as a failed row, also where all are.
     ///
     /// # Errors
-    /// [`StudyError`] where memory does not suffice for all results.
+    /// [`StudyError`] of a source or a setting of all combinations that is refused, and where memory does not suffice for all results.
     pub fn part(
         source: &'a Source,
         fixed: &'a [String],
@@ -155,7 +155,7 @@ impl<'a> Study<'a> {
     /// Refuses a case that cannot be solved.
     fn check(&self, case: &Case) -> Result<(), StudyError> {
         let possible = match self.task {
-            Task::Solve => Solve::new(case, self.room, self.job()).map(drop),
+            Task::Solve => Solve::into_files(case, self.room, self.keeps_fields, false).map(drop),
             Task::Limit => FindLimits::new(case, self.room, false).map(drop),
         };
         possible.map_err(|refused| StudyError::Refused(refused.to_string()))

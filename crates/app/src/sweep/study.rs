@@ -155,7 +155,7 @@ impl<'a> Study<'a> {
         let (mut scalars, refused) =
             (Scalars { stop: &self.stop }, |refused: Refused| Ended::failed(refused.to_string()));
         Ok(match self.task {
-            Task::Solve => match Solve::new(case, room, self.job()) {
+            Task::Solve => match Solve::into_files(case, room, self.keeps_fields, false) {
                 Ok(task) if self.keeps_fields => {
                     keep(case, &task, &folder.join(folder_of(planned.combination.number)))?
                 }

@@ -28,12 +28,12 @@ pub struct Identified<'a> {
 }
 
 impl<'a> Identify<'a> {
-    /// The task for free numbers of `case` in the memory and disk of `room`, with its `pictures` or without.
+    /// The task for free numbers of a case in the memory and disk of `room`, with its `pictures` or without.
     ///
     /// # Errors
     /// [`Refused`] where they do not suffice.
-    pub fn new(case: &Case, task: IdentificationTask<'a>, room: Capacity, pictures: bool) -> Result<Self, Refused> {
-        Allowed::within(case, room, Job::Identify { pictures }).map_err(Refused::new)?;
+    pub fn new(task: IdentificationTask<'a>, room: Capacity, pictures: bool) -> Result<Self, Refused> {
+        Allowed::within(task.case(), room, Job::Identify { pictures }).map_err(Refused::new)?;
         Ok(Self { task })
     }
 

@@ -15,7 +15,7 @@ pub struct FollowLife<'a> {
     case: &'a Case,
     allowed: Allowed<'a>,
     /// Bodies, load and grid, and how far the life is followed.
-    pub task: LifeTask,
+    pub life: LifeTask,
 }
 
 /// A life that was followed to its end.
@@ -53,10 +53,10 @@ impl<'a> FollowLife<'a> {
     /// # Errors
     /// [`Refused`] where they do not suffice, of a case with several loads or a given pressure, and where nothing tires or wears.
     pub fn new(case: &'a Case, room: Capacity, pictures: bool) -> Result<Self, Refused> {
-        let task = case.life_task().map_err(Refused::new)?;
+        let life = case.life_task().map_err(Refused::new)?;
         let allowed = Allowed::within(case, room, Job::Life { pictures }).map_err(Refused::new)?;
-        task.check().map_err(Refused::new)?;
-        Ok(Self { case, allowed, task })
+        life.check().map_err(Refused::new)?;
+        Ok(Self { case, allowed, life })
     }
 
     /// Follows the life from its beginning, or from a state that was `saved`, until `goes_on` is false; `each` receives every state.
@@ -69,7 +69,7 @@ impl<'a> FollowLife<'a> {
         goes_on: &dyn Fn() -> bool,
         each: &mut dyn FnMut(&LifeState, &Beginning) -> Result<(), E>,
     ) -> Result<Followed<'a>, FollowError<E>> {
-        let Self { case, allowed, task } = self;
+        let Self { case, allowed, life: task } = self;
         let begun = task.beginning(&|points| allowed.fits(points), goes_on)?;
         if saved.as_ref().is_some_and(|saved| saved.points != begun.step.grid().points()) {
             return Err(FollowError::OtherGrid);

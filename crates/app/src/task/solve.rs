@@ -27,11 +27,23 @@ pub struct Solved {
 }
 
 impl<'a> Solve<'a> {
-    /// The task as a `job` in the memory and disk of `room`.
+    /// The task of solving into files in the memory and disk of `room`, with `fields` and `pictures` or without.
     ///
     /// # Errors
     /// [`Refused`] where they do not suffice, and of loads that have no solution.
-    pub fn new(case: &'a Case, room: Capacity, job: Job) -> Result<Self, Refused> {
+    pub fn into_files(case: &'a Case, room: Capacity, fields: bool, pictures: bool) -> Result<Self, Refused> {
+        Self::new(case, room, Job::Solve { pictures, fields })
+    }
+
+    /// The task of solving into memory, in which every step stays.
+    ///
+    /// # Errors
+    /// Those of [`Solve::into_files`].
+    pub fn in_memory(case: &'a Case, room: Capacity) -> Result<Self, Refused> {
+        Self::new(case, room, Job::Keep)
+    }
+
+    fn new(case: &'a Case, room: Capacity, job: Job) -> Result<Self, Refused> {
         let allowed = Allowed::within(case, room, job).map_err(Refused::new)?;
         let run = case.run();
         run.check().map_err(Refused::new)?;

@@ -15,6 +15,16 @@ pub struct Document<'a> {
     tree: Table,
 }
 
+impl Case {
+    /// Reads a case and changes it by the values that its source sets and by `overrides`, each `KEY=VALUE`, in their order.
+    ///
+    /// # Errors
+    /// [`CaseError`] for the first fault found: TOML, unknown, missing or misspelt keys, types, ranges.
+    pub fn read(source: &Source, overrides: &[String]) -> Result<Self, CaseError> {
+        Document::new(source, overrides)?.case()
+    }
+}
+
 impl<'a> Document<'a> {
     /// Parses a source, and changes it by the values that it sets and by `overrides`, each `KEY=VALUE`, in their order.
     ///

@@ -4,13 +4,14 @@ use super::error::Refusal;
 use super::grading::LAYERS;
 use super::keys::{Form, Key, Unit};
 use super::layers::{self, Body, ELASTIC, LAYER, LayerSection, POISSON, RIGID, Rigid, SIZE, SubstrateSection};
+use super::material_keys::material_section;
 use super::reader::TableAt;
-use super::section::{KeyValue, ReadTable, section};
+use super::section::{KeyValue, ReadTable};
 use super::value::ValueAt;
 use percoat_core::body::{Bodies, Durability, HalfSpace, MaterialError};
 use serde::Serialize;
 
-section! { of_material
+material_section! {
     /// The section `[counterbody]`.
     pub struct CounterbodySection = COUNTERBODY, rules elastic_or_rigid, misplaced [
         ("shear_ratio", "`shear_ratio` relates a layer to its substrate, whose modulus is `young`"),
@@ -109,7 +110,7 @@ pub(super) struct Above<'a> {
 }
 
 impl Above<'_> {
-    /// Both bodies, it above `body`.
+    /// Both bodies: the counterbody above `body`.
     pub(super) fn bodies(&self, body: HalfSpace) -> Result<Bodies, MaterialError> {
         match &self.body {
             Some(above) => Ok(Bodies::elastic(body, above.half_space.clone())),

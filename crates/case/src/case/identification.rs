@@ -153,6 +153,11 @@ impl<'a> IdentificationTask<'a> {
         self
     }
 
+    /// The case whose numbers are searched for.
+    pub fn case(&self) -> &Case {
+        self.case
+    }
+
     /// Finds the values by the elastic curve, and the case with them. `progress` is called with each trial; `Break` ends the search.
     ///
     /// # Errors

@@ -5,30 +5,17 @@ use super::error::Refusal;
 use super::grading::{GRADING, Grading, LAYERS};
 use super::interface::{INTERFACE_STRENGTH, InterfaceSection, InterfaceStrengthSection, SPRING};
 use super::keys::{Form, Key, Range, Unit};
+use super::material_keys::material_section;
 use super::material_names::distinct;
 use super::reader::TableAt;
-use super::section::{KeyValue, ReadTable, demanded, section};
+use super::section::{KeyValue, ReadTable, demanded};
 use super::value::ValueAt;
 use percoat_core::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Name, Strength};
 use serde::Serialize;
 
-/// Most letters of a material's name.
-const LETTERS: usize = 40;
-
 pub(super) const SIZE: Form = Form::Number(Range::Size);
 pub(super) const POISSON: Form = Form::Number(Range::between(0.0, 0.5));
 
-// Keys of layers, of the substrate and of the counterbody.
-pub(super) const MATERIAL: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"")
-    .otherwise("none")
-    .rule("needs units.pressure; where both moduli are given it is a name alone")
-    .fills(&["name", "young", "poisson", "yield_strength", "tensile_strength", "hardness"]);
-pub(super) const NAME: Key =
-    Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its `material`, or its number");
-pub(super) const YIELD: Key =
-    Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
-pub(super) const TENSILE: Key =
-    Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("its material's, or never reached");
 /// Keys that a rigid base does not have, beside `young`; the last two are those of a surface.
 const BELOW: &[&str] =
     &["poisson", "material", "name", "yield_strength", "tensile_strength", "fatigue", "endurance", "hardness", "wear"];
@@ -56,7 +43,7 @@ impl KeyValue for Rigid {
     }
 }
 
-section! { of_material
+material_section! {
     /// One section of `[[layers]]`, from the surface down.
     pub struct LayerSection = LAYER, rules consistent {
         /// the thickness of the layer
@@ -94,7 +81,7 @@ section! { of_material
     }
 }
 
-section! { of_material
+material_section! {
     /// The section `[substrate]`.
     pub struct SubstrateSection = SUBSTRATE, rules elastic_or_rigid, misplaced [
         ("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")

@@ -39,6 +39,7 @@ mod life;
 mod load;
 mod localized;
 mod lookup;
+mod material_keys;
 mod material_names;
 mod materials;
 mod model;

@@ -26,9 +26,8 @@ use super::surface::SURFACE;
 use super::units::UNITS;
 use super::writer::written;
 use super::{
-    CompositeHardnessSection, CounterbodySection, Document, FrictionSection, LatticeSection, LayerSection,
-    LevelSection, LifeSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection,
-    UnitsSection,
+    CompositeHardnessSection, CounterbodySection, FrictionSection, LatticeSection, LayerSection, LevelSection,
+    LifeSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection, UnitsSection,
 };
 use crate::units::Units;
 use percoat_core::body::{Bodies, HalfSpace, MeanStress};
@@ -112,14 +111,6 @@ section! { whole
 }
 
 impl Case {
-    /// Reads a case and changes it by the values that its source sets and by `overrides`, each `KEY=VALUE`, in their order.
-    ///
-    /// # Errors
-    /// [`CaseError`] for the first fault found: TOML, unknown, missing or misspelt keys, types, ranges.
-    pub fn read(source: &Source, overrides: &[String]) -> Result<Self, CaseError> {
-        Document::new(source, overrides)?.case()
-    }
-
     /// The case as TOML, complete with its defaults; it reads back equal.
     pub fn to_toml(&self) -> String {
         written(self).expect("keys are strings, integers come from TOML, absent values are skipped")

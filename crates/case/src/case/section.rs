@@ -17,7 +17,6 @@
 //! The comment of a field is the meaning of the key in messages and `percoat explain`. Its type determines how the value is read
 //! ([`KeyValue`]); an `Option` may be absent. `rules` is a function that checks the keys of a table together.
 //! `misplaced [("key", "why")]` names keys that are often written in the wrong table.
-//! `section! { of_material … { … } { … } }` has the keys of any material: `material` and `name` first, strengths and laws between both groups.
 //! `section! { for Type = KEYS { … } }` declares the keys of a struct that the core defines; `section! { whole … }` has no reader.
 
 use super::error::Refusal;
@@ -151,37 +150,6 @@ macro_rules! section {
         $crate::case::section::section! { @write $name $keys $($field)* }
         $crate::case::section::section! {
             @read $name [$($rules)?] [$($field)*] [$($($other)*)?]
-        }
-    };
-    // What layers, the substrate and the counterbody have in common stands here alone.
-    (of_material
-        $(#[$attribute:meta])*
-        pub struct $name:ident = $keys:ident $(, rules $rules:path)? $(, misplaced [$($misplaced:tt)*])?
-        { $($first:tt)* } { $($last:tt)* }
-    ) => {
-        $crate::case::section::section! {
-            $(#[$attribute])*
-            pub struct $name = $keys $(, rules $rules)? $(, misplaced [$($misplaced)*])? {
-                /// material of `percoat materials` or of the file `materials`, for moduli, strengths, hardness and name that are not given
-                pub material: Option<String> = $crate::case::layers::MATERIAL,
-                /// name of the material, used in place of its number in tables and pictures
-                pub name: Option<String> = $crate::case::layers::NAME,
-                $($first)*
-                /// yield strength, compared with the von Mises stress
-                pub yield_strength: Option<f64> = $crate::case::layers::YIELD,
-                /// tensile strength, compared with the largest principal stress
-                pub tensile_strength: Option<f64> = $crate::case::layers::TENSILE,
-                /// hardness: the pressure never exceeds that of the softer surface
-                pub hardness: Option<f64> = $crate::case::durability::HARDNESS,
-                /// Archard's coefficient of wear k: the pressure p wears off the depth k p ds along the path ds of sliding
-                pub wear: Option<f64> = $crate::case::durability::WEAR,
-                /// fatigue by the range of the principal shear stress τ₁ in a pass
-                pub fatigue: Option<$crate::case::durability::FatigueSection> = $crate::case::durability::FATIGUE_LAW,
-                /// endurance limits, below which any number of passes is borne, for the criteria of Crossland and Dang Van
-                pub endurance: Option<$crate::case::durability::EnduranceSection> =
-                    $crate::case::durability::ENDURANCE_LIMITS,
-                $($last)*
-            }
         }
     };
     // The keys of a struct of the core, which has its own serialisation.

@@ -1,11 +1,20 @@
 //! Work on all threads.
 //!
-//! A scheduler that is generic in the work is some forty functions for each closure. Here the work is passed as `&dyn`, so that they are
-//! compiled once for each type of result. Loops that pass over whole fields in every iteration are generic instead
-//! ([`rows`](super::rows)).
+//! A scheduler that is generic in its work is some forty functions for each closure. Here the work is passed as `&dyn`, so that one is
+//! compiled for calls by number, and one for each type of working memory and of the chunks of a field. Loops that pass over whole fields in
+//! every iteration are generic instead ([`rows`](super::rows)).
 
 use rayon::prelude::*;
 use std::sync::OnceLock;
+
+/// Most tasks that a list of values is divided into.
+const TASKS: usize = 256;
+const CALLED: &str = "each number is called";
+
+/// Calls `work(i)` for 0 ≤ i < `count`.
+pub fn each(count: usize, work: impl Fn(usize) + Sync) {
+    numbers(count, &work);
+}
 
 /// Values of `of(i)` for 0 ≤ i < `count`, in this order.
 pub fn map<T: Send + Sync>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
@@ -14,9 +23,15 @@ pub fn map<T: Send + Sync>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<
 
 /// Values of `of(i)` for 0 ≤ i < `count`, in this order, `least` or more in a task.
 pub fn map_by<T: Send + Sync>(least: usize, count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let places: Vec<OnceLock<T>> = (0..count).map(|_| OnceLock::new()).collect();
-    each(least, count, &|i| drop(places[i].set(of(i))));
-    places.into_iter().map(|place| place.into_inner().expect("each number has a task")).collect()
+    let length = least.max(count.div_ceil(TASKS)).max(1);
+    let parts: Vec<OnceLock<Vec<T>>> = (0..count.div_ceil(length)).map(|_| OnceLock::new()).collect();
+    each(parts.len(), |part| {
+        let numbers = part * length..count.min((part + 1) * length);
+        drop(parts[part].set(numbers.map(&of).collect()));
+    });
+    let mut values = Vec::with_capacity(count);
+    parts.into_iter().for_each(|part| values.extend(part.into_inner().expect(CALLED)));
+    values
 }
 
 /// Values of `of(memory, i)` for 0 ≤ i < `count`, in this order; tasks have working memory made by `memory`.
@@ -27,7 +42,7 @@ pub fn map_with<S, T: Send + Sync>(
 ) -> Vec<T> {
     let places: Vec<OnceLock<T>> = (0..count).map(|_| OnceLock::new()).collect();
     each_with(count, &memory, &|memory, i| drop(places[i].set(of(memory, i))));
-    places.into_iter().map(|place| place.into_inner().expect("each number has a task")).collect()
+    places.into_iter().map(|place| place.into_inner().expect(CALLED)).collect()
 }
 
 /// Values of `of` for each item, in their order.
@@ -55,8 +70,8 @@ pub fn each_chunk_with<T: Send, S>(
     chunks_with(field, length, &memory, &work);
 }
 
-fn each(least: usize, count: usize, work: &(dyn Fn(usize) + Sync)) {
-    (0..count).into_par_iter().with_min_len(least).for_each(work);
+fn numbers(count: usize, work: &(dyn Fn(usize) + Sync)) {
+    (0..count).into_par_iter().for_each(work);
 }
 
 fn each_with<S>(count: usize, memory: &(dyn Fn() -> S + Sync), work: &(dyn Fn(&mut S, usize) + Sync)) {
@@ -83,7 +98,7 @@ mod tests {
 
     #[test]
     fn values_are_in_order_whatever_the_tasks() {
-        for (least, count) in [(1, 0), (1, 1), (1, 1000), (64, 1000), (5000, 1000)] {
+        for (least, count) in [(0, 0), (1, 0), (1, 1), (0, 1000), (1, 1000), (64, 1000), (5000, 1000)] {
             assert_eq!(map_by(least, count, |i| vec![i; 2]), (0..count).map(|i| vec![i; 2]).collect::<Vec<_>>());
         }
         assert_eq!(map_with(1000, || 7, |seven, i| i + *seven), (7..1007).collect::<Vec<_>>());

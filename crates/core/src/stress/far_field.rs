@@ -69,8 +69,8 @@ impl FarField {
     pub fn read_ahead(&self, depths: impl Iterator<Item = Depth>) {
         let mut numbers: Vec<usize> = depths.filter_map(|depth| self.segment(depth)).collect();
         numbers.dedup();
-        parallel::map_items(&numbers, |&number| {
-            self.in_segment(number);
+        parallel::each(numbers.len(), |i| {
+            self.in_segment(numbers[i]);
         });
     }
 
