@@ -17,8 +17,9 @@ use super::constants::{
 };
 use super::field::StressField;
 use super::line_around::PlaneAround;
+use super::line_path::{LinePath, LineValue};
 use super::line_plane::{Kept, LinePlane, LineStresses};
-use super::path_measure::{LinePath, LineValue, PathMeasure};
+use super::path_measure::PathMeasure;
 use super::plane_search::SEARCH_REACH;
 use super::range_map::completed;
 use super::range_plane::{RangePlane, on_common_lines};
