@@ -1,48 +1,21 @@
-//! Wear along a path of sliding under a fixed load, in implicit steps of controlled length.
+//! A path of sliding, followed in steps whose length is controlled by their error.
 //!
-//! The depth h with ∂h/∂s = k p is carried on by TR-BDF2 (Bank et al., IEEE Trans. CAD 4 (1985) 436; Hosea & Shampine, Appl. Numer.
-//! Math. 20 (1996) 21): with d = 1 − 1/√2, w = √2/4 and the pressures p₀ at the start, p₁ after 2dΔs, p₂ at the end,
-//!
-//! h₁ = h₀ + k d Δs (p₀ + p₁),  h₂ = h₀ + k Δs [w (p₀ + p₁) + d p₂]:
-//!
-//! two implicit steps over dΔs, each after wear by known pressures. It is of second order and stable for any length, its weights are
-//! positive, and their sum is one: the worn volume k P Δs under a given force P is exact. Waves that wear away within a step are gone at
-//! its end. With the same pressures a third order has other weights, and the difference is the error of the step,
-//!
-//! k Δs [(√2−1) p₀ − p₁ + (2−√2) p₂]/3.
-//!
-//! The largest of it is compared with the largest depth worn in the step, or with a tenth of that worn so far where this is more: errors
-//! where contact reaches a point are made once at each point, and do not add up. A step is accepted where this ratio e is at most the
-//! tolerance. It grows as Δs² where pressures are smooth along s, and about as Δs where contact reaches a point: the next step is
-//! √(tolerance/e) times as long, the next try of a step that was too long tolerance/e times. Wear levels the pressure, by which the steps
-//! grow. The error of the depth at the end of the path is the largest sum of these errors at a point.
-//!
-//! A counterbody that is softer keeps what a step has pressed in: where it is at the hardness, wear lowers the pressure at once. A softer
-//! body moves away below the contact, and keeps nothing.
-//!
-//! Memory besides that of the solver, bytes per sample: 72 on every grid (pressure, gap and initial gap at three moments) and on the finest
-//! 80 (the depths of both surfaces at three moments, the errors of a step, their sum, and the depth that gives them).
+//! A step is accepted where the ratio e of its error to the depth worn is at most the tolerance. The ratio grows as Δs² where pressures are
+//! smooth along s, and about as Δs where contact reaches a point: the next step is √(tolerance/e) times as long, the next try of a step
+//! that was too long tolerance/e times. The error of the depth at the end of the path is the largest sum of these errors at a point.
 
+use super::worn_step::WornStep;
 use crate::body::Side;
 use crate::load::Load;
-use crate::numeric::array::samples;
-use crate::numeric::sums;
-use crate::spectral::{Solver, Step, Stop, Wear, WearError, WearState, Worn};
+use crate::spectral::{Solver, Step, Stop, Wear, WearError, Worn};
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// d and w of TR-BDF2.
-const IMPLICIT: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
-const EXPLICIT: f64 = 0.5 * std::f64::consts::FRAC_1_SQRT_2;
-/// Weights of its error on the three pressures.
-const ERROR: [f64; 3] = [(std::f64::consts::SQRT_2 - 1.0) / 3.0, -1.0 / 3.0, (2.0 - std::f64::consts::SQRT_2) / 3.0];
 /// Part of the length at which the error would be the tolerance that the next step has.
 const SAFETY: f64 = 0.9;
 /// Range of the length of a step over that of the one before.
 const FACTORS: [f64; 2] = [0.1, 4.0];
-/// Part of the depth worn so far with which the error of a step is compared at least.
-const OF_ALL: f64 = 0.1;
 /// Least length of a step over that of the path, and of one whose contact is not solved.
 const LEAST: f64 = 1e-12;
 const LEAST_UNSOLVED: f64 = 1e-6;
@@ -67,42 +40,6 @@ pub struct WearPath {
     pub first: Option<f64>,
     /// Largest number of accepted steps.
     pub max_steps: usize,
-}
-
-/// Wear of one surface since the solver was made.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct WornSurface {
-    /// Volume on one cell or by an isolated contact, a cubed length.
-    pub volume: f64,
-    /// Largest depth, a length.
-    pub depth: f64,
-}
-
-/// An accepted step of a path.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct WornStep {
-    /// Distance from the start of the path to the end of the step, a length.
-    pub distance: f64,
-    /// Length Δs of the step.
-    pub length: f64,
-    /// Error e of the step, over the depth worn off in it or a tenth of all.
-    pub error: f64,
-    /// Error of the depth worn off on the path so far, over the largest one since the solver was made.
-    pub accumulated_error: f64,
-    /// Wear of the body.
-    pub body: WornSurface,
-    /// Wear of the counterbody.
-    pub counterbody: WornSurface,
-    /// Force on one cell or on the isolated contact at the end of the step, a pressure times an area.
-    pub force: f64,
-    /// Largest pressure at the end of the step.
-    pub max_pressure: f64,
-    /// Penetration at the end of the step, from the first touch of the worn surfaces, a length.
-    pub penetration: f64,
-    /// Depth of that first touch below the one of the unworn surfaces, a length.
-    pub recession: f64,
-    /// Convolutions of all tries of the step, as equivalents of the finest grid.
-    pub convolutions: f64,
 }
 
 /// How a path ended.
@@ -216,106 +153,6 @@ impl WearPath {
         }
         Ok(path)
     }
-
-    /// A step from the `present`; the solver is left at its end.
-    fn tried(&self, solver: &mut Solver, started: f64, present: &WearState, length: f64) -> Result<Tried, WearError> {
-        let [implicit, explicit] = [IMPLICIT, EXPLICIT].map(|part| part * length);
-        solver.wear_by(&[(present, implicit)], &self.wear)?;
-        let middle = solver.wear(self.load_now(solver, started), &self.wear, implicit)?;
-        let mut tried = Tried {
-            step: None,
-            stop: middle.report.stop,
-            errors: Array2::zeros([0, 0]),
-            relative: 0.0,
-            change: 0.0,
-            convolutions: middle.convolutions,
-        };
-        if !tried.stop.solved() {
-            return Ok(tried);
-        }
-        drop(middle);
-        let middle = solver.wear_state();
-        // From the start again, with the pressure of the middle as the first guess.
-        solver.return_to_surfaces(present);
-        solver.wear_by(&[(present, explicit), (&middle, explicit)], &self.wear)?;
-        let step = solver.wear(self.load_now(solver, started), &self.wear, implicit)?;
-        tried.stop = step.report.stop;
-        tried.convolutions += step.convolutions;
-        if !tried.stop.solved() {
-            return Ok(tried);
-        }
-        let end = solver.wear_state();
-        let moments = [present, &middle, &end];
-        let depth = |weights: [f64; 3]| {
-            let weighted: Vec<_> = moments.into_iter().zip(weights.map(|weight| weight * length)).collect();
-            solver.depth_by(&weighted, &self.wear)
-        };
-        tried.errors = depth(ERROR)?;
-        let of_step = largest(samples(&depth([EXPLICIT, EXPLICIT, IMPLICIT])?));
-        let all = self.before + largest(samples(&worn_depth(solver)));
-        let scale = of_step.max(OF_ALL * all);
-        tried.relative = if scale > 0.0 { largest(samples(&tried.errors)) / scale } else { 0.0 };
-        let [before, after] = [present, &end].map(|moment| largest(moment.pressure()));
-        tried.change = if before > 0.0 { (after / before - 1.0).abs() } else { 0.0 };
-        tried.step = Some(step);
-        Ok(tried)
-    }
-
-    /// The load on the surfaces as they are worn by now.
-    fn load_now(&self, solver: &Solver, started: f64) -> Load {
-        let receded = solver.worn().map_or(0.0, Worn::recession) - started;
-        match self.load {
-            Load::Penetration(penetration) => Load::Penetration(penetration - receded),
-            load => load,
-        }
-    }
-}
-
-impl WornStep {
-    /// The state that a step has reached, without the length, error and convolutions of the step.
-    fn of(solver: &Solver, step: &Step, distance: f64, errors: &Array2<f64>) -> Self {
-        let worn = solver.worn();
-        let surface = |side: Side| WornSurface {
-            volume: worn.map_or(0.0, |worn| worn.volume(side)),
-            depth: worn.map_or(0.0, |worn| worn.largest(side)),
-        };
-        let (deepest, error) = (largest(samples(&worn_depth(solver))), largest(samples(errors)));
-        let pressure = step.finest().pressures();
-        Self {
-            distance,
-            length: 0.0,
-            error: 0.0,
-            accumulated_error: if deepest > 0.0 { error / deepest } else { 0.0 },
-            body: surface(Side::Body),
-            counterbody: surface(Side::Counterbody),
-            force: sums::of(pressure.len(), |i| [pressure[i]])[0] * step.grid().sample_area(),
-            max_pressure: largest(pressure),
-            penetration: step.penetration(),
-            recession: worn.map_or(0.0, Worn::recession),
-            convolutions: 0.0,
-        }
-    }
-}
-
-/// A step that was tried.
-#[derive(Debug)]
-struct Tried {
-    /// The contact at its end, unless it is not solved.
-    step: Option<Step>,
-    stop: Stop,
-    /// Errors of the depth, lengths, and the largest over the depth worn in the step or a tenth of all.
-    errors: Array2<f64>,
-    relative: f64,
-    /// Relative change of the largest pressure.
-    change: f64,
-    convolutions: f64,
-}
-
-impl Tried {
-    /// The larger of two ratios: error over tolerance, and change of the largest pressure over its limit. A step of at most 1 is accepted.
-    fn excess(&self, path: &WearPath) -> f64 {
-        (self.relative / path.tolerance).max(self.change / path.change)
-    }
 }
 
 /// Length of the next step: `length`, or all or half of what is `left` of the path, so that no last step has next to no length.
@@ -335,24 +172,15 @@ fn factor(excess: f64) -> f64 {
     part.clamp(FACTORS[0], FACTORS[1])
 }
 
-/// max |x|.
-fn largest(field: &[f64]) -> f64 {
-    -sums::least(field.len(), |i| -field[i].abs())
-}
-
-/// Depth worn off both surfaces together.
-fn worn_depth(solver: &Solver) -> Array2<f64> {
-    let none = || Array2::zeros(solver.grid().points());
-    solver.worn().map_or_else(none, |worn| &worn.depth(Side::Body) + &worn.depth(Side::Counterbody))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::body::{HalfSpace, Material};
     use crate::counterbody::{Indenters, Level, Shape};
     use crate::lattice::{Cell, Lattice};
+    use crate::numeric::array::samples;
     use crate::problem::Problem;
+    use crate::run::wear::worn_step::{largest, worn_depth};
     use crate::spectral::Settings;
 
     fn solver(cell: Option<Cell>) -> Solver {
