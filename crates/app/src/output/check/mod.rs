@@ -1,32 +1,32 @@
 //! The result of `percoat check`: problem, grid, memory and disk, first touches and warnings of a case.
+//!
+//! `first_touches`: the loads at which the levels of indenters begin to touch; `roughness`: statistics of a topography, and how the
+//! heights of its file were prepared.
+
+mod first_touches;
+mod roughness;
+
+pub use first_touches::Touches;
+pub use roughness::Roughness;
 
 use super::described;
 use super::number::number;
 use super::table;
+use first_touches::touches;
 use percoat_case::case::resources::{Job, Needs, needs};
-use percoat_case::case::{
-    Case, LibraryStrength, ORIENTATION, RandomSection, Stage, SurfaceSection, Treated, foreseen, plausibility,
-    sublayer_error,
-};
+use percoat_case::case::{Case, LibraryStrength, foreseen, plausibility, sublayer_error};
 use percoat_case::units::{Unit, Units};
 use percoat_common::machine::{Capacity, bytes};
 use percoat_common::plain;
-use percoat_core::counterbody::roughness::{Spectrum, Statistics};
-use percoat_core::lattice::{Cell, Grid, LatticeError};
-use percoat_core::load::LoadQuantity;
-use percoat_core::reading::{FirstTouch, first_touches};
-use percoat_core::run::{RunError, Sampling, balanced_points};
-use percoat_core::spectral::Solver;
+use percoat_core::lattice::{Grid, LatticeError};
+use percoat_core::reading::FirstTouch;
+use percoat_core::run::{RunError, Sampling};
 use serde_json::{Value, json};
 use std::convert::Infallible;
 use std::fmt;
-use std::sync::Arc;
 
 /// Letters of a line of its sentences.
 const WIDTH: usize = 100;
-
-/// Points along the shorter cell vector of the grid for first touches.
-const POINTS: usize = 192;
 
 /// Summary of a case before it is solved.
 #[derive(Debug, Clone)]
@@ -65,36 +65,6 @@ pub struct Check {
     pub library: Vec<String>,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
-}
-
-/// First touches of the levels.
-#[derive(Debug, Clone)]
-pub struct Touches {
-    /// The grid on which they were found, points along a₁ and a₂.
-    pub points: [usize; 2],
-    /// The quantity of their loads.
-    pub quantity: LoadQuantity,
-    /// Load and its error at the first touch of each level; `None` for a level hidden behind the others.
-    pub levels: Vec<Option<(f64, Option<f64>)>>,
-}
-
-/// Roughness of a topography.
-#[derive(Debug, Clone)]
-pub struct Roughness {
-    /// Samples along a₁ and a₂.
-    pub points: [usize; 2],
-    /// Statistics of its heights.
-    pub statistics: Statistics,
-    /// Rms slope √⟨|∇h|²⟩.
-    pub rms_slope: f64,
-    /// Spacing of samples along a₁ and a₂, lengths.
-    pub spacing: [f64; 2],
-    /// Whether its heights are those of a file.
-    pub from_file: bool,
-    /// Whether a window tapers its border.
-    pub has_window: bool,
-    /// Stages by which the heights of a file were prepared, in this order; empty without any.
-    pub stages: Vec<Stage>,
 }
 
 /// Why a case cannot be solved.
@@ -179,73 +149,6 @@ impl Check {
     }
 }
 
-impl Touches {
-    /// First touches found on a grid of these points over the cell, in a quantity of loads.
-    fn new(points: [usize; 2], found: &[Option<FirstTouch>], quantity: LoadQuantity, cell: Cell) -> Self {
-        let per_pressure = match quantity {
-            LoadQuantity::MeanPressure => 1.0,
-            LoadQuantity::Force => cell.area(),
-        };
-        let load = |FirstTouch { mean_pressure, error }: FirstTouch| {
-            (mean_pressure * per_pressure, error.map(|error| error * per_pressure))
-        };
-        Self { points, quantity, levels: found.iter().map(|touch| touch.map(load)).collect() }
-    }
-
-    /// Load at first touch, level by level.
-    fn loads(&self) -> Vec<Option<f64>> {
-        self.levels.iter().map(|touch| touch.map(|(load, _)| load)).collect()
-    }
-
-    /// Errors of the loads, level by level.
-    fn errors(&self) -> Vec<Option<f64>> {
-        self.levels.iter().map(|touch| touch.and_then(|(_, error)| error)).collect()
-    }
-}
-
-impl Roughness {
-    fn of(case: &Case) -> Result<Option<Self>, LatticeError> {
-        let Some(topography) = case.problem().topography() else { return Ok(None) };
-        let heights = topography.own_heights();
-        let spectrum = Spectrum::of(topography.cell(), heights.view())?;
-        let (sides, points) = (topography.cell().vectors().map(|[x, y]| x.hypot(y)), topography.points());
-        Ok(Some(Self {
-            points,
-            statistics: Statistics::of(heights.view()),
-            rms_slope: spectrum.rms_slope(),
-            spacing: [0, 1].map(|axis| sides[axis] / points[axis] as f64),
-            has_window: topography.run_out().is_some(),
-            stages: case.surface.as_ref().map(|surface| surface.stages.clone()).unwrap_or_default(),
-            from_file: case.surface.as_ref().and_then(SurfaceSection::random).map(RandomSection::surface).is_none(),
-        }))
-    }
-
-    fn json(&self) -> Value {
-        let Statistics { rms_height, range, skewness, kurtosis, .. } = self.statistics;
-        json!({
-            "points": self.points, "rms_height": rms_height, "rms_slope": self.rms_slope, "range": range,
-            "skewness": skewness, "kurtosis": kurtosis, "stages": self.stages,
-        })
-    }
-}
-
-/// First touches found on a grid, points along a₁ and a₂, level by level.
-type FoundTouches = ([usize; 2], Vec<Option<FirstTouch>>);
-
-/// First touches of the levels; `first` is the coarsest grid of the case, for which there is memory.
-fn touches(case: &Case, first: [usize; 2]) -> Result<Option<FoundTouches>, LatticeError> {
-    // A single isolated contact touches under any load.
-    let is_single = case.problem().kind().is_indentation() && case.problem().levels().len() == 1;
-    if case.problem().indenters().is_none() || is_single {
-        return Ok(None);
-    }
-    let [n1, n2] = balanced_points(&case.problem().cell(), POINTS);
-    // A long cell would have many points.
-    let points = if n1 * n2 <= 4 * POINTS * POINTS { [n1, n2] } else { first };
-    let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver)?;
-    Ok(Some((points, first_touches(&mut solver))))
-}
-
 /// The names of the units in a line; empty where they have none.
 fn named(units: &Units) -> String {
     let named = |of: &str, unit: &Unit| unit.name().map(|name| format!("{of} in {name}"));
@@ -319,46 +222,6 @@ fn write_sublayers(f: &mut fmt::Formatter<'_>, sublayers: &[usize], error: f64) 
         material += count;
     }
     writeln!(f, "surface compliance: error by the sublayers about {error:.1e}\n")
-}
-
-/// Writes what was done to the heights of a file, with their rms values before and after.
-fn write_stages(f: &mut fmt::Formatter<'_>, stages: &[Stage], units: &Units) -> fmt::Result {
-    if !stages.is_empty() {
-        writeln!(f, "heights of the file, rms height and rms slope of neighbours:")?;
-    }
-    for Stage { treated, rms } in stages {
-        let what = match *treated {
-            Treated::AsRead => "as read".to_owned(),
-            Treated::WithoutForm { form, radius: None } => format!("without its {}", form.name()),
-            Treated::WithoutForm { form, radius: Some(radius) } => {
-                format!("without its {} of radius {}", form.name(), described::length(units, radius))
-            }
-            Treated::Filled { share } => format!("{} % of the places filled", number(100.0 * share)),
-            Treated::Smoothed { cutoff, is_periodic } => {
-                let beyond = if is_periodic { "continued periodically" } else { "border: only samples that exist" };
-                format!("waves below {} weakened ({beyond})", described::length(units, cutoff))
-            }
-        };
-        writeln!(f, "  {what}: {}, {}", described::length(units, rms.height), number(rms.slope))?;
-    }
-    Ok(())
-}
-
-impl Roughness {
-    fn write(&self, f: &mut fmt::Formatter<'_>, units: &Units) -> fmt::Result {
-        let ([n1, n2], slope) = (self.points, number(self.rms_slope));
-        let [d1, d2] = self.spacing.map(|spacing| described::length(units, spacing));
-        let Statistics { rms_height, range, skewness, kurtosis, .. } = self.statistics;
-        let [rms_height, range] = [rms_height, range].map(|height| described::length(units, height));
-        write_stages(f, &self.stages, units)?;
-        writeln!(f, "surface on {n1} × {n2} samples, {d1} apart along a₁ and {d2} along a₂:")?;
-        writeln!(f, "  rms height {rms_height}, rms slope {slope}, range {range}")?;
-        writeln!(f, "  skewness {skewness:.3}, kurtosis {kurtosis:.3} (a Gaussian has 0 and 3)")?;
-        if self.has_window {
-            writeln!(f, "  its window's run-out at the border left out")?;
-        }
-        if self.from_file { writeln!(f, "{ORIENTATION}") } else { Ok(()) }
-    }
 }
 
 #[cfg(test)]
