@@ -1,19 +1,20 @@
 //! One contact in free space: no periodic images, displacements that vanish far away.
 //!
 //! `kernel` is the displacement of a sample by another one, an integral over the zone of the grid in two parts, between which
-//! `cut` divides: `radial` at small wavenumbers, `filon` at large ones. `operator`: the convolution with it on a padded grid;
-//! `quadrant`: transforms of kernels that are even or odd.
+//! `cut` divides: `radial` at small wavenumbers, `filon` at large ones. `operator`: the convolution with it; `padded_window`: the
+//! transforms of the kernels on a padded grid, `quadrant` those of kernels that are even or odd.
 
 mod cut;
 mod filon;
 mod kernel;
 mod operator;
+mod padded_window;
 mod quadrant;
 mod radial;
 
 pub use kernel::OfWavenumber;
 pub use operator::Coupling;
-pub(super) use operator::{bytes_per_sample, bytes_while_made};
+pub(super) use padded_window::{bytes_per_sample, bytes_while_made};
 
 #[cfg(test)]
 mod tests {

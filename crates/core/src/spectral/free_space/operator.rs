@@ -1,22 +1,17 @@
 //! The operator of one contact in free space: pressure on a window of samples → normal displacement of the surfaces there.
 //!
-//! w(x_i) = Σ_j K_{i−j} p_j with the [kernel](super::kernel), by a convolution on a grid at least twice as wide that is padded
-//! with zeros: no image, and w → 0 far away. What the window's pressures displace does not depend on the window.
+//! w(x_i) = Σ_j K_{i−j} p_j with the [kernel](super::kernel), by a convolution on the [padded window](super::padded_window): no image, and
+//! w → 0 far away. What the window's pressures displace does not depend on the window.
 //!
 //! K is symmetric and positive on any set of samples. Its inverse is not known in closed form: the preconditioner is the C⁻¹ of
 //! the window repeated periodically at the same spacings, which is near to it for waves shorter than the contact.
 
 use super::kernel::{OfWavenumber, Window};
-use super::quadrant::{Parity, transformed};
+use super::padded_window::{multiplier, padded, repeated, skew_part};
 use crate::body::{Bodies, Compliances};
 use crate::friction::Friction;
-use crate::lattice::{Cell, Grid};
-use crate::numeric::fourier::fast_points;
-use crate::numeric::lanes::Real;
-use crate::spectral::convolution::Convolution;
+use crate::lattice::Grid;
 use crate::spectral::layered_operator::{LayeredOperator, Skew, Transforms};
-use crate::spectral::multiplier::{Multiplier, SkewPart};
-use ndarray::Array2;
 use std::fmt;
 
 /// Least wavenumber, over the largest of the grid, at which the compliance of the layered bodies is evaluated: below, it is that of
@@ -115,73 +110,10 @@ impl LayeredOperator {
     }
 }
 
-/// Memory that an operator in free space on a window of `points` keeps, bytes per sample: the transforms of the kernel and, `coupled`, of
-/// the odd one, 16 each where no padding beyond twice the window is needed, and the periodic compliance, 4. The [`Workspace`] has 16
-/// further ones. While a kernel is made, three tables of 8 live besides.
-///
-/// [`Workspace`]: crate::spectral::Workspace
-pub(in crate::spectral) fn bytes_per_sample(points: [usize; 2], coupled: bool) -> f64 {
-    let components = |[n1, n2]: [usize; 2]| (n1 * (n2 / 2 + 1).next_multiple_of(f32::WIDTH)) as f64;
-    let tables = components(padded(points)) * f64::from(1 + u8::from(coupled)) + components(points);
-    8.0 * tables / (points[0] * points[1]) as f64
-}
-
-/// Memory while the kernel of a window is made besides its tables, bytes; much where the samples are oblong.
-pub(in crate::spectral) fn bytes_while_made(window: Cell, points: [usize; 2]) -> usize {
-    let [a1, a2] = window.vectors();
-    let spacings = [a1[0] / points[0] as f64, a2[1] / points[1] as f64];
-    Window { spacings, points }.bytes_while_made()
-}
-
 /// Wavenumbers at which a grid asks the bodies, from its spacings alone, so that every window has the same compliance.
 fn range(grid: &Grid) -> [f64; 2] {
     let largest = grid.largest_wavenumber();
     [LEAST_WAVENUMBER * largest, largest]
-}
-
-/// Samples of the transforms for a window: at least 2Nᵢ − 1, even, and with small prime factors.
-fn padded(points: [usize; 2]) -> [usize; 2] {
-    points.map(|n| 2 * fast_points(n))
-}
-
-/// H, the transform of the kernel.
-fn multiplier(convolution: &Convolution<f64>, window: Window, c: OfWavenumber<'_>) -> Multiplier {
-    let values = transformed(&window.kernel(c), padded(window.points), [Parity::Even; 2]);
-    convolution.multiplier(true, |[k1, k2], to| {
-        to.iter_mut().zip(k2..).for_each(|(to, k2)| *to = values[[k2, k1]]);
-    })
-}
-
-/// G, the transform of the odd kernel of a traction with the components `along` the axes of the grid.
-fn skew_part(convolution: &Convolution<f64>, window: Window, along: [f64; 2], b: OfWavenumber<'_>) -> SkewPart {
-    let padded = padded(window.points);
-    let values: [Option<Array2<f64>>; 2] = [0, 1].map(|axis| {
-        let mut parities = [Parity::Even; 2];
-        parities[axis] = Parity::Odd;
-        (along[axis] != 0.0).then(|| along[axis] * transformed(&window.coupling_kernel(b, axis), padded, parities))
-    });
-    convolution.skew_part(|[k1, k2], to| {
-        // Odd along the first axis, and even.
-        let (k1, sign) = if 2 * k1 <= padded[0] { (k1, 1.0) } else { (padded[0] - k1, -1.0) };
-        for (to, k2) in to.iter_mut().zip(k2..) {
-            let [first, second] =
-                values.each_ref().map(|values| values.as_ref().map_or(0.0, |values| values[[k2, k1]]));
-            *to = sign * first + second;
-        }
-    })
-}
-
-/// The window repeated periodically: its transforms and Ĉ, the mean taken for a component of the least wavenumber.
-fn repeated(grid: &Grid, c: OfWavenumber<'_>) -> (Transforms, Multiplier) {
-    let transforms = Transforms::new(grid.points());
-    let compliance = transforms.double.multiplier(true, |first, values| {
-        grid.wavenumbers(first, values);
-        if first == [0, 0] {
-            values[0] = grid.least_wavenumber();
-        }
-        values.iter_mut().for_each(|k| *k = c(*k) / *k);
-    });
-    (transforms, compliance)
 }
 
 #[cfg(test)]
@@ -190,6 +122,7 @@ mod tests {
     use crate::body::{HalfSpace, Interface, Layer, Material};
     use crate::lattice::Cell;
     use crate::spectral::by_rows::{ResultRows, rows_of, rows_to};
+    use crate::spectral::free_space::padded_window::bytes_per_sample;
     use crate::spectral::operator::{ElasticOperator, TractionUpdate, Workspace};
 
     fn coated() -> HalfSpace {
