@@ -30,20 +30,28 @@ fn measured(text: &str, every: usize) -> Measurement {
 
 /// A ball of 10 µm on a coating: E, ν and h of the coating, E of the substrate; µm and GPa.
 fn problem(values: &[f64]) -> Result<Problem, MaterialError> {
-    under_ball(10.0, values)
-}
-
-fn under_ball(radius: f64, values: &[f64]) -> Result<Problem, MaterialError> {
     let &[coating, poisson, thickness, substrate] = values else { unreachable!("four values") };
     let layer = Layer::new(Material::from_young(coating, poisson)?, thickness, Interface::Bonded).unwrap();
-    let lattice = Lattice::new(Cell::window([4.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
-    let level = Level::new(Shape::Paraboloid { radius }, 0.0).unwrap();
-    let half_space = HalfSpace::new(vec![layer], Material::from_young(substrate, 0.3)?);
-    Ok(Problem::new(Indenters::new(lattice, vec![level]).unwrap(), half_space))
+    Ok(ball_on(HalfSpace::new(vec![layer], Material::from_young(substrate, 0.3)?), 10.0))
 }
 
-/// Finds some of E_c, ν_c, h and E_s, the others known.
+fn ball_on(body: HalfSpace, radius: f64) -> Problem {
+    let lattice = Lattice::new(Cell::window([4.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
+    let level = Level::new(Shape::Paraboloid { radius }, 0.0).unwrap();
+    Problem::new(Indenters::new(lattice, vec![level]).unwrap(), body)
+}
+
+/// Finds some of E_c, ν_c, h and E_s on 64 samples, the others known.
 fn found(
+    free: &[(usize, f64)],
+    more: &[Quantity],
+    measured: &Measurement,
+) -> Result<Identification, IdentificationError<MaterialError>> {
+    found_on(64, free, more, measured)
+}
+
+fn found_on(
+    points: usize,
     free: &[(usize, f64)],
     more: &[Quantity],
     measured: &Measurement,
@@ -62,7 +70,7 @@ fn found(
         problem(&all)
     };
     let settings = Settings { tolerance: 1e-9, ..Settings::default() };
-    Identification::new(&Model { problem: &problem, points: 64, settings }, &parameters, measured)
+    Identification::new(&Model { problem: &problem, points, settings }, &parameters, measured)
 }
 
 /// From starts a factor of two away. The grid of 64 samples leaves some 2e-4 of δ, and ∂ln δ/∂ln E is −0.3 on the average for
@@ -103,18 +111,21 @@ fn noise_is_carried_to_the_standard_errors() {
 /// Five points of light loads with noise do not contain four parameters; a parameter that the curve does not depend on is named.
 #[test]
 fn what_a_curve_does_not_contain_is_refused() {
-    let few = measured(NOISY, 12);
-    let all = found(&[(0, 300.0), (1, 0.2), (2, 1.0), (3, 70.0)], &[], &few);
+    let rows = rows(NOISY).into_iter().take(25).step_by(6);
+    let (forces, penetrations) = rows.map(|row| (row[0], row[1])).unzip();
+    let few = Measurement::new(forces, penetrations, None).unwrap();
+    let all = found_on(32, &[(0, 300.0), (1, 0.2), (2, 1.0), (3, 70.0)], &[], &few);
     assert!(matches!(all, Err(IdentificationError::Undetermined(_))), "{all:?}");
     let too_many = found(&[(0, 300.0), (1, 0.2), (2, 1.0), (3, 70.0)], &[Quantity::Offset], &few);
     assert!(matches!(too_many, Err(IdentificationError::TooFew { points: 5, parameters: 5 })), "{too_many:?}");
 }
 
 /// ∂δ/∂ln θ at a load alone, by two fits of a point each would be no fit: the derivatives come out of the residuals' Jacobian, here by
-/// the interval that a fit of one parameter states: its standard error is the noise over √Σ(∂δ/∂ln θ)².
+/// the interval that a fit of one parameter states: its standard error is the noise over √Σ(∂δ/∂ln θ)². Loads below a tenth of the largest add
+/// a percent or two to the sum, and are left out.
 #[test]
 fn the_standard_error_of_one_parameter_is_the_noise_over_its_derivatives() {
-    let rows = rows(DERIVATIVES);
+    let rows: Vec<Vec<f64>> = rows(DERIVATIVES).into_iter().filter(|row| row[0] >= 10.0).collect();
     let (forces, penetrations): (Vec<f64>, Vec<f64>) = rows.iter().map(|row| (row[0], row[1])).unzip();
     let noise = 1e-3;
     let measured = Measurement::new(forces, penetrations, Some(vec![noise; rows.len()])).unwrap();
@@ -126,23 +137,26 @@ fn the_standard_error_of_one_parameter_is_the_noise_over_its_derivatives() {
     }
 }
 
-/// A coating stiffer than 200, on which the exact curve insists, has a ball so large that no window holds its contact:
-/// the search ends below, and says which load it is; a start above is refused as a start.
+/// Instead of a body stiffer than 60, on which the curve of 70 insists, the model has a ball so large that no window holds its contact: the search ends
+/// below, and says which load it is; a start above is refused as a start.
 #[test]
 fn a_load_that_is_not_solved_on_the_way_is_the_reason_that_is_given() {
-    let measured = measured(EXACT, 6);
+    // One load, measured again and again: each node of a curve would seek a window in vain.
+    let measured = Measurement::new(vec![20.0; 4], vec![hertz(20.0); 4], None).unwrap();
     let from = |start: f64| {
-        let radius = |coating: f64| if coating > 200.0 { 1e60 } else { 10.0 };
-        let problem = |values: &[f64]| under_ball(radius(values[0]), &[values[0], 0.2, 1.0, 70.0]);
+        let problem = |values: &[f64]| {
+            let radius = if values[0] > 60.0 { 1e60 } else { 10.0 };
+            Ok::<_, MaterialError>(ball_on(HalfSpace::new(vec![], Material::from_young(values[0], 0.3)?), radius))
+        };
         let settings = Settings { tolerance: 1e-9, ..Settings::default() };
-        let free = Parameter { name: "coating".to_owned(), quantity: Quantity::Positive, start };
-        Identification::new(&Model { problem: &problem, points: 48, settings }, &[free], &measured)
+        let free = Parameter { name: "young".to_owned(), quantity: Quantity::Positive, start };
+        Identification::new(&Model { problem: &problem, points: 32, settings }, &[free], &measured)
     };
-    let ended = from(150.0).unwrap_err();
+    let ended = from(45.0).unwrap_err();
     assert!(matches!(ended, IdentificationError::Refused(NoValue::Curve(CurveError::NotSolved(..)))), "{ended}");
     let told = ended.to_string();
     assert!(told.contains("does not converge") && told.contains("under the force"), "{told}");
-    let refused = from(250.0).unwrap_err();
+    let refused = from(65.0).unwrap_err();
     assert!(matches!(refused, IdentificationError::Curve(CurveError::NotSolved(..))), "{refused}");
 }
 
@@ -151,7 +165,7 @@ fn a_search_can_be_stopped_and_tells_of_its_trials() {
     let measured = measured(EXACT, 6);
     let problem = |values: &[f64]| problem(&[values[0], 0.2, 1.0, 70.0]);
     let settings = Settings { tolerance: 1e-9, ..Settings::default() };
-    let model = Model { problem: &problem, points: 48, settings };
+    let model = Model { problem: &problem, points: 32, settings };
     let free = [Parameter { name: "coating".to_owned(), quantity: Quantity::Positive, start: 150.0 }];
     let mut heard: Vec<Trial> = Vec::new();
     let fit = Identification::new_with_progress(&model, &free, &measured, &mut |trial| {
@@ -287,22 +301,21 @@ fn hertz(force: f64) -> f64 {
     (3.0 * force * 0.91 / (4.0 * 70.0 * 10f64.sqrt())).powf(2.0 / 3.0)
 }
 
-/// The modulus of a body from its curve, beside ν, R and what the instrument is known to add.
-fn modulus(measured: &Measurement, [poisson, radius]: [f64; 2], more: &[Quantity]) -> Identification {
+/// The modulus of a body from its curve, from a start on, beside R = 10 µm, ν = 0.3 and what the instrument is known to add; with its
+/// derivatives by these, or without.
+fn modulus(measured: &Measurement, start: f64, more: &[Quantity], by_what_is_known: bool) -> Identification {
+    let (poisson, radius) = (0.3, 10.0);
     let problem = |values: &[f64]| {
         // The modulus, then what more is free, then ν and R.
         let (nu, radius) = match values.get(1 + more.len()..) {
             Some(&[nu, radius, ..]) => (nu, radius),
             _ => (poisson, radius),
         };
-        let lattice = Lattice::new(Cell::window([4.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
-        let level = Level::new(Shape::Paraboloid { radius }, 0.0).unwrap();
-        let body = HalfSpace::new(vec![], Material::from_young(values[0], nu)?);
-        Ok::<_, MaterialError>(Problem::new(Indenters::new(lattice, vec![level]).unwrap(), body))
+        Ok::<_, MaterialError>(ball_on(HalfSpace::new(vec![], Material::from_young(values[0], nu)?), radius))
     };
     let settings = Settings { tolerance: 1e-9, ..Settings::default() };
     let parameter = |name: &str, quantity, start| Parameter { name: name.to_owned(), quantity, start };
-    let mut free = vec![parameter("young", Quantity::Positive, 100.0)];
+    let mut free = vec![parameter("young", Quantity::Positive, start)];
     free.extend(more.iter().map(|&quantity| parameter("instrument", quantity, 0.0)));
     let mut fixed = vec![
         parameter("poisson", Quantity::Bounded([0.0, 0.5]), poisson),
@@ -310,8 +323,8 @@ fn modulus(measured: &Measurement, [poisson, radius]: [f64; 2], more: &[Quantity
         parameter("offset", Quantity::Offset, measured.instrument().offset),
         parameter("frame", Quantity::FrameCompliance, measured.instrument().frame_compliance),
     ];
-    fixed.retain(|parameter| !more.contains(&parameter.quantity));
-    let model = Model { problem: &problem, points: 48, settings };
+    fixed.retain(|parameter| by_what_is_known && !more.contains(&parameter.quantity));
+    let model = Model { problem: &problem, points: 36, settings };
     Identification::with_fixed(&model, (&free, &fixed), measured, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
@@ -326,7 +339,7 @@ fn curve(count: i32, scatter: f64, seed: u64, adds: &dyn Fn(f64) -> f64) -> Meas
 #[test]
 fn derivatives_by_what_is_known_are_those_of_hertz_and_of_other_fits() {
     let measured = curve(12, 0.0, 4, &|_| 0.0);
-    let fit = modulus(&measured, [0.3, 10.0], &[]);
+    let fit = modulus(&measured, 100.0, &[], true);
     let young = fit.estimates[0].value;
     let by = |k: usize| fit.sensitivities[k].derivatives[0];
     let exact = [-0.6 * young / 0.91, -young / 20.0];
@@ -339,7 +352,7 @@ fn derivatives_by_what_is_known_are_those_of_hertz_and_of_other_fits() {
         let at = |sign: f64| {
             let mut instrument = Instrument::default();
             *(if k == 2 { &mut instrument.offset } else { &mut instrument.frame_compliance }) = sign * step;
-            modulus(&measured.clone().with_instrument(instrument), [0.3, 10.0], &[]).estimates[0].value
+            modulus(&measured.clone().with_instrument(instrument), young, &[], false).estimates[0].value
         };
         let quotient = (at(1.0) - at(-1.0)) / (2.0 * step);
         assert!((by(k) / quotient - 1.0).abs() < 0.02, "{k}: {} {quotient}", by(k));
@@ -351,7 +364,8 @@ fn derivatives_by_what_is_known_are_those_of_hertz_and_of_other_fits() {
 #[test]
 fn a_missed_zero_a_frame_and_yield_are_told() {
     const SCATTER: f64 = 2e-4;
-    let plain = modulus(&curve(24, SCATTER, 5, &|_| 0.0), [0.3, 10.0], &[]);
+    let modulus = |measured: &Measurement, more: &[Quantity]| modulus(measured, 75.0, more, false);
+    let plain = modulus(&curve(24, SCATTER, 5, &|_| 0.0), &[]);
     assert_eq!(plain.doubts, []);
     let near = |fit: &Identification| (fit.estimates[0].value - 70.0).abs() < 4.0 * fit.estimates[0].error + 0.2;
     assert!(near(&plain), "{plain}");
@@ -360,7 +374,7 @@ fn a_missed_zero_a_frame_and_yield_are_told() {
         (Quantity::FrameCompliance, 3e-4, Instrument { frame_compliance: 3e-4, ..Instrument::default() }),
     ] {
         let measured = curve(24, SCATTER, 6, &|force| instrument.adds(force));
-        let wrong = modulus(&measured, [0.3, 10.0], &[]);
+        let wrong = modulus(&measured, &[]);
         assert!(!near(&wrong), "{wrong}");
         let missing = wrong.doubts.iter().find_map(|doubt| match doubt {
             Doubt::Offset(missing) if quantity == Quantity::Offset => Some(missing),
@@ -371,14 +385,14 @@ fn a_missed_zero_a_frame_and_yield_are_told() {
         // First order in a change of several percent.
         assert!((missing.value - size).abs() < 4.0 * missing.error + 0.1 * size.abs(), "{missing:?}");
         assert!((missing.estimates[0] - 70.0).abs() < 1.5, "{missing:?}");
-        let freed = modulus(&measured, [0.3, 10.0], &[quantity]);
-        let known = modulus(&measured.with_instrument(instrument), [0.3, 10.0], &[]);
+        let freed = modulus(&measured, &[quantity]);
+        let known = modulus(&measured.with_instrument(instrument), &[]);
         for fit in [freed, known] {
             assert!(near(&fit) && fit.doubts.is_empty(), "{fit}: {:?}", fit.doubts);
         }
     }
     let yields = curve(24, SCATTER, 7, &|force| 1.5e-3 * (force - 8.0f64).max(0.0));
-    let told = modulus(&yields, [0.3, 10.0], &[]).doubts;
+    let told = modulus(&yields, &[]).doubts;
     assert!(matches!(told.first(), Some(Doubt::Systematic(pattern)) if pattern.is_systematic()), "{told:?}");
 }
 
@@ -426,10 +440,7 @@ fn a_fit_is_kept_where_derivatives_are_missing() {
         let problem = |values: &[f64]| match takes(values) {
             true => {
                 let nu = values.get(1).copied().unwrap_or(0.3);
-                let lattice = Lattice::new(Cell::window([4.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
-                let level = Level::new(Shape::Paraboloid { radius: 10.0 }, 0.0).unwrap();
-                let body = HalfSpace::new(vec![], Material::from_young(values[0], nu)?);
-                Ok(Problem::new(Indenters::new(lattice, vec![level]).unwrap(), body))
+                Ok(ball_on(HalfSpace::new(vec![], Material::from_young(values[0], nu)?), 10.0))
             }
             false => Err(MaterialError::Hardness(-1.0)),
         };
