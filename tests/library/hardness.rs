@@ -740,8 +740,8 @@ fn an_elastic_contact_meets_the_composite_hardness_of_hertz() {
     }
 }
 
-/// The fixed point by bisection over loads with a hardness of their own: soft and hard substrates, both laws, by force and by penetration;
-/// with the same start from earlier loads and after a checkpoint.
+/// A ball goes deeper than a depth with the hardness that belongs to it, up to the depth that is found, and less deep beyond: soft and hard
+/// substrates, both laws, by force and by penetration; with the same start from earlier loads and after a checkpoint.
 #[test]
 fn what_yields_has_the_hardness_of_its_own_penetration() {
     for (law, constant, hardness) in [
@@ -759,19 +759,16 @@ fn what_yields_has_the_hardness_of_its_own_penetration() {
             let step = solver.solve(load);
             assert!(step.report.stop.solved(), "{law:?}: {}", step.report);
             let plastic = PlasticReading::of(&step).unwrap();
-            let [mut low, mut high] = [0.0, 0.6];
-            for _ in 0..24 {
-                let depth = 0.5 * (low + high);
-                match penetration_at(composite.at(depth), load) > depth {
-                    true => low = depth,
-                    false => high = depth,
-                }
+            let found = plastic.hardness_depth.unwrap();
+            for (part, goes_deeper) in [(0.5, true), (1.0 - 1e-5, true), (1.0 + 1e-5, false), (2.0, false)] {
+                let depth = part * found;
+                let penetration = penetration_at(composite.at(depth), load);
+                assert!(
+                    (penetration > depth) == goes_deeper,
+                    "{law:?} {hardness:?}: {plastic:?}, {penetration} at {depth}"
+                );
             }
-            assert!(
-                (plastic.hardness_depth.unwrap() / low - 1.0).abs() < 1e-5,
-                "{law:?} {hardness:?}: {plastic:?}, {low}"
-            );
-            assert!((plastic.hardness / composite.at(low) - 1.0).abs() < 1e-5, "{law:?}: {plastic:?}");
+            assert!((plastic.hardness / composite.at(found) - 1.0).abs() < 1e-5, "{law:?}: {plastic:?}");
             assert!(plastic.is_pressed_in() && step.pressure().iter().all(|&p| p <= plastic.hardness), "{plastic:?}");
             let checkpoint = solver.checkpoint(&step);
             let mut other = pressed_by_a_ball(body.clone(), Some((law, constant)));
