@@ -5,7 +5,7 @@
 //! that is taken reads back equal and has finite responses. What the program does with it ends with a code from 0 to
 //! 4 and leaves the files beside it alone.
 //!
-//! `PERCOAT_FUZZ=1000000 cargo test --test fuzz` runs as many instead of 10⁴; `PERCOAT_FUZZ_SEED` gives others.
+//! `PERCOAT_FUZZ=1000000 cargo test --test fuzz` runs as many instead of 4000; `PERCOAT_FUZZ_SEED` gives others.
 
 #![cfg(feature = "cli")]
 
@@ -338,7 +338,7 @@ fn setting(name: &str, default: u64) -> u64 {
 
 #[test]
 fn whatever_is_written_is_a_case_or_refused_at_once() {
-    let count = setting("PERCOAT_FUZZ", 10_000);
+    let count = setting("PERCOAT_FUZZ", 4_000);
     let mut random = Random(setting("PERCOAT_FUZZ_SEED", 20_261_121));
     let folder = temporary::folder();
     const SURFACE: &str = "[lattice]\nkind = \"square\"\nperiod = 1\n[surface]\nheights = \"surface.npy\"\n\
@@ -379,7 +379,7 @@ fn run(arguments: &[String], folder: &Path) -> Result<ExitStatus, String> {
 
 #[test]
 fn whatever_is_asked_of_the_program_ends_with_a_code_and_spares_other_files() {
-    let count = setting("PERCOAT_FUZZ_RUNS", 40);
+    let count = setting("PERCOAT_FUZZ_RUNS", 24);
     let mut random = Random(setting("PERCOAT_FUZZ_SEED", 20_261_122));
     let folder = temporary::folder();
     let mut codes = [0; 5];

@@ -459,7 +459,7 @@ fn stack(random: &mut Random) -> HalfSpace {
     HalfSpace::new((0..count).map(|_| layer()).collect(), Material::from_shear(1.0, 0.3).unwrap())
 }
 
-/// 240 random cases: levels, heights, shapes, radii, up to three layers of contrast 1e4 with any interfaces, loads from
+/// 120 random cases: levels, heights, shapes, radii, up to three layers of contrast 1e4 with any interfaces, loads from
 /// first touch to complete contact; every fourth a rough topography. The default converges wherever the baseline does,
 /// to the same pressure, and under displacement load too.
 #[test]
@@ -467,7 +467,7 @@ fn the_default_converges_wherever_the_baseline_does() {
     let n = 48;
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
     let (mut fell_back, mut iterations, mut iterations_baseline) = (0, 0, 0);
-    for case in 0..240 {
+    for case in 0..120 {
         let counterbody: Counterbody =
             if case % 4 == 3 { rough(&mut random, n).into() } else { indenters(&mut random).into() };
         let problem = Problem::new(counterbody, stack(&mut random));
@@ -497,8 +497,8 @@ fn the_default_converges_wherever_the_baseline_does() {
         iterations += step.report.iterations;
         iterations_baseline += base.report.iterations;
     }
-    println!("240 cases: {fell_back} fell back; iterations {iterations} against {iterations_baseline} of the baseline");
-    assert!(fell_back <= 5, "{fell_back} of 240 fell back");
+    println!("120 cases: {fell_back} fell back; iterations {iterations} against {iterations_baseline} of the baseline");
+    assert!(fell_back <= 2, "{fell_back} of 120 fell back");
 }
 
 #[test]

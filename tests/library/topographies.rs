@@ -6,7 +6,7 @@ use common::{Hills, Random, coated};
 use ndarray::Array2;
 use percoat::{Cell, Interface, Load, Problem, Settings, Solver, Topography};
 
-const CASES: usize = 40;
+const CASES: usize = 20;
 const POINTS: usize = 64;
 /// Points of the reference over those of the case.
 const FINER: usize = 4;
