@@ -133,18 +133,8 @@ fn a_sliding_sphere_has_the_ranges_of_its_closed_form() {
         let [xx, yy, zz, xy, xz, yz] = together(stresses(NU, place), mu);
         StressState { xx, yy, zz, xy, xz, yz, ..StressState::default() }.tau1()
     };
-    let exact = |y: f64, z: f64| {
-        let most = (-4000..=4000).map(|k| tau1([f64::from(k) * 1e-3, y, z])).fold(0.0, f64::max);
-        // Far away it is at rest.
-        most
-    };
-    let mut known = [0.0; 3];
-    for (y, z) in (0..=20).flat_map(|j| (1..=60).map(move |k| (0.05 * f64::from(j), 0.01 * f64::from(k)))) {
-        let value = exact(y, z);
-        if value > known[0] {
-            known = [value, y, z];
-        }
-    }
+    // Far away it is at rest.
+    let exact = |y: f64, z: f64| (-1000..=1000).map(|k| tau1([f64::from(k) * 4e-3, y, z])).fold(0.0, f64::max);
     for (window, points) in [(2.2, 96), (6.0, 256)] {
         let window = Cell::window([window; 2]).unwrap();
         let problem = Problem::new(indenters(window, &[[0.5; 2]]), bare_by(steep())).sliding(friction).unwrap();
@@ -157,11 +147,6 @@ fn a_sliding_sphere_has_the_ranges_of_its_closed_form() {
                 most = most.max((map.range[[row, column]] / P0 - exact(y, depth.z)).abs());
             }
         }
-        let Life { range, error, position, .. } = fatigue(&step).first;
-        println!(
-            "{points}: lines off {most:e}; largest {} {error:?} {position:?}, known below the surface {known:?}",
-            range / P0
-        );
         assert!(most < 2e-3, "{most:e}");
     }
 }

@@ -372,7 +372,7 @@ fn stated_errors_under_a_disc_are_smooth_in_the_grid() {
     let asphalt = Layer::new(young(5000.0, 0.35), 260.0, Interface::Bonded).unwrap();
     let base = Layer::new(young(200.0, 0.4), 500.0, Interface::Bonded).unwrap();
     let body = HalfSpace::new(vec![asphalt, base], young(50.0, 0.45));
-    let grids = [100, 108, 120, 125, 135, 144];
+    let grids = [100, 105, 108, 125];
     let found = grids.map(|points| {
         let given = window([1000.0, 1000.0], &[disc([7.3, -4.1], 150.8, 0.7)]);
         let load = Load::Force(given.force());

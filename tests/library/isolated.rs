@@ -170,13 +170,14 @@ fn two_indenters_share_a_window() {
 /// window is the free field, as the series of a window four times as wide has it; what lies beyond that one too is small.
 #[test]
 fn the_largest_stresses_are_those_of_the_free_field() {
-    for (bodies, [a, force, ..]) in anchors() {
-        for friction in [0.0, 0.5] {
+    // With and without friction on the first two, bare and coated; sliding on the others.
+    for (number, (bodies, [a, force, ..])) in anchors().into_iter().enumerate() {
+        for &friction in if number < 2 { &[0.0, 0.5][..] } else { &[0.5] } {
             let step = |window: f64, points: usize| {
                 let sliding = Friction::new(friction, [1.0, 0.4]).unwrap();
                 solved(problem(bodies.clone(), window * a).sliding(sliding).unwrap(), points, Load::Force(force))
             };
-            let [narrow, wide] = [step(2.4, 64), step(9.6, 256)];
+            let [narrow, wide] = [step(2.4, 48), step(9.6, 192)];
             let fields = [&narrow, &wide].map(|step| StressFields::new(step.finest(), MeanStress::Confined));
             let pressed = narrow.reading().max_pressure;
             for (field, free) in fields[0].each().zip(fields[1].each()) {
@@ -218,7 +219,7 @@ fn the_largest_stresses_are_those_of_the_free_field() {
 #[test]
 fn the_largest_tension_lies_at_the_edge_of_contact() {
     let p0 = 2.0 / PI;
-    for (window, points) in [(2.7, 96), (2.7, 128), (6.0, 256)] {
+    for (window, points) in [(2.7, 96), (6.0, 216)] {
         for (nu, mu) in [(0.0, 0.0), (0.25, 0.0), (0.0, 0.5), (0.25, 0.5)] {
             let body = HalfSpace::new(vec![], material(1.0 - nu * nu, nu));
             let problem = problem(body, window).sliding(Friction::new(mu, [1.0, 0.0]).unwrap().uncoupled()).unwrap();

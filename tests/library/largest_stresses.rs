@@ -255,7 +255,7 @@ fn changes_with_more_sublayers(counts: [usize; 2], friction: f64) -> f64 {
 
 #[test]
 fn many_deep_sublayers_are_searched_in_time() {
-    let change = changes_with_more_sublayers([20, 40], 0.0);
+    let change = changes_with_more_sublayers([12, 24], 0.0);
     assert!(change < 2e-2, "{change}");
 }
 

@@ -461,7 +461,7 @@ fn a_contact_that_outgrows_its_window_has_the_limits_of_a_wide_one() {
         let problem = Problem::new(one_level(lattice, level), periodic.half_space().clone());
         limits(problem.sliding(*periodic.friction().unwrap()).unwrap(), Load::Force(1.0), points)
     };
-    let (narrow, wide) = (found(4.0, 32), found(40.0, 96));
+    let (narrow, wide) = (found(4.0, 32), found(24.0, 64));
     let [width, height] = narrow.window.expect("a contact too large for its window");
     assert!(width == height && width >= 8.0 && wide.window.is_none(), "{width}, {:?}", wide.window);
     for (limit, other) in narrow.limits.iter().zip(&wide.limits) {

@@ -99,7 +99,7 @@ fn compared(seed: u64, count: usize, widest: f64) -> ([usize; 3], f64) {
         // The force under which contact has the radius 1, about, from a lesser one on.
         let modulus = |q: f64| 2.0 / (q * body.response().compliance(q));
         let mut force = 0.5 * 4.0 / (3.0 * radius) * modulus(1.5).min(modulus(3.0));
-        for _ in 0..5 {
+        for _ in 0..3 {
             let step = solved(slides(under_a_ball(body.clone(), radius, 8.0)), 64, Load::Force(force));
             force /= step.reading().levels[0].contact_radius.unwrap().powi(3);
         }
@@ -133,8 +133,8 @@ fn compared(seed: u64, count: usize, widest: f64) -> ([usize; 3], f64) {
 
 #[test]
 fn largest_stresses_do_not_depend_on_the_window() {
-    let ([all, off, outside], worst) = compared(5, 6, 6.0);
-    assert!(all > 50 && off == 0 && outside > 0, "{off} of {all}, {outside} outside, {worst}");
+    let ([all, off, outside], worst) = compared(5, 4, 4.0);
+    assert!(all > 30 && off == 0 && outside > 0, "{off} of {all}, {outside} outside, {worst}");
 }
 
 /// Minutes; 100 contacts.
@@ -173,7 +173,7 @@ fn a_pass_does_not_end_at_the_window() {
     };
     let body = HalfSpace::new(vec![layer(0.2, 0.22), layer(0.8, 0.3)], material(1.0, 0.38));
     let body = body.with_substrate_durability(tires).unwrap();
-    for (friction, direction) in [(0.0, [1.0, 0.0]), (0.2, [1.0, 0.0]), (0.0, [0.8, 0.6])] {
+    for (friction, direction) in [(0.2, [1.0, 0.0]), (0.0, [0.8, 0.6])] {
         let of = |window: f64, points: usize| {
             let sliding = Friction::new(friction, direction).unwrap();
             let problem = under_a_ball(body.clone(), 50.0, window).sliding(sliding).unwrap();
@@ -184,7 +184,7 @@ fn a_pass_does_not_end_at_the_window() {
             let utilisations = step.strength.iter().map(|row| [row.value, row.error.unwrap()]);
             ranges.chain(utilisations).collect::<Vec<[f64; 2]>>()
         };
-        let (narrow, wide) = (of(3.0, 64), of(12.0, 256));
+        let (narrow, wide) = (of(3.0, 64), of(12.0, 192));
         assert_eq!(narrow.len(), 5 + 6, "{narrow:?}");
         for (number, ([one, of_one], [other, of_other])) in narrow.iter().zip(&wide).enumerate() {
             println!("{friction} {number}: {one} ± {of_one}, {other} ± {of_other}");
