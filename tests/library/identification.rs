@@ -121,8 +121,8 @@ fn what_a_curve_does_not_contain_is_refused() {
 }
 
 /// ∂δ/∂ln θ at a load alone, by two fits of a point each would be no fit: the derivatives come out of the residuals' Jacobian, here by
-/// the interval that a fit of one parameter states: its standard error is the noise over √Σ(∂δ/∂ln θ)². Loads below a tenth of the largest add
-/// a percent or two to the sum, and are left out.
+/// the interval that a fit of one parameter states: its standard error is the noise over √Σ(∂δ/∂ln θ)². Loads below a tenth of the largest
+/// add two percent to the sum at most, and are left out.
 #[test]
 fn the_standard_error_of_one_parameter_is_the_noise_over_its_derivatives() {
     let rows: Vec<Vec<f64>> = rows(DERIVATIVES).into_iter().filter(|row| row[0] >= 10.0).collect();
