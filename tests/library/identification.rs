@@ -111,9 +111,7 @@ fn noise_is_carried_to_the_standard_errors() {
 /// Five points of light loads with noise do not contain four parameters; a parameter that the curve does not depend on is named.
 #[test]
 fn what_a_curve_does_not_contain_is_refused() {
-    let rows = rows(NOISY).into_iter().take(25).step_by(6);
-    let (forces, penetrations) = rows.map(|row| (row[0], row[1])).unzip();
-    let few = Measurement::new(forces, penetrations, None).unwrap();
+    let few = measured(NOISY, 12);
     let all = found_on(32, &[(0, 300.0), (1, 0.2), (2, 1.0), (3, 70.0)], &[], &few);
     assert!(matches!(all, Err(IdentificationError::Undetermined(_))), "{all:?}");
     let too_many = found(&[(0, 300.0), (1, 0.2), (2, 1.0), (3, 70.0)], &[Quantity::Offset], &few);
