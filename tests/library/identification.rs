@@ -108,7 +108,7 @@ fn noise_is_carried_to_the_standard_errors() {
     assert!(fit.band.iter().all(|band| *band > 0.0 && *band < 5e-4), "{fit}");
 }
 
-/// Five points of light loads with noise do not contain four parameters; a parameter that the curve does not depend on is named.
+/// Five points with noise do not contain four parameters; a parameter that the curve does not depend on is named.
 #[test]
 fn what_a_curve_does_not_contain_is_refused() {
     let few = measured(NOISY, 12);
