@@ -1,7 +1,7 @@
 //! `percoat` from outside: what a person types, reads and finds in the output folder.
 
 #![cfg(feature = "cli")]
-#![allow(clippy::too_many_lines, reason = "what is damaged and what is said of it is listed beside each other")]
+#![allow(clippy::too_many_lines, reason = "a test of refused files lists each fault beside its message")]
 
 #[path = "command_line/archive.rs"]
 mod archive;

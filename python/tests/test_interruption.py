@@ -230,7 +230,7 @@ class Enough(Exception):
     """Exception that the listener raises."""
 
 
-# Listeners to a sweep hear after each combination: sweeps that take long are left out.
+# The listener of a sweep is called when a combination is done, so that only a sweep of small combinations is tried.
 @pytest.mark.parametrize(
     "name", ["solve", "a single large step", "a rough surface", "limit", "sweep of small ones"]
 )

@@ -38,7 +38,7 @@ impl<'a> Solve<'a> {
     /// The task of solving into memory, in which every step stays.
     ///
     /// # Errors
-    /// Those of [`Solve::into_files`].
+    /// [`Refused`], as of [`Solve::into_files`].
     pub fn in_memory(case: &'a Case, room: Capacity) -> Result<Self, Refused> {
         Self::new(case, room, Job::Keep)
     }

@@ -1,7 +1,8 @@
 //! The permanent indentation under a hardness: the area at the hardness, the depths and their volume.
 //!
-//! The gap is −(what is pressed in) where p = H. Inside its border −g rises like d^{3/2}, outside H − p rises like √d: the border is
-//! that of a contact turned around, with H − p in the place of the pressure, and is read between the samples in the same way.
+//! Where p = H the gap g is below zero, and −g is the depth by which the surface is pressed in, a length. At a distance d
+//! inside the border of this area −g rises like d^{3/2}, outside H − p rises like √d: with H − p in the place of the pressure
+//! and −g in that of the gap the outside is a contact, whose border is read between the samples in the same way.
 //!
 //! The model has no pile-up: what is pressed in does not rise beside it, and its volume is lost to it. Hardness does not depend on the
 //! depth; down to about a tenth of its thickness a coating bears its hardness alone, deeper the substrate yields too.

@@ -202,7 +202,7 @@ mod tests {
         let highest = |peaks: &[Peak]| Peak::highest(peaks, 0.1).unwrap();
         let decided = highest(&[peak(1.0, 0.01, 1.0), peak(0.9, 0.05, 0.0)]);
         assert_eq!((decided.value, decided.error, decided.rival), (1.0, Some(0.01), None));
-        // The second may be as high, not higher: the place is undecided, the error is the same.
+        // The second peak with its error, 0.995, is within the first, 1 ± 0.01, and not above it: it is a rival, and the error stays 0.01.
         let near = highest(&[peak(1.0, 0.01, 1.0), peak(0.9, 0.095, 0.0)]);
         assert_eq!((near.error, near.rival.map(|rival| rival.position[2])), (Some(0.01), Some(0.0)));
         let undecided = highest(&[peak(0.9, 0.3, 0.0), peak(1.0, 0.01, 1.0)]);

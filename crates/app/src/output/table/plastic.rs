@@ -64,7 +64,7 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
     Some((pressed_in(&hardness, is_composite), Some(Table::new(&header, shown.iter().map(row).collect(), 0))))
 }
 
-/// What a hardness does, and the assumption behind it.
+/// Effect of a hardness on the surface with the assumption behind it, a sentence.
 fn pressed_in(hardness: &str, is_composite: bool) -> String {
     let (of, assumption) = match is_composite {
         false => (format!("hardness {hardness}"), "the hardness does not depend on the depth"),

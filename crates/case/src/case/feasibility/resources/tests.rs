@@ -1,4 +1,4 @@
-//! Estimates beside the measured peaks and the sizes of the files, and what is refused by them.
+//! Estimated memory beside measured peaks, estimated disk beside sizes of written files, and the refusals of jobs by both.
 
 use super::constants::MEBIBYTE;
 use super::*;

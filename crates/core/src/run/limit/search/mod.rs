@@ -56,7 +56,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     fn new(run: &'a Run, points: [usize; 2], recorder: &'a mut R) -> Result<Self, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&run.problem), points, run.settings)?;
         recorder.begin(&solver).map_err(RunError::Recorder)?;
-        // A flat surface is in complete contact under any load, but its stresses grow with the load all the same.
+        // A flat surface is in complete contact at zero pressure, which does not end the search: its stresses grow with the load.
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
         let (quantity, area) = (run.quantity(), run.problem.cell().area());
         let per_pressure = if quantity == LoadQuantity::Force { area } else { 1.0 };
