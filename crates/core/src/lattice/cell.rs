@@ -115,11 +115,13 @@ impl Cell {
     }
 
     /// The corner of the cell from which fractions count, a point: 0, or that of a window whose middle is 0.
+    #[inline]
     pub fn corner(&self) -> [f64; 2] {
         self.corner.unwrap_or_default()
     }
 
     /// The point at the fractions s₁, s₂ of a₁ and a₂ from the [corner](Self::corner), lengths.
+    #[inline]
     pub fn point(&self, s: [f64; 2]) -> [f64; 2] {
         let (vector, corner) = (self.vector(s), self.corner());
         [corner[0] + vector[0], corner[1] + vector[1]]
@@ -132,6 +134,7 @@ impl Cell {
     }
 
     /// The vector s₁ a₁ + s₂ a₂, lengths.
+    #[inline]
     pub fn vector(&self, [s1, s2]: [f64; 2]) -> [f64; 2] {
         [s1 * self.a1[0] + s2 * self.a2[0], s1 * self.a1[1] + s2 * self.a2[1]]
     }
