@@ -12,6 +12,7 @@ use super::snapshot::Snapshot;
 use super::tiling::around;
 use super::window::Window;
 use percoat_draw::contour::zero_lines;
+use rayon::prelude::*;
 
 /// Largest distance from the edge that is computed, in spacings.
 const FAR: f64 = 1.5;
@@ -82,8 +83,17 @@ impl Snapshot {
         let lengths = window.map(|[first, last]| last - first);
         let at = |[u, v]: [f64; 2]| [window[0][0] + u * lengths[0], window[1][0] + v * lengths[1]];
         let count = |length: f64| (1.5 * length / self.step.grid().spacing()).clamp(40.0, MOST_INTERVALS) as usize;
-        let value = |part: [f64; 2]| self.is_rough(at(part)).then(|| self.inside(at(part)));
-        let lines = zero_lines(count(lengths[0]), count(lengths[1]), value).into_iter();
+        let counts = lengths.map(count);
+        // A place lies between four samples: where these are fewer than all places ask for, each is computed once.
+        let samples = self.step.grid().len();
+        let once = (samples <= 4 * counts[0] * counts[1])
+            .then(|| (0..samples).into_par_iter().map(|index| self.inside_at(index)).collect::<Vec<f64>>());
+        let inside = |place: [f64; 2]| match &once {
+            Some(all) => self.between_samples(all, place),
+            None => self.inside(place),
+        };
+        let value = |part: [f64; 2]| self.is_rough(at(part)).then(|| inside(at(part)));
+        let lines = zero_lines(counts[0], counts[1], value).into_iter();
         lines.map(|line| line.into_iter().map(at).collect()).collect()
     }
 }
