@@ -140,9 +140,10 @@ impl Grid {
         self.tied_wavevectors(component, WAVENUMBER_TOLERANCE).into_iter().map(|(index, _)| index).collect()
     }
 
-    /// Number of the shortest aliases of the component (k₁, k₂).
-    pub(crate) fn tied(&self, component: [usize; 2]) -> usize {
-        if self.resolves(self.wavevector(component)) { 1 } else { self.aliases(component).len() }
+    /// Wavevector of the component (k₁, k₂), 1/length, and the number of its shortest aliases.
+    pub(crate) fn shared(&self, component: [usize; 2]) -> ([f64; 2], usize) {
+        let wavevector = self.wavevector(component);
+        (wavevector, if self.resolves(wavevector) { 1 } else { self.aliases(component).len() })
     }
 
     /// Whether a wavevector, 1/length, has no shorter alias.

@@ -37,19 +37,22 @@ pub struct Noise {
 /// Noise at the short-wave end of a spectrum; `None` where its density falls as that of a rough surface.
 pub fn short_wave_noise(spectrum: &Spectrum) -> Option<Noise> {
     let from = 0.5 * spectrum.grid().least_aliased();
-    // Number of waves, squares and the logarithm of q of each part.
-    let mut parts = [[0.0; 3]; PARTS];
-    let (mut slopes, mut all) = (0.0, 0.0);
-    for (q, square, waves) in spectrum.squares() {
-        all += q * q * square;
+    // Number of waves, squares and the logarithm of q of each part, then q² of the octave and of all.
+    let sums: [f64; 3 * PARTS + 2] = spectrum.sums(|sums, (q, square, waves)| {
+        let slopes = q * q * square;
+        sums[3 * PARTS + 1] += slopes;
         if q < from {
-            continue;
+            return;
         }
-        slopes += q * q * square;
-        if let Some(part) = parts.get_mut((PARTS as f64 * (q / from).log2()) as usize) {
-            *part = [part[0] + waves, part[1] + square, part[2] + waves * (q / from).ln()];
+        sums[3 * PARTS] += slopes;
+        let part = (PARTS as f64 * (q / from).log2()) as usize;
+        if part < PARTS {
+            let of_wave = [waves, square, waves * (q / from).ln()];
+            sums[3 * part..][..3].iter_mut().zip(of_wave).for_each(|(sum, term)| *sum += term);
         }
-    }
+    });
+    let parts: [[f64; 3]; PARTS] = std::array::from_fn(|part| std::array::from_fn(|k| sums[3 * part + k]));
+    let [slopes, all] = [sums[3 * PARTS], sums[3 * PARTS + 1]];
     let share = slopes / all;
     let densities = parts.map(|[waves, square, _]| square / waves);
     let (least, most) =

@@ -11,6 +11,7 @@
 
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::numeric::fourier::field;
+use crate::numeric::parallel;
 use ndarray::{Array2, ArrayView2};
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
@@ -80,7 +81,8 @@ impl Spectrum {
 
     /// Rms slope √⟨|∇h|²⟩, dimensionless.
     pub fn rms_slope(&self) -> f64 {
-        self.squares().map(|(q, square, _)| q * q * square).sum::<f64>().sqrt()
+        let [slopes] = self.sums(|[sum], (q, square, _)| *sum += q * q * square);
+        slopes.sqrt()
     }
 
     /// C averaged over rings of wavevectors, sixteen per decade, up to the least aliased wavenumber.
@@ -129,12 +131,29 @@ impl Spectrum {
 
     /// Wavenumber, Σ |ĥ|² over the waves of the component and its conjugate, and their number, for every component but the mean.
     pub(super) fn squares(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+        (0..self.components.nrows()).flat_map(|k1| self.squares_of_row(k1))
+    }
+
+    /// Sums of N terms over all [components but the mean](Self::squares), in their order whatever the threads: `add` adds those of one.
+    pub(super) fn sums<const N: usize>(&self, add: impl Fn(&mut [f64; N], (f64, f64, f64)) + Sync) -> [f64; N] {
+        let of_row = |k1: usize| {
+            let mut sums = [0.0; N];
+            self.squares_of_row(k1).for_each(|component| add(&mut sums, component));
+            sums
+        };
+        let rows = parallel::map(self.components.nrows(), of_row);
+        rows.into_iter().fold([0.0; N], |sums, row| std::array::from_fn(|k| sums[k] + row[k]))
+    }
+
+    /// The components of one k₁ of [`Self::squares`].
+    fn squares_of_row(&self, k1: usize) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
         let [_, n2] = self.grid.points();
-        self.components.indexed_iter().skip(1).map(move |((k1, k2), value)| {
+        let all_but_mean = self.components.row(k1).into_iter().enumerate().skip(usize::from(k1 == 0));
+        all_but_mean.map(move |(k2, value)| {
             let count = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { 2.0 };
             // Shared in equal parts, the squares of the parts add to the component's square over their number.
-            let tied = self.grid.tied([k1, k2]) as f64;
-            (self.grid.wavenumber([k1, k2]), count * value.norm_sqr() / tied, count * tied)
+            let ([x, y], tied) = self.grid.shared([k1, k2]);
+            ((x * x + y * y).sqrt(), count * value.norm_sqr() / tied as f64, count * tied as f64)
         })
     }
 }
