@@ -49,6 +49,10 @@ kernel-reference:
 bench-quick commit="HEAD^" rounds="7":
     benches/quick.sh {{commit}} {{rounds}}
 
+# What a user waits for, phase by phase, beside the commit before or another.
+bench-waits *arguments:
+    python3 benches/waits.py {{arguments}}
+
 # percoat beside its peers; what it installs, and what it needs, stands at the head of the script.
 bench-peers *arguments:
     python3 benches/peers.py target/peers {{arguments}}
