@@ -13,7 +13,7 @@ use percoat::validation::exact::sliding_sphere::{mises, stresses, together, trai
 use percoat::validation::exact::sliding_wave::SlidingWave;
 use percoat::{
     Cell, Depth, Durability, Endurance, Friction, HalfSpace, Indenters, Lattice, Level, Load, Material, MeanStress,
-    Problem, Settings, Shape, Solver, StressField, Topography,
+    Problem, Settings, Shape, Solver, StressField, SurfaceLine, Topography,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -156,8 +156,23 @@ fn points_near_an_edge_are_named() {
     let mut solver = Solver::new(alone(bare(), 4.0, friction), [128; 2], Settings::default()).unwrap();
     let field = StressField::new(solver.solve(Load::Force(FORCE)).finest(), MeanStress::HalfSpace);
     let places = [[0.0, 0.0], [-1.0, 0.0], [0.0, 1.05], [1.8, 0.0]];
-    let at = |z: f64| field.near_edge(Depth { z, material: 1 }, &places);
-    assert_eq!(at(0.0), [false, true, true, false]);
-    assert_eq!(at(0.01), [false, true, true, false]);
-    assert_eq!(at(0.2), [false; 4]);
+    let depths = [0.0, 0.01, 0.2].map(|z| Depth { z, material: 1 });
+    let of = |depth: Depth, places: &[[f64; 2]]| {
+        field.near_edge(&places.iter().map(|&place| (place, depth)).collect::<Vec<_>>())
+    };
+    assert_eq!(
+        depths.map(|depth| of(depth, &places)),
+        [vec![false, true, true, false], vec![false, true, true, false], vec![false; 4]]
+    );
+    // All depths at once, and along a section.
+    let line = SurfaceLine { origin: [0.0; 2], direction: [0.6, 0.8], span: [-1.9, 1.9], points: 77 };
+    let along = depths.map(|depth| of(depth, &line.places())).concat();
+    let points: Vec<_> =
+        depths.iter().flat_map(|&depth| line.places().into_iter().map(move |place| (place, depth))).collect();
+    assert_eq!(field.near_edge(&points), along);
+    assert_eq!(field.section_near_edge(&line, &depths), along);
+    for (s, near) in line.distances().into_iter().zip(along) {
+        let away = (s.abs() - 1.0).abs();
+        assert!(if near { away < 0.35 } else { away > 0.1 }, "{s}: {near}");
+    }
 }

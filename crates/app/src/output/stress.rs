@@ -86,7 +86,9 @@ impl StressArchive {
             let states = rows.flat_map(|(row, &depth)| row.to_vec().into_iter().map(move |state| (state, depth)));
             let states: Vec<(StressState, Depth)> = states.collect();
             add_states(arrays, &format!("{prefix}section"), section.states.shape(), &states, strained)?;
-            let near = section.depths.iter().flat_map(|&depth| field.near_edge(depth, &cut.line.places()));
+            clock.turn(Phase::Stress);
+            let near = field.section_near_edge(&cut.line, &section.depths);
+            clock.turn(Phase::Output);
             add_flags(arrays, &format!("{prefix}section"), section.states.shape(), near)?;
             sections.push(section);
         }
@@ -95,12 +97,9 @@ impl StressArchive {
             clock.turn(Phase::Stress);
             let states: Vec<(StressState, Depth)> =
                 points.iter().map(|&(place, depth)| (field.points(depth, &[place])[0], depth)).collect();
+            let near = field.near_edge(&points);
             clock.turn(Phase::Output);
             add_states(arrays, &format!("{prefix}points"), &[states.len()], &states, strained)?;
-            let near = points.chunk_by(|one, other| one.1 == other.1).flat_map(|level| {
-                let places: Vec<[f64; 2]> = level.iter().map(|&(place, _)| place).collect();
-                field.near_edge(level[0].1, &places)
-            });
             add_flags(arrays, &format!("{prefix}points"), &[states.len()], near)?;
         }
         Ok(())
@@ -230,13 +229,8 @@ fn add_states(
 }
 
 /// Adds 1 where no error is known of the stresses, beside an edge of contact, and 0 elsewhere.
-fn add_flags(
-    arrays: &mut StepArrays,
-    place: &str,
-    shape: &[usize],
-    near_edge: impl Iterator<Item = bool>,
-) -> Result<(), OutputError> {
-    let values: Vec<f64> = near_edge.map(|near| f64::from(u8::from(near))).collect();
+fn add_flags(arrays: &mut StepArrays, place: &str, shape: &[usize], near_edge: Vec<bool>) -> Result<(), OutputError> {
+    let values: Vec<f64> = near_edge.into_iter().map(|near| f64::from(u8::from(near))).collect();
     arrays.add(&format!("{place}_near_edge"), shape, values)
 }
 

@@ -14,8 +14,8 @@ use super::{Amplitudes, Antiplane, Depth, InPlane, Interface, LayeredResponse};
 use crate::numeric::parallel;
 use std::sync::Arc;
 
-/// Largest qz of a wave that still counts at the depth z: its stresses are below (2 + qz)e^{−qz} of the traction, 10⁻¹⁶.
-pub const REACH: f64 = 41.0;
+/// Largest qz of a wave that still counts at the depth z: its stresses are below (2 + qz)e^{−qz} of the traction, 5·10⁻¹³.
+pub const REACH: f64 = 32.0;
 /// Largest table, bytes.
 const MAX_BYTES: usize = 16 << 20;
 /// Fewest wavenumbers of a parallel task.

@@ -46,20 +46,21 @@ const BORDER: f64 = 0.05;
 #[derive(Debug)]
 pub(super) struct CoarserField<'a> {
     field: &'a StressField,
-    crests: Vec<(StressMeasure, Crest)>,
+    /// The largest values on its surface.
+    highest: Vec<(StressMeasure, f64)>,
 }
 
 impl<'a> CoarserField<'a> {
-    /// The field, and its crests by some `measures`.
+    /// The field, and its largest values on the surface by some `measures`.
     pub fn new(field: &'a StressField, measures: &[StressMeasure]) -> Self {
-        Self { field, crests: if measures.is_empty() { Vec::new() } else { field.crests_of(measures) } }
+        Self { field, highest: if measures.is_empty() { Vec::new() } else { field.highest_on_surface(measures) } }
     }
 
     /// Value of a measure on the coarser grid at the position of a contender; for the largest value on the surface the largest
     /// one on the coarser surface, where contact has an edge there.
     fn value(&self, contender: &Contender, measure: StressMeasure, near: f64) -> f64 {
-        let crest = contender.crest.and_then(|_| self.crests.iter().find(|(of, _)| *of == measure));
-        crest.map_or_else(|| self.field.value_beside(contender, measure, near), |(_, crest)| crest.peak.value)
+        let highest = contender.crest.and_then(|_| self.highest.iter().find(|(of, _)| *of == measure));
+        highest.map_or_else(|| self.field.value_beside(contender, measure, near), |&(_, value)| value)
     }
 }
 

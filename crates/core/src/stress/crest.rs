@@ -88,7 +88,7 @@ struct SurfacePoint {
 struct SurfaceReading {
     smoothed: SmoothedSurface,
     /// The surface smoothed with other widths.
-    others: [SmoothedSurface; OTHER_WIDTHS.len()],
+    others: Vec<SmoothedSurface>,
     edges: Vec<EdgePoint>,
     /// Position of the largest sample of each measure, lengths.
     samples: Vec<[f64; 2]>,
@@ -102,10 +102,20 @@ impl StressField {
     /// The largest values of some measures on the surface; none where contact has no edge: it is complete, or absent. Under discs see
     /// [`Self::crests_of_discs`].
     pub(super) fn crests_of(&self, measures: &[StressMeasure]) -> Vec<(StressMeasure, Crest)> {
+        self.crests_with(measures, &OTHER_WIDTHS)
+    }
+
+    /// The largest values of some measures on the surface, without their errors; see [`Self::crests_of`].
+    pub(super) fn highest_on_surface(&self, measures: &[StressMeasure]) -> Vec<(StressMeasure, f64)> {
+        self.crests_with(measures, &[]).into_iter().map(|(measure, crest)| (measure, crest.peak.value)).collect()
+    }
+
+    /// The crests, their errors by the changes with these other widths of smoothing.
+    fn crests_with(&self, measures: &[StressMeasure], widths: &[f64]) -> Vec<(StressMeasure, Crest)> {
         if !self.regions().have_edges() {
             return self.crests_of_discs(measures);
         }
-        let surface = self.read_surface(measures);
+        let surface = self.read_surface(measures, widths);
         // Points where a measure may be largest, as indices into `places`: most measures share theirs.
         let mut places: Vec<(Location, [f64; 2])> = Vec::new();
         let finalists: Vec<Vec<usize>> = measures
@@ -122,7 +132,8 @@ impl StressField {
             })
             .collect();
         let read = |smoothed: &SmoothedSurface| self.read_places(smoothed, &places);
-        let (points, others) = (read(&surface.smoothed), surface.others.each_ref().map(read));
+        let points = read(&surface.smoothed);
+        let others: Vec<Vec<SurfacePoint>> = surface.others.iter().map(read).collect();
         let of = |(&measure, numbers): (&StressMeasure, &Vec<usize>)| {
             let highest = |all: &[SurfacePoint]| {
                 let candidates = numbers.iter().map(|&number| all[number]);
@@ -154,7 +165,7 @@ impl StressField {
         edges.into_iter().map(|edge| (edge.place, edge.state)).collect()
     }
 
-    fn read_surface(&self, measures: &[StressMeasure]) -> SurfaceReading {
+    fn read_surface(&self, measures: &[StressMeasure], widths: &[f64]) -> SurfaceReading {
         let response = Arc::new(self.depth_response(Depth::SURFACE, REACH));
         let smoothed = SmoothedSurface::new(self, &response, 1.0);
         let (transform, mut buffer) = (Transform::new(self.series_grid().points()), Vec::new());
@@ -164,7 +175,7 @@ impl StressField {
         let (samples, pressed) = self.highest_samples((&smoothed, &shear), &transform, buffer, &band, measures);
         SurfaceReading {
             rubbed: shear.largest().unwrap_or_else(|| smoothed.rubbed(pressed)),
-            others: OTHER_WIDTHS.map(|scale| SmoothedSurface::new(self, &response, scale)),
+            others: widths.iter().map(|&scale| SmoothedSurface::new(self, &response, scale)).collect(),
             smoothed,
             edges,
             samples,

@@ -9,8 +9,9 @@
 use super::eight_waves::{EightWaves, STRESSES, TERMS, TaylorTerms};
 use super::far_plane::FarPlane;
 use super::field::StressField;
+use super::phases::Phases;
 use super::plane_search::SEARCH_REACH;
-use super::series::{PARALLEL_WAVES, Phases};
+use super::series::PARALLEL_WAVES;
 use super::tensor::StressState;
 use super::traction::ShearForm;
 use crate::body::{Depth, InPlane};
@@ -19,6 +20,7 @@ use crate::numeric::lanes::{LANES, splat, total, vectorised};
 use crate::numeric::parallel;
 use fearless_simd::{f64x8, prelude::*};
 use rustfft::num_complex::Complex64;
+use std::sync::PoisonError;
 
 /// Stresses around a point, to second order.
 #[derive(Debug, Clone)]
@@ -48,6 +50,9 @@ impl Expansion {
     }
 }
 
+/// Number of expansions that a field remembers.
+const REMEMBERED: usize = 256;
+
 /// Functions of the depth at one depth, for the waves of each shell.
 struct DepthFunctions<'a> {
     field: &'a StressField,
@@ -66,11 +71,27 @@ struct DepthFunctions<'a> {
 }
 
 impl StressField {
-    /// Expansion of the stresses around the point (x, y) at a depth.
+    /// Expansion of the stresses around the point (x, y) at a depth; one that was made before is remembered, as searches for several
+    /// measures begin at the same place.
     ///
     /// # Panics
     /// When the depth names a material that does not exist.
     pub(super) fn expanded(&self, depth: Depth, place: [f64; 2]) -> Expansion {
+        let remembered = || self.expansions.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_here = |known: &&Expansion| known.depth == depth && known.place == place;
+        let known = remembered().iter().find(is_here).cloned();
+        known.unwrap_or_else(|| {
+            let expansion = self.expand(depth, place);
+            let mut all = remembered();
+            if all.len() == REMEMBERED {
+                all.pop_front();
+            }
+            all.push_back(expansion.clone());
+            expansion
+        })
+    }
+
+    fn expand(&self, depth: Depth, place: [f64; 2]) -> Expansion {
         let waves = &self.series.waves;
         let wavenumbers = self.wavenumbers_within(depth, SEARCH_REACH);
         let interiors = self.interiors();

@@ -2,6 +2,7 @@
 
 use super::constants::SHALLOW;
 use super::depth_response::DepthResponse;
+use super::expansion::Expansion;
 use super::far_field::FarField;
 use super::far_plane::FarPlane;
 use super::loaded_window::{LoadedWindow, MOST_WINDOWS};
@@ -19,9 +20,10 @@ use crate::lattice::{Cell, Grid, NotOnGrid, Surroundings};
 use crate::load::Load;
 use crate::spectral::Contact;
 use ndarray::ArrayView2;
+use std::collections::VecDeque;
 use std::f64::consts::PI;
 use std::fmt;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 
 pub(super) use crate::body::REACH;
 
@@ -40,6 +42,8 @@ pub struct StressField {
     pub(super) loaded: Option<Arc<LoadedWindow>>,
     /// Fields in the windows around that of an isolated contact, each made when it is asked for first.
     pub(super) around: [OnceLock<Option<Box<Self>>>; MOST_WINDOWS as usize],
+    /// Expansions around places where it was searched.
+    pub(super) expansions: Mutex<VecDeque<Expansion>>,
     /// The window inside of which the field does not hold, of one around the window of the contact.
     hole: Option<Cell>,
     half_space: HalfSpace,
@@ -127,6 +131,7 @@ impl StressField {
         Self {
             loaded,
             around: Default::default(),
+            expansions: Mutex::default(),
             hole: None,
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
@@ -171,6 +176,7 @@ impl StressField {
         Self {
             loaded: self.loaded.clone(),
             around: Default::default(),
+            expansions: Mutex::default(),
             hole: Some(hole),
             half_space: self.half_space.clone(),
             interiors: tables.interiors(&series_grid, &self.half_space, self.slides()),

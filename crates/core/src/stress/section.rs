@@ -4,6 +4,7 @@
 //! samples. Just below, where it still overshoots, stresses are interpolated in depth.
 
 use super::constants::OPEN_WIDTH;
+use super::depth_response::DisplacementComponents;
 use super::field::{REACH, StressField};
 use super::smoothed_shear::shear_parts;
 use super::smoothed_surface::{NearEdge, SmoothedSurface};
@@ -14,7 +15,6 @@ use crate::numeric::array::field;
 use crate::numeric::parallel;
 use crate::numeric::search::first_largest;
 use ndarray::Array2;
-use std::sync::Arc;
 
 /// Number of intervals between two points of a line in which the largest stress is searched.
 const REFINEMENT: usize = 512;
@@ -101,6 +101,18 @@ impl StressField {
         VerticalSection { line: *line, depths: depths.to_vec(), states, highest }
     }
 
+    /// Whether no error is known of the stresses at the points of a section, depth by depth; see [`Self::near_edge`].
+    pub fn section_near_edge(&self, line: &SurfaceLine, depths: &[Depth]) -> Vec<bool> {
+        let below = LineField::new(self, *line);
+        let is_shallow = |depth: &Depth| depth.z < self.shallow_depth();
+        let Some(smoothed) = below.smoothed.as_ref().filter(|_| depths.iter().any(is_shallow)) else {
+            return vec![false; depths.len() * line.points];
+        };
+        let near = below.trace.sums(&smoothed.near, [line.span[0], line.step()], line.points);
+        let sees: Vec<bool> = near.into_iter().map(|near| smoothed.sees_edge(near)).collect();
+        depths.iter().flat_map(|depth| sees.iter().map(move |&sees| sees && is_shallow(depth))).collect()
+    }
+
     /// Depth above which stresses are interpolated, a length: where the least wavenumber that the grid cannot hold has decayed as far
     /// as the smoothing damps it on the surface. Zero where contact has no edge; at most the thickness of the coating.
     fn shallow(&self) -> f64 {
@@ -114,11 +126,7 @@ impl<'a> LineField<'a> {
     fn new(field: &'a StressField, line: SurfaceLine) -> Self {
         let cell = field.series_grid().cell();
         let trace = Trace::new(&field.series, cell.fractions(line.origin), cell.parts(line.unit()));
-        let smoothed = field
-            .regions()
-            .have_edges()
-            .then(|| SmoothedSurface::new(field, &Arc::new(field.depth_response(Depth::SURFACE, REACH)), 1.0));
-        Self { field, line, trace, smoothed }
+        Self { field, line, trace, smoothed: field.smoothed_edges() }
     }
 
     /// States on the vertical section below the line: for each depth those at its points.
@@ -131,10 +139,9 @@ impl<'a> LineField<'a> {
         let row = |depth: &Depth| match &ends {
             Some((surface, _)) if *depth == Depth::SURFACE => surface.clone(),
             Some((surface, below)) if between(depth) => {
-                let part = depth.z / shallow;
-                let pairs = surface.iter().zip(below).zip(self.row(&self.line, *depth));
+                let pairs = surface.iter().zip(below).zip(self.displacements(*depth));
                 pairs
-                    .map(|((a, b), state)| StressState { displacement: state.displacement, ..a.toward(b, part) })
+                    .map(|((a, b), displacement)| StressState { displacement, ..a.toward(b, depth.z / shallow) })
                     .collect()
             }
             _ => self.row(&self.line, *depth),
@@ -172,6 +179,12 @@ impl<'a> LineField<'a> {
         let Some(smoothed) = self.smoothed.as_ref().filter(|_| depth.z == 0.0) else { return states.collect() };
         let sharp = self.sharp(smoothed, line).into_iter().zip(states);
         sharp.map(|(sharp, state)| StressState { displacement: state.displacement, ..sharp }).collect()
+    }
+
+    /// Displacements at a depth at the points of the line.
+    fn displacements(&self, depth: Depth) -> Vec<[f64; 3]> {
+        let response = self.field.depth_response(depth, REACH);
+        self.trace.sums(&DisplacementComponents(&response), [self.line.span[0], self.line.step()], self.line.points)
     }
 
     /// States on the surface at the points of `line`, displacements left out.

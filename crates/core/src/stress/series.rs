@@ -6,6 +6,7 @@
 
 use super::disc_waves::waves_of_discs;
 use super::far_plane::FarPlane;
+use super::phases::Phases;
 use super::series_grid::spread;
 use super::traction::Traction;
 use super::traction_waves::{TractionWave, TractionWaves, Wave};
@@ -161,14 +162,15 @@ impl Series {
         };
         let occupied = |columns: Range<usize>| columns.start == 0 || !of(columns).is_empty();
         let has_shear = self.coefficients(response.is_deep()).shear.is_some();
+        let moved = Moved::by(start, &rows);
         transform.columns(buffer, occupied, |k2, column: &mut FieldColumn<'_, K>| {
             if k2 == 0 {
                 column.add(0, mean.map(Complex64::from));
             }
             for &(_, sign, row) in of(k2..k2 + 1) {
                 match has_shear {
-                    false => self.add_row::<Complex64, K, R>((row, sign), n1, start, column, response),
-                    true => self.add_row::<TractionWave, K, R>((row, sign), n1, start, column, response),
+                    false => self.add_row::<Complex64, K, R>((row, sign), n1, moved.as_ref(), column, response),
+                    true => self.add_row::<TractionWave, K, R>((row, sign), n1, moved.as_ref(), column, response),
                 }
             }
         })
@@ -180,18 +182,14 @@ impl Series {
         &self,
         (row, sign): (&WaveRow, i32),
         n1: i32,
-        start: [f64; 2],
+        moved: Option<&Moved>,
         column: &mut FieldColumn<'_, K>,
         response: &R,
     ) {
-        let (side, is_moved) = (f64::from(sign), start != [0.0; 2]);
+        let (side, turns) = (f64::from(sign), moved.map(|moved| moved.of(row)));
         let mut bin = (sign * row.first).rem_euclid(n1);
         for (k, (q, shell, c)) in self.of::<W>(row, response.is_deep()).enumerate() {
-            let mut c = c * 0.5;
-            if is_moved {
-                let turns = f64::from(row.first + k as i32) * start[0] + f64::from(row.across) * start[1];
-                c = c * Complex64::cis(std::f64::consts::TAU * turns.fract());
-            }
+            let c = turns.as_ref().map_or_else(|| c * 0.5, |turns| c * (turns.at(k) * 0.5));
             let waves = response.times(q, shell, c);
             column.add(bin as usize, waves.map(|wave| Complex64::new(wave.re, side * wave.im)));
             bin += sign;
@@ -214,7 +212,7 @@ impl Series {
     ) -> FieldColumns<'t, K> {
         let [n2, n1] = transform.points().map(|n| n as i32);
         let (rows, mean, step) = (self.waves.rows_within(response.shells()), response.mean(), self.waves.step());
-        let coefficients = self.coefficients(response.is_deep());
+        let (coefficients, moved) = (self.coefficients(response.is_deep()), Moved::new(start, &rows));
         transform.columns(
             buffer,
             |_| true,
@@ -224,12 +222,11 @@ impl Series {
                 }
                 // Re C e^{iq·x} is half the wave and half its conjugate; each belongs to one column or to its mirror image.
                 for (row, sign) in rows.iter().flat_map(|row| [(row, 1), (row, -1)]) {
-                    let bin = (sign * row.across).rem_euclid(n2) as usize;
+                    let (bin, turns) = ((sign * row.across).rem_euclid(n2) as usize, moved.of(row));
                     let first = (sign * k1 as i32 - row.first).rem_euclid(n1) as usize;
                     for k in (first..row.len).step_by(n1 as usize) {
                         let number = row.start + k;
-                        let turns = f64::from(row.first + k as i32) * start[0] + f64::from(row.across) * start[1];
-                        let turned = Complex64::cis(std::f64::consts::TAU * turns.fract());
+                        let turned = turns.at(k);
                         let (q, shell) = (row.at(k, step), self.waves.shells()[number] as usize);
                         let waves = match coefficients.shear {
                             None => response.times(q, shell, coefficients.at::<Complex64>(number) * 0.5 * turned),
@@ -307,61 +304,41 @@ impl Series {
     }
 }
 
-/// Phases e^{2πiκs} of some s, for a range of κ.
+/// Phases of the waves at the fractions of a₁ and a₂ from which planes begin.
 #[derive(Debug)]
-pub(super) struct Phases<const P: usize> {
-    first: i32,
-    values: Vec<[[f64; P]; 2]>,
+struct Moved {
+    along: Phases<1>,
+    across: Phases<1>,
 }
 
-/// Distance in κ of the phases that are computed; those between are products of two.
-const PHASE_BLOCK: i32 = 16;
+/// Phases of the waves of a row.
+#[derive(Debug)]
+struct RowTurns<'a> {
+    across: Complex64,
+    along: &'a [[[f64; 1]; 2]],
+}
 
-impl<const P: usize> Phases<P> {
-    fn new([first, end]: [i32; 2], places: [f64; P]) -> Self {
-        let short: Vec<[[f64; P]; 2]> = (0..PHASE_BLOCK.min(end - first)).map(|k| phases(k, places)).collect();
-        let mut values = Vec::with_capacity((end - first) as usize);
-        for start in (first..end).step_by(PHASE_BLOCK as usize) {
-            let [long_re, long_im] = phases(start, places);
-            values.extend(short.iter().take((end - start) as usize).map(|[re, im]| {
-                let real = |p: usize| long_re[p] * re[p] - long_im[p] * im[p];
-                let imaginary = |p: usize| long_re[p] * im[p] + long_im[p] * re[p];
-                [std::array::from_fn(real), std::array::from_fn(imaginary)]
-            }));
-        }
-        Self { first, values }
+impl Moved {
+    fn new([s, t]: [f64; 2], rows: &[WaveRow]) -> Self {
+        Self { along: Phases::along(rows, [s]), across: Phases::across(rows, [t]) }
     }
 
-    /// Phases of all κ₁ of some rows, at fractions of a₁.
-    pub fn along(rows: &[WaveRow], places: [f64; P]) -> Self {
-        let first = rows.iter().map(|row| row.first).min().unwrap_or(0);
-        let end = rows.iter().map(|row| row.first + row.len as i32).max().unwrap_or(first);
-        Self::new([first, end], places)
+    /// The phases; `None` at the origin, where they are 1.
+    fn by(start: [f64; 2], rows: &[WaveRow]) -> Option<Self> {
+        (start != [0.0; 2]).then(|| Self::new(start, rows))
     }
 
-    /// Phases of the κ₂ of some rows, at fractions of a₂.
-    pub fn across(rows: &[WaveRow], places: [f64; P]) -> Self {
-        let first = rows.first().map_or(0, |row| row.across);
-        Self::new([first, rows.last().map_or(first, |row| row.across + 1)], places)
-    }
-
-    /// Phase of the κ₂ of a row.
-    pub fn of(&self, row: &WaveRow) -> &[[f64; P]; 2] {
-        &self.values[(row.across - self.first) as usize]
-    }
-
-    /// Phases of the waves of a row, from the first on.
-    pub fn from(&self, row: &WaveRow) -> &[[[f64; P]; 2]] {
-        &self.values[(row.first - self.first) as usize..]
+    fn of(&self, row: &WaveRow) -> RowTurns<'_> {
+        let &[[re], [im]] = self.across.of(row);
+        RowTurns { across: Complex64::new(re, im), along: self.along.from(row) }
     }
 }
 
-/// cos 2πks and sin 2πks of some s.
-fn phases<const P: usize>(k: i32, places: [f64; P]) -> [[f64; P]; 2] {
-    let pairs = places.map(|s| {
-        // Whole periods are removed.
-        let part = (f64::from(k) * (s - s.round())).fract();
-        (std::f64::consts::TAU * part).sin_cos()
-    });
-    [pairs.map(|(_, cosine)| cosine), pairs.map(|(sine, _)| sine)]
+impl RowTurns<'_> {
+    /// The phase of the wave number k of the row.
+    #[inline(always)]
+    fn at(&self, k: usize) -> Complex64 {
+        let [[re], [im]] = self.along[k];
+        self.across * Complex64::new(re, im)
+    }
 }

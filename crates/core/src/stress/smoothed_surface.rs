@@ -39,6 +39,8 @@ use std::sync::Arc;
 
 /// Factor of a Gaussian below which waves are neglected.
 const NEGLIGIBLE: f64 = 1e-20;
+/// Smoothed pressure over its mean that may be rounding alone; three widths from an edge it is far larger.
+const ROUNDING: f64 = 1e-9;
 
 /// Smoothed responses on the surface of a stress field.
 #[derive(Debug)]
@@ -210,7 +212,7 @@ impl SmoothedSurface {
 
     /// Whether the edge is near enough for the stress to differ from the series itself.
     pub fn sees_edge(&self, [p, gx, gy]: [f64; 3]) -> bool {
-        p > 0.0 && self.seen.is_within(BLEND[1], p / (gx.hypot(gy) * self.width))
+        p > ROUNDING * self.near.mean && self.seen.is_within(BLEND[1], p / (gx.hypot(gy) * self.width))
     }
 
     /// σ_xx, σ_yy, σ_xy near an edge at the distance `u`: of the smoothed ones in `four` the smoothed pressure `four[3]` is replaced by
@@ -294,15 +296,22 @@ impl SmoothedSurface {
 }
 
 impl StressField {
-    /// Whether stresses at the points (x, y) of a depth, lengths, lie so near to an edge of contact that no error is known of them: within three
+    /// Whether stresses at points, (x, y) and a depth, lie so near to an edge of contact that no error is known of them: within three
     /// widths of the smoothing of an edge, and within two samples of the surface.
-    pub fn near_edge(&self, depth: Depth, places: &[[f64; 2]]) -> Vec<bool> {
-        if depth.z >= self.shallow_depth() || !self.regions().have_edges() {
-            return vec![false; places.len()];
-        }
-        let response = Arc::new(self.depth_response(Depth::SURFACE, REACH));
-        let smoothed = SmoothedSurface::new(self, &response, 1.0);
-        self.at(places, &smoothed.near).into_iter().map(|near| smoothed.sees_edge(near)).collect()
+    pub fn near_edge(&self, points: &[([f64; 2], Depth)]) -> Vec<bool> {
+        let Some(smoothed) = self.smoothed_edges() else { return vec![false; points.len()] };
+        let shallow = points.iter().filter(|(_, depth)| depth.z < self.shallow_depth());
+        let places: Vec<[f64; 2]> = shallow.map(|&(place, _)| place).collect();
+        let mut near = self.at(&places, &smoothed.near).into_iter();
+        let mut is_near =
+            |depth: Depth| depth.z < self.shallow_depth() && near.next().is_some_and(|near| smoothed.sees_edge(near));
+        points.iter().map(|&(_, depth)| is_near(depth)).collect()
+    }
+
+    /// The smoothed surface; `None` where contact has no edge.
+    pub(super) fn smoothed_edges(&self) -> Option<SmoothedSurface> {
+        let surface = || Arc::new(self.depth_response(Depth::SURFACE, REACH));
+        self.regions().have_edges().then(|| SmoothedSurface::new(self, &surface(), 1.0))
     }
 }
 

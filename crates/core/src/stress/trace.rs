@@ -4,7 +4,8 @@
 //! of any κ, summed at equally spaced s ([`Nonuniform`]). Along a lattice direction, **d** ∝ m₁**a**₁ + m₂**a**₂, κ is a
 //! multiple m₁κ₁ + m₂κ₂ of one wavenumber: they are first collapsed onto a few N multiples, −κ being the conjugate of κ.
 
-use super::series::{Phases, Response, Series};
+use super::phases::Phases;
+use super::series::{Response, Series};
 use super::traction_waves::{TractionWave, Wave};
 use crate::lattice::waves::WaveRow;
 use crate::numeric::fourier::Nonuniform;
