@@ -49,7 +49,7 @@ kernel-reference:
 bench-quick commit="HEAD^" rounds="7":
     benches/quick.sh {{commit}} {{rounds}}
 
-# What a user waits for, phase by phase, beside the commit before or another.
+# Whole commands phase by phase beside the commit before, or another.
 bench-waits *arguments:
     python3 benches/waits.py {{arguments}}
 

@@ -1,8 +1,8 @@
-"""What a user waits for: setup, solution, stresses and output of whole commands, by two programs by turns.
+"""Setup, solution, stresses and output of whole commands, for which a user waits, by two programs by turns.
 
-`python3 benches/waits.py [BEFORE] [--rounds N] [--threads N] [--only CASE,…]`: BEFORE is a commit (HEAD^ unless named) or the path of a program; it is
-beside the program of the present tree. Both are built. Needs NumPy for the heights. Printed are medians in seconds and the ratio of the
-sums, present over before: below 1 the present tree is quicker. What else runs on the machine disturbs both alike, but not evenly.
+`python3 benches/waits.py [BEFORE] [--rounds N] [--threads N] [--only CASE,…]`: BEFORE is a commit (HEAD^ unless named), which is built, or the path of
+a program; it is compared with the present tree. Needs NumPy for the heights. Printed are medians in seconds and the ratio of the whole
+commands, present over before: below 1 the present tree is quicker. What else runs on the machine disturbs both alike, but not evenly.
 """
 
 import argparse

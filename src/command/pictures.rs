@@ -4,7 +4,6 @@ use super::ending::Failure;
 use clap::Args;
 use percoat_app::picture::{self};
 use percoat_app::picture::{Canvas, Format};
-use rayon::prelude::*;
 use std::path::Path;
 
 /// Options of the commands that draw.
@@ -43,8 +42,9 @@ impl PictureOptions {
     /// Writes one picture in the chosen formats, if there is one and pictures are drawn.
     pub fn write(&self, folder: &Path, name: &str, draw: impl FnOnce() -> Option<Canvas>) -> Result<(), Failure> {
         let Some(canvas) = self.wanted().then(draw).flatten() else { return Ok(()) };
-        let written = self.formats().into_par_iter().map(|format| picture::write(&canvas, folder, name, format));
-        // The error of the first format, whatever the threads.
-        Ok(written.collect::<Vec<_>>().into_iter().collect::<Result<(), _>>()?)
+        for format in self.formats() {
+            picture::write(&canvas, folder, name, format)?;
+        }
+        Ok(())
     }
 }

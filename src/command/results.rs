@@ -8,7 +8,6 @@ use super::pictures::PictureOptions;
 use super::terminal::{self, tell};
 use percoat_app::output::{Plan, RunFolder, disk, make_folder, write_text};
 use percoat_common::plain;
-use rayon::prelude::*;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -51,16 +50,9 @@ impl Results {
         Ok(write_text(&path, text)?)
     }
 
-    /// Writes the declared files of a `result`, all threads at once; the error is that of the first file.
-    pub fn write_all<R: Sync>(
-        &self,
-        files: &[Declared<R>],
-        result: &R,
-        pictures: &PictureOptions,
-    ) -> Result<(), Failure> {
-        let staging = self.staging();
-        let written = files.par_iter().map(|file| file.write(result, &staging, pictures));
-        written.collect::<Vec<_>>().into_iter().collect()
+    /// Writes the declared files of a `result`.
+    pub fn write_all<R>(&self, files: &[Declared<R>], result: &R, pictures: &PictureOptions) -> Result<(), Failure> {
+        files.iter().try_for_each(|file| file.write(result, &self.staging(), pictures))
     }
 
     /// Puts all files in their place, instead of those of the results before.

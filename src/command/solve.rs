@@ -22,6 +22,7 @@ use percoat_common::machine::Capacity;
 use percoat_common::plain;
 use percoat_core::run::{EarlierRun, Outcome, Run, Sampling, StepRecord};
 use percoat_core::stress::VerticalSection;
+use rayon::prelude::*;
 use std::io::Write;
 use std::path::Path;
 
@@ -110,7 +111,8 @@ fn draw(
         let progress = Progress::new("", 0, 0, common);
         progress.say("drawing pictures");
         let solved = Pictured { last: snapshot, sections, steps: outcome.steps.clone() };
-        results.write_all(pictures, &solved, &common.pictures)?;
+        let write = |picture: &Declared<_>| picture.write(&solved, &results.staging(), &common.pictures);
+        pictures.par_iter().try_for_each(write)?;
         progress.finish();
     }
     Ok(())

@@ -2,6 +2,7 @@
 
 use super::canvas::Canvas;
 use super::{paper, raster, vector};
+use png::Compression;
 
 /// File format of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -31,13 +32,13 @@ impl Canvas {
     pub fn encoded(&self, format: Format) -> Vec<u8> {
         match format {
             Format::Png => raster::png(self),
-            Format::Svg => self.svg().into_bytes(),
+            Format::Svg => vector::svg(self, Compression::Balanced).into_bytes(),
             Format::Pdf => paper::pdf(self),
         }
     }
 
-    /// The sheet as SVG.
-    pub fn svg(&self) -> String {
-        vector::svg(self)
+    /// The sheet as SVG for a screen: made quickly, its images of more bytes than those of a file.
+    pub fn for_screen(&self) -> String {
+        vector::svg(self, Compression::Fast)
     }
 }

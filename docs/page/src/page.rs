@@ -217,7 +217,7 @@ impl Kept {
 
     /// Pictures of these names, as SVG, as far as the step has them.
     fn pictures(&self, names: &[&str]) -> Vec<(String, String)> {
-        names.iter().filter_map(|&name| Some((name.to_owned(), self.picture(name)?.svg()))).collect()
+        names.iter().filter_map(|&name| Some((name.to_owned(), self.picture(name)?.for_screen()))).collect()
     }
 
     fn picture(&self, name: &str) -> Option<Canvas> {

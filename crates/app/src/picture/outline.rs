@@ -84,7 +84,7 @@ impl Snapshot {
         let at = |[u, v]: [f64; 2]| [window[0][0] + u * lengths[0], window[1][0] + v * lengths[1]];
         let count = |length: f64| (1.5 * length / self.step.grid().spacing()).clamp(40.0, MOST_INTERVALS) as usize;
         let counts = lengths.map(count);
-        // A place lies between four samples: where these are fewer than all places ask for, each is computed once.
+        // A place takes four samples. Where the grid has fewer than all places take, each is computed once.
         let samples = self.step.grid().len();
         let once = (samples <= 4 * counts[0] * counts[1])
             .then(|| (0..samples).into_par_iter().map(|index| self.inside_at(index)).collect::<Vec<f64>>());

@@ -141,7 +141,7 @@ impl Grid {
     }
 
     /// Wavevector of the component (k₁, k₂), 1/length, and the number of its shortest aliases.
-    pub(crate) fn shared(&self, component: [usize; 2]) -> ([f64; 2], usize) {
+    pub(crate) fn wavevector_and_ties(&self, component: [usize; 2]) -> ([f64; 2], usize) {
         let wavevector = self.wavevector(component);
         (wavevector, if self.resolves(wavevector) { 1 } else { self.aliases(component).len() })
     }

@@ -3,7 +3,7 @@
 //! 1. **Edges** are located between the samples of the smoothed pressure, beside the samples where contact ends, and the
 //!    stresses there are interpolated between those of the smoothed stresses.
 //! 2. **Everywhere** the stresses are those of the [`SmoothedSurface`]: of the series itself but for a band along the edges.
-//! 3. The highest edges and the highest sample are evaluated again by the exact sums, with three widths of smoothing.
+//! 3. The highest edges and the highest sample are evaluated again by the exact sums, for errors with two more widths of smoothing.
 //!
 //! Fields are processed row by row and not kept, except for the band of samples near edges.
 
@@ -113,7 +113,7 @@ impl StressField {
     /// The crests, their errors by the changes with these other widths of smoothing.
     fn crests_with(&self, measures: &[StressMeasure], widths: &[f64]) -> Vec<(StressMeasure, Crest)> {
         if !self.regions().have_edges() {
-            return self.crests_of_discs(measures);
+            return self.crests_of_discs(measures, widths);
         }
         let surface = self.read_surface(measures, widths);
         // Points where a measure may be largest, as indices into `places`: most measures share theirs.

@@ -10,7 +10,7 @@
 //! singularities are replaced in the sum by sharp ones. At u widths outside the edge the smoothed step is ½ erfc(u/√2) − ½uφ(u), and the
 //! smoothed kink exceeds the sharp one by w[½φ(u) − |u|Φ(−|u|)], Φ the normal distribution and φ its density.
 
-use super::constants::{EDGE_ERROR, EDGE_WIDTH, EXACT_EDGES, OTHER_WIDTHS, USUAL_TENSION};
+use super::constants::{EDGE_ERROR, EDGE_WIDTH, EXACT_EDGES, USUAL_TENSION};
 use super::crest::Crest;
 use super::cubic::CubicInterpolation;
 use super::depth_response::DepthResponse;
@@ -57,7 +57,8 @@ struct SmoothedDiscs<'a> {
 impl StressField {
     /// The largest values of some measures on the surface under discs; none under another pressure, under a traction, whose stresses are
     /// infinite at the edges, and where a disc is as wide as its cell.
-    pub(super) fn crests_of_discs(&self, measures: &[StressMeasure]) -> Vec<(StressMeasure, Crest)> {
+    /// Their errors follow from the changes with other `widths` of smoothing, over the usual one.
+    pub(super) fn crests_of_discs(&self, measures: &[StressMeasure], widths: &[f64]) -> Vec<(StressMeasure, Crest)> {
         let width = EDGE_WIDTH / self.least_aliased();
         let room = self.grid().cell().clear_radius();
         let fits = |disc: &LoadedDisc| disc.radius + BAND * width < room;
@@ -66,7 +67,7 @@ impl StressField {
         }
         let response = Arc::new(self.depth_response(Depth::SURFACE, REACH));
         let smoothed = |scale: f64| SmoothedDiscs::new(self, &response, scale * width);
-        let (discs, others) = (smoothed(1.0), OTHER_WIDTHS.map(smoothed));
+        let (discs, others): (_, Vec<_>) = (smoothed(1.0), widths.iter().map(|&scale| smoothed(scale)).collect());
         let longer = self.series.waves.shells_up_to(1.0 / width).saturating_sub(1);
         let [unlike, _] = response.unlike(longer, self.surface_poisson());
         let candidates = discs.candidates(measures);

@@ -12,7 +12,7 @@ use super::field::StressField;
 use super::phases::Phases;
 use super::plane_search::SEARCH_REACH;
 use super::series::PARALLEL_WAVES;
-use super::tensor::StressState;
+use super::taylor::Expansion;
 use super::traction::ShearForm;
 use crate::body::{Depth, InPlane};
 use crate::lattice::waves::WaveRow;
@@ -21,34 +21,6 @@ use crate::numeric::parallel;
 use fearless_simd::{f64x8, prelude::*};
 use rustfft::num_complex::Complex64;
 use std::sync::PoisonError;
-
-/// Stresses around a point, to second order.
-#[derive(Debug, Clone)]
-pub(super) struct Expansion {
-    pub depth: Depth,
-    /// x, y; lengths.
-    pub place: [f64; 2],
-    terms: TaylorTerms,
-}
-
-impl Expansion {
-    /// The state in the middle, displacements left out.
-    pub fn state(&self) -> StressState {
-        StressState::from_stresses(self.terms[0])
-    }
-
-    /// The state at the distance **d** = (x, y, z) from the middle, lengths; displacements left out.
-    pub fn at(&self, [x, y, z]: [f64; 3]) -> StressState {
-        let powers = [1.0, x, y, x * x, x * y, y * y, z, x * z, y * z, z * z];
-        let mut stresses = [0.0; STRESSES];
-        for (power, term) in powers.iter().zip(&self.terms) {
-            for k in 0..STRESSES {
-                stresses[k] += power * term[k];
-            }
-        }
-        StressState::from_stresses(stresses)
-    }
-}
 
 /// Number of expansions that a field remembers.
 const REMEMBERED: usize = 256;

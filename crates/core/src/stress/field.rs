@@ -2,7 +2,6 @@
 
 use super::constants::SHALLOW;
 use super::depth_response::DepthResponse;
-use super::expansion::Expansion;
 use super::far_field::FarField;
 use super::far_plane::FarPlane;
 use super::loaded_window::{LoadedWindow, MOST_WINDOWS};
@@ -11,6 +10,7 @@ use super::regions::Regions;
 use super::series::{Response, Series};
 use super::series_grid::spread;
 use super::tables::Tables;
+use super::taylor::Expansion;
 use super::tensor::StressState;
 use super::traction::{ShearForm, Traction};
 use crate::body::{Bodies, Depth, HalfSpace, InteriorTable, MeanStress};
@@ -42,7 +42,7 @@ pub struct StressField {
     pub(super) loaded: Option<Arc<LoadedWindow>>,
     /// Fields in the windows around that of an isolated contact, each made when it is asked for first.
     pub(super) around: [OnceLock<Option<Box<Self>>>; MOST_WINDOWS as usize],
-    /// Expansions around places where it was searched.
+    /// The expansions that searches made last.
     pub(super) expansions: Mutex<VecDeque<Expansion>>,
     /// The window inside of which the field does not hold, of one around the window of the contact.
     hole: Option<Cell>,

@@ -6,7 +6,7 @@
 //! u_z = u_z c e^{…},  u_α = −i n_α u_q c e^{…}
 //!
 //! with the amplitudes of [`crate::body::Interior`]; the mean pressure adds the state of [`crate::MeanStress`]. At the
-//! depth z only waves with qz up to 32 count: shorter ones are lost in rounding.
+//! depth z only waves with qz up to 32 count: the stresses of shorter ones are below 5·10⁻¹³ of their traction.
 //!
 //! A tangential traction **q** adds its own stresses, wave by wave: of the part **q**·**n** along **n** by
 //! the amplitudes of [`LayeredResponse::interior`](crate::body::LayeredResponse::interior), of the part across by those of
@@ -72,6 +72,7 @@ mod strain;
 mod strength_peaks;
 mod surroundings;
 mod tables;
+mod taylor;
 mod tensor;
 mod trace;
 mod traction;

@@ -103,12 +103,12 @@ impl StressField {
 
     /// Whether no error is known of the stresses at the points of a section, depth by depth; see [`Self::near_edge`].
     pub fn section_near_edge(&self, line: &SurfaceLine, depths: &[Depth]) -> Vec<bool> {
-        let below = LineField::new(self, *line);
         let is_shallow = |depth: &Depth| depth.z < self.shallow_depth();
-        let Some(smoothed) = below.smoothed.as_ref().filter(|_| depths.iter().any(is_shallow)) else {
-            return vec![false; depths.len() * line.points];
-        };
-        let near = below.trace.sums(&smoothed.near, [line.span[0], line.step()], line.points);
+        let smoothed = if depths.iter().any(is_shallow) { self.smoothed_edges() } else { None };
+        let Some(smoothed) = smoothed else { return vec![false; depths.len() * line.points] };
+        let cell = self.series_grid().cell();
+        let trace = Trace::new(&self.series, cell.fractions(line.origin), cell.parts(line.unit()));
+        let near = trace.sums(&smoothed.near, [line.span[0], line.step()], line.points);
         let sees: Vec<bool> = near.into_iter().map(|near| smoothed.sees_edge(near)).collect();
         depths.iter().flat_map(|depth| sees.iter().map(move |&sees| sees && is_shallow(depth))).collect()
     }

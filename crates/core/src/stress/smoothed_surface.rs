@@ -299,9 +299,10 @@ impl StressField {
     /// Whether stresses at points, (x, y) and a depth, lie so near to an edge of contact that no error is known of them: within three
     /// widths of the smoothing of an edge, and within two samples of the surface.
     pub fn near_edge(&self, points: &[([f64; 2], Depth)]) -> Vec<bool> {
-        let Some(smoothed) = self.smoothed_edges() else { return vec![false; points.len()] };
         let shallow = points.iter().filter(|(_, depth)| depth.z < self.shallow_depth());
         let places: Vec<[f64; 2]> = shallow.map(|&(place, _)| place).collect();
+        let smoothed = if places.is_empty() { None } else { self.smoothed_edges() };
+        let Some(smoothed) = smoothed else { return vec![false; points.len()] };
         let mut near = self.at(&places, &smoothed.near).into_iter();
         let mut is_near =
             |depth: Depth| depth.z < self.shallow_depth() && near.next().is_some_and(|near| smoothed.sees_edge(near));

@@ -37,14 +37,15 @@ pub struct Noise {
 /// Noise at the short-wave end of a spectrum; `None` where its density falls as that of a rough surface.
 pub fn short_wave_noise(spectrum: &Spectrum) -> Option<Noise> {
     let from = 0.5 * spectrum.grid().least_aliased();
-    // Number of waves, squares and the logarithm of q of each part, then q² of the octave and of all.
-    let sums: [f64; 3 * PARTS + 2] = spectrum.sums(|sums, (q, square, waves)| {
-        let slopes = q * q * square;
-        sums[3 * PARTS + 1] += slopes;
+    /// Places of Σ q²|ĥ|² of the octave and of all waves, after number, Σ |ĥ|² and Σ ln q of the waves of each part.
+    const OCTAVE: usize = 3 * PARTS;
+    const ALL: usize = OCTAVE + 1;
+    let sums: [f64; ALL + 1] = spectrum.sums(|sums, (q, square, waves)| {
+        sums[ALL] += q * q * square;
         if q < from {
             return;
         }
-        sums[3 * PARTS] += slopes;
+        sums[OCTAVE] += q * q * square;
         let part = (PARTS as f64 * (q / from).log2()) as usize;
         if part < PARTS {
             let of_wave = [waves, square, waves * (q / from).ln()];
@@ -52,7 +53,7 @@ pub fn short_wave_noise(spectrum: &Spectrum) -> Option<Noise> {
         }
     });
     let parts: [[f64; 3]; PARTS] = std::array::from_fn(|part| std::array::from_fn(|k| sums[3 * part + k]));
-    let [slopes, all] = [sums[3 * PARTS], sums[3 * PARTS + 1]];
+    let [slopes, all] = [sums[OCTAVE], sums[ALL]];
     let share = slopes / all;
     let densities = parts.map(|[waves, square, _]| square / waves);
     let (least, most) =

@@ -152,7 +152,7 @@ impl Spectrum {
         all_but_mean.map(move |(k2, value)| {
             let count = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { 2.0 };
             // Shared in equal parts, the squares of the parts add to the component's square over their number.
-            let ([x, y], tied) = self.grid.shared([k1, k2]);
+            let ([x, y], tied) = self.grid.wavevector_and_ties([k1, k2]);
             ((x * x + y * y).sqrt(), count * value.norm_sqr() / tied as f64, count * tied as f64)
         })
     }
