@@ -135,8 +135,8 @@ impl StressField {
         let (state, place) = (here.at([x, y, z]), [here.place[0] + x, here.place[1] + y]);
         let value = measure.of(&state);
         let depth = Depth { z: here.depth.z + z, ..here.depth };
-        let is_held = self.is_hidden(place) || self.grid().cell().nearest_point(place) != place;
-        let holds = value >= measure.of(&here.state()) && (faces[0]..=faces[1]).contains(&depth.z) && !is_held;
+        let is_there = self.grid().cell().contains(place) && !self.is_hidden(place);
+        let holds = value >= measure.of(&here.state()) && (faces[0]..=faces[1]).contains(&depth.z) && is_there;
         holds.then_some((Candidate { value, depth, place, step }, state))
     }
 }
