@@ -106,11 +106,15 @@ impl StressField {
         let is_shallow = |depth: &Depth| depth.z < self.shallow_depth();
         let smoothed = if depths.iter().any(is_shallow) { self.smoothed_edges() } else { None };
         let Some(smoothed) = smoothed else { return vec![false; depths.len() * line.points] };
-        let cell = self.series_grid().cell();
-        let trace = Trace::new(&self.series, cell.fractions(line.origin), cell.parts(line.unit()));
-        let near = trace.sums(&smoothed.near, [line.span[0], line.step()], line.points);
+        let near = self.trace(line).sums(&smoothed.near, [line.span[0], line.step()], line.points);
         let sees: Vec<bool> = near.into_iter().map(|near| smoothed.sees_edge(near)).collect();
         depths.iter().flat_map(|depth| sees.iter().map(move |&sees| sees && is_shallow(depth))).collect()
+    }
+
+    /// The waves along a line.
+    fn trace(&self, line: &SurfaceLine) -> Trace<'_> {
+        let cell = self.series_grid().cell();
+        Trace::new(&self.series, cell.fractions(line.origin), cell.parts(line.unit()))
     }
 
     /// Depth above which stresses are interpolated, a length: where the least wavenumber that the grid cannot hold has decayed as far
@@ -124,9 +128,7 @@ impl StressField {
 
 impl<'a> LineField<'a> {
     fn new(field: &'a StressField, line: SurfaceLine) -> Self {
-        let cell = field.series_grid().cell();
-        let trace = Trace::new(&field.series, cell.fractions(line.origin), cell.parts(line.unit()));
-        Self { field, line, trace, smoothed: field.smoothed_edges() }
+        Self { field, line, trace: field.trace(&line), smoothed: field.smoothed_edges() }
     }
 
     /// States on the vertical section below the line: for each depth those at its points.
