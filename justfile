@@ -1,6 +1,6 @@
 # All tests.
 test:
-    cargo test --locked
+    cargo test --release --locked
 
 # The Python package in a virtual environment of its own, with its tests.
 python:
@@ -45,9 +45,10 @@ lint:
 kernel-reference:
     python3 validation/kernel/generate.py
 
-# Whether the present tree is slower than the commit before, or another: short cases by turns.
+# Whether the present tree is slower than the commit before, or another: short cases by turns, then whole commands phase by phase.
 bench-quick commit="HEAD^" rounds="7":
     benches/quick.sh {{commit}} {{rounds}}
+    python3 benches/waits.py target/before/release/percoat --rounds 3
 
 # Whole commands phase by phase beside the commit before, or another.
 bench-waits *arguments:
