@@ -2,7 +2,6 @@
 
 use super::canvas::Canvas;
 use super::{paper, raster, vector};
-use png::Compression;
 
 /// File format of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -32,13 +31,13 @@ impl Canvas {
     pub fn encoded(&self, format: Format) -> Vec<u8> {
         match format {
             Format::Png => raster::png(self),
-            Format::Svg => vector::svg(self, Compression::Balanced).into_bytes(),
+            Format::Svg => vector::svg(self, raster::OF_FILE).into_bytes(),
             Format::Pdf => paper::pdf(self),
         }
     }
 
     /// The sheet as SVG for a screen: made quickly, its images of more bytes than those of a file.
     pub fn for_screen(&self) -> String {
-        vector::svg(self, Compression::Fast)
+        vector::svg(self, raster::ON_SCREEN)
     }
 }

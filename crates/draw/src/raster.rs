@@ -3,11 +3,15 @@
 use super::canvas::{Anchor, Canvas, Dash, Mark, PIXELS, Stroke};
 use super::colour::Colour;
 use super::text;
-use png::Compression;
+use png::{DeflateCompression, Filter};
 use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Shader, StrokeDash, Transform};
 
 /// Largest number of pixels of a side of a sheet; the rest is cut off.
 const MOST_PIXELS: f64 = 20_000.0;
+/// Level of compression of a file, 1 to 9.
+pub const OF_FILE: u8 = 5;
+/// Level of compression of what is shown at once.
+pub const ON_SCREEN: u8 = 1;
 
 /// The PNG file of a sheet at 300 dots per inch.
 pub fn png(canvas: &Canvas) -> Vec<u8> {
@@ -19,7 +23,7 @@ pub fn png(canvas: &Canvas) -> Vec<u8> {
         let _ = put(&mut sheet, mark);
     }
     let colours: Vec<u8> = sheet.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
-    encode([width, height].map(|count| count as usize), &colours, Compression::Balanced)
+    encode([width, height].map(|count| count as usize), &colours, OF_FILE)
 }
 
 /// Draws a mark; `None` when there is nothing to draw.
@@ -102,13 +106,15 @@ fn blend(sheet: &mut Pixmap, [column, row]: [i32; 2], part: f32, Colour(colour):
     }
 }
 
-/// PNG file of the pixels, with its size on paper.
-pub fn encode([width, height]: [usize; 2], pixels: &[u8], compression: Compression) -> Vec<u8> {
+/// PNG file of the pixels, with its size on paper. Maps have few colours in long runs, and charts hardly any: their rows are packed as they
+/// are, which makes files a tenth smaller than differences of rows, in less than half of the time.
+pub fn encode([width, height]: [usize; 2], pixels: &[u8], level: u8) -> Vec<u8> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, width as u32, height as u32);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(compression);
+    encoder.set_filter(Filter::NoFilter);
+    encoder.set_deflate_compression(DeflateCompression::Level(level));
     let per_metre = (PIXELS * 72.0 / 0.0254).round() as u32;
     encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit: png::Unit::Meter }));
     let written = encoder.write_header().and_then(|mut writer| {
@@ -151,10 +157,10 @@ mod tests {
     }
 
     #[test]
-    fn images_that_are_packed_quickly_have_the_same_pixels() {
+    fn a_file_has_the_pixels_that_were_packed() {
         let pixels: Vec<u8> = (0..3 * 40 * 30).map(|k| (k * k % 253) as u8).collect();
-        for compression in [Compression::Balanced, Compression::Fast] {
-            let file = encode([40, 30], &pixels, compression);
+        for level in [OF_FILE, ON_SCREEN] {
+            let file = encode([40, 30], &pixels, level);
             let mut decoded = vec![0; pixels.len()];
             png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap().next_frame(&mut decoded).unwrap();
             assert_eq!(decoded, pixels);

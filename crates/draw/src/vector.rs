@@ -9,14 +9,13 @@ use super::colour::Colour;
 use super::letters::{Letter, Piece, letters, outline};
 use super::typeface::{EM, Glyph};
 use super::{raster, text};
-use png::Compression;
 use std::collections::BTreeSet;
 
 /// The SVG file of a sheet, with its images compressed so.
-pub fn svg(canvas: &Canvas, compression: Compression) -> String {
+pub fn svg(canvas: &Canvas, level: u8) -> String {
     let [width, height] = canvas.size.map(hundredths);
     let [wide, high] = canvas.size.map(|length| hundredths(length * 25.4 / 72.0));
-    let marks: String = canvas.marks.iter().map(|mark| element(mark, compression)).collect();
+    let marks: String = canvas.marks.iter().map(|mark| element(mark, level)).collect();
     let texts =
         canvas.marks.iter().filter_map(|mark| if let Mark::Text { text, .. } = mark { Some(text) } else { None });
     let used: BTreeSet<Glyph> = texts.flat_map(|text| letters(text)).map(|letter| letter.glyph).collect();
@@ -41,7 +40,7 @@ fn outlined(glyph: Glyph) -> String {
 }
 
 /// A mark as an element of the file.
-fn element(mark: &Mark, compression: Compression) -> String {
+fn element(mark: &Mark, level: u8) -> String {
     match mark {
         Mark::Line(Stroke { points, width, dash, colour }) => {
             let dashes = dash.lengths().map_or(String::new(), |lengths| {
@@ -79,7 +78,7 @@ fn element(mark: &Mark, compression: Compression) -> String {
         }
         Mark::Image { corner, size, pixels, colours } => {
             let ([x, y], [width, height]) = (corner.map(hundredths), size.map(hundredths));
-            let file = base64(&raster::encode(*pixels, colours, compression));
+            let file = base64(&raster::encode(*pixels, colours, level));
             format!(
                 "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
                  href=\"data:image/png;base64,{file}\"/>\n"
@@ -140,7 +139,7 @@ mod tests {
         let mut canvas = Canvas::new([50.0, 20.0]);
         canvas.text("aba p̄", [1.0, 10.0], Anchor::Left, 7.0, Colour::BLACK);
         canvas.upward("ab", [1.0, 10.0], 7.0, Colour::BLACK);
-        let file = svg(&canvas, Compression::Balanced);
+        let file = svg(&canvas, raster::OF_FILE);
         let all = |mark: &str| {
             file.match_indices(mark)
                 .map(|(at, _)| {
@@ -158,7 +157,7 @@ mod tests {
     fn signs_of_the_file_are_escaped_within_text() {
         let mut canvas = Canvas::new([50.0, 20.0]);
         canvas.text("a < b & \"c\" > d", [-0.001, 10.126], Anchor::Left, 7.0, Colour::BLACK);
-        let file = svg(&canvas, Compression::Balanced);
+        let file = svg(&canvas, raster::OF_FILE);
         assert!(file.contains(">a &lt; b &amp; &quot;c&quot; &gt; d</text>"), "{file}");
         assert!(file.contains("translate(0 10.13)"), "{file}");
     }

@@ -21,6 +21,7 @@ pub use surface::Surface;
 pub use topography::Topography;
 
 use crate::lattice::Cell;
+use crate::numeric::parallel;
 use ndarray::{ArrayView1, ArrayView2, Axis};
 use std::fmt;
 
@@ -74,6 +75,19 @@ pub(crate) fn constant_axis(values: ArrayView2<'_, f64>) -> Option<usize> {
             values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)]);
         high - low
     };
+    // One line along each axis decides where its range is not that of rounding, whatever the range of all values.
+    let rows = parallel::map(values.nrows(), |row| {
+        values.row(row).iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)])
+    });
+    let [low, high] = rows
+        .into_iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], row| [low.min(row[0]), high.max(row[1])]);
+    if [0, 1]
+        .into_iter()
+        .all(|axis| values.lanes(Axis(axis)).into_iter().next().is_some_and(|line| range(line) > EQUAL * (high - low)))
+    {
+        return None;
+    }
     // Ranges within the lines along an axis.
     let along = [0, 1].map(|axis| values.lanes(Axis(axis)).into_iter().map(range).fold(0.0, f64::max));
     (0..2).find(|&axis| along[axis] <= EQUAL * along[1 - axis] && along[1 - axis] > 0.0)

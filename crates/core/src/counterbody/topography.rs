@@ -1,6 +1,6 @@
 //! One period of a measured or generated topography, or the roughness of a ball.
 
-use super::roughness::{RunOut, Spectrum, above_waves, apex};
+use super::roughness::{RunOut, Spectrum, above_waves, apex, apex_by};
 use super::{CounterbodyError, Shape};
 use crate::lattice::{Cell, LatticeError, Surroundings};
 use crate::notation::number;
@@ -22,6 +22,8 @@ pub struct Topography {
     run_out: Option<RunOut>,
     /// Radius of the ball that the heights stand on, a length.
     ball: Option<f64>,
+    /// The apex on the grid of the samples, a length, where it was found before.
+    apex: Option<f64>,
 }
 
 impl Topography {
@@ -39,7 +41,14 @@ impl Topography {
             return Err(CounterbodyError::Height { place: [i, j], value });
         }
         let heights = if heights.is_standard_layout() { heights } else { heights.as_standard_layout().into_owned() };
-        Ok(Self { cell, heights, run_out: None, ball: None })
+        Ok(Self { cell, heights, run_out: None, ball: None, apex: None })
+    }
+
+    /// The topography, whose apex is found by the `spectrum` of its heights, which is then not computed once more.
+    #[must_use]
+    pub fn with_spectrum(self, spectrum: &Spectrum) -> Self {
+        let is_own = spectrum.grid().points() == self.points() && self.ball.is_none();
+        Self { apex: is_own.then(|| apex_by(spectrum, self.heights()).ok()).flatten(), ..self }
     }
 
     /// The topography, whose heights were [tapered](super::roughness::tapered), with the run-out at the border of the cell.
@@ -56,7 +65,7 @@ impl Topography {
     pub fn on_ball(self, radius: f64) -> Result<Self, CounterbodyError> {
         let is_alone = self.cell.surroundings() == Surroundings::FreeSpace;
         if is_alone && radius > 0.0 && radius.is_finite() {
-            Ok(Self { ball: Some(radius), ..self })
+            Ok(Self { ball: Some(radius), apex: None, ..self })
         } else {
             Err(CounterbodyError::Ball(radius))
         }
@@ -107,7 +116,8 @@ impl Topography {
             false => Spectrum::of(self.cell, self.heights.view())?.resampled(points)?,
         };
         let Some(radius) = self.ball else {
-            let apex = apex(self.cell, on_grid.view())?;
+            let found = self.apex.filter(|_| points == self.points());
+            let apex = found.map_or_else(|| apex(self.cell, on_grid.view()), Ok)?;
             return Ok(on_grid.mapv_into(|height| apex - height));
         };
         // Waves hold no corner: the ball becomes a plane where the apex is not.
@@ -177,6 +187,11 @@ mod tests {
             assert!(depths.indexed_iter().all(|(at, d)| (d - (1.2 - expected[at])).abs() < 1e-14), "{points:?}");
         }
         assert!(surface.depths([0, 3]).is_err());
+        let spectrum = Spectrum::of(surface.cell(), surface.heights()).unwrap();
+        let known = surface.clone().with_spectrum(&spectrum);
+        assert!(known.apex.is_some_and(|apex| (apex - 1.2).abs() < 1e-14));
+        assert_eq!(known.depths([12, 6]), surface.depths([12, 6]));
+        assert_eq!(known.depths([30, 18]), surface.depths([30, 18]));
     }
 
     /// Waves that a grid cannot hold are left out, whether or not it divides the samples.

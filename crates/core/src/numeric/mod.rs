@@ -19,4 +19,4 @@ pub(crate) mod rows;
 pub mod search;
 pub(crate) mod serialised;
 pub(crate) mod series_fit;
-pub(crate) mod sums;
+pub mod sums;

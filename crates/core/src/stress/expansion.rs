@@ -53,6 +53,7 @@ impl StressField {
         let is_here = |known: &&Expansion| known.depth == depth && known.place == place;
         let known = remembered().iter().find(is_here).cloned();
         known.unwrap_or_else(|| {
+            self.tables().work().add_expansion();
             let expansion = self.expand(depth, place);
             let mut all = remembered();
             if all.len() == REMEMBERED {

@@ -137,7 +137,6 @@ impl StressField {
             half_space: half_space.clone(),
             interiors: tables.interiors(&series_grid, half_space, form != ShearForm::None),
             far,
-            tables,
             mean: mean_states(half_space, (mean, across(grid, line)), series.mean, mean_traction),
             mean_stress: mean,
             strains: false,
@@ -154,7 +153,8 @@ impl StressField {
             series_grid,
             form,
             mean_shear,
-            series,
+            series: series.counted_by(tables.work()),
+            tables,
         }
     }
 
@@ -181,14 +181,14 @@ impl StressField {
             half_space: self.half_space.clone(),
             interiors: tables.interiors(&series_grid, &self.half_space, self.slides()),
             far: Some(far),
-            tables,
             mean: self.mean.clone(),
             regions: Regions::new(&series_grid, &vec![0.0; series_grid.len()], None),
             discs: self.discs.clone(),
             across_lines: None,
             grid,
             series_grid,
-            series,
+            series: series.counted_by(tables.work()),
+            tables,
             ..*self
         }
     }

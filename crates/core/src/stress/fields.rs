@@ -3,6 +3,7 @@
 use super::field::StressField;
 use super::tables::Tables;
 use super::traction::{ShearForm, Traction};
+use super::work::StressWork;
 use crate::body::{Bodies, MeanStress, Side};
 use crate::spectral::Contact;
 use std::fmt;
@@ -56,6 +57,11 @@ impl StressFields {
         follows.then(|| {
             Self::with_tables(contact, self.body.mean_stress(), self.body.tables()).with_strains(self.body.strains)
         })
+    }
+
+    /// Work of these fields so far, and of all others of the run that share their tables.
+    pub fn work(&self) -> StressWork {
+        self.body.tables().work().so_far()
     }
 
     /// The field of the body.

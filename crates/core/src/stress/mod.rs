@@ -79,6 +79,7 @@ mod traction;
 mod traction_waves;
 mod transform;
 mod window_waves;
+mod work;
 
 pub use crest::Crest;
 pub use field::StressField;
@@ -97,3 +98,4 @@ pub(crate) use strength_peaks::StrengthPeaks;
 pub(crate) use tables::Tables;
 pub use tensor::StressState;
 pub use traction::Traction;
+pub use work::StressWork;

@@ -11,6 +11,7 @@ use super::series_grid::spread;
 use super::traction::Traction;
 use super::traction_waves::{TractionWave, TractionWaves, Wave};
 use super::transform::{FieldColumn, FieldColumns, Transform};
+use super::work::WorkCounter;
 use crate::lattice::Grid;
 use crate::lattice::waves::{WaveRow, Waves};
 use crate::numeric::lanes::{LANES, vectorised};
@@ -47,6 +48,8 @@ pub(super) struct Series {
     sampled: TractionWaves,
     /// Coefficients with the pressure of the discs themselves, whatever the samples see of them; `None` of another pressure.
     exact: Option<TractionWaves>,
+    /// Counters of the planes that are transformed.
+    work: Arc<WorkCounter>,
 }
 
 /// Least number of waves per thread.
@@ -67,7 +70,8 @@ impl Series {
                 2.0 * columns[(n2 - k2) * n1 + (n1 - k1) % n1].conj()
             }
         });
-        Self { mean: columns[0].re, waves, sampled: TractionWaves { pressure: sampled, shear: None }, exact: None }
+        let sampled = TractionWaves { pressure: sampled, shear: None };
+        Self { mean: columns[0].re, waves, sampled, exact: None, work: Arc::default() }
     }
 
     /// Waves of a traction on its `own_grid`, and the means of its fields q_x and q_y, zero where these follow from the pressure. `pressure`
@@ -89,7 +93,12 @@ impl Series {
 
     /// The series of waves with these coefficients, without a mean.
     pub fn of_waves(waves: Arc<Waves>, coefficients: TractionWaves) -> Self {
-        Self { mean: 0.0, waves, sampled: coefficients, exact: None }
+        Self { mean: 0.0, waves, sampled: coefficients, exact: None, work: Arc::default() }
+    }
+
+    /// The series, whose planes are counted by `work`.
+    pub fn counted_by(self, work: &Arc<WorkCounter>) -> Self {
+        Self { work: Arc::clone(work), ..self }
     }
 
     /// Coefficients of each wave. Near the surface, where waves beyond those of the grid count, they are those of the samples: means
@@ -163,6 +172,7 @@ impl Series {
         let occupied = |columns: Range<usize>| columns.start == 0 || !of(columns).is_empty();
         let has_shear = self.coefficients(response.is_deep()).shear.is_some();
         let moved = Moved::by(start, &rows);
+        self.work.add_planes(K);
         transform.columns(buffer, occupied, |k2, column: &mut FieldColumn<'_, K>| {
             if k2 == 0 {
                 column.add(0, mean.map(Complex64::from));
@@ -213,6 +223,7 @@ impl Series {
         let [n2, n1] = transform.points().map(|n| n as i32);
         let (rows, mean, step) = (self.waves.rows_within(response.shells()), response.mean(), self.waves.step());
         let (coefficients, moved) = (self.coefficients(response.is_deep()), Moved::new(start, &rows));
+        self.work.add_planes(K);
         transform.columns(
             buffer,
             |_| true,

@@ -4,6 +4,7 @@ use super::far_tables::FarTables;
 use super::series_grid::series_grid;
 use super::smoothed_edge::SmoothedEdge;
 use super::traction::ShearForm;
+use super::work::WorkCounter;
 use crate::body::{HalfSpace, InteriorTable, LayeredResponse};
 use crate::lattice::{Cell, Grid};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -27,6 +28,8 @@ pub(crate) struct Tables {
     edges: Mutex<Vec<(f64, Arc<SmoothedEdge>)>>,
     /// Grids of pressures with those of their series.
     grids: Mutex<Vec<[Arc<Grid>; 2]>>,
+    /// Work of the fields so far.
+    work: Arc<WorkCounter>,
 }
 
 #[derive(Debug)]
@@ -39,19 +42,24 @@ struct Entry {
 
 impl Default for Tables {
     fn default() -> Self {
-        Self::keeping(KEPT)
+        Self::keeping(KEPT, Arc::default())
     }
 }
 
 impl Tables {
-    fn keeping(kept: usize) -> Self {
+    fn keeping(kept: usize, work: Arc<WorkCounter>) -> Self {
         let (around, interiors, far, edges, grids) = Default::default();
-        Self { kept, around, interiors, far, edges, grids }
+        Self { kept, around, interiors, far, edges, grids, work }
+    }
+
+    /// Counters of the work of all fields that share the tables.
+    pub(super) fn work(&self) -> &Arc<WorkCounter> {
+        &self.work
     }
 
     /// Tables of the windows around that of an isolated contact.
     pub(super) fn around(&self) -> &Arc<Self> {
-        self.around.get_or_init(|| Arc::new(Self::keeping(KEPT_AROUND)))
+        self.around.get_or_init(|| Arc::new(Self::keeping(KEPT_AROUND, Arc::clone(&self.work))))
     }
 
     /// Table of a half-space for the wavenumbers of a grid, set up unless there is one already.

@@ -9,6 +9,7 @@ use super::series::{Response, Series};
 use super::traction_waves::{TractionWave, Wave};
 use crate::lattice::waves::WaveRow;
 use crate::numeric::fourier::Nonuniform;
+use crate::numeric::lanes::vectorised;
 use rustfft::num_complex::Complex64;
 
 /// Largest multiples m₁, m₂ of a lattice direction.
@@ -64,13 +65,8 @@ impl<'a> Trace<'a> {
                 let most = ends.map(i32::abs).max().unwrap_or(0) as usize;
                 let mut sums = vec![[Complex64::default(); K]; most + 1];
                 for row in &rows {
-                    for (k, term) in self.terms::<W, K, R>(row, &along, &across, response).enumerate() {
-                        let multiple = multiple(row, k);
-                        let side = f64::from(multiple.signum() | 1);
-                        for (sum, term) in sums[multiple.unsigned_abs() as usize].iter_mut().zip(term) {
-                            *sum += Complex64::new(term.re, side * term.im);
-                        }
-                    }
+                    let numbers = (multiple(row, 0), m1);
+                    vectorised!(_simd => self.collapse::<W, K, R>((row, numbers), &along, &across, response, &mut sums));
                 }
                 let turns = unit * step;
                 waves.add(sums.into_iter().enumerate().map(|(multiple, sums)| (multiple as f64 * turns, sums)));
@@ -96,7 +92,27 @@ impl<'a> Trace<'a> {
         all
     }
 
+    /// Adds the waves of a row, of the multiples `first`, `first` + `step`, … of one wavenumber, to the sums of these multiples.
+    #[inline(always)]
+    fn collapse<W: Wave, const K: usize, R: Response<K>>(
+        &self,
+        (row, (first, step)): (&WaveRow, (i32, i32)),
+        along: &Phases<1>,
+        across: &Phases<1>,
+        response: &R,
+        sums: &mut [[Complex64; K]],
+    ) {
+        for (multiple, term) in (0..).map(|k| first + k * step).zip(self.terms::<W, K, R>(row, along, across, response))
+        {
+            let side = f64::from(multiple.signum() | 1);
+            for (sum, term) in sums[multiple.unsigned_abs() as usize].iter_mut().zip(term) {
+                *sum += Complex64::new(term.re, side * term.im);
+            }
+        }
+    }
+
     /// Terms of the waves of a row at a point, by the phases of its fractions of a₁ and a₂.
+    #[inline(always)]
     fn terms<'b, W: Wave + 'b, const K: usize, R: Response<K>>(
         &'b self,
         row: &'b WaveRow,

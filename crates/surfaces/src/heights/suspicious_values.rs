@@ -4,6 +4,7 @@
 //! without a measurement are not a number, and left out of both.
 
 use super::fault::{Fault, Heights, MARK};
+use percoat_core::numeric::sums;
 
 /// Values that instruments and programs write for missing data.
 const NO_DATA: [f64; 20] = [
@@ -86,9 +87,13 @@ pub fn doubts(heights: &Heights) -> Vec<String> {
 
 /// The heights along `axis` at index `k` of the other one.
 fn line(heights: &Heights, axis: usize, k: usize) -> impl Iterator<Item = f64> + Clone + '_ {
-    let [n1, n2] = heights.points;
-    let (start, step, count) = if axis == 0 { (k, n2, n1) } else { (k * n2, 1, n2) };
-    (0..count).map(move |index| heights.values[start + index * step])
+    (0..heights.points[axis]).map(move |index| at(heights, axis, k, index))
+}
+
+/// The height number `index` along `axis` at index `k` of the other one.
+fn at(heights: &Heights, axis: usize, k: usize, index: usize) -> f64 {
+    let [_, n2] = heights.points;
+    heights.values[if axis == 0 { index * n2 + k } else { k * n2 + index }]
 }
 
 /// A warning about lines along `axis` that rise evenly while most do not: coordinates.
@@ -98,8 +103,7 @@ fn rising(heights: &Heights, axis: usize) -> Option<String> {
         return None;
     }
     let is_even = |k: &usize| {
-        let mut values = line(heights, axis, *k);
-        let (first, last) = (values.next().unwrap_or_default(), line(heights, axis, *k).last().unwrap_or_default());
+        let [first, last] = [0, count - 1].map(|index| at(heights, axis, *k, index));
         let step = (last - first) / (count - 1) as f64;
         step != 0.0
             && line(heights, axis, *k)
@@ -123,12 +127,19 @@ fn alternating(heights: &Heights, axis: usize) -> Option<String> {
     if heights.points[axis] < 4 || n1 * n2 < 32 {
         return None;
     }
-    let half = |k: usize| if axis == 0 { k / n2 % 2 } else { k % n2 % 2 };
-    let mut ends = [(f64::INFINITY, f64::NEG_INFINITY); 2];
-    for (k, x) in heights.values.iter().enumerate() {
-        let (low, high) = &mut ends[half(k)];
-        (*low, *high) = (low.min(*x), high.max(*x));
+    // Most surfaces have no line of zeros: the first one tells.
+    let half = |half: usize| {
+        let rows = heights.values.chunks_exact(n2).enumerate();
+        let values = rows.filter(move |(i, _)| axis == 1 || i % 2 == half).flat_map(move |(_, row)| {
+            let (first, step) = if axis == 1 { (half, 2) } else { (0, 1) };
+            row[first..].iter().step_by(step)
+        });
+        values.copied()
+    };
+    if (0..2).all(|number| half(number).any(|x| x.abs() > 0.0)) {
+        return None;
     }
+    let ends = [0, 1].map(|number| ends(half(number)));
     let is_zero = ends.map(|ends| ends == (0.0, 0.0));
     let varies = |half: usize| ends[half].0 < ends[half].1;
     let found = (0..2).any(|half| is_zero[half] && varies(1 - half));
@@ -167,22 +178,28 @@ fn alone(heights: &Heights) -> Option<String> {
     })
 }
 
-/// Mean and standard deviation.
-fn deviation(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
-    let values = values.filter(|x| !x.is_nan());
-    let (count, sum) = values.clone().fold((0.0, 0.0), |(count, sum), x| (count + 1.0, sum + x));
+/// Mean and standard deviation of the values that a condition admits.
+fn deviation_of(values: &[f64], admits: impl Fn(usize) -> bool + Sync) -> [f64; 2] {
+    let counts = |k: usize| !values[k].is_nan() && admits(k);
+    let [count, sum] = sums::of(values.len(), |k| if counts(k) { [1.0, values[k]] } else { [0.0; 2] });
     let mean: f64 = sum / count;
-    [mean, (values.map(|x| (x - mean).powi(2)).sum::<f64>() / count).sqrt()]
+    let [square] = sums::of(values.len(), |k| if counts(k) { [(values[k] - mean).powi(2)] } else { [0.0] });
+    [mean, (square / count).sqrt()]
+}
+
+/// Mean and standard deviation.
+fn deviation(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    deviation_of(&values.collect::<Vec<_>>(), |_| true)
 }
 
 /// A warning about a height far outside the distribution of the others.
 fn outside(heights: &Heights) -> Option<String> {
     let values = &heights.values;
-    let [mean, _] = deviation(values.iter().copied());
-    let measured = values.iter().enumerate().filter(|(_, x)| !x.is_nan());
-    let (farthest, _) = measured.max_by(|a, b| (a.1 - mean).abs().total_cmp(&(b.1 - mean).abs()))?;
-    let others = values.iter().enumerate().filter(|(k, _)| *k != farthest).map(|(_, x)| *x);
-    let [mean, rest] = deviation(others);
+    let [mean, _] = deviation_of(values, |_| true);
+    let distance = |x: f64| if x.is_nan() { -1.0 } else { (x - mean).abs() };
+    let most = -sums::least(values.len(), |k| -distance(values[k]));
+    let farthest = values.iter().rposition(|&x| most >= 0.0 && distance(x) == most)?;
+    let [mean, rest] = deviation_of(values, |k| k != farthest);
     let away = (values[farthest] - mean).abs();
     // On a flat surface with one peak the standard deviation is rounding.
     let (is_number, times) = (rest > 1e-12 * away, away / rest);

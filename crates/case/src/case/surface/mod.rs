@@ -83,7 +83,7 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
         file::read(around.source, heights, own_section.channel.as_ref(), treatment, length)?;
     let points: [usize; 2] = stored.dim().into();
     let (lattice, cell) = cell(&own_section, section, around, points, extent)?;
-    let Prepared { heights: stored, run_out, stages, doubts: of_preparation } =
+    let Prepared { heights: stored, run_out, stages, spectrum, doubts: of_preparation } =
         prepared(section, heights, cell, stored, &treatment)?;
     let across = across(points, cell);
     let jump = cell.surroundings().per_cell(&stored).and_then(|stored| file::not_periodic(stored, &treatment));
@@ -97,6 +97,7 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     let path = around.source.path(name).map_or(name.to_owned(), |path| path.to_string_lossy().into_owned());
     let topography = topography(section, own_section.radius, cell, on_grid)?;
     let topography = run_out.into_iter().fold(topography, Topography::with_run_out);
+    let topography = spectrum.iter().fold(topography, Topography::with_spectrum);
     let Treatment { own_scale, name: unit, form, cutoff, window, .. } = treatment;
     Ok(Read {
         section: SurfaceSection {

@@ -36,6 +36,8 @@ pub(super) struct Prepared {
     pub run_out: Option<RunOut>,
     /// Stages of the preparation, in order; empty where nothing was done.
     pub stages: Vec<Stage>,
+    /// Spectrum of the heights, where it was computed.
+    pub spectrum: Option<Spectrum>,
     /// Warnings, a sentence each.
     pub doubts: Vec<String>,
 }
@@ -60,7 +62,9 @@ pub(super) fn prepared(
     let mut add = |treated: Treated, heights: &Array2<f64>| {
         stages.push(Stage { treated, rms: MeasuredRms::of(cell, heights.view()) });
     };
-    add(Treated::AsRead, &heights);
+    if form != SurfaceForm::None || cutoff.is_some() || heights.iter().any(|height| height.is_nan()) {
+        add(Treated::AsRead, &heights);
+    }
     let (mut heights, radius) = without_form(cell, heights, form)
         .map_err(|error| Refusal::new(at("form"), format!("`{}`: {error}", section.path("form")), "no such form"))?;
     if form != SurfaceForm::None {
@@ -85,9 +89,6 @@ pub(super) fn prepared(
         add(Treated::Smoothed { cutoff, is_periodic }, &heights);
     }
     doubts.extend(rest(form, &stages));
-    if stages.len() == 1 {
-        stages.clear();
-    }
     let (heights, run_out) = match window {
         Some(window) => {
             let (heights, run_out) = tapered(heights, window, form != SurfaceForm::None);
@@ -95,8 +96,9 @@ pub(super) fn prepared(
         }
         None => (heights, None),
     };
-    doubts.extend(noise(cell, &heights, run_out.as_ref()));
-    Ok(Prepared { heights, run_out, stages, doubts })
+    let spectrum = spectrum(cell, &heights, run_out.as_ref());
+    doubts.extend(spectrum.as_ref().and_then(noise));
+    Ok(Prepared { spectrum: spectrum.filter(|_| run_out.is_none()), heights, run_out, stages, doubts })
 }
 
 /// A warning where a sphere or cylinder leaves most of the heights.
@@ -154,11 +156,16 @@ fn without_short_waves(
     smoothed(cell, heights.view(), cutoff, is_periodic).map_err(|error| refuse(error.to_string(), "no filter"))
 }
 
-/// A warning where the shortest waves are noise; none where memory does not hold their spectrum, which solving needs too.
-fn noise(cell: Cell, heights: &Array2<f64>, run_out: Option<&RunOut>) -> Option<String> {
+/// Spectrum of heights without their run-out; `None` where memory does not hold it, which solving needs too.
+fn spectrum(cell: Cell, heights: &Array2<f64>, run_out: Option<&RunOut>) -> Option<Spectrum> {
     fits(32 * heights.len() as u64).ok()?;
     let measured = run_out.map_or(Cow::Borrowed(heights), |run_out| Cow::Owned(run_out.undone(heights.clone())));
-    let found = short_wave_noise(&Spectrum::of(cell, measured.view()).ok()?)?;
+    Spectrum::of(cell, measured.view()).ok()
+}
+
+/// A warning where the shortest waves are noise.
+fn noise(spectrum: &Spectrum) -> Option<String> {
+    let found = short_wave_noise(spectrum)?;
     // Adding 0 takes the sign of a rounded zero away.
     let (from, exponent) = (TAU / found.from, (10.0 * found.exponent).round() / 10.0 + 0.0);
     Some(format!(

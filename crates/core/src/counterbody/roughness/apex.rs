@@ -53,12 +53,16 @@ struct NewtonStep {
 /// # Errors
 /// [`LatticeError`] when there are none.
 pub(crate) fn apex(cell: Cell, heights: ArrayView2<'_, f64>) -> Result<f64, LatticeError> {
-    apex_within(cell, heights, RISE_ALLOWANCE)
+    apex_within(&Spectrum::of(cell, heights)?, heights, RISE_ALLOWANCE)
+}
+
+/// Height of the apex of the surface with this `spectrum`, a length; `heights` are its samples.
+pub(crate) fn apex_by(spectrum: &Spectrum, heights: ArrayView2<'_, f64>) -> Result<f64, LatticeError> {
+    apex_within(spectrum, heights, RISE_ALLOWANCE)
 }
 
 /// Height of the apex, a length, where a climber may rise by up to `allowance` times the predicted rise.
-fn apex_within(cell: Cell, heights: ArrayView2<'_, f64>, allowance: f64) -> Result<f64, LatticeError> {
-    let spectrum = Spectrum::of(cell, heights)?;
+fn apex_within(spectrum: &Spectrum, heights: ArrayView2<'_, f64>, allowance: f64) -> Result<f64, LatticeError> {
     let grid = spectrum.grid();
     let heights = heights.as_standard_layout();
     let heights = heights.as_slice().expect("in standard layout");
@@ -66,7 +70,7 @@ fn apex_within(cell: Cell, heights: ArrayView2<'_, f64>, allowance: f64) -> Resu
     let enough = ROUNDING * (highest - lowest);
     let places: Vec<[f64; 2]> = starts(grid.points(), heights).into_iter().map(|index| grid.fractions(index)).collect();
     let points = grid.points().map(|n| n as f64);
-    let waves = WaveRows::of(&spectrum);
+    let waves = WaveRows::of(spectrum);
     let mut climbers: Vec<Climber> = waves
         .jets(&places)
         .into_iter()
@@ -267,7 +271,10 @@ mod tests {
             let surface = SelfAffine { hurst, longest: 0.5, rolloff: 0.5, shortest, rms: Rms::Slope(0.1), seed };
             let heights = surface.heights(cell, [n; 2]).unwrap();
             let range = heights.iter().copied().fold(0.0, f64::max) - heights.iter().copied().fold(0.0, f64::min);
-            let (found, all) = (apex_of(cell, &heights), apex_within(cell, heights.view(), f64::INFINITY).unwrap());
+            let (found, all) = (
+                apex_of(cell, &heights),
+                apex_within(&Spectrum::of(cell, heights.view()).unwrap(), heights.view(), f64::INFINITY).unwrap(),
+            );
             assert!((found - all).abs() < 1e-12 * range, "{n}, {seed}: {found} {all}");
         }
     }

@@ -21,7 +21,7 @@ mod spectrum;
 mod statistics;
 mod window;
 
-pub(crate) use apex::apex;
+pub(crate) use apex::{apex, apex_by};
 pub use border::{MAX_BORDER_JUMP, border_jumps};
 pub use form::{FormError, SurfaceForm, without_form};
 pub use gaussian::{MEMORY as SMOOTHING_MEMORY, smoothed};

@@ -48,7 +48,7 @@ impl Spectrum {
     pub fn of(cell: Cell, heights: ArrayView2<'_, f64>) -> Result<Self, LatticeError> {
         let grid = Grid::new(cell, heights.dim().into())?;
         let common = heights.first().copied().unwrap_or(0.0);
-        let components = field::components(heights.mapv(|height| height - common).view());
+        let components = field::components_above(heights, common);
         Ok(Self { grid, common, components })
     }
 
@@ -58,7 +58,7 @@ impl Spectrum {
     }
 
     /// The grid of the samples.
-    pub(super) fn grid(&self) -> &Grid {
+    pub(crate) fn grid(&self) -> &Grid {
         &self.grid
     }
 

@@ -3,7 +3,7 @@
 //! m_n = ⟨(h − h̄)ⁿ⟩; h_rms = √m₂, skewness m₃/m₂^{3/2}, kurtosis m₄/m₂²: 0 and 3 for heights of a Gaussian distribution.
 
 use crate::lattice::Cell;
-use crate::numeric::sums;
+use crate::numeric::{parallel, sums};
 use ndarray::ArrayView2;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -65,18 +65,21 @@ impl MeasuredRms {
         let mean: f64 = sum / count;
         let square = measured().map(|height| (height - mean).powi(2)).sum::<f64>() / count;
         let reciprocal = cell.reciprocal().map(|b| b.map(|c| c / TAU));
-        let mut slopes = (0.0, 0.0);
-        for (i, j) in (1..n1).flat_map(|i| (1..n2).map(move |j| (i, j))) {
-            // Derivatives by the fractions of a₁ and a₂.
-            let rise = [
-                (heights[[i, j]] - heights[[i - 1, j]]) * n1 as f64,
-                (heights[[i, j]] - heights[[i, j - 1]]) * n2 as f64,
-            ];
-            let [x, y] = [0, 1].map(|c| rise[0] * reciprocal[0][c] + rise[1] * reciprocal[1][c]);
-            if !x.is_nan() && !y.is_nan() {
-                slopes = (slopes.0 + x * x + y * y, slopes.1 + 1.0);
+        let of_row = |row: usize| {
+            let mut slopes = (0.0, 0.0);
+            let (before, here) = (heights.row(row), heights.row(row + 1));
+            for j in 1..n2 {
+                // Derivatives by the fractions of a₁ and a₂.
+                let rise = [(here[j] - before[j]) * n1 as f64, (here[j] - here[j - 1]) * n2 as f64];
+                let [x, y] = [0, 1].map(|c| rise[0] * reciprocal[0][c] + rise[1] * reciprocal[1][c]);
+                if !x.is_nan() && !y.is_nan() {
+                    slopes = (slopes.0 + x * x + y * y, slopes.1 + 1.0);
+                }
             }
-        }
+            slopes
+        };
+        let rows = parallel::map(n1.saturating_sub(1), of_row);
+        let slopes = rows.into_iter().fold((0.0, 0.0), |(sum, count), row| (sum + row.0, count + row.1));
         Self { height: square.sqrt(), slope: (slopes.0 / f64::max(slopes.1, 1.0)).sqrt() }
     }
 }

@@ -9,8 +9,13 @@ use rayon::prelude::*;
 
 const ZERO: Complex<f64> = Complex::new(0.0, 0.0);
 
-/// Components of a field in standard layout, shape (N₁, N₂/2 + 1).
+/// Components of a field, shape (N₁, N₂/2 + 1).
 pub fn components(field: ArrayView2<'_, f64>) -> Array2<Complex<f64>> {
+    components_above(field, 0.0)
+}
+
+/// Components of a field less a value that all samples have in common, shape (N₁, N₂/2 + 1).
+pub fn components_above(field: ArrayView2<'_, f64>, common: f64) -> Array2<Complex<f64>> {
     let (n1, n2) = field.dim();
     let plan = percoat_fft::of_real(n2);
     let half = n2 / 2 + 1;
@@ -21,7 +26,7 @@ pub fn components(field: ArrayView2<'_, f64>) -> Array2<Complex<f64>> {
     rows.zip(samples).for_each_init(
         || (plan.make_input_vec(), plan.make_scratch_vec()),
         |(input, scratch), (row, samples)| {
-            input.copy_from_slice(samples);
+            input.iter_mut().zip(samples).for_each(|(input, sample)| *input = sample - common);
             plan.process_with_scratch(input, row, scratch).expect("lengths were planned");
         },
     );
@@ -55,13 +60,32 @@ pub fn field(components: Array2<Complex<f64>>, n2: usize) -> Array2<f64> {
 /// Transforms every column; in standard layout.
 fn columns(values: Array2<Complex<f64>>, direction: FftDirection) -> Array2<Complex<f64>> {
     let plan = percoat_fft::complex(values.nrows(), direction);
-    let mut transposed = values.reversed_axes().as_standard_layout().into_owned();
-    let columns = transposed.as_slice_mut().expect("in standard layout").par_chunks_mut(plan.len());
-    columns.for_each_init(
+    let mut columns = transposed(values);
+    columns.as_slice_mut().expect("in standard layout").par_chunks_mut(plan.len()).for_each_init(
         || vec![ZERO; plan.get_inplace_scratch_len()],
         |scratch, column| plan.process_with_scratch(column, scratch),
     );
-    transposed.reversed_axes().as_standard_layout().into_owned()
+    transposed(columns)
+}
+
+/// Rows and columns exchanged, in standard layout: by bands of rows of the result.
+fn transposed(values: Array2<Complex<f64>>) -> Array2<Complex<f64>> {
+    /// Rows of a band: a line of the cache of each row that is read serves half of them.
+    const BAND: usize = 8;
+    let (rows, columns) = values.dim();
+    let values = values.as_standard_layout();
+    let from = values.as_slice().expect("in standard layout");
+    let mut result = Array2::from_elem((columns, rows), ZERO);
+    let bands = result.as_slice_mut().expect("made row by row").par_chunks_mut(BAND * rows).enumerate();
+    bands.for_each(|(band, to)| {
+        let (first, count) = (band * BAND, to.len() / rows);
+        for (row, values) in from.chunks_exact(columns).enumerate() {
+            for (k, value) in values[first..first + count].iter().enumerate() {
+                to[k * rows + row] = *value;
+            }
+        }
+    });
+    result
 }
 
 #[cfg(test)]
