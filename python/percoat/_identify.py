@@ -159,6 +159,7 @@ def identify(
     free: Union[str, Sequence[str]],
     *,
     known: Optional[Mapping[str, float]] = None,
+    segment: Optional[str] = None,
     set: Settings = None,
     threads: Optional[int] = None,
     progress: Listener = None,
@@ -173,13 +174,17 @@ def identify(
         The curve: the path of a table; a dict, a :class:`pandas.DataFrame` or a structured array with the columns ``force``
         and ``penetration``, in the units of the case or with their own as in ``force_mN``, and ``penetration_error`` where
         the standard deviations of the points are known; ``(force, penetration)`` or ``(force, penetration,
-        penetration_error)``; or an array with these columns. Elastic contact: loading without plastic depth.
+        penetration_error)``; or an array with these columns. Tables are read as instruments export them. Elastic contact:
+        loading without plastic depth.
     free
         What is to be found: keys of the case, ``["layers.0.young", "substrate.young"]``; ``"offset"``, a zero of the
         penetration that was missed; ``"frame_compliance"``, that of the frame, a length per force.
     known
         What the instrument is known to add to the penetration, in the units of the case: ``{"offset": 0.002}``, a zero that was
         missed, and ``"frame_compliance"``, that of the frame. What is free as well begins from there.
+    segment
+        ``"loading"`` takes the points up to nearly the largest force, without hold and unloading; ``None`` all of them. Points
+        before contact are left out.
     set, threads, progress
         As for :func:`percoat.solve`.
 
@@ -211,7 +216,8 @@ def identify(
     names = [free] if isinstance(free, str) else list(free)
     width = shutil.get_terminal_size().columns
     stated = [f"{name}={float(value)!r}" for name, value in (known or {}).items()]
-    found = _core.identify(_core.Case(case, set), _columns(data), (names, stated), width, threads, listener(progress))
+    asked = (names, stated, segment)
+    found = _core.identify(_core.Case(case, set), _columns(data), asked, width, threads, listener(progress))
     identification = Identification(*found)
     warn(identification.warnings)
     return identification

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from typing import Any, Callable, ClassVar, Optional, Sequence, Tuple
+from typing import Any, Callable, ClassVar, Optional, Sequence, Tuple, Union
 
 from percoat import _core, _html
 from percoat._case import CaseLike, Settings
@@ -68,11 +68,21 @@ class Limits(FirstFailure):
 
 
 def limit(
-    case: CaseLike, *, set: Settings = None, threads: Optional[int] = None, progress: Listener = None
+    case: CaseLike,
+    *,
+    up_to: Union[float, str, None] = None,
+    set: Settings = None,
+    threads: Optional[int] = None,
+    progress: Listener = None,
 ) -> Limits:
     """The mean pressure or force at which something first fails, and what: each criterion's own limit load too.
 
-    Parameters are those of :func:`percoat.solve`; the case needs strengths.
+    Parameters
+    ----------
+    case, set, threads, progress
+        As of :func:`percoat.solve`; the case needs strengths.
+    up_to : float or str, optional
+        The load up to which limits are searched, a number in the units of the case or a text such as ``"20 N"``.
 
     Examples
     --------
@@ -82,7 +92,7 @@ def limit(
     ('yield', 2, 6)
     """
     checked = _core.Case(case, set)
-    found, converged = _core.limit(checked, threads, listener(progress))
+    found, converged = _core.limit(checked, None if up_to is None else str(up_to), threads, listener(progress))
     limits = Limits({**found, "converged": converged}, checked)
     warn_of(limits, "a load or the accuracy did not converge")
     return limits

@@ -101,6 +101,13 @@ def test_what_never_fails_has_no_limit() -> None:
     assert repr(sound).endswith(": nothing fails>") and "nothing fails up to the mean pressure" in str(sound)
 
 
+def test_limits_up_to_a_load_with_its_unit() -> None:
+    found = percoat.limit("ball-on-disc", up_to="5 mN", set={"grid.points": 32})
+    assert found.first is None and max(limit.up_to for limit in found.limits) <= 5.0 * (1 + 1e-9)
+    with pytest.raises(percoat.CaseError, match="must be a force"):
+        percoat.limit("ball-on-disc", up_to="5 µm", set={"grid.points": 32})
+
+
 def test_doubts_about_limits_are_told_at_the_line_of_the_user() -> None:
     with pytest.warns(percoat.PercoatWarning, match="less than 10 samples") as caught:
         limits = percoat.limit(paraboloids(0.04, grid={"points": 48}))

@@ -62,6 +62,9 @@ pub enum Command {
     Limit {
         /// Case file with strengths, the name of an embedded case, or - for standard input
         case: Option<PathBuf>,
+        /// Search no higher than this load, as "20 N" or as a number in the units of the case
+        #[arg(long, value_name = "LOAD", allow_hyphen_values = true)]
+        up_to: Option<String>,
         #[command(flatten)]
         changes: Changes,
         #[command(flatten)]
@@ -82,7 +85,7 @@ pub enum Command {
     /// Find moduli, thicknesses or other keys of a case from a measured indentation curve
     #[command(after_help = help::IDENTIFY)]
     Identify {
-        /// Table of the curve: columns `force` and `penetration`, with units as in `force_mN,penetration_nm`
+        /// Table of the curve, as instruments export it: columns `force` and `penetration`, with units as in `force_mN` or `Depth [nm]`
         data: PathBuf,
         /// Case file of one indenter alone, or the name of an embedded case
         case: PathBuf,
@@ -92,6 +95,9 @@ pub enum Command {
         /// Known additions of the instrument, in the units of the case: offset=LENGTH,frame_compliance=LENGTH PER FORCE
         #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',')]
         known: Vec<String>,
+        /// Part of the test that is fitted; `loading`: up to nearly the largest force, without hold and unloading [default: all of it]
+        #[arg(long, value_name = "SEGMENT", value_parser = ["loading"])]
+        segment: Option<String>,
         #[command(flatten)]
         changes: Changes,
         #[command(flatten)]

@@ -27,7 +27,8 @@ help!(
     LIMIT,
     "0 done; 2 refused, nothing written; 3 not converged, everything\ncomputed is written and marked; 4 input or output failed; 130 interrupted",
     "limit" => "a coating of DLC on steel under sliding spheres",
-    "limit mine.toml --set friction.coefficient=0.1"
+    "limit mine.toml --set friction.coefficient=0.1",
+    "limit ball-on-disc --up-to 20N" => "up to the load of a test"
 );
 help!(
     LIFE,

@@ -52,11 +52,15 @@ impl Recorder for Searching {
     }
 }
 
-pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Ending, Failure> {
+pub fn run(case: Option<&Path>, up_to: Option<&str>, set: &[String], common: &Common) -> Result<Ending, Failure> {
     let (started, pictures) = (Instant::now(), &common.pictures);
     let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), set)?;
     let folder = output_folder(common, &name)?;
     let task = FindLimits::new(&case, Capacity::on_this_machine(&folder), pictures.wanted())?;
+    let task = match up_to {
+        Some(load) => task.up_to(load)?,
+        None => task,
+    };
     let results = Results::claim(folder, plan(Writer::Limit, &files(), pictures), common.saying())?;
     let mut searching = Searching { quantity: case.units().quantity(), progress: Progress::new("", 0, 0, common) };
     let found = task.find(&mut searching)?;

@@ -36,6 +36,7 @@ mod without_effect;
 
 use arguments::{Arguments, Command};
 use ending::{Ending, Failure};
+use percoat_case::measurements::Segment;
 use std::ffi::OsString;
 use std::io::Write;
 
@@ -67,12 +68,15 @@ fn carry_out(command: &Command) -> Result<Ending, Failure> {
             solve::run(case.as_deref(), changes.once()?, options, common)
         }
         Command::Compare { case, changes, common } => compare::run(case.as_deref(), changes.once()?, common),
-        Command::Limit { case, changes, common } => limit::run(case.as_deref(), changes.once()?, common),
+        Command::Limit { case, up_to, changes, common } => {
+            limit::run(case.as_deref(), up_to.as_deref(), changes.once()?, common)
+        }
         Command::Life { case, changes, options, common } => {
             life::run(case.as_deref(), changes.once()?, options, common)
         }
-        Command::Identify { data, case, free, known, changes, common } => {
-            identify::run((data, case), (free, known), changes.once()?, common)
+        Command::Identify { data, case, free, known, segment, changes, common } => {
+            let segment = if segment.is_some() { Segment::Loading } else { Segment::Whole };
+            identify::run((data, case), (free, known), segment, (changes.once()?, common))
         }
         Command::Sweep { case, set, options, common } => sweep::run(case, set, options, common),
         Command::Merge { folders, output, pictures, saying } => {

@@ -26,6 +26,13 @@ use rayon::prelude::*;
 use std::io::Write;
 use std::path::Path;
 
+/// What to try after the embedded default.
+const NEXT: &str = "\
+next: percoat solve ball-on-disc               a ball on a coated disc, in newtons
+      percoat cases                            all examples
+      percoat cases ball-on-disc > mine.toml   a case of your own
+";
+
 /// Options of `percoat solve` alone.
 #[derive(Debug, Args)]
 pub struct SolveOptions {
@@ -39,6 +46,7 @@ pub struct SolveOptions {
 
 pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: &Common) -> Result<Ending, Failure> {
     let (clock, pictures) = (Clock::start(), &common.pictures);
+    let next = if case.is_none() { NEXT } else { "" };
     let (case, name) = read_case(case, set)?;
     let folder = output_folder(common, &name)?;
     let fields = !options.no_fields;
@@ -84,7 +92,7 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
     };
     let tables = || {
         let text = table::outcome(&case, &outcome.steps, outcome.change, terminal::width());
-        text + &beside().unwrap_or_default()
+        text + &beside().unwrap_or_default() + next
     };
     let line = || format!("{:.2} s ({})", clock.seconds(), table::timing(&timing));
     results.finish("summary.json", tables, line, &warnings)?;

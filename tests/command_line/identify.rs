@@ -79,6 +79,33 @@ fn what_cannot_be_identified_is_refused_with_what_to_do() {
     refused(&["one.csv", "case.toml", "--free", "layers.0.young"], &["more points than parameters"]);
 }
 
+/// A test as an instrument exports it, with a preamble, decimal commas, points before contact, a hold and unloading.
+#[test]
+fn the_loading_of_an_exported_test_is_taken() {
+    let desk = desk();
+    let curve = fs::read_to_string(desk.path("curve.csv")).unwrap();
+    let points: Vec<[f64; 2]> = curve
+        .lines()
+        .skip(1)
+        .map(|line| line.split_once(',').map(|(force, depth)| [force, depth].map(|x| x.parse().unwrap())).unwrap())
+        .collect();
+    let [top, depth] = points[points.len() - 1];
+    let before = [[0.0, -0.004], [-0.001 * top, -0.001]];
+    let after = [[top, depth + 0.002], [0.5 * top, 0.8 * depth], [0.0, 0.01]];
+    let row = |[force, depth]: &[f64; 2]| format!("0;{};{}\r\n", 1e3 * force, 1e3 * depth).replace('.', ",");
+    let rows: String = before.iter().chain(&points).chain(&after).map(row).collect();
+    desk.write("exported.txt", format!("Sample;DLC\r\n\r\nTime [s];Load (µN);Depth [nm];\r\n{rows}"));
+    let free = ["case.toml", "--free", "substrate.young", "--set", "layers.0.young=300", "--no-pictures", "-o"];
+    desk.percoat(&[&["identify", "exported.txt"][..], &free, &["none"]].concat())
+        .complains(2, &["exported.txt: line", "the force must be above 0", "--segment loading"]);
+    let whole = desk.succeeds(&[&["identify", "curve.csv"][..], &free, &["whole"]].concat());
+    let taken = desk.succeeds(&[&["identify", "exported.txt", "--segment", "loading"][..], &free, &["taken"]].concat());
+    assert_says(&taken.err, &["3 of 13 points are left out", "2 of 13 points before contact"]);
+    assert!(!whole.err.contains("left out"), "{}", whole.err);
+    let value = |folder: &str| number(&desk.json(&format!("{folder}/identification.json")), "/parameters/0/value");
+    assert!((value("taken") / value("whole") - 1.0).abs() < 1e-9, "{} {}", value("taken"), value("whole"));
+}
+
 /// The lines of the curve with its penetrations changed, force and penetration as they are.
 fn changed(desk: &Desk, name: &str, change: impl Fn(usize, f64) -> f64) {
     let curve = fs::read_to_string(desk.path("curve.csv")).unwrap();

@@ -92,6 +92,29 @@ fn limits_do_not_depend_on_the_first_load_and_scale_with_the_units() {
     }
 }
 
+/// What holds under the largest load that is asked for has no limit; what fails below it has that of any search.
+#[test]
+fn a_search_up_to_a_load_solves_no_higher_one() {
+    let run = Run::new(coated([1.0; 2]), vec![Load::MeanPressure(0.05)], Sampling::Points([64; 2]));
+    let whole = run.limits(&mut ()).unwrap();
+    let mut known = loads(&whole);
+    known.sort_by(f64::total_cmp);
+    // Between the first limit and the second, below all of them, and below the first load of the search.
+    for most in [(known[0] * known[1]).sqrt(), 0.5 * known[0], 1e-3 * known[0]] {
+        let found = run.limits_up_to(most, &mut ()).unwrap();
+        let highest = found.steps.last().unwrap().reading.mean_pressure.unwrap();
+        assert!((highest / most - 1.0).abs() < 1e-9, "{highest} {most}");
+        for (limit, other) in found.limits.iter().zip(&whole.limits) {
+            if other.load() < most {
+                assert!((limit.load() / other.load() - 1.0).abs() < 2e-3, "{limit:?} {other:?}");
+            } else {
+                assert!(matches!(limit.at, At::Never { end: SearchEnd::LargestLoad, .. }), "{limit:?}");
+            }
+        }
+        assert_eq!(found.to_string().starts_with("nothing fails up to the mean pressure"), most < known[0], "{found}");
+    }
+}
+
 #[test]
 fn what_is_never_reached_or_at_once_is_said() {
     let paraboloid = Shape::Paraboloid { radius: 1.0 };

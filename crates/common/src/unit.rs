@@ -43,7 +43,7 @@ pub struct Prefixed {
 /// Strains below this are shown as microstrain.
 const MOST_MICROSTRAIN: f64 = 2e-3;
 /// Prefixes from 10⁻¹² to 10¹² by thousands.
-const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
+pub(crate) const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
 
 /// Whether a name is that of a metre with a prefix, or of another length of engineers.
 pub fn is_length(name: &str) -> bool {
@@ -80,7 +80,7 @@ const PRESSURES: [(&str, f64); 12] = [
 ];
 
 /// A pound-force a square inch, Pa.
-const PSI: f64 = 4.448_221_615_260_5 / (0.0254 * 0.0254);
+pub(crate) const PSI: f64 = 4.448_221_615_260_5 / (0.0254 * 0.0254);
 
 /// Whether a name is that of a newton with a prefix.
 pub fn is_force(name: &str) -> bool {

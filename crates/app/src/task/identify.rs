@@ -12,6 +12,7 @@ use percoat_core::identification::{Identification, IdentificationError, Listener
 #[derive(Debug)]
 pub struct Identify<'a> {
     task: IdentificationTask<'a>,
+    notes: Vec<String>,
 }
 
 /// The numbers that were found.
@@ -34,7 +35,13 @@ impl<'a> Identify<'a> {
     /// [`Refused`] where they do not suffice.
     pub fn new(task: IdentificationTask<'a>, room: Capacity, pictures: bool) -> Result<Self, Refused> {
         Allowed::within(task.case(), room, Job::Identify { pictures }).map_err(Refused::new)?;
-        Ok(Self { task })
+        Ok(Self { task, notes: Vec::new() })
+    }
+
+    /// The task with notes on what of the test was left out, which stand among its warnings.
+    #[must_use]
+    pub fn with_notes(self, notes: Vec<String>) -> Self {
+        Self { notes, ..self }
     }
 
     /// Searches for the numbers; `each` receives every trial, and may end the search.
@@ -47,7 +54,7 @@ impl<'a> Identify<'a> {
         each: &mut Listener<'_>,
     ) -> Result<Identified<'m>, IdentificationError<CaseError>> {
         let (found, best) = self.task.find(measured, each)?;
-        let warnings = [doubts(measured, &found, &best), plausibility::of_case(&best)].concat();
+        let warnings = [self.notes.clone(), doubts(measured, &found, &best), plausibility::of_case(&best)].concat();
         Ok(Identified { measured, found, best, warnings })
     }
 }

@@ -15,6 +15,8 @@ pub struct FindLimits<'a> {
     case: &'a Case,
     allowed: Allowed<'a>,
     run: Run,
+    /// Largest load of the search, in the quantity of the case.
+    most: f64,
 }
 
 /// The limit loads of a case.
@@ -37,7 +39,16 @@ impl<'a> FindLimits<'a> {
         let allowed = Allowed::within(case, room, Job::Limit { pictures }).map_err(Refused::new)?;
         let run = case.run();
         run.check_limits().map_err(Refused::new)?;
-        Ok(Self { case, allowed, run })
+        Ok(Self { case, allowed, run, most: f64::INFINITY })
+    }
+
+    /// The task up to a load, as in "20 N"; a number alone is in the units of the case.
+    ///
+    /// # Errors
+    /// [`Refused`] for a text that is no load above 0.
+    pub fn up_to(self, load: &str) -> Result<Self, Refused> {
+        let most = self.case.load_of(load).map_err(Refused::new)?;
+        Ok(Self { most, ..self })
     }
 
     /// Searches for the loads.
@@ -45,7 +56,7 @@ impl<'a> FindLimits<'a> {
     /// # Errors
     /// [`RunError`], as of [`Run::limits`].
     pub fn find<R: Recorder>(&self, recorder: &mut R) -> Result<Limited<'a>, RunError<R::Error>> {
-        let limits = self.run.limits(&mut Within { allowed: self.allowed, recorder })?;
+        let limits = self.run.limits_up_to(self.most, &mut Within { allowed: self.allowed, recorder })?;
         let warnings = [limits.warnings.clone(), plausibility::of_case(self.case)].concat();
         Ok(Limited { case: self.case, limits, warnings })
     }

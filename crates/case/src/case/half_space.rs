@@ -4,6 +4,7 @@ use super::Source;
 use super::error::{CaseError, Refusal};
 use super::layers;
 use super::materials;
+use super::measures;
 use super::model::CASE;
 use super::reader::TableAt;
 use super::span::Span;
@@ -22,6 +23,7 @@ const KEYS: [&str; 4] = ["layers", "substrate", "units", "materials"];
 
 fn read(source: &Source) -> Result<HalfSpace, Refusal> {
     let mut root = source.tree(&CASE)?;
+    measures::convert(&mut root, &CASE)?;
     materials::fill(&mut root, &CASE, source)?;
     let end = source.text.trim_end().len();
     let root = TableAt::root(&root, &CASE, Span::new(0, end..end));

@@ -42,6 +42,7 @@ mod lookup;
 mod material_keys;
 mod material_names;
 mod materials;
+mod measures;
 mod model;
 mod named_pipes;
 mod node;
@@ -88,6 +89,7 @@ pub use lookup::{NoCase, find};
 pub use materials::{
     Certainty, LibraryMaterial, LibraryStrength, MaterialsError, Property, UnknownMaterial, library, materials_of_file,
 };
+pub use measures::NoLoad;
 pub use model::Case;
 pub use named_pipes::Pipes;
 pub use overrides::{given_twice, parts};

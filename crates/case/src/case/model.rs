@@ -16,6 +16,7 @@ use super::life::LIFE;
 use super::load::{self, LOAD};
 use super::localized::LOCALIZED;
 use super::materials;
+use super::measures::{self, NoLoad};
 use super::node::Table;
 use super::reader::TableAt;
 use super::section::{KeyValue, ReadTable, section};
@@ -90,7 +91,7 @@ section! { whole
         pub composite_hardness: Option<CompositeHardnessSection> =
             Key::new(&[Form::Table(&COMPOSITE_HARDNESS)], "{ law = \"area\", constant = 0.5 }")
                 .otherwise("each surface has its own"),
-        /// names for axes, tables and captions; numbers are not converted
+        /// names for axes, tables and captions, to which numbers with a unit are converted
         pub units: Option<UnitsSection> =
             Key::new(&[Form::Table(&UNITS)], "{ length = \"µm\", pressure = \"GPa\" }").otherwise("no names"),
         /// stresses to be computed
@@ -132,6 +133,14 @@ impl Case {
             |of: fn(&UnitsSection) -> &Option<String>| self.units.as_ref().and_then(|units| of(units).as_deref());
         let units = Units::of(&self.problem).named(name(|units| &units.length), name(|units| &units.pressure));
         if self.load.force.is_some() { units.with_loads_in(LoadQuantity::Force) } else { units }
+    }
+
+    /// The load of a text such as "20 N", in the quantity and the units of the case; a number alone is in these units.
+    ///
+    /// # Errors
+    /// [`NoLoad`] for what is no number above 0, with a unit or without, and for a unit of something else.
+    pub fn load_of(&self, text: &str) -> Result<f64, NoLoad> {
+        measures::load(text, self.units().quantity(), self.units.as_ref())
     }
 
     /// The nominal pressures p̄; `None` where penetrations are prescribed.
@@ -230,6 +239,7 @@ impl Case {
 
 /// The case of a tree, which is that of a source with what is set in it.
 pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
+    measures::convert(&mut root, &CASE)?;
     materials::fill(&mut root, &CASE, source)?;
     let end = source.text.trim_end().len();
     let root = TableAt::root(&root, &CASE, Span::new(0, end..end));

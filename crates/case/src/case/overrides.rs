@@ -5,9 +5,11 @@
 
 use super::error::Refusal;
 use super::keys::Keys;
+use super::measures;
 use super::node::{Entry, Node, Table, Value};
 use super::span::Span;
 use super::suggestions::nearest;
+use percoat_common::measure::split as split_unit;
 use std::collections::HashSet;
 
 /// Most parts of a path; the longest of a case has four.
@@ -38,11 +40,14 @@ pub(super) fn apply(text: &str, source: usize, root: &mut Table, keys: &'static 
         return Err(Refusal::new(span, message, "no value here").help(format!("write {key}=VALUE")));
     }
     let value = match Node::parse(value, source, offset) {
-        Err(_) if is_bare_word(value) => Node { value: Value::Text(value.to_owned()), span },
+        Err(_) if is_bare_word(value) || measures::is_measure(value) => {
+            Node { value: Value::Text(value.to_owned()), span }
+        }
         parsed => parsed.map_err(|refusal| match value {
             value if is_decimal_comma(value) => refusal.help(WITH_A_POINT),
             value if is_list_of_numbers(value) => refusal
                 .help(format!("a list has brackets: '{key}=[{value}]'; percoat sweep takes several values without")),
+            value if split_unit(value).is_some() => refusal.help(format!("a number with a unit: {}", measures::KNOWN)),
             _ => refusal,
         })?,
     };

@@ -9,7 +9,7 @@ const LETTERS: usize = 12;
 const NAME: Form = Form::Name("a name", LETTERS);
 
 section! {
-    /// The section `[units]`: only names, no number is converted.
+    /// The section `[units]`: a number alone is in these units, one with a unit is converted to them.
     pub struct UnitsSection = UNITS {
         /// unit of all lengths
         pub length: Option<String> = Key::new(&[NAME], "\"µm\"").otherwise("not named"),

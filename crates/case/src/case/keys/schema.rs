@@ -9,7 +9,11 @@ use serde_json::{Map, Value, json};
 
 use super::key::{Absent, Form, Key, Keys};
 use super::range::Range;
+use super::unit::Unit;
 use crate::case::model::CASE;
+
+/// Pattern of a number with a unit.
+pub(super) const WITH_UNIT: &str = r"^\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\s*[^\s0-9]";
 
 /// The schema of a case file.
 pub fn schema() -> Value {
@@ -42,7 +46,7 @@ fn table(keys: &'static Keys) -> Value {
 }
 
 fn property(key: &'static Key) -> Value {
-    let forms: Vec<Value> = key.forms.iter().map(form).collect();
+    let forms: Vec<Value> = key.forms.iter().map(|form| self::form(form, key.unit)).collect();
     let mut property = json!({ "description": description(key), "examples": [value(key.example)] });
     if let Absent::Value(default) = key.absent {
         property["default"] = value(default);
@@ -65,9 +69,13 @@ fn description(key: &Key) -> String {
     format!("{kinds}{} ({}){rule}{absent}", key.what, key.value())
 }
 
-fn form(form: &Form) -> Value {
+/// A form of a value whose numbers have a unit; with one that is written they are texts, which the reader converts.
+fn form(form: &Form, unit: Unit) -> Value {
     match form {
-        Form::Number(range) => number(*range),
+        Form::Number(range) if matches!(unit, Unit::Pure | Unit::LengthToOneMinusN) => number(*range),
+        Form::Number(range) => {
+            json!({ "anyOf": [number(*range), { "type": "string", "pattern": WITH_UNIT }] })
+        }
         Form::Integer(low, high) if *high < i64::MAX as usize => {
             json!({ "type": "integer", "minimum": low, "maximum": high })
         }
@@ -78,11 +86,11 @@ fn form(form: &Form) -> Value {
         Form::Name(_, most) => json!({ "type": "string", "minLength": 1, "maxLength": most }),
         Form::Tuple(_, items) => {
             let count = items.len();
-            let items: Vec<Value> = items.iter().map(self::form).collect();
+            let items: Vec<Value> = items.iter().map(|item| self::form(item, unit)).collect();
             json!({ "type": "array", "items": items, "minItems": count, "maxItems": count })
         }
         Form::List { of, count: [least, most] } => {
-            json!({ "type": "array", "items": self::form(of), "minItems": least, "maxItems": most })
+            json!({ "type": "array", "items": self::form(of, unit), "minItems": least, "maxItems": most })
         }
         Form::Table(keys) => table(keys),
         Form::Sections(keys, most) => json!({ "type": "array", "items": table(keys), "maxItems": most }),

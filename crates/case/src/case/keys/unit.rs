@@ -31,7 +31,7 @@ impl Unit {
     }
 
     /// The quantity, in a word.
-    pub(super) fn quantity(self) -> &'static str {
+    pub(in crate::case) fn quantity(self) -> &'static str {
         match self {
             Self::Pure | Self::LengthToOneMinusN => "number",
             Self::Length => "length",

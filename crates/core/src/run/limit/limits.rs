@@ -20,7 +20,7 @@ pub enum SearchEnd {
     CompleteContact,
     /// The load is [`SearchEnd::OF_HARDNESS`] of the most that the hardness bears.
     Hardness,
-    /// Contact has no room under higher loads, or no more of them are tried.
+    /// Contact has no room under higher loads, no more of them are tried, or none are asked for.
     LargestLoad,
 }
 

@@ -89,15 +89,24 @@ impl Run {
     /// # Errors
     /// [`RunError`], see [`check_limits`](Self::check_limits).
     pub fn limits<R: Recorder>(&self, recorder: &mut R) -> Result<Limits, RunError<R::Error>> {
+        self.limits_up_to(f64::INFINITY, recorder)
+    }
+
+    /// Searches the limit loads of all criteria up to the load `most` > 0, in the [quantity](Self::quantity) of the run: what holds under it
+    /// has no limit. No higher load is solved.
+    ///
+    /// # Errors
+    /// [`RunError`], see [`check_limits`](Self::check_limits).
+    pub fn limits_up_to<R: Recorder>(&self, most: f64, recorder: &mut R) -> Result<Limits, RunError<R::Error>> {
         self.checked_for_limits()?;
         let mut limits = match self.sampling {
-            Sampling::Points(points) => LimitSearch::on_grid(self, points, recorder)?,
+            Sampling::Points(points) => LimitSearch::on_grid(self, (points, most), recorder)?,
             Sampling::Accuracy(accuracy) => {
                 let mut refinement = Refinement::new(&self.problem.cell(), accuracy)?;
                 let mut coarse: Option<Limits> = None;
                 loop {
                     let points = refinement.points();
-                    let mut limits = LimitSearch::on_grid(self, points, recorder)?;
+                    let mut limits = LimitSearch::on_grid(self, (points, most), recorder)?;
                     limits.change = coarse.take().map(|coarse| limits.change_from(&coarse));
                     if let Some(change) = limits.change {
                         recorder.refined(points, change);

@@ -1,6 +1,7 @@
 //! The schema admits every case that the reader admits, and refuses faults that a schema can express.
 
 use super::super::schema;
+use super::super::schema::WITH_UNIT;
 use super::bases::Bases;
 use crate::case::{Case, Source, embedded};
 use serde_json::{Map, Value, json};
@@ -54,6 +55,10 @@ fn follows(word: &str, rule: &Value, rules: &Map<String, Value>, value: &Value) 
         },
         "enum" => all().contains(value),
         "const" => rule == value,
+        "pattern" => {
+            assert_eq!(rule, WITH_UNIT, "the one pattern");
+            value.as_str().is_none_or(|text| text.trim().starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)))
+        }
         "minimum" => number(f64::ge),
         "maximum" => number(f64::le),
         "exclusiveMinimum" => number(f64::gt),

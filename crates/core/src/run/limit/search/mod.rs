@@ -42,6 +42,8 @@ pub(super) struct LimitSearch<'a, R: Recorder> {
     /// Load that is [`SearchEnd::OF_HARDNESS`] of the most that the hardness bears; infinite without hardness, and for an isolated
     /// contact, whose window grows.
     hardness_load: f64,
+    /// Largest load that is solved, whatever fails there; infinite where none is prescribed.
+    most: f64,
     /// A load of the order at which contact fills the cell or the window; infinite for a flat surface.
     filling: f64,
     /// The solved loads, by ascending load.
@@ -52,8 +54,8 @@ pub(super) struct LimitSearch<'a, R: Recorder> {
 }
 
 impl<'a, R: Recorder> LimitSearch<'a, R> {
-    /// A search for the limits of a run on a grid of `points`, before its first load.
-    fn new(run: &'a Run, points: [usize; 2], recorder: &'a mut R) -> Result<Self, RunError<R::Error>> {
+    /// A search for the limits of a run up to the load `most` on a grid of `points`, before its first load.
+    fn new(run: &'a Run, (points, most): ([usize; 2], f64), recorder: &'a mut R) -> Result<Self, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&run.problem), points, run.settings)?;
         recorder.begin(&solver).map_err(RunError::Recorder)?;
         // A flat surface is in complete contact at zero pressure, which does not end the search: its stresses grow with the load.
@@ -66,7 +68,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let kind = run.problem.kind();
         let complete = if kind.may_be_complete() && filling < borne { filling } else { f64::INFINITY };
         let hardness_load = if kind.is_indentation() { f64::INFINITY } else { borne };
-        let windows = Windows::new(Arc::clone(&run.problem), complete.min(hardness_load));
+        let windows = Windows::new(Arc::clone(&run.problem), complete.min(hardness_load).min(most));
         let (tables, steps) = (Arc::default(), Vec::new());
         Ok(Self {
             run,
@@ -77,6 +79,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             quantity,
             complete,
             hardness_load,
+            most,
             filling,
             steps,
             last: None,
@@ -84,9 +87,13 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         })
     }
 
-    /// Searches the limits of a run on a grid of `points`.
-    pub fn on_grid(run: &'a Run, points: [usize; 2], recorder: &'a mut R) -> Result<Limits, RunError<R::Error>> {
-        let mut search = Self::new(run, points, recorder)?;
+    /// Searches the limits of a run up to the load `most` on a grid of `points`.
+    pub fn on_grid(
+        run: &'a Run,
+        (points, most): ([usize; 2], f64),
+        recorder: &'a mut R,
+    ) -> Result<Limits, RunError<R::Error>> {
+        let mut search = Self::new(run, (points, most), recorder)?;
         let Self { quantity, complete, hardness_load, .. } = search;
         let bodies = run.problem.bodies();
         let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
@@ -117,7 +124,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             complete,
             hardness_load,
             window: search.largest_window(),
-            ends_at_border: search.windows.largest() < complete.min(hardness_load),
+            ends_at_border: search.windows.largest() < complete.min(hardness_load).min(most),
             change: None,
             end: None,
             warnings: Vec::new(),

@@ -1,7 +1,7 @@
 //! The loads between which limits are searched: a factor of two apart, and closer where a level begins to touch.
 //!
 //! They begin with the least load whose contact has samples enough for its stresses, and end where every criterion has failed by more than
-//! its error, where contact is complete, or where it has no room in the largest window.
+//! its error, where contact is complete, where it has no room in the largest window, or under the largest load that is asked for.
 
 use super::{LimitSearch, TRIALS};
 use crate::body::{HalfSpace, Layer};
@@ -47,7 +47,7 @@ impl<R: Recorder> LimitSearch<'_, R> {
     /// Solves loads a factor of two apart, from the least whose contact has samples enough on, until every criterion has
     /// failed by more than its error or contact is complete. They do not depend on the loads of the run.
     pub(super) fn scan(&mut self, sought: &[Criterion]) -> Result<(), RunError<R::Error>> {
-        let mut lowest = self.start();
+        let mut lowest = self.start().min(self.most);
         let mut at_border = has_no_room(self.solve(lowest)?);
         for _ in 0..HALVINGS {
             if !at_border {

@@ -1,0 +1,78 @@
+//! Why a table is no measured curve.
+
+use percoat_core::identification::MeasurementError;
+
+/// Why a table is no measured curve.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Fault {
+    /// No line names columns.
+    #[error(
+        "no line names the columns: one must, as `force,penetration`, `force_mN,penetration_nm` or `Load (mN);Depth (nm)`"
+    )]
+    Empty,
+    /// A column that is needed is missing.
+    #[error(
+        "{}no column `{name}` among {found}; name it, with a unit if it is another than the case's: `{name}_{unit}`",
+        at(*.line)
+    )]
+    Missing {
+        /// Line of the names, from 1; `None` where columns stand in no table.
+        line: Option<usize>,
+        /// The column.
+        name: &'static str,
+        /// The columns that are there.
+        found: String,
+        /// A unit as an example.
+        unit: &'static str,
+    },
+    /// A column that is there twice.
+    #[error("{}`{}` is there twice, in different units or not: keep one", at(*.0), .1)]
+    Twice(Option<usize>, String),
+    /// A unit that is not known.
+    #[error("{}`{unit}` is no unit of {quantity}: use SI units with a prefix, as {example}", at(*.line))]
+    Unit {
+        /// Line of the names.
+        line: Option<usize>,
+        /// The unit.
+        unit: String,
+        /// The quantity.
+        quantity: &'static str,
+        /// An example.
+        example: &'static str,
+    },
+    /// The case does not name its units.
+    #[error(
+        "{}the case does not name SI units, so that `{}` cannot be converted: add [units], or give the column in the case's unit as `{}`",
+        at(*.0),
+        .1,
+        .2
+    )]
+    Unnamed(Option<usize>, String, &'static str),
+    /// A line with another number of cells.
+    #[error("line {line}: {found} cells, but {expected} columns are named")]
+    Cells {
+        /// The line, from 1.
+        line: usize,
+        /// Number of cells of the line.
+        found: usize,
+        /// Number of columns.
+        expected: usize,
+    },
+    /// A cell that is no number.
+    #[error("line {line}, column {column}: {text} is no number")]
+    Number {
+        /// The line, from 1.
+        line: usize,
+        /// The column.
+        column: String,
+        /// The cell.
+        text: String,
+    },
+    /// Values that are no curve.
+    #[error("{}{}{}", .1.map_or(String::new(), |line| format!("line {line}, ")), .0, .2)]
+    Values(MeasurementError, Option<usize>, &'static str),
+}
+
+fn at(line: Option<usize>) -> String {
+    line.map_or(String::new(), |line| format!("line {line}: "))
+}

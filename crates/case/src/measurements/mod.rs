@@ -1,0 +1,414 @@
+//! Measured indentation curves from tables: columns, a line for each point, as instruments and spreadsheets export them.
+//!
+//! A line names the columns: `force` (or load, P, …) and `penetration` (depth, displacement, h, …), alone in the units of the case, or with
+//! their own as in `force_mN`, `Load (mN)`, `Depth [nm]` or in a line of units below, which are converted where the case names its units.
+//! `penetration_error` is the standard deviation of each penetration, in the unit of the penetration unless it names its own. Other
+//! columns are left out. Columns that stand in no table but in memory are read alike.
+//!
+//! Points without a force before the largest one are those before contact, and left out. Of a test with hold and unloading the
+//! [segment](Segment) of loading can be taken.
+
+mod fault;
+mod table;
+
+use crate::units::{Unit, Units};
+use percoat_common::measure::Measure;
+use percoat_common::plain;
+use percoat_core::identification::{Measurement, MeasurementError};
+use table::{Table, bare};
+
+pub use fault::Fault;
+pub use table::text;
+
+/// Part of the largest force up to which a test is loaded: creep and the noise of a hold begin above it.
+const LOADED: f64 = 0.995;
+
+/// Part of a test that is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Segment {
+    /// All of its points: a curve of loading alone.
+    #[default]
+    Whole,
+    /// Loading: the points up to the first one under nearly the largest force.
+    Loading,
+}
+
+/// A measured curve, with what was left out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// The points.
+    pub measurement: Measurement,
+    /// Points that were left out, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// A column that is read: its place in a line, and the conversion to the unit of the case.
+#[derive(Debug, Clone, Copy)]
+struct Column {
+    place: usize,
+    /// Units of the column and of the case; `None` for numbers in that of the case.
+    units: Option<[Measure; 2]>,
+}
+
+/// Kinds of columns: its names, the first in our files; quantity, base unit, an example of a unit.
+struct Kind {
+    names: &'static [&'static str],
+    quantity: &'static str,
+    base: &'static str,
+    example: &'static str,
+}
+
+const FORCE: Kind = Kind {
+    names: &[
+        "force",
+        "load",
+        "normal force",
+        "normal load",
+        "indentation force",
+        "indentation load",
+        "load on sample",
+        "force on surface",
+        "applied load",
+        "fn",
+        "p",
+    ],
+    quantity: "force",
+    base: "N",
+    example: "mN",
+};
+const PENETRATION: Kind = Kind {
+    names: &[
+        "penetration",
+        "depth",
+        "penetration depth",
+        "indentation depth",
+        "displacement",
+        "displacement into surface",
+        "indenter displacement",
+        "pd",
+        "h",
+    ],
+    quantity: "length",
+    base: "m",
+    example: "nm",
+};
+const DEVIATION: Kind = Kind {
+    names: &["penetration error", "depth error", "displacement error"],
+    quantity: "length",
+    base: "m",
+    example: "nm",
+};
+
+/// The curve of a `segment` of the test in a table, in the `units` of the case.
+///
+/// # Errors
+/// [`Fault`] with the line.
+pub fn read(text: &str, segment: Segment, units: &Units) -> Result<Curve, Fault> {
+    let has = |names: &[&str], kind: &Kind| names.iter().any(|name| kind.unit_of(name).is_some());
+    let table = Table::of(text, |names| has(names, &FORCE) && has(names, &PENETRATION)).ok_or(Fault::Empty)?;
+    let columns = Columns::find(&table.names, &table.units, Some(table.line), units)?;
+    let Columns { force, penetration, deviation } = columns;
+    let needed = [Some(force), Some(penetration), deviation].into_iter().flatten().map(|column| column.place).max();
+    let mut points = Points::default();
+    for (line, row) in &table.rows {
+        let (found, expected) = (row.len(), table.names.len());
+        if found > expected || needed.is_some_and(|place| place >= found) {
+            return Err(Fault::Cells { line: *line, found, expected });
+        }
+        let number = |column: Column| {
+            let place = column.place;
+            let fault = || Fault::Number {
+                line: *line,
+                column: plain::line(table.names[place]).to_string(),
+                text: format!("`{}`", plain::line(row[place])),
+            };
+            table.number(row[place]).map(|x| column.converted(x)).ok_or_else(fault)
+        };
+        points.forces.push(number(force)?);
+        points.penetrations.push(number(penetration)?);
+        deviation.map_or(Ok(()), |column| number(column).map(|x| points.deviations.push(x)))?;
+        points.lines.push(*line);
+    }
+    points.curve(segment, deviation.is_some())
+}
+
+/// The curve of a `segment` of the test in columns in memory with these names, in the `units` of the case.
+///
+/// # Errors
+/// [`Fault`] without a line.
+pub fn of_columns(columns: &[(String, Vec<f64>)], segment: Segment, units: &Units) -> Result<Curve, Fault> {
+    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+    let Columns { force, penetration, deviation } = Columns::find(&names, &[], None, units)?;
+    let converted = |column: Column| columns[column.place].1.iter().map(|&x| column.converted(x)).collect::<Vec<f64>>();
+    let points = Points {
+        forces: converted(force),
+        penetrations: converted(penetration),
+        deviations: deviation.map(converted).unwrap_or_default(),
+        lines: Vec::new(),
+    };
+    points.curve(segment, deviation.is_some())
+}
+
+/// Points of a test, each with its line where they stand in a table.
+#[derive(Debug, Default)]
+struct Points {
+    forces: Vec<f64>,
+    penetrations: Vec<f64>,
+    deviations: Vec<f64>,
+    lines: Vec<usize>,
+}
+
+impl Points {
+    fn curve(mut self, segment: Segment, has_deviations: bool) -> Result<Curve, Fault> {
+        let mut notes = Vec::new();
+        let largest = self.forces.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let count = self.forces.len();
+        let top = self.forces.iter().position(|&force| force == largest).unwrap_or(0);
+        if segment == Segment::Loading {
+            let end = self.forces.iter().position(|&force| force >= LOADED * largest).map_or(count, |last| last + 1);
+            self.keep(0..end);
+            notes.extend((end < count).then(|| {
+                format!(
+                    "{} of {count} points are left out, from the first one of {LOADED} of the largest force on: hold and unloading",
+                    count - end
+                )
+            }));
+        }
+        // Before contact forces are zero but for noise.
+        let before = self.forces.iter().take(top).rposition(|&force| force <= 0.0).map_or(0, |last| last + 1);
+        self.keep(before..self.forces.len());
+        notes.extend((before > 0).then(|| {
+            format!("{before} of {count} points before contact, up to the last without a force, are left out")
+        }));
+        let Self { forces, penetrations, deviations, lines } = self;
+        let advice = match segment {
+            Segment::Whole => "; or take the part of loading alone: --segment loading",
+            Segment::Loading => "",
+        };
+        let measurement = Measurement::new(forces, penetrations, has_deviations.then_some(deviations));
+        measurement.map(|measurement| Curve { measurement, notes }).map_err(|error| {
+            let (line, advice) = match error {
+                MeasurementError::Unequal(..) => (None, ""),
+                MeasurementError::Unloading { from: index, .. }
+                | MeasurementError::Hold { from: index, .. }
+                | MeasurementError::Force(index, _) => (lines.get(index).copied(), advice),
+                MeasurementError::Penetration(index, _) | MeasurementError::Deviation(index, _) => {
+                    (lines.get(index).copied(), "")
+                }
+            };
+            Fault::Values(error, line, advice)
+        })
+    }
+
+    fn keep(&mut self, range: std::ops::Range<usize>) {
+        for column in [&mut self.forces, &mut self.penetrations, &mut self.deviations] {
+            if !column.is_empty() {
+                column.truncate(range.end);
+                column.drain(..range.start.min(column.len()));
+            }
+        }
+        if !self.lines.is_empty() {
+            self.lines.truncate(range.end);
+            self.lines.drain(..range.start);
+        }
+    }
+}
+
+/// The columns of a curve.
+struct Columns {
+    force: Column,
+    penetration: Column,
+    deviation: Option<Column>,
+}
+
+impl Columns {
+    /// The columns among those with these names, and with units in a line of their own, which stand in a line of a table.
+    fn find(names: &[&str], own_units: &[&str], line: Option<usize>, units: &Units) -> Result<Self, Fault> {
+        let column = |kind: &Kind| kind.column(names, own_units, line, units);
+        let missing = |kind: &Kind| Fault::Missing {
+            line,
+            name: kind.names[0],
+            found: plain::line(&names.join(", ")).to_string(),
+            unit: kind.example,
+        };
+        let force = column(&FORCE)?.ok_or_else(|| missing(&FORCE))?;
+        let penetration = column(&PENETRATION)?.ok_or_else(|| missing(&PENETRATION))?;
+        // Without a unit of its own it has that of the penetration.
+        let deviation =
+            column(&DEVIATION)?.map(|column| Column { units: column.units.or(penetration.units), ..column });
+        Ok(Self { force, penetration, deviation })
+    }
+}
+
+impl Column {
+    fn converted(self, number: f64) -> f64 {
+        self.units.and_then(|[own, of_case]| own.convert(number, of_case)).unwrap_or(number)
+    }
+}
+
+impl Kind {
+    /// The unit in the name of a column of the kind, `Some(None)` without one; `None` of another column.
+    fn unit_of(&self, name: &str) -> Option<Option<String>> {
+        let plain = |text: &str| text.replace('_', " ").split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase();
+        let is_known = |text: &str| self.names.contains(&&plain(text)[..]);
+        if is_known(name) {
+            return Some(None);
+        }
+        let name = name.trim();
+        let bracketed = [('(', ')'), ('[', ']')].into_iter().find_map(|(open, close)| {
+            let (before, unit) = name.strip_suffix(close)?.rsplit_once(open)?;
+            Some((before, unit))
+        });
+        let behind = || name.split_once('/').or_else(|| name.split_once(',')).or_else(|| name.rsplit_once('_'));
+        let (before, unit) = bracketed.or_else(behind)?;
+        let is_other = plain(unit).starts_with("error");
+        (is_known(before) && !is_other).then(|| Some(unit.trim().to_owned()))
+    }
+
+    /// The column of the kind; `None` where there is none.
+    fn column(
+        &self,
+        names: &[&str],
+        own_units: &[&str],
+        line: Option<usize>,
+        units: &Units,
+    ) -> Result<Option<Column>, Fault> {
+        let mut found = names.iter().enumerate().filter_map(|(place, name)| Some((place, self.unit_of(name)?)));
+        let Some((place, unit)) = found.next() else { return Ok(None) };
+        if let Some((again, _)) = found.next() {
+            return Err(Fault::Twice(line, plain::line(names[again]).to_string()));
+        }
+        let unit =
+            unit.or_else(|| own_units.get(place).map(|unit| bare(unit).to_owned()).filter(|unit| !unit.is_empty()));
+        let Some(unit) = unit else { return Ok(Some(Column { place, units: None })) };
+        let base = Measure::of(self.base).expect("a base unit is known");
+        let Some(own) = Measure::of(&unit).filter(|own| own.convert(1.0, base).is_some()) else {
+            let unit = plain::line(&unit).to_string();
+            return Err(Fault::Unit { line, unit, quantity: self.quantity, example: self.example });
+        };
+        let measure = |unit: &Unit| Measure::of(&unit.name()?);
+        let length = || measure(units.length());
+        let of_case = match self.base {
+            "N" => measure(units.pressure()).zip(length()).map(|(pressure, length)| pressure.by(length, 2)),
+            _ => length(),
+        };
+        let Some(of_case) = of_case else {
+            return Err(Fault::Unnamed(line, plain::line(names[place]).to_string(), self.names[0]));
+        };
+        Ok(Some(Column { place, units: Some([own, of_case]) }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str, units: &Units) -> Result<Measurement, Fault> {
+        super::read(text, Segment::Whole, units).map(|curve| curve.measurement)
+    }
+
+    fn units() -> Units {
+        Units::unknown().named(Some("µm"), Some("GPa"))
+    }
+
+    #[test]
+    fn columns_are_found_by_name_and_converted() {
+        let text =
+            "# measured\ntime_s, force_µN ,penetration_nm,penetration_error_nm\n0,2000,15,0.5\n\n1,4e3,\"24\",1\n";
+        let measurement = read(text, &units()).unwrap();
+        assert_eq!(measurement.forces(), [2.0, 4.0]);
+        assert!(
+            (measurement.penetrations()[1] - 0.024).abs() < 1e-17
+                && measurement.deviations().unwrap()[0] == 0.5 / 1000.0
+        );
+        let measurement = read("force,penetration_nm,penetration_error\n2,15,0.5\n", &units()).unwrap();
+        assert_eq!(measurement.deviations().unwrap(), [0.5 / 1000.0], "in the unit of the penetration");
+        let measurement = read("penetration,force\n0.1,3\n", &Units::unknown()).unwrap();
+        assert_eq!(
+            (measurement.forces(), measurement.penetrations(), measurement.deviations()),
+            (&[3.0][..], &[0.1][..], None)
+        );
+    }
+
+    #[test]
+    fn faults_name_their_line() {
+        let fault = |text: &str| read(text, &units()).unwrap_err().to_string();
+        for (text, words) in [
+            ("", "no line names the columns"),
+            ("1,2\n3,4\n", "no line names the columns"),
+            ("# x\nforce,deep\n", "line 2: no column `penetration` among force, deep"),
+            ("force,penetration_error\n", "no column `penetration`"),
+            ("force_lb,penetration\n1,2\n", "`lb` is no unit of force"),
+            ("force_nm,penetration\n1,2\n", "`nm` is no unit of force"),
+            ("force,force_mN,penetration\n", "`force_mN` is there twice"),
+            ("force,penetration\n1,2\n1\n", "line 3: 1 cells, but 2 columns"),
+            ("force,penetration\n1,x\n", "line 2, column penetration: `x` is no number"),
+            ("force,penetration\n1,2\n\n0,2\n", "line 4, point 2: the force must be above 0"),
+            ("force,penetration\n1,nan\n", "line 2, point 1: the penetration must be finite"),
+        ] {
+            assert!(fault(text).contains(words), "{text:?}: {}", fault(text));
+        }
+        let unnamed = read("force_mN,penetration\n1,2\n", &Units::unknown()).unwrap_err().to_string();
+        assert!(unnamed.contains("does not name SI units") && unnamed.contains("`force`"), "{unnamed}");
+    }
+
+    #[test]
+    fn columns_in_memory_are_those_of_a_table() {
+        let columns = |names: [&str; 2]| names.map(|name| (name.to_owned(), vec![2000.0, 4e3]));
+        let measurement =
+            of_columns(&columns(["penetration_nm", "force_µN"]), Segment::Whole, &units()).unwrap().measurement;
+        let table = read("force_µN,penetration_nm\n2000,2000\n4000,4000\n", &units()).unwrap();
+        assert_eq!(measurement, table);
+        let fault = |names| of_columns(&columns(names), Segment::Whole, &units()).unwrap_err().to_string();
+        assert!(fault(["force", "deep"]).starts_with("no column `penetration` among force, deep"));
+        assert!(fault(["force", "force_N"]).starts_with("`force_N` is there twice"));
+    }
+
+    /// Separators, decimal commas, names, units, encodings and line ends of exports: each has the same three points.
+    #[test]
+    fn tables_of_instruments_are_read_as_they_are_exported() {
+        let expected = read("force_mN,penetration_nm\n0.5,10\n1.5,20.5\n3,30\n", &units()).unwrap();
+        let semicolons =
+            "Sample;DLC 7\nDate;2026-11-28\n\nTime [s];Load (mN);Depth (nm);\n0;0,5;10;\n1;1,5;20,5;\n2;3;30;\n";
+        let tabs = "Displacement Into Surface\tLoad On Sample\tTime On Sample\r\nnm\tmN\ts\r\n10\t0.5\t0\r\n20.5\t1.5\t1\r\n30\t3\t2\r\n";
+        let spaces = "Test 4 of 9\rh [µm]  P [µN]\r0.01   500\r0.0205 1.5e3\r0.03   3000\r";
+        let plain = "force_N penetration_m\n5e-4 1e-8\n1.5e-3 2.05e-8\n3e-3 3e-8\n";
+        let slashes = "Force / mN\tPenetration / nm\n0,5\t10\n1,5\t20,5\n3\t30\n";
+        let quoted = "\"Normal Force\",\"Indentation Depth\"\n\"[mN]\",\"[nm]\"\n\"0.5\",\"10\"\n\"1.5\",\"20.5\"\n\"3\",\"30\"\n";
+        for exported in [semicolons, tabs, spaces, plain, slashes, quoted] {
+            let latin: Vec<u8> = exported.chars().map(|c| c as u8).collect();
+            let wide = |of: fn(u16) -> [u8; 2]| -> Vec<u8> {
+                std::iter::once(0xfeff).chain(exported.encode_utf16()).flat_map(of).collect()
+            };
+            let marked = [b"\xef\xbb\xbf", exported.as_bytes()].concat();
+            for bytes in [exported.as_bytes().to_vec(), latin, wide(u16::to_le_bytes), wide(u16::to_be_bytes), marked] {
+                assert_eq!(read(&text(&bytes), &units()).unwrap(), expected, "{exported}");
+            }
+        }
+    }
+
+    /// Noise before contact, loading, a hold with creep, and unloading.
+    #[test]
+    fn of_a_whole_test_the_loading_is_taken() {
+        let forces = [0.0, 0.01, -0.02, 1.0, 2.0, 4.0, 7.98, 8.0, 8.01, 7.99, 8.0, 4.0, 1.0, 0.0];
+        let table: String = forces.iter().enumerate().map(|(k, force)| format!("{force},{k}\n")).collect();
+        let table = format!("force_mN,penetration_nm\n{table}");
+        let refused = read(&table, &units()).unwrap_err().to_string();
+        assert!(
+            refused.contains("point 11: the force must be above 0") && refused.ends_with("--segment loading"),
+            "{refused}"
+        );
+        let Curve { measurement, notes } = super::read(&table, Segment::Loading, &units()).unwrap();
+        assert_eq!(measurement.forces(), [1.0, 2.0, 4.0, 7.98]);
+        assert!(
+            notes[0].starts_with("7 of 14 points") && notes[1].starts_with("3 of 14 points before contact"),
+            "{notes:?}"
+        );
+        let columns = [("force".to_owned(), forces.to_vec()), ("h".to_owned(), (0..14).map(f64::from).collect())];
+        let found = of_columns(&columns, Segment::Loading, &units()).unwrap();
+        assert_eq!((found.measurement.forces(), &found.notes), (measurement.forces(), &notes));
+        // A zero point alone is one before contact.
+        let zero = super::read("force,penetration\n0,0\n1,0.1\n2,0.2\n", Segment::Whole, &units()).unwrap();
+        assert_eq!((zero.measurement.forces(), zero.notes.len()), (&[1.0, 2.0][..], 1));
+    }
+}
