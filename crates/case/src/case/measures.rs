@@ -9,7 +9,7 @@ use percoat_common::measure::{Measure, split};
 use percoat_core::load::LoadQuantity;
 
 /// Known units, for error messages.
-pub(super) const KNOWN: &str = "m, N and Pa with their prefixes (µm, mN, GPa), cm, Å, in, mil, daN, kgf, lbf, bar, atm, psi, ksi, their powers, products and \
+const KNOWN: &str = "m, N and Pa with their prefixes (µm, mN, GPa), cm, Å, in, mil, daN, kgf, lbf, bar, atm, psi, ksi, their powers, products and \
                      quotients, as in \"N/mm²\", \"GPa/µm\" and \"mm³/(N·m)\"";
 
 /// The units of a case by their names.
@@ -79,9 +79,9 @@ impl UnitFault {
     }
 }
 
-/// Whether a text is a number with a unit that is known.
+/// Whether a text is a number with a word behind it, as for a unit.
 pub(super) fn is_measure(text: &str) -> bool {
-    split(text).is_some_and(|(_, unit)| Measure::of(unit).is_some())
+    split(text).is_some_and(|(_, unit)| unit.starts_with(char::is_alphabetic))
 }
 
 impl CaseUnits {
@@ -241,7 +241,7 @@ mod tests {
         for (set, words) in [
             (&["load.force=20 µm"][..], "`load.force`: it must be a force, and µm is no unit of one"),
             (&["load.force=\"20 Nmm\""], "\"Nmm\" is no unit that is known"),
-            (&["load.force=20 Nmm"], "m, N and Pa with their prefixes"),
+            (&["load.force=20 Nmm"], "\"Nmm\" is no unit that is known"),
             (&["layers.0.poisson=0.3 m"], "m stands behind a number without a unit"),
             (&["units.length=widget", "layers.0.thickness=3 µm"], "units.length must name a unit"),
         ] {

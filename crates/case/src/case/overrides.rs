@@ -9,7 +9,6 @@ use super::measures;
 use super::node::{Entry, Node, Table, Value};
 use super::span::Span;
 use super::suggestions::nearest;
-use percoat_common::measure::split as split_unit;
 use std::collections::HashSet;
 
 /// Most parts of a path; the longest of a case has four.
@@ -47,7 +46,6 @@ pub(super) fn apply(text: &str, source: usize, root: &mut Table, keys: &'static 
             value if is_decimal_comma(value) => refusal.help(WITH_A_POINT),
             value if is_list_of_numbers(value) => refusal
                 .help(format!("a list has brackets: '{key}=[{value}]'; percoat sweep takes several values without")),
-            value if split_unit(value).is_some() => refusal.help(format!("a number with a unit: {}", measures::KNOWN)),
             _ => refusal,
         })?,
     };
@@ -269,7 +267,10 @@ mod tests {
     fn a_bare_word_may_begin_with_digits() {
         let root = set("", "substrate.material=100Cr6").unwrap();
         assert_eq!(value(&root, &["substrate", "material"]), Some(&Value::Text("100Cr6".to_owned())));
-        assert!(set("", "substrate.young=1 a").is_err());
+        // The unit is refused where its key is known.
+        let root = set("", "substrate.young=1 a").unwrap();
+        assert_eq!(value(&root, &["substrate", "young"]), Some(&Value::Text("1 a".to_owned())));
+        assert!(set("", "substrate.young=1 2").is_err());
     }
 
     #[test]
