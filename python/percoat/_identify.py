@@ -145,11 +145,19 @@ def _columns(data: Any) -> Any:
             )
         names, data = NAMES[: len(data)], dict(zip(NAMES, data))
     columns = []
-    for name in (name for name in names if str(name).startswith(NAMES[:2])):
-        column = np.asarray(data[name], dtype=float)
-        if column.ndim != 1:
+    for name in names:
+        # Columns of times or words are no columns of a curve.
+        is_named = str(name).startswith(NAMES[:2])
+        try:
+            column = np.asarray(data[name], dtype=float)
+        except (TypeError, ValueError):
+            if is_named:
+                raise
+            continue
+        if column.ndim == 1:
+            columns.append((str(name), column))
+        elif is_named:
             raise _core.CaseError(f"{name} of a curve has a number for each point, not the shape {column.shape}")
-        columns.append((str(name), column))
     return columns
 
 

@@ -26,7 +26,7 @@ use rayon::prelude::*;
 use std::io::Write;
 use std::path::Path;
 
-/// What to try after the embedded default.
+/// Commands to try after the embedded default.
 const NEXT: &str = "\
 next: percoat solve ball-on-disc               a ball on a coated disc, in newtons
       percoat cases                            all examples

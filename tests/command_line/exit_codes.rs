@@ -5,6 +5,17 @@ use std::collections::BTreeSet;
 use std::process::Stdio;
 
 #[test]
+fn a_search_ends_at_the_load_of_a_test() {
+    let desk = Desk::new();
+    for (load, words) in [("20 µm", "must be a force"), ("-1", "above 0"), ("much", "needed is a number")] {
+        desk.percoat(&["limit", "ball-on-disc", "--up-to", load, "-o", "out"]).complains(2, &[load, words]);
+    }
+    let search = ["limit", "ball-on-disc", "--up-to", "20N", "--set", "grid.points=48", "--no-pictures", "-o", "out"];
+    let found = desk.percoat(&search);
+    assert!(found.code == 0 && found.out.contains("nothing fails up to the force 20.000\u{a0}N"), "{}", found.out);
+}
+
+#[test]
 fn a_misspelt_key_is_refused_with_its_place_and_a_suggestion() {
     let desk = Desk::new();
     let text = desk.percoat(&["cases", "fig2"]).out.replace("thickness", "thicknes");

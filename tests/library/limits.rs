@@ -92,7 +92,7 @@ fn limits_do_not_depend_on_the_first_load_and_scale_with_the_units() {
     }
 }
 
-/// What holds under the largest load that is asked for has no limit; what fails below it has that of any search.
+/// Criteria that hold under the largest load asked for have no limit; those that fail below it have that of any search.
 #[test]
 fn a_search_up_to_a_load_solves_no_higher_one() {
     let run = Run::new(coated([1.0; 2]), vec![Load::MeanPressure(0.05)], Sampling::Points([64; 2]));

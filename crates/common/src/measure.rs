@@ -2,8 +2,6 @@
 //!
 //! A factor is a number times a power of ten, so that a decimal prefix shifts digits and changes none: 12.7 mm are 12700 µm.
 
-use super::unit::{PREFIXES, PSI};
-
 /// A unit as a product of powers of newtons and metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measure {
@@ -14,13 +12,20 @@ pub struct Measure {
     metres: i32,
 }
 
+/// Prefixes from 10⁻¹² to 10¹² by thousands.
+pub(crate) const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
+
+/// A pound-force a square inch, Pa.
+const PSI: f64 = POUND_FORCE / (0.0254 * 0.0254);
+
 /// Units with SI prefixes: powers of newtons and metres.
 const PREFIXED: [(&str, i32, i32); 3] = [("m", 0, 1), ("N", 1, 0), ("Pa", 1, -2)];
 
 /// Inch, m, without its power of ten.
 const INCH: f64 = 2.54;
-/// Kilogram-force, N; that of the pound is 0.453 592 37 times it.
+/// Kilogram-force, N.
 const KILOGRAM_FORCE: f64 = 9.806_65;
+/// Pound-force, N.
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
 /// Other units: factor, power of ten, powers of newtons and metres.
@@ -110,19 +115,19 @@ impl Measure {
         }
     }
 
-    /// This unit over another.
+    /// Quotient of the unit and another.
     #[must_use]
     pub fn over(self, other: Self) -> Self {
         self.times(other.to_the(-1))
     }
 
-    /// This unit times a whole power of another.
+    /// Product of the unit and a whole power of another.
     #[must_use]
     pub fn by(self, other: Self, power: i32) -> Self {
         self.times(other.to_the(power))
     }
 
-    /// A number in this unit in another one; `None` where one measures something else.
+    /// A number in the unit as one in another; `None` where one measures something else.
     pub fn convert(self, number: f64, to: Self) -> Option<f64> {
         if (self.newtons, self.metres) != (to.newtons, to.metres) {
             return None;
@@ -139,19 +144,15 @@ fn shifted(number: f64, exponent: i32) -> f64 {
     moved.unwrap_or(number)
 }
 
-/// The number and the name of the unit of a text such as "12.7 mm" or "3µm"; `None` where it does not begin with a number, or has
-/// nothing behind it.
+/// The number and the name of the unit of a text such as "12.7 mm", "3µm" or "2e-6 1/GPa"; `None` of a number alone, and where no unit
+/// can stand behind a number.
 pub fn split(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
-    let ends = text.char_indices().map(|(end, _)| end).rev();
-    let number = |end: usize| {
-        let (number, unit) = text.split_at(end);
-        let number = number.trim_end();
-        // "inf" and "nan" are words.
-        number.ends_with(|c: char| c.is_ascii_digit() || c == '.').then_some(())?;
-        Some((number.parse::<f64>().ok()?, unit.trim()))
-    };
-    ends.filter(|&end| end > 0).find_map(number).filter(|(_, unit)| !unit.is_empty())
+    let end = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c)))?;
+    // Letters and signs at the end belong to the unit where they make no number.
+    let number = |end: usize| Some((text.get(..end)?.parse::<f64>().ok()?, text[end..].trim()));
+    let (number, unit) = (end.saturating_sub(2)..=end).rev().find_map(number)?;
+    (unit.starts_with(char::is_alphabetic) || unit.starts_with("1/")).then_some((number, unit))
 }
 
 #[cfg(test)]
@@ -214,6 +215,12 @@ mod tests {
         }
         assert_eq!(split("1e3 m"), Some((1000.0, "m")));
         assert_eq!(split("100Cr6"), Some((100.0, "Cr6")));
-        assert_eq!(split("fine"), None);
+        for text in ["fine", "210", "2101", "0,05 N", "-10,25", "5", "", "e", "1e", "µm"] {
+            assert_eq!(split(text), None, "{text}");
+        }
+        assert_eq!(
+            [split("5eV"), split("3 E"), split("2e-6 1/GPa")],
+            [Some((5.0, "eV")), Some((3.0, "E")), Some((2e-6, "1/GPa"))]
+        );
     }
 }

@@ -3,6 +3,7 @@
 //! For an SI unit with its prefix (m, mm, µm, nm; Pa … TPa) axes, tables and captions take the prefix with which their numbers
 //! read well, 2.1·10¹¹ Pa as 210 GPa. Any other name is written behind unchanged numbers.
 
+use super::measure::{Measure, PREFIXES};
 use std::ops::RangeInclusive;
 
 /// Lengths, moduli, pressures and wavenumbers whose products double precision carries.
@@ -42,49 +43,29 @@ pub struct Prefixed {
 
 /// Strains below this are shown as microstrain.
 const MOST_MICROSTRAIN: f64 = 2e-3;
-/// Prefixes from 10⁻¹² to 10¹² by thousands.
-pub(crate) const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
-
-/// Whether a name is that of a metre with a prefix, or of another length of engineers.
+/// Whether a name is that of a length.
 pub fn is_length(name: &str) -> bool {
-    matches!(Unit::called(name, "m"), Unit::Si { .. }) || ["cm", "in", "inch", "mil", "Å", "micron"].contains(&name)
+    is_of(name, "m")
 }
 
-/// Whether a name is that of a pascal with a prefix, or of another pressure of engineers.
+/// Whether a name is that of a pressure.
 pub fn is_pressure(name: &str) -> bool {
-    pascals(name).is_some()
+    is_of(name, "Pa")
 }
 
 /// Pascals of a unit of pressure by its name; `None` for a name that is not known.
 pub fn pascals(name: &str) -> Option<f64> {
-    match Unit::called(name, "Pa") {
-        Unit::Si { exponent, .. } => Some(10f64.powi(exponent)),
-        _ => PRESSURES.iter().find(|(known, _)| *known == name).map(|(_, pascals)| *pascals),
-    }
+    Measure::of(name)?.convert(1.0, Measure::of("Pa")?)
 }
 
-/// Pressures of engineers beside the pascal, Pa.
-const PRESSURES: [(&str, f64); 12] = [
-    ("hPa", 1e2),
-    ("bar", 1e5),
-    ("psi", PSI),
-    ("ksi", 1e3 * PSI),
-    ("Msi", 1e6 * PSI),
-    ("N/mm²", 1e6),
-    ("N/mm2", 1e6),
-    ("N/mm^2", 1e6),
-    ("N/m²", 1.0),
-    ("N/m2", 1.0),
-    ("N/m^2", 1.0),
-    ("atm", 101_325.0),
-];
-
-/// A pound-force a square inch, Pa.
-pub(crate) const PSI: f64 = 4.448_221_615_260_5 / (0.0254 * 0.0254);
-
-/// Whether a name is that of a newton with a prefix.
+/// Whether a name is that of a force.
 pub fn is_force(name: &str) -> bool {
-    matches!(Unit::called(name, "N"), Unit::Si { .. })
+    is_of(name, "N")
+}
+
+/// Whether a name is that of a unit of what a base unit measures.
+fn is_of(name: &str, base: &str) -> bool {
+    Measure::of(name).zip(Measure::of(base)).is_some_and(|(unit, base)| unit.convert(1.0, base).is_some())
 }
 
 impl Unit {

@@ -6,6 +6,7 @@ use super::node::{Node, Table, Value};
 use super::span::Span;
 use super::units::UnitsSection;
 use percoat_common::measure::{Measure, split};
+use percoat_common::unit::{is_length, is_pressure};
 use percoat_core::load::LoadQuantity;
 
 /// Known units, for error messages.
@@ -100,9 +101,9 @@ impl CaseUnits {
             Value::Text(text) => {
                 let takes_text = |form: &Form| matches!(form, Form::Text(_) | Form::Name(..));
                 let takes_number = forms.iter().any(|form| matches!(form, Form::Number(_)));
-                if let Some((number, unit)) = split(text)
-                    && takes_number
+                if takes_number
                     && !forms.iter().any(takes_text)
+                    && let Some((number, unit)) = split(text)
                 {
                     let number = self.in_case((number, unit), key.unit).map_err(|fault| fault.refusal(path, span))?;
                     node.value = Value::Float(number);
@@ -143,7 +144,7 @@ impl CaseUnits {
         let missing = match of {
             Unit::Pure | Unit::LengthToOneMinusN => {
                 let help = "write the number alone".to_owned();
-                return Err(fault(format!("{unit} stands behind a number without a unit"), "a unit", help));
+                return Err(fault(format!("it has no unit, and {unit} is written behind it"), "a unit", help));
             }
             Unit::Length => "units.length",
             Unit::Pressure | Unit::PerPressure => "units.pressure",
@@ -162,8 +163,8 @@ impl CaseUnits {
 
     /// The unit of the numbers of a key; `None` of a pure number, and where the case does not name units that are known.
     fn unit(&self, of: Unit) -> Option<Measure> {
-        let length = || Measure::of(self.length.as_deref()?);
-        let pressure = || Measure::of(self.pressure.as_deref()?);
+        let length = || Measure::of(self.length.as_deref().filter(|name| is_length(name))?);
+        let pressure = || Measure::of(self.pressure.as_deref().filter(|name| is_pressure(name))?);
         match of {
             Unit::Pure | Unit::LengthToOneMinusN => None,
             Unit::Length => length(),
@@ -242,7 +243,7 @@ mod tests {
             (&["load.force=20 µm"][..], "`load.force`: it must be a force, and µm is no unit of one"),
             (&["load.force=\"20 Nmm\""], "\"Nmm\" is no unit that is known"),
             (&["load.force=20 Nmm"], "\"Nmm\" is no unit that is known"),
-            (&["layers.0.poisson=0.3 m"], "m stands behind a number without a unit"),
+            (&["layers.0.poisson=0.3 m"], "it has no unit, and m is written behind it"),
             (&["units.length=widget", "layers.0.thickness=3 µm"], "units.length must name a unit"),
         ] {
             let told = read(set).unwrap_err();

@@ -23,6 +23,9 @@ pub use table::text;
 /// Part of the largest force up to which a test is loaded: creep and the noise of a hold begin above it.
 const LOADED: f64 = 0.995;
 
+/// Part of the largest force that noise before contact has at most.
+const BEFORE_CONTACT: f64 = 0.02;
+
 /// Part of a test that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Segment {
@@ -50,7 +53,7 @@ struct Column {
     units: Option<[Measure; 2]>,
 }
 
-/// Kinds of columns: its names, the first in our files; quantity, base unit, an example of a unit.
+/// Kind of column: names, of which percoat's own files have the first; quantity, base unit, an example of a unit.
 struct Kind {
     names: &'static [&'static str],
     quantity: &'static str,
@@ -80,6 +83,7 @@ const PENETRATION: Kind = Kind {
     names: &[
         "penetration",
         "depth",
+        "disp",
         "penetration depth",
         "indentation depth",
         "displacement",
@@ -161,6 +165,10 @@ struct Points {
 impl Points {
     fn curve(mut self, segment: Segment, has_deviations: bool) -> Result<Curve, Fault> {
         let mut notes = Vec::new();
+        let others = [Some(self.penetrations.len()), has_deviations.then_some(self.deviations.len())];
+        if let Some(other) = others.into_iter().flatten().find(|&other| other != self.forces.len()) {
+            return Err(Fault::Values(MeasurementError::Unequal(self.forces.len(), other), None, ""));
+        }
         let largest = self.forces.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let count = self.forces.len();
         let top = self.forces.iter().position(|&force| force == largest).unwrap_or(0);
@@ -169,34 +177,46 @@ impl Points {
             self.keep(0..end);
             notes.extend((end < count).then(|| {
                 format!(
-                    "{} of {count} points are left out, from the first one of {LOADED} of the largest force on: hold and unloading",
+                    "{} of {count} points are left out, those behind the first one under {LOADED} of the largest force",
                     count - end
                 )
             }));
         }
         // Before contact forces are zero but for noise.
         let before = self.forces.iter().take(top).rposition(|&force| force <= 0.0).map_or(0, |last| last + 1);
+        let is_noise = self.forces[..before].iter().all(|&force| force <= BEFORE_CONTACT * largest);
+        let before = if is_noise { before } else { 0 };
         self.keep(before..self.forces.len());
         notes.extend((before > 0).then(|| {
             format!("{before} of {count} points before contact, up to the last without a force, are left out")
         }));
         let Self { forces, penetrations, deviations, lines } = self;
         let advice = match segment {
-            Segment::Whole => "; or take the part of loading alone: --segment loading",
+            Segment::Whole => "; or take the segment of loading alone (--segment loading)",
             Segment::Loading => "",
         };
         let measurement = Measurement::new(forces, penetrations, has_deviations.then_some(deviations));
         measurement.map(|measurement| Curve { measurement, notes }).map_err(|error| {
-            let (line, advice) = match error {
-                MeasurementError::Unequal(..) => (None, ""),
-                MeasurementError::Unloading { from: index, .. }
-                | MeasurementError::Hold { from: index, .. }
-                | MeasurementError::Force(index, _) => (lines.get(index).copied(), advice),
-                MeasurementError::Penetration(index, _) | MeasurementError::Deviation(index, _) => {
-                    (lines.get(index).copied(), "")
+            // Points are numbered as in the table.
+            let (error, first, advice) = match error {
+                MeasurementError::Unequal(..) => (error, None, ""),
+                MeasurementError::Unloading { from, to, forces } => {
+                    (MeasurementError::Unloading { from: from + before, to: to + before, forces }, Some(from), advice)
+                }
+                MeasurementError::Hold { from, to, force, by } => {
+                    (MeasurementError::Hold { from: from + before, to: to + before, force, by }, Some(from), advice)
+                }
+                MeasurementError::Force(index, value) => {
+                    (MeasurementError::Force(index + before, value), Some(index), advice)
+                }
+                MeasurementError::Penetration(index, value) => {
+                    (MeasurementError::Penetration(index + before, value), Some(index), "")
+                }
+                MeasurementError::Deviation(index, value) => {
+                    (MeasurementError::Deviation(index + before, value), Some(index), "")
                 }
             };
-            Fault::Values(error, line, advice)
+            Fault::Values(error, first.and_then(|index| lines.get(index).copied()), advice)
         })
     }
 
@@ -250,7 +270,8 @@ impl Kind {
     /// The unit in the name of a column of the kind, `Some(None)` without one; `None` of another column.
     fn unit_of(&self, name: &str) -> Option<Option<String>> {
         let plain = |text: &str| text.replace('_', " ").split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase();
-        let is_known = |text: &str| self.names.contains(&&plain(text)[..]);
+        // H is the hardness.
+        let is_known = |text: &str| text.trim() != "H" && self.names.contains(&&plain(text)[..]);
         if is_known(name) {
             return Some(None);
         }
@@ -273,26 +294,32 @@ impl Kind {
         line: Option<usize>,
         units: &Units,
     ) -> Result<Option<Column>, Fault> {
-        let mut found = names.iter().enumerate().filter_map(|(place, name)| Some((place, self.unit_of(name)?)));
-        let Some((place, unit)) = found.next() else { return Ok(None) };
-        if let Some((again, _)) = found.next() {
-            return Err(Fault::Twice(line, plain::line(names[again]).to_string()));
-        }
-        let unit =
-            unit.or_else(|| own_units.get(place).map(|unit| bare(unit).to_owned()).filter(|unit| !unit.is_empty()));
-        let Some(unit) = unit else { return Ok(Some(Column { place, units: None })) };
         let base = Measure::of(self.base).expect("a base unit is known");
-        let Some(own) = Measure::of(&unit).filter(|own| own.convert(1.0, base).is_some()) else {
-            let unit = plain::line(&unit).to_string();
+        let own_unit =
+            |place: usize| own_units.get(place).map(|unit| bare(unit).to_owned()).filter(|unit| !unit.is_empty());
+        let named = names.iter().enumerate().filter_map(|(place, name)| Some((place, self.unit_of(name)?)));
+        let named: Vec<(usize, Option<String>)> =
+            named.map(|(place, unit)| (place, unit.or_else(|| own_unit(place)))).collect();
+        // Beside a load in newtons there may be one in volts, and beside a depth `h_max`.
+        let measure = |unit: &str| Measure::of(unit).filter(|own| own.convert(1.0, base).is_some());
+        let mut fitting = named.iter().filter(|(_, unit)| unit.as_deref().is_none_or(|unit| measure(unit).is_some()));
+        let Some((place, unit)) = fitting.next() else {
+            let Some((_, Some(unit))) = named.first() else { return Ok(None) };
+            let unit = plain::line(unit).to_string();
             return Err(Fault::Unit { line, unit, quantity: self.quantity, example: self.example });
         };
+        if let Some((again, _)) = fitting.next() {
+            return Err(Fault::Twice(line, plain::line(names[*again]).to_string()));
+        }
+        let place = *place;
+        let Some(own) = unit.as_deref().and_then(measure) else { return Ok(Some(Column { place, units: None })) };
         let measure = |unit: &Unit| Measure::of(&unit.name()?);
         let length = || measure(units.length());
         let of_case = match self.base {
             "N" => measure(units.pressure()).zip(length()).map(|(pressure, length)| pressure.by(length, 2)),
             _ => length(),
         };
-        let Some(of_case) = of_case else {
+        let Some(of_case) = of_case.filter(|of_case| own.convert(1.0, *of_case).is_some()) else {
             return Err(Fault::Unnamed(line, plain::line(names[place]).to_string(), self.names[0]));
         };
         Ok(Some(Column { place, units: Some([own, of_case]) }))
@@ -338,6 +365,7 @@ mod tests {
             ("1,2\n3,4\n", "no line names the columns"),
             ("# x\nforce,deep\n", "line 2: no column `penetration` among force, deep"),
             ("force,penetration_error\n", "no column `penetration`"),
+            ("P,H\n1,2\n", "no column `penetration`"),
             ("force_lb,penetration\n1,2\n", "`lb` is no unit of force"),
             ("force_nm,penetration\n1,2\n", "`nm` is no unit of force"),
             ("force,force_mN,penetration\n", "`force_mN` is there twice"),
@@ -349,6 +377,8 @@ mod tests {
             assert!(fault(text).contains(words), "{text:?}: {}", fault(text));
         }
         let unnamed = read("force_mN,penetration\n1,2\n", &Units::unknown()).unwrap_err().to_string();
+        let wrong = Units::unknown().named(Some("µm"), Some("mm"));
+        assert!(read("force_mN,penetration\n1,2\n", &wrong).is_err(), "pressures in millimetres");
         assert!(unnamed.contains("does not name SI units") && unnamed.contains("`force`"), "{unnamed}");
     }
 
@@ -375,7 +405,9 @@ mod tests {
         let plain = "force_N penetration_m\n5e-4 1e-8\n1.5e-3 2.05e-8\n3e-3 3e-8\n";
         let slashes = "Force / mN\tPenetration / nm\n0,5\t10\n1,5\t20,5\n3\t30\n";
         let quoted = "\"Normal Force\",\"Indentation Depth\"\n\"[mN]\",\"[nm]\"\n\"0.5\",\"10\"\n\"1.5\",\"20.5\"\n\"3\",\"30\"\n";
-        for exported in [semicolons, tabs, spaces, plain, slashes, quoted] {
+        let volts = "Depth (nm)\tLoad (mN)\tTime (s)\tDepth (V)\tLoad (V)\th_max\tH (GPa)\n10\t0.5\t0\t1\t1\t3\t9\n20.5\t1.5\t1\t1\t1\t3\t9\n30\t3\t2\t1\t1\t3\t9\n";
+        let sheet = "\"Load, mN\",\"Depth, nm\"\n\"0.5\",\"10\"\n1.5,20.5\n3,30\n,,\n";
+        for exported in [semicolons, tabs, spaces, plain, slashes, quoted, volts, sheet] {
             let latin: Vec<u8> = exported.chars().map(|c| c as u8).collect();
             let wide = |of: fn(u16) -> [u8; 2]| -> Vec<u8> {
                 std::iter::once(0xfeff).chain(exported.encode_utf16()).flat_map(of).collect()
@@ -395,7 +427,7 @@ mod tests {
         let table = format!("force_mN,penetration_nm\n{table}");
         let refused = read(&table, &units()).unwrap_err().to_string();
         assert!(
-            refused.contains("point 11: the force must be above 0") && refused.ends_with("--segment loading"),
+            refused.contains("point 14: the force must be above 0") && refused.ends_with("(--segment loading)"),
             "{refused}"
         );
         let Curve { measurement, notes } = super::read(&table, Segment::Loading, &units()).unwrap();
@@ -407,6 +439,11 @@ mod tests {
         let columns = [("force".to_owned(), forces.to_vec()), ("h".to_owned(), (0..14).map(f64::from).collect())];
         let found = of_columns(&columns, Segment::Loading, &units()).unwrap();
         assert_eq!((found.measurement.forces(), &found.notes), (measurement.forces(), &notes));
+        // Points of an earlier cycle are no noise, and columns have one length.
+        let cycles = "force,penetration\n1,10\n2,20\n0,15\n3,30\n";
+        assert!(read(cycles, &units()).unwrap_err().to_string().contains("line 4, point 3: the force must be above 0"));
+        let uneven = [("force".to_owned(), forces.to_vec()), ("h".to_owned(), vec![1.0; 12])];
+        assert!(of_columns(&uneven, Segment::Loading, &units()).unwrap_err().to_string().contains("14 forces, but 12"));
         // A zero point alone is one before contact.
         let zero = super::read("force,penetration\n0,0\n1,0.1\n2,0.2\n", Segment::Whole, &units()).unwrap();
         assert_eq!((zero.measurement.forces(), zero.notes.len()), (&[1.0, 2.0][..], 1));

@@ -17,7 +17,7 @@ pub(super) struct Table<'a> {
     separator: Separator,
 }
 
-/// What stands between the cells of a line.
+/// Separator of the cells of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Separator {
     Character(char),
@@ -70,6 +70,7 @@ impl<'a> Table<'a> {
         let separator = if separator == Separator::Gap { Separator::Space } else { separator };
         let mut rows: Vec<(usize, Vec<&str>)> =
             lines[place + 1..].iter().map(|(number, line)| (*number, separator.cells(line))).collect();
+        rows.retain(|(_, cells)| !cells.is_empty());
         let is_of_units = |(_, cells): &(usize, Vec<&str>)| {
             named.is_some()
                 && cells.len() <= names.len()
@@ -105,7 +106,15 @@ impl Separator {
     /// The cells of a line, without quotes and without empty ones at its end.
     fn cells(self, line: &str) -> Vec<&str> {
         let mut cells: Vec<&str> = match self {
-            Self::Character(separator) => line.split(separator).collect(),
+            Self::Character(separator) => {
+                // A separator between quotes belongs to its cell.
+                let mut is_quoted = false;
+                let splits = |c: char| {
+                    is_quoted ^= c == '"';
+                    c == separator && !is_quoted
+                };
+                line.split(splits).collect()
+            }
             Self::Gap => line.split("  ").filter(|cell| !cell.trim().is_empty()).collect(),
             Self::Space => line.split_whitespace().collect(),
         };

@@ -27,6 +27,11 @@ impl Limits {
             let to = load(most);
             return format!("undecided: {others} may fail within its error at {name}s from {from} to {to}{end}");
         };
+        // Above the largest load nothing is known.
+        let up_to = match SearchEnd::of(most, self.complete, self.hardness_load) {
+            SearchEnd::LargestLoad => format!(" up to {}", load(most)),
+            SearchEnd::CompleteContact | SearchEnd::Hardness => String::new(),
+        };
         let at = match limit.at {
             At::Rest => ", without load, by residual stress alone".to_owned(),
             At::Tip { .. } => ", under a tip however small the load".to_owned(),
@@ -37,7 +42,7 @@ impl Limits {
                     (true, true) if part <= RELEVANT_ERROR => String::new(),
                     (true, true) if limit.is_sharp() => format!(" ± {:.0} %", 100.0 * part),
                     (true, true) => format!(", between {} and {} by its error", load(from), load(to)),
-                    (true, false) => format!(", not before {} and by its error perhaps never", load(from)),
+                    (true, false) => format!(", not before {} and by its error perhaps never{up_to}", load(from)),
                     (false, true) => format!(", by its error anywhere below {}", load(to)),
                     (false, false) => ", by its error anywhere or never".to_owned(),
                 };
