@@ -167,7 +167,7 @@ def test_poissons_ratio_stays_within_its_bounds(curve: tuple[Any, Any]) -> None:
         (([1.0, 2.0], [0.1, np.nan]), ["substrate.young"], percoat.CaseError, "point 2: the penetration must be finite"),
         (([1.0], [0.1]), ["substrate.young"], percoat.CaseError, "more points than parameters"),
         (([[1.0]], [0.1]), ["substrate.young"], percoat.CaseError, "a number for each point"),
-        ({"force": [1.0], "depth": [0.1]}, ["offset"], percoat.CaseError, "^no column `penetration` among force"),
+        ({"force": [1.0], "deep": [0.1]}, ["offset"], percoat.CaseError, "^no column `penetration` among force"),
         ({"force_lb": [1.0], "penetration": [0.1]}, ["offset"], percoat.CaseError, "`lb` is no unit of force"),
         (np.zeros((3, 4)), ["offset"], percoat.CaseError, "two or three columns"),
         (3.0, ["offset"], TypeError, "a curve is the path of a table"),
@@ -228,3 +228,27 @@ def test_a_listener_that_raises_ends_the_search(curve: tuple[Any, Any]) -> None:
     with pytest.raises(KeyboardInterrupt):
         percoat.identify(CASE, curve, ["substrate.young"], progress=stop)
     assert len(heard) == 1
+
+
+def test_columns_of_an_instrument_are_taken() -> None:
+    case = {
+        "lattice": {"kind": "isolated", "size": 4.0},
+        "levels": [{"shape": "paraboloid", "radius": 10.0}],
+        "substrate": {"young": 100.0, "poisson": 0.3},
+        "load": {"force": "1 mN"},
+        "grid": {"points": 48},
+        "units": {"length": "µm", "pressure": "GPa"},
+    }
+    depth = np.linspace(10.0, 100.0, 10)
+    load = 4 / 3 * 70 / (1 - 0.3**2) * np.sqrt(10.0) * (depth / 1e3) ** 1.5  # Hertz
+    table = {
+        "operator": ["x"] * 12,
+        "Load (mN)": [0.0, *load, 0.5 * load[-1]],
+        "Depth (nm)": [0.0, *depth, 60.0],
+        "Depth (V)": [0.0] * 12,
+    }
+    with pytest.warns(Warning, match="left out"):
+        found = percoat.identify(case, table, ["substrate.young"], segment="loading")
+    assert round(found.values["substrate.young"]) == 70 and found.fitted.shape == (10,)
+    with pytest.raises(percoat.CaseError, match="segment must be"):
+        percoat.identify(case, table, ["substrate.young"], segment="unloading")
