@@ -36,11 +36,8 @@ pub fn identify<'py>(
 ) -> PyResult<Found<'py>> {
     let resolved = Arc::clone(&case.get().case);
     let (free, known, segment) = asked;
-    let segment = match segment.as_deref() {
-        None => Segment::Whole,
-        Some("loading") => Segment::Loading,
-        Some(other) => return Err(refused(format!("segment must be \"loading\" or None, not {other:?}"))),
-    };
+    let unknown = || refused(format!("segment must be \"loading\" or None, not {segment:?}"));
+    let segment = Segment::of(segment.as_deref()).ok_or_else(unknown)?;
     let Curve { measurement: measured, notes } = measured(data, segment, &resolved)?;
     let curve = measured.clone();
     let known = known_instrument(&known).map_err(|error| refused(format!("known: {error}")))?;

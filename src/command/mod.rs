@@ -75,7 +75,8 @@ fn carry_out(command: &Command) -> Result<Ending, Failure> {
             life::run(case.as_deref(), changes.once()?, options, common)
         }
         Command::Identify { data, case, free, known, segment, changes, common } => {
-            let segment = if segment.is_some() { Segment::Loading } else { Segment::Whole };
+            // The command line admits no other name.
+            let segment = Segment::of(segment.as_deref()).unwrap_or_default();
             identify::run((data, case), (free, known), segment, (changes.once()?, common))
         }
         Command::Sweep { case, set, options, common } => sweep::run(case, set, options, common),

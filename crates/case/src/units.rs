@@ -9,6 +9,7 @@
 //!   p/E₂ as in the paper, and lengths to
 //!   the lattice period or the first level's radius where these are; otherwise units are unknown.
 
+use percoat_common::measure::Measure;
 use percoat_core::body::HalfSpace;
 use percoat_core::counterbody::{Level, Shape};
 use percoat_core::load::LoadQuantity;
@@ -85,6 +86,12 @@ impl Units {
     /// Unit of pressures.
     pub fn pressure(&self) -> &Unit {
         &self.pressure
+    }
+
+    /// The units of lengths and of pressures; `None` of those that have no name, or one that is not known.
+    pub fn measures(&self) -> [Option<Measure>; 2] {
+        [(&self.length, Measure::METRE), (&self.pressure, Measure::PASCAL)]
+            .map(|(unit, base)| Measure::like(&unit.name()?, base))
     }
 
     /// Unit of forces: a pressure times an area; [`Unit::None`] where one of both has no name.

@@ -49,6 +49,12 @@ const OTHERS: [(&[&str], f64, i32, i32, i32); 16] = [
 ];
 
 impl Measure {
+    /// The metre.
+    pub const METRE: Self = Self { factor: 1.0, exponent: 0, newtons: 0, metres: 1 };
+    /// The newton.
+    pub const NEWTON: Self = Self { factor: 1.0, exponent: 0, newtons: 1, metres: 0 };
+    /// The pascal.
+    pub const PASCAL: Self = Self { factor: 1.0, exponent: 0, newtons: 1, metres: -2 };
     /// The pure number 1.
     pub const ONE: Self = Self { factor: 1.0, exponent: 0, newtons: 0, metres: 0 };
 
@@ -62,6 +68,11 @@ impl Measure {
             let below = below.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).unwrap_or(below);
             Some(unit.times(Self::product(below)?.to_the(-1)))
         })
+    }
+
+    /// The unit of a name, where it measures the same as another one.
+    pub fn like(name: &str, other: Self) -> Option<Self> {
+        Self::of(name).filter(|unit| unit.convert(1.0, other).is_some())
     }
 
     fn product(text: &str) -> Option<Self> {

@@ -45,27 +45,22 @@ pub struct Prefixed {
 const MOST_MICROSTRAIN: f64 = 2e-3;
 /// Whether a name is that of a length.
 pub fn is_length(name: &str) -> bool {
-    is_of(name, "m")
+    Measure::like(name, Measure::METRE).is_some()
 }
 
 /// Whether a name is that of a pressure.
 pub fn is_pressure(name: &str) -> bool {
-    is_of(name, "Pa")
+    Measure::like(name, Measure::PASCAL).is_some()
 }
 
 /// Pascals of a unit of pressure by its name; `None` for a name that is not known.
 pub fn pascals(name: &str) -> Option<f64> {
-    Measure::of(name)?.convert(1.0, Measure::of("Pa")?)
+    Measure::of(name)?.convert(1.0, Measure::PASCAL)
 }
 
 /// Whether a name is that of a force.
 pub fn is_force(name: &str) -> bool {
-    is_of(name, "N")
-}
-
-/// Whether a name is that of a unit of what a base unit measures.
-fn is_of(name: &str, base: &str) -> bool {
-    Measure::of(name).zip(Measure::of(base)).is_some_and(|(unit, base)| unit.convert(1.0, base).is_some())
+    Measure::like(name, Measure::NEWTON).is_some()
 }
 
 impl Unit {

@@ -4,20 +4,19 @@ use super::error::Refusal;
 use super::keys::{Form, Key, Keys, Unit};
 use super::node::{Node, Table, Value};
 use super::span::Span;
-use super::units::UnitsSection;
+use crate::units::Units;
 use percoat_common::measure::{Measure, split};
-use percoat_common::unit::{is_length, is_pressure};
 use percoat_core::load::LoadQuantity;
 
 /// Known units, for error messages.
 const KNOWN: &str = "m, N and Pa with their prefixes (µm, mN, GPa), cm, Å, in, mil, daN, kgf, lbf, bar, atm, psi, ksi, their powers, products and \
                      quotients, as in \"N/mm²\", \"GPa/µm\" and \"mm³/(N·m)\"";
 
-/// The units of a case by their names.
-#[derive(Debug, Default)]
+/// The units of a case; `None` where they have no name that is known.
+#[derive(Debug, Clone, Copy)]
 struct CaseUnits {
-    length: Option<String>,
-    pressure: Option<String>,
+    length: Option<Measure>,
+    pressure: Option<Measure>,
 }
 
 /// Converts the numbers with a unit in a tree with these `keys` to the units that its section `[units]` names.
@@ -27,12 +26,12 @@ struct CaseUnits {
 pub(super) fn convert(tree: &mut Table, keys: &'static Keys) -> Result<(), Refusal> {
     let name = |key: &str| match &tree.get("units")?.node.value {
         Value::Table(units) => match &units.get(key)?.node.value {
-            Value::Text(name) => Some(name.clone()),
+            Value::Text(name) => Some(name.as_str()),
             _ => None,
         },
         _ => None,
     };
-    let units = CaseUnits { length: name("length"), pressure: name("pressure") };
+    let units = CaseUnits::of(&Units::unknown().named(name("length"), name("pressure")));
     units.table(tree, keys, "")
 }
 
@@ -44,23 +43,19 @@ pub struct NoLoad {
     reason: String,
 }
 
-/// The load of a text such as "20 N" in a quantity and in the units that a case names; a number alone is in these units.
+/// The load of a text such as "20 N" in the quantity and the units of a case; a number alone is in these units.
 ///
 /// # Errors
 /// [`NoLoad`] for what is no number above 0, with a unit or without, and for a unit of something else.
-pub(super) fn load(text: &str, quantity: LoadQuantity, names: Option<&UnitsSection>) -> Result<f64, NoLoad> {
-    let units = CaseUnits {
-        length: names.and_then(|names| names.length.clone()),
-        pressure: names.and_then(|names| names.pressure.clone()),
-    };
-    let of = match quantity {
+pub(super) fn load(text: &str, units: &Units) -> Result<f64, NoLoad> {
+    let of = match units.quantity() {
         LoadQuantity::Force => Unit::Force,
         LoadQuantity::MeanPressure => Unit::Pressure,
     };
     let no_load = |reason: String| NoLoad { text: text.to_owned(), reason };
     let load = match (text.trim().parse::<f64>(), split(text)) {
         (Ok(load), _) => load,
-        (Err(_), Some(measure)) => units.in_case(measure, of).map_err(|fault| no_load(fault.message))?,
+        (Err(_), Some(measure)) => CaseUnits::of(units).in_case(measure, of).map_err(|fault| no_load(fault.message))?,
         (Err(_), None) => return Err(no_load("needed is a number, with a unit or without".to_owned())),
     };
     if load > 0.0 && load.is_finite() { Ok(load) } else { Err(no_load("it must be above 0".to_owned())) }
@@ -86,6 +81,11 @@ pub(super) fn is_measure(text: &str) -> bool {
 }
 
 impl CaseUnits {
+    fn of(units: &Units) -> Self {
+        let [length, pressure] = units.measures();
+        Self { length, pressure }
+    }
+
     fn table(&self, table: &mut Table, keys: &'static Keys, path: &str) -> Result<(), Refusal> {
         for entry in &mut table.entries {
             let Some(key) = keys.all.iter().find(|key| key.name == entry.key) else { continue };
@@ -162,16 +162,15 @@ impl CaseUnits {
     }
 
     /// The unit of the numbers of a key; `None` of a pure number, and where the case does not name units that are known.
-    fn unit(&self, of: Unit) -> Option<Measure> {
-        let length = || Measure::of(self.length.as_deref().filter(|name| is_length(name))?);
-        let pressure = || Measure::of(self.pressure.as_deref().filter(|name| is_pressure(name))?);
+    fn unit(self, of: Unit) -> Option<Measure> {
+        let Self { length, pressure } = self;
         match of {
             Unit::Pure | Unit::LengthToOneMinusN => None,
-            Unit::Length => length(),
-            Unit::Pressure => pressure(),
-            Unit::Force => Some(pressure()?.by(length()?, 2)),
-            Unit::PerPressure => Some(Measure::ONE.over(pressure()?)),
-            Unit::PressurePerLength => Some(pressure()?.over(length()?)),
+            Unit::Length => length,
+            Unit::Pressure => pressure,
+            Unit::Force => Some(pressure?.by(length?, 2)),
+            Unit::PerPressure => Some(Measure::ONE.over(pressure?)),
+            Unit::PressurePerLength => Some(pressure?.over(length?)),
         }
     }
 }

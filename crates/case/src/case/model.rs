@@ -140,7 +140,7 @@ impl Case {
     /// # Errors
     /// [`NoLoad`] for what is no number above 0, with a unit or without, and for a unit of something else.
     pub fn load_of(&self, text: &str) -> Result<f64, NoLoad> {
-        measures::load(text, self.units().quantity(), self.units.as_ref())
+        measures::load(text, &self.units())
     }
 
     /// The nominal pressures p̄; `None` where penetrations are prescribed.

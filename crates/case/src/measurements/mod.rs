@@ -11,7 +11,7 @@
 mod fault;
 mod table;
 
-use crate::units::{Unit, Units};
+use crate::units::Units;
 use percoat_common::measure::Measure;
 use percoat_common::plain;
 use percoat_core::identification::{Measurement, MeasurementError};
@@ -36,6 +36,17 @@ pub enum Segment {
     Loading,
 }
 
+impl Segment {
+    /// The segment of a name, all of the test without one; `None` of another name than "loading".
+    pub fn of(name: Option<&str>) -> Option<Self> {
+        match name {
+            None => Some(Self::Whole),
+            Some("loading") => Some(Self::Loading),
+            Some(_) => None,
+        }
+    }
+}
+
 /// A measured curve, with what was left out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
@@ -49,7 +60,7 @@ pub struct Curve {
 #[derive(Debug, Clone, Copy)]
 struct Column {
     place: usize,
-    /// Units of the column and of the case; `None` for numbers in that of the case.
+    /// Units from and to which its numbers are converted; `None` for numbers in that of the case.
     units: Option<[Measure; 2]>,
 }
 
@@ -57,7 +68,7 @@ struct Column {
 struct Kind {
     names: &'static [&'static str],
     quantity: &'static str,
-    base: &'static str,
+    base: Measure,
     example: &'static str,
 }
 
@@ -76,7 +87,7 @@ const FORCE: Kind = Kind {
         "p",
     ],
     quantity: "force",
-    base: "N",
+    base: Measure::NEWTON,
     example: "mN",
 };
 const PENETRATION: Kind = Kind {
@@ -93,13 +104,13 @@ const PENETRATION: Kind = Kind {
         "h",
     ],
     quantity: "length",
-    base: "m",
+    base: Measure::METRE,
     example: "nm",
 };
 const DEVIATION: Kind = Kind {
     names: &["penetration error", "depth error", "displacement error"],
     quantity: "length",
-    base: "m",
+    base: Measure::METRE,
     example: "nm",
 };
 
@@ -243,8 +254,8 @@ struct Columns {
 
 impl Columns {
     /// The columns among those with these names, and with units in a line of their own, which stand in a line of a table.
-    fn find(names: &[&str], own_units: &[&str], line: Option<usize>, units: &Units) -> Result<Self, Fault> {
-        let column = |kind: &Kind| kind.column(names, own_units, line, units);
+    fn find(names: &[&str], units_below: &[&str], line: Option<usize>, units: &Units) -> Result<Self, Fault> {
+        let column = |kind: &Kind| kind.column(names, units_below, line, units);
         let missing = |kind: &Kind| Fault::Missing {
             line,
             name: kind.names[0],
@@ -262,7 +273,7 @@ impl Columns {
 
 impl Column {
     fn converted(self, number: f64) -> f64 {
-        self.units.and_then(|[own, of_case]| own.convert(number, of_case)).unwrap_or(number)
+        self.units.and_then(|[from, to]| from.convert(number, to)).unwrap_or(number)
     }
 }
 
@@ -290,18 +301,17 @@ impl Kind {
     fn column(
         &self,
         names: &[&str],
-        own_units: &[&str],
+        units_below: &[&str],
         line: Option<usize>,
         units: &Units,
     ) -> Result<Option<Column>, Fault> {
-        let base = Measure::of(self.base).expect("a base unit is known");
-        let own_unit =
-            |place: usize| own_units.get(place).map(|unit| bare(unit).to_owned()).filter(|unit| !unit.is_empty());
+        let unit_below =
+            |place: usize| units_below.get(place).map(|unit| bare(unit).to_owned()).filter(|unit| !unit.is_empty());
         let named = names.iter().enumerate().filter_map(|(place, name)| Some((place, self.unit_of(name)?)));
         let named: Vec<(usize, Option<String>)> =
-            named.map(|(place, unit)| (place, unit.or_else(|| own_unit(place)))).collect();
+            named.map(|(place, unit)| (place, unit.or_else(|| unit_below(place)))).collect();
         // Beside a load in newtons there may be one in volts, and beside a depth `h_max`.
-        let measure = |unit: &str| Measure::of(unit).filter(|own| own.convert(1.0, base).is_some());
+        let measure = |unit: &str| Measure::like(unit, self.base);
         let mut fitting = named.iter().filter(|(_, unit)| unit.as_deref().is_none_or(|unit| measure(unit).is_some()));
         let Some((place, unit)) = fitting.next() else {
             let Some((_, Some(unit))) = named.first() else { return Ok(None) };
@@ -312,17 +322,15 @@ impl Kind {
             return Err(Fault::Twice(line, plain::line(names[*again]).to_string()));
         }
         let place = *place;
-        let Some(own) = unit.as_deref().and_then(measure) else { return Ok(Some(Column { place, units: None })) };
-        let measure = |unit: &Unit| Measure::of(&unit.name()?);
-        let length = || measure(units.length());
-        let of_case = match self.base {
-            "N" => measure(units.pressure()).zip(length()).map(|(pressure, length)| pressure.by(length, 2)),
-            _ => length(),
+        let Some(from) = unit.as_deref().and_then(measure) else { return Ok(Some(Column { place, units: None })) };
+        let [length, pressure] = units.measures();
+        let to = if self.base == Measure::METRE {
+            length
+        } else {
+            pressure.zip(length).map(|(pressure, length)| pressure.by(length, 2))
         };
-        let Some(of_case) = of_case.filter(|of_case| own.convert(1.0, *of_case).is_some()) else {
-            return Err(Fault::Unnamed(line, plain::line(names[place]).to_string(), self.names[0]));
-        };
-        Ok(Some(Column { place, units: Some([own, of_case]) }))
+        let to = to.ok_or_else(|| Fault::Unnamed(line, plain::line(names[place]).to_string(), self.names[0]))?;
+        Ok(Some(Column { place, units: Some([from, to]) }))
     }
 }
 

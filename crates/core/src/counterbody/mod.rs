@@ -70,22 +70,20 @@ const EQUAL: f64 = 1e-9;
 
 /// The axis along which values are constant while they change along the other; `None` where there is no such axis.
 pub(crate) fn constant_axis(values: ArrayView2<'_, f64>) -> Option<usize> {
+    let join = |[low, high]: [f64; 2], [least, most]: [f64; 2]| [low.min(least), high.max(most)];
+    let nothing = [f64::INFINITY, f64::NEG_INFINITY];
+    let ends = |values: ArrayView1<'_, f64>| values.iter().fold(nothing, |ends, &x| join(ends, [x; 2]));
     let range = |values: ArrayView1<'_, f64>| {
-        let [low, high] =
-            values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)]);
+        let [low, high] = ends(values);
         high - low
     };
-    // One line along each axis decides where its range is not that of rounding, whatever the range of all values.
-    let rows = parallel::map(values.nrows(), |row| {
-        values.row(row).iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)])
-    });
-    let [low, high] = rows
-        .into_iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], row| [low.min(row[0]), high.max(row[1])]);
-    if [0, 1]
-        .into_iter()
-        .all(|axis| values.lanes(Axis(axis)).into_iter().next().is_some_and(|line| range(line) > EQUAL * (high - low)))
-    {
+    // No axis is constant along which the first line varies by more than rounding of the range of all values.
+    let [low, high] = parallel::map(values.nrows(), |row| ends(values.row(row))).into_iter().fold(nothing, join);
+    let varies = |axis: usize| {
+        let first = values.lanes(Axis(axis)).into_iter().next();
+        first.is_some_and(|line| range(line) > EQUAL * (high - low))
+    };
+    if varies(0) && varies(1) {
         return None;
     }
     // Ranges within the lines along an axis.

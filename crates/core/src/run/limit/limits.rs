@@ -20,7 +20,8 @@ pub enum SearchEnd {
     CompleteContact,
     /// The load is [`SearchEnd::OF_HARDNESS`] of the most that the hardness bears.
     Hardness,
-    /// Contact has no room under higher loads, no more of them are tried, or none are asked for.
+    /// The load is the largest that was solved: under a higher one contact reaches the border of the largest window, the search has used up
+    /// its doublings, or the caller has prescribed this load as the largest.
     LargestLoad,
 }
 

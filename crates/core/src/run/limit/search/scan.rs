@@ -1,7 +1,8 @@
 //! The loads between which limits are searched: a factor of two apart, and closer where a level begins to touch.
 //!
 //! They begin with the least load whose contact has samples enough for its stresses, and end where every criterion has failed by more than
-//! its error, where contact is complete, where it has no room in the largest window, or under the largest load that is asked for.
+//! its error, where contact is complete, where contact reaches the border of the largest window, or at the largest load that the caller has
+//! prescribed.
 
 use super::{LimitSearch, TRIALS};
 use crate::body::{HalfSpace, Layer};
