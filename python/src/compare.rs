@@ -48,9 +48,8 @@ pub fn compare<'py>(
             if listener.stops() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         let compared = compared.map_err(|error| error.told())?;
-        let comparison = &compared.comparison;
-        let (text, tables) = (table::compared(&case, comparison, width), tables_of(comparison, &case.units()));
         let (file, converged) = (compared.file(), compared.converged());
+        let (text, tables) = (table::compared(&case, &file, width), tables_of(&file, &case.units()));
         Ok((file, text, tables, compared.warnings, converged))
     })?;
     Ok((to_python(py, &file)?, text, tables, warnings, converged))

@@ -51,7 +51,8 @@ pub fn identify<'py>(
             listener.tell(true, || Progress { done: trial.number, ..Progress::new("trial", phase) });
             if listener.stops() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })?;
-        let (file, text) = (result.file(), identified(&result.found, &result.best, width));
+        let file = result.file();
+        let text = identified(&file, &result.best.units(), width);
         Ok((file, text, result.warnings, result.found))
     })?;
     let arrays = PyDict::new(py);

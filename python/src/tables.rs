@@ -2,9 +2,8 @@
 
 use crate::case::Case;
 use crate::record::from_python;
-use percoat::comparison::Comparison;
 use percoat::output::table::{self, Table, Worded};
-use percoat::output::{LifeFile, LimitFile, Summary};
+use percoat::output::{ComparisonFile, LifeFile, LimitFile, Summary};
 use percoat::run::StepRecord;
 use percoat::units::Units;
 use pyo3::prelude::*;
@@ -59,7 +58,7 @@ pub fn life_tables(case: &Bound<'_, Case>, life: &Bound<'_, PyAny>) -> PyResult<
 }
 
 /// The tables of a comparison of both methods.
-pub fn compared(comparison: &Comparison, units: &Units) -> Vec<Shown> {
+pub fn compared(comparison: &ComparisonFile, units: &Units) -> Vec<Shown> {
     vec![
         shown("Both methods", table::readings(comparison, units)),
         shown("Largest relative differences", table::differences(comparison)),

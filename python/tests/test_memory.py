@@ -111,11 +111,11 @@ def test_a_result_goes_when_nobody_has_it_any_more() -> None:
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="resident memory is read under Linux")
-def test_a_thousand_solutions_take_no_memory() -> None:
-    # One array of 48² doubles that is left behind each time would add up to 1000 · 18 KiB = 18 MB; half of it
+def test_many_solutions_take_no_memory() -> None:
+    # One array of 48² doubles that is left behind each time would add up to 500 · 18 KiB = 9 MB; half of it
     # is allowed for what the allocator keeps of the pieces it hands out. The twelve fields of a plane, asked
-    # for every twentieth time, would add up to 1000/20 · 12 · 18 KiB = 11 MB.
-    points, repeats = 48, 1000
+    # for every twentieth time, would add up to 500/20 · 12 · 18 KiB = 5.5 MB.
+    points, repeats = 48, 500
     bound = repeats * points**2 * 8 // 2
     case: dict[str, Any] = {
         "lattice": {"kind": "square", "period": 1.0},

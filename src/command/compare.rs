@@ -34,7 +34,7 @@ pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Endin
         CompareError::Comparison(error) => Failure::refused(error),
     })?;
     results.write_all(&files(), &compared, pictures)?;
-    let tables = || table::compared(&case, &compared.comparison, terminal::width());
+    let tables = || table::compared(&case, &compared.file(), terminal::width());
     let line = || format!("{:.2} s", started.elapsed().as_secs_f64());
     results.finish("compare.json", tables, line, &compared.warnings)?;
     Ok(Ending::of(compared.converged()))

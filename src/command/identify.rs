@@ -54,9 +54,9 @@ pub fn run(
         error => Failure::refused(error),
     })?;
     results.write_all(&files(), &result, pictures)?;
-    let Identified { found, best, warnings, .. } = &result;
+    let (file, Identified { found, best, warnings, .. }) = (result.file(), &result);
     let line = || format!("{} steps of the search; {:.2} s", found.steps, started.elapsed().as_secs_f64());
-    results.finish("identification.json", || identified(found, best, terminal::width()), line, warnings)?;
+    results.finish("identification.json", || identified(&file, &best.units(), terminal::width()), line, warnings)?;
     Ok(Ending::Done)
 }
 

@@ -1,6 +1,7 @@
 //! `percoat compare`: what it leaves behind, whom it refuses, and what it says of what cannot be compared.
 
-use crate::program::{Desk, Folder, assert_close, number};
+use crate::program::{Desk, Folder, assert_close, assert_says, number};
+use crate::report::{assert_has_cells, report};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -26,7 +27,8 @@ fn list<'a>(value: &'a Value, pointer: &str) -> &'a Vec<Value> {
 #[test]
 fn both_solutions_stand_side_by_side_in_a_file_and_a_picture() {
     let desk = Desk::new();
-    let folder = compare(&desk, "both", &TWO, &[]);
+    let printed = desk.succeeds(&[&["compare", "--output", "both"], &SMALL[..], &TWO].concat()).out;
+    let folder = Folder(desk.path("both"));
     assert_eq!(folder.names(), ["compare.json", "comparison.png", "comparison.svg"].map(str::to_owned).into());
     let file = read(&folder);
     assert_eq!(file["percoat"], env!("CARGO_PKG_VERSION"));
@@ -56,6 +58,11 @@ fn both_solutions_stand_side_by_side_in_a_file_and_a_picture() {
             assert_close(number(circle, "/additional_displacement"), number(circle, "/penetration"), 1e-5);
         }
     }
+    let page = report(&desk, "both");
+    let (tables, _) = printed.split_once("stresses at").expect("stresses behind the tables");
+    let (_, tables) = tables.split_once("\n\n").expect("tables behind the title");
+    assert_has_cells(&page, tables, 100);
+    assert_says(&page, &["<figure id=\"comparison\"", "Stresses at", "Energy gap"]);
     // The lattice sum outside leaves six elements across the contact, whatever the circle.
     let lattice_sum = &file["lattice_sum"];
     assert_eq!((&lattice_sum["indenters"], &lattice_sum["converged"]), (&7.into(), &true.into()));

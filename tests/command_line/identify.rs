@@ -1,6 +1,7 @@
 //! `percoat identify`: what it prints, writes and refuses.
 
 use crate::program::{Desk, assert_says, number};
+use crate::report::{assert_has_cells, report};
 use std::fs;
 
 const CURVE: &str = include_str!("../../validation/identification/indentation_noisy.csv");
@@ -50,6 +51,14 @@ fn moduli_are_found_and_written_with_their_fit() {
     for picture in ["identification.png", "identification.svg"] {
         assert!(desk.path(&format!("out/{picture}")).is_file());
     }
+    let page = report(&desk, "out");
+    let (table, rest) = answer.out.split_once("correlation of").expect("a correlation behind the table");
+    assert_has_cells(&page, table, 14);
+    let (correlation, _) = rest.split_once('\n').expect("a line");
+    assert_says(
+        &page,
+        &[&format!("Correlation of{correlation}"), "<figure id=\"identification\"", "8 points", "300.0"],
+    );
 }
 
 #[test]

@@ -10,7 +10,8 @@ fn run(desk: &Desk, arguments: &[&str]) -> Answer {
     desk.percoat(&[&["solve", "-o", "run", "--no-pictures", "--set", "grid.points=48"], arguments].concat())
 }
 
-fn report(desk: &Desk, folder: &str) -> String {
+/// The page of a folder, whole and alone.
+pub fn report(desk: &Desk, folder: &str) -> String {
     let answer = desk.percoat(&["report", folder]);
     assert_eq!((answer.code, answer.err.as_str()), (0, ""));
     assert_eq!(answer.out, format!("written to {folder}/report.html\n"));
@@ -62,6 +63,17 @@ fn assert_alone(page: &str) {
 fn cells(table: &str) -> impl Iterator<Item = String> {
     let cells = table.lines().flat_map(|line| line.split("  ")).map(|cell| cell.trim().to_owned());
     cells.filter(|cell| !cell.is_empty() && !cell.starts_with('─'))
+}
+
+/// Asserts that a page has each cell of printed tables, more than so many.
+pub fn assert_has_cells(page: &str, printed: &str, more_than: usize) {
+    let page = words(page);
+    let printed = words(printed);
+    let all: Vec<String> = cells(&printed).collect();
+    assert!(all.len() > more_than, "{all:?}");
+    for cell in all {
+        assert!(page.contains(&format!(">{cell}<")), "\"{cell}\" does not stand on the page");
+    }
 }
 
 /// A page in which nothing is tied to its neighbour.
@@ -117,7 +129,7 @@ fn the_page_of_an_isolated_contact_has_its_force_its_window_and_hertz_beside() {
             "One elastic indenter is pressed into an elastic half-space with a coating of one layer.",
             "The indenters, level by level",
             "The counterbody, from its surface inward",
-            "Under the force 5000",
+            "Under the force 5.0000 N",
             "contact area",
             "mean pressure where there is contact",
             "contact radius<",
@@ -151,7 +163,7 @@ fn the_page_of_a_sweep_of_isolated_contacts_has_forces_and_areas() {
     );
     assert!(!page.contains("NaN") && !page.contains(">mean pressure<") && !page.contains(">contact<"), "{page}");
     let picture = Folder(desk.path("out")).text("sweep.svg").replace('\u{a0}', " ");
-    assert!(picture.contains("P = 5000 mN") && picture.contains("contact area A"), "{picture}");
+    assert!(picture.contains("P = 5 N") && picture.contains("contact area A"), "{picture}");
     assert!(!picture.contains("step 1") && !picture.contains("fraction in contact"), "{picture}");
 }
 

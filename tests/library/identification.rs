@@ -146,7 +146,7 @@ fn a_load_that_is_not_solved_on_the_way_is_the_reason_that_is_given() {
             let radius = if values[0] > 60.0 { 1e60 } else { 10.0 };
             Ok::<_, MaterialError>(ball_on(HalfSpace::new(vec![], Material::from_young(values[0], 0.3)?), radius))
         };
-        let settings = Settings { tolerance: 1e-9, ..Settings::default() };
+        let settings = Settings { tolerance: 1e-9, max_iterations: 200, ..Settings::default() };
         let free = Parameter { name: "young".to_owned(), quantity: Quantity::Positive, start };
         Identification::new(&Model { problem: &problem, points: 32, settings }, &[free], &measured)
     };

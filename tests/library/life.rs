@@ -522,7 +522,7 @@ fn damage_is_followed_beyond_the_first_window() {
         let (load, sampling) = (Load::Force(0.005), Sampling::Points([points; 2]));
         let base = task(coated(0.1, None, None, None), Some(2.0));
         let task =
-            LifeTask { problem: Arc::new(problem), load, sampling, distance: Some(1.0), tolerance: 5e-2, ..base };
+            LifeTask { problem: Arc::new(problem), load, sampling, distance: Some(1.0), tolerance: 8e-2, ..base };
         followed(&task).1
     };
     let [narrow, wide] = [of(0.36, 40), of(0.72, 40)];

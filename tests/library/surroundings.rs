@@ -184,7 +184,7 @@ fn a_pass_does_not_end_at_the_window() {
             let utilisations = step.strength.iter().map(|row| [row.value, row.error.unwrap()]);
             ranges.chain(utilisations).collect::<Vec<[f64; 2]>>()
         };
-        let (narrow, wide) = (of(3.0, 64), of(12.0, 192));
+        let (narrow, wide) = (of(3.0, 64), of(9.0, 144));
         assert_eq!(narrow.len(), 5 + 6, "{narrow:?}");
         for (number, ([one, of_one], [other, of_other])) in narrow.iter().zip(&wide).enumerate() {
             println!("{friction} {number}: {one} ± {of_one}, {other} ± {of_other}");

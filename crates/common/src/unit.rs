@@ -85,8 +85,8 @@ impl Unit {
         }
     }
 
-    /// The unit with the prefix for numbers up to `size`: unchanged for those from 0.01 to 9999. A strain is one of microstrain below
-    /// 0.2 %.
+    /// The unit with the prefix for numbers up to `size`: unchanged for lengths and pressures from 0.01 to 9999, and for what follows from
+    /// them, as forces, from 0.1 to 1000. A strain is one of microstrain below 0.2 %.
     pub fn prefixed(&self, size: f64) -> Prefixed {
         let unprefixed = || Prefixed { name: self.name().unwrap_or_default(), exponent: 0 };
         let Self::Si { base, exponent } = *self else {
@@ -96,7 +96,9 @@ impl Unit {
                 _ => unprefixed(),
             };
         };
-        let reads_well = !size.is_normal() || (0.01..9999.5).contains(&size.abs());
+        // Users have chosen the units of lengths and pressures; those of forces and energies follow from both.
+        let unchanged = if ["m", "Pa"].contains(&base) { 0.01..9999.5 } else { 0.1..999.95 };
+        let reads_well = !size.is_normal() || unchanged.contains(&size.abs());
         // A force of small units may lie below all prefixes.
         if reads_well && exponent.abs() <= 12 {
             return unprefixed();
@@ -114,8 +116,7 @@ impl Unit {
 
     /// A number with its unit, as `text` writes the number.
     pub fn with_unit(&self, x: f64, text: impl Fn(f64) -> String) -> String {
-        let prefixed = self.prefixed(x);
-        prefixed.behind(&text(prefixed.shown(x)))
+        self.prefixed(x).with_unit(x, text)
     }
 }
 
@@ -128,6 +129,11 @@ impl Prefixed {
     /// A name with this unit: "mean pressure (GPa)", or the name alone.
     pub fn headed(&self, name: &str) -> String {
         if self.name.is_empty() { name.to_owned() } else { format!("{name} ({})", self.name) }
+    }
+
+    /// A number of the case with this unit, as `text` writes the number that is shown.
+    pub fn with_unit(&self, x: f64, text: impl Fn(f64) -> String) -> String {
+        self.behind(&text(self.shown(x)))
     }
 
     /// A text with this unit behind it, from which no line break parts it.

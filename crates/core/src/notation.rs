@@ -1,4 +1,7 @@
-//! Numbers in messages: five significant digits.
+//! Numbers in messages: five significant digits, and their relative errors.
+
+/// Relative error from which on "±" says too little: a number is told by its interval.
+pub const WIDE: f64 = 0.3;
 
 /// A number with five significant digits, without exponent from 0.001 to 999999.
 pub fn number(x: f64) -> String {
@@ -13,9 +16,30 @@ pub fn number(x: f64) -> String {
     }
 }
 
+/// A relative error behind a positive number that is a power of what was computed: " ± 8 %", or where that is wide the factor exp(e) to
+/// either side; nothing where the error is not known.
+pub fn power_error(relative: Option<f64>) -> String {
+    match relative {
+        None => String::new(),
+        Some(error) if error <= WIDE => format!(" ± {:.0} %", (100.0 * error).ceil()),
+        Some(error) => match (10.0 * error.exp()).ceil() / 10.0 {
+            factor if factor < 10.0 => format!(", known to a factor of {factor:.1}"),
+            factor if factor < 1000.0 => format!(", known to a factor of {:.0}", factor.ceil()),
+            _ => ", of which the error leaves no digit".to_owned(),
+        },
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_wide_error_is_a_factor() {
+        let told = [None, Some(0.072), Some(0.3), Some(1.1), Some(3.0), Some(40.0)].map(power_error);
+        let wide = [", known to a factor of 3.1", ", known to a factor of 21", ", of which the error leaves no digit"];
+        assert_eq!(told, ["", " ± 8 %", " ± 30 %", wide[0], wide[1], wide[2]]);
+    }
 
     #[test]
     fn numbers_have_five_digits() {

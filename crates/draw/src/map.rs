@@ -85,6 +85,12 @@ const HEAD: f64 = 6.0;
 const INSET: f64 = 16.0;
 
 impl Map<'_> {
+    /// The map with more marks, under those that it has.
+    #[must_use]
+    pub fn under(self, marks: Vec<Over>) -> Self {
+        Self { over: marks.into_iter().chain(self.over).collect(), ..self }
+    }
+
     fn ranges(&self) -> [[f64; 2]; 2] {
         [&self.x, &self.y].map(|axis| axis.range.unwrap_or([0.0, 1.0]))
     }

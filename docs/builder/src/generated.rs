@@ -1,24 +1,48 @@
-//! The parts of pages that the program itself writes: lines `<!-- percoat: … -->`.
+//! The parts of pages that the program itself writes, between `<!-- percoat: … -->` and `<!-- end of … -->`; sources have them as they
+//! were written last, so that they are whole where nothing is built.
 
-use crate::run::Tools;
+use crate::run::{Difference, Tools};
 use anyhow::{Result, bail};
 use std::fmt::Write;
 
-/// The page with its generated parts.
-pub fn filled(text: &str, tools: &Tools) -> Result<String> {
-    let mut filled = String::with_capacity(text.len());
-    for line in text.split_inclusive('\n') {
-        let name = line.trim().strip_prefix("<!-- percoat: ").and_then(|rest| rest.strip_suffix(" -->"));
-        match name {
-            None => filled += line,
-            Some("keys") => filled += &tools.printed("percoat explain --markdown")?,
-            Some("cases") => filled += &cases(tools)?,
-            Some("exit codes") => filled += &exit_codes(tools)?,
-            Some("commands") => filled += &commands(tools)?,
-            Some(other) => bail!("nothing is generated under the name {other}"),
+/// The page with its generated parts renewed, and where they differ from what it has.
+pub fn renewed(text: &str, tools: &Tools) -> Result<(String, Vec<Difference>)> {
+    let (mut renewed, mut differences) = (String::with_capacity(text.len()), Vec::new());
+    let mut lines = text.split_inclusive('\n');
+    while let Some(line) = lines.next() {
+        renewed += line;
+        let Some(name) = line.trim().strip_prefix("<!-- percoat: ").and_then(|rest| rest.strip_suffix(" -->")) else {
+            continue;
+        };
+        let end = format!("<!-- end of {name} -->");
+        let (mut shown, mut is_closed) = (String::new(), false);
+        for inside in lines.by_ref() {
+            is_closed = inside.trim() == end;
+            if is_closed {
+                break;
+            }
+            shown += inside;
         }
+        if !is_closed {
+            bail!("a part is not closed: write {end} behind {}", line.trim());
+        }
+        // Empty lines keep Markdown from reading the comments as a part of what is between them.
+        let found = format!("\n{}\n", written(name, tools)?.trim_end_matches('\n')) + "\n";
+        differences.extend(tools.take(name, &mut shown, found));
+        renewed += &format!("{shown}{end}\n");
     }
-    Ok(filled)
+    Ok((renewed, differences))
+}
+
+/// A part by its name.
+fn written(name: &str, tools: &Tools) -> Result<String> {
+    match name {
+        "keys" => tools.printed("percoat explain --markdown"),
+        "cases" => cases(tools),
+        "exit codes" => exit_codes(tools),
+        "commands" => commands(tools),
+        other => bail!("nothing is generated under the name {other}"),
+    }
 }
 
 /// The embedded cases with their titles, as a list.

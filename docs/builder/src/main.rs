@@ -35,10 +35,10 @@ struct Arguments {
     /// The module of the page that computes; without it there is no such page
     #[arg(long)]
     wasm: Option<PathBuf>,
-    /// Write what the commands print into the sources, where it differs
+    /// Write what the commands print and draw into the sources, where it differs
     #[arg(long)]
     write: bool,
-    /// Run only the pages whose path contains this text; links are checked only where all pages are run
+    /// Run only the pages whose path contains this text
     #[arg(long)]
     only: Option<String>,
 }
@@ -53,64 +53,77 @@ fn main() -> Result<()> {
         let (from, to) = (arguments.docs.join("src").join(&path), sources.join(&path));
         make_parent(&to)?;
         if path.extension().is_none_or(|ending| ending != "md") {
-            fs::copy(&from, &to)?;
+            // Pictures that a page has made stand there already.
+            if !to.is_file() {
+                source::copy(&from, &to)?;
+            }
             continue;
         }
-        let text = fs::read_to_string(&from)?;
-        let mut page = cells::Page::read(&text).with_context(|| path.display().to_string())?;
-        differences.extend(ran(&mut page, &from, &to, &tools, &arguments)?);
-        let text = source::with_pictures(&page.source(), &from, &to)?;
-        let text = generated::filled(&text, &tools)?;
+        let (text, found) = ran(&from, &to, &tools, &arguments)?;
+        differences.extend(found);
+        let text = source::with_pictures(&text, &from, &to)?;
         fs::write(&to, math::typeset(&text).with_context(|| path.display().to_string())?)?;
     }
     // The README is no page of the book, but its commands run too.
     let readme = arguments.docs.join("../README.md");
-    let mut page = cells::Page::read(&fs::read_to_string(&readme)?)?;
-    differences.extend(ran(&mut page, &readme, &place.path().join("README.md"), &tools, &arguments)?);
+    differences.extend(ran(&readme, &place.path().join("README.md"), &tools, &arguments)?.1);
     fs::copy(arguments.docs.join("book.toml"), place.path().join("book.toml"))?;
     source::copy_folder(&arguments.docs.join("theme"), &place.path().join("theme"))?;
     build(place.path(), &arguments.output)?;
     if let Some(wasm) = &arguments.wasm {
         page::bundle(&arguments.docs.join("page/web"), wasm, &arguments.output.join("page/index.html"))?;
     }
-    // Pages that are not run lack their pictures.
-    if arguments.only.is_none() && arguments.python.is_some() {
-        differences.extend(links::broken(&arguments.output, arguments.wasm.is_some())?);
-    }
+    differences.extend(links::broken(&arguments.output, arguments.wasm.is_some())?);
     for difference in &differences {
         eprintln!("{difference}\n");
     }
     match differences.len() {
         0 => println!("the book is in {}", arguments.output.display()),
-        count => bail!("{count} faults; --write takes over what commands print"),
+        count => bail!("{count} faults; --write takes over what commands print and draw"),
     }
     Ok(())
 }
 
-/// Runs the cells of the page of the file `from`, if it is wanted; what differs from what they print, unless that could be written into
-/// the file.
-fn ran(
-    page: &mut cells::Page,
-    from: &Path,
-    to: &Path,
-    tools: &run::Tools,
-    arguments: &Arguments,
-) -> Result<Vec<String>> {
-    if arguments.only.as_ref().is_some_and(|only| !from.to_string_lossy().contains(only)) {
-        return Ok(Vec::new());
-    }
+/// The page of the file `from`, run if it is wanted; and what differs from what it shows, unless that could be written into the sources.
+fn ran(from: &Path, to: &Path, tools: &run::Tools, arguments: &Arguments) -> Result<(String, Vec<String>)> {
     let name = from.display().to_string();
-    if !tools.can_run(page) {
-        eprintln!("{name} is not run: --python names a Python with the package");
-        return Ok(Vec::new());
+    let text = fs::read_to_string(from)?;
+    let mut page = cells::Page::read(&text).with_context(|| name.clone())?;
+    if arguments.only.as_ref().is_some_and(|only| !name.contains(only)) {
+        return Ok((text, Vec::new()));
     }
-    let mut differences = tools.run(page, to).with_context(|| name.clone())?;
+    if !tools.can_run(&page) {
+        eprintln!("{name} is not run: --python names a Python with the package");
+        return Ok((text, Vec::new()));
+    }
+    let run::Ran { mut differences, pictures } = tools.run(&mut page, to).with_context(|| name.clone())?;
+    let (text, found) = generated::renewed(&page.source(), tools).with_context(|| name.clone())?;
+    differences.extend(found);
     if arguments.write && differences.iter().any(|difference| difference.is_taken) {
-        fs::write(from, page.source())?;
+        fs::write(from, &text)?;
         println!("written: {name}");
         differences.retain(|difference| !difference.is_taken);
     }
-    Ok(differences.into_iter().map(|difference| format!("{name}: {}", difference.text)).collect())
+    let mut told: Vec<String> =
+        differences.into_iter().map(|difference| format!("{name}: {}", difference.text)).collect();
+    for picture in pictures {
+        let [made, kept] = [to, from].map(|page| source::beside(page, &picture));
+        match is_current(&kept, &made, tools)? {
+            true => {}
+            false if arguments.write => source::copy(&made, &kept)?,
+            false => told.push(format!("{name}: the picture {picture} is not the one that is drawn")),
+        }
+    }
+    Ok((text, told))
+}
+
+/// Whether a picture that is kept shows the words and numbers of one that was drawn.
+fn is_current(kept: &Path, made: &Path, tools: &run::Tools) -> Result<bool> {
+    if !kept.is_file() {
+        return Ok(false);
+    }
+    let [kept, made] = [fs::read_to_string(kept)?, fs::read_to_string(made)?].map(|svg| source::words(&svg));
+    Ok(tools.alike(&kept, &made))
 }
 
 /// Makes the folder of a file.

@@ -34,6 +34,15 @@ pub struct Difference {
     pub is_taken: bool,
 }
 
+/// What the cells of a page have printed and made.
+#[derive(Debug)]
+pub struct Ran {
+    /// Outputs that differ from what the page shows.
+    pub differences: Vec<Difference>,
+    /// Pictures of the page that its cells have made: their paths in the page.
+    pub pictures: Vec<String>,
+}
+
 impl Tools {
     /// Tools with the program at a path, and a Python if there is one.
     pub fn new(percoat: &Path, python: Option<&Path>) -> Result<Self> {
@@ -81,7 +90,7 @@ impl Tools {
 
     /// Runs the cells of a page in their order, all Python as one program. The pictures that they make are copied beside its file `to`.
     /// The output of a cell takes the place of what the page has, where they differ; returns the differences.
-    pub fn run(&self, page: &mut Page, to: &Path) -> Result<Vec<Difference>> {
+    pub fn run(&self, page: &mut Page, to: &Path) -> Result<Ran> {
         let folder = tempfile::tempdir()?;
         let mut differences = Vec::new();
         let mut session = None;
@@ -110,12 +119,12 @@ impl Tools {
             }
         }
         drop(session);
-        copy_made(&page.source(), folder.path(), to)?;
-        Ok(differences)
+        let pictures = copy_made(&page.source(), folder.path(), to)?;
+        Ok(Ran { differences, pictures })
     }
 
     /// Takes over what was found where it differs from what is shown.
-    fn take(&self, what: &str, shown: &mut String, mut found: String) -> Option<Difference> {
+    pub fn take(&self, what: &str, shown: &mut String, mut found: String) -> Option<Difference> {
         if !found.is_empty() && !found.ends_with('\n') {
             found.push('\n');
         }
@@ -132,7 +141,7 @@ impl Tools {
 
     /// Whether a shown text is what was found, but for times, numbers of iterations and steps, what differs between processors, and the
     /// lines that "…" leaves out.
-    fn alike(&self, shown: &str, found: &str) -> bool {
+    pub fn alike(&self, shown: &str, found: &str) -> bool {
         let plain = |text: &str| -> Vec<String> {
             let without_times =
                 |line: &str| match line.contains(" s (") || line.ends_with(" s") || line.contains(" s; ") {
@@ -178,17 +187,14 @@ fn near(shown: &str, found: &str, is_error: bool) -> bool {
     }
 }
 
-/// Copies the pictures of a page that its commands have made beside its file.
-fn copy_made(text: &str, folder: &Path, to: &Path) -> Result<()> {
-    for name in crate::source::pictures(text) {
-        let made = folder.join(&name);
-        if made.is_file() {
-            let copy = to.parent().unwrap_or(Path::new("")).join(&name);
-            crate::make_parent(&copy)?;
-            fs::copy(made, copy)?;
-        }
+/// Copies the pictures of a page that its commands have made beside its file; returns their paths in the page.
+fn copy_made(text: &str, folder: &Path, to: &Path) -> Result<Vec<String>> {
+    let mut pictures = crate::source::pictures(text);
+    pictures.retain(|name| folder.join(name).is_file());
+    for name in &pictures {
+        crate::source::copy(&folder.join(name), &crate::source::beside(to, name))?;
     }
-    Ok(())
+    Ok(pictures)
 }
 
 #[cfg(test)]

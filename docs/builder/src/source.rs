@@ -27,16 +27,31 @@ pub fn pictures(text: &str) -> Vec<String> {
     picture.captures_iter(text).map(|found| found[1].to_owned()).collect()
 }
 
+/// The words and numbers of a picture in SVG, a line each.
+pub fn words(svg: &str) -> String {
+    let word = Regex::new(r"<text[^>]*>([^<]*)").expect("a regular expression");
+    word.captures_iter(svg).map(|found| format!("{}\n", &found[1])).collect()
+}
+
+/// A path in a page, beside its file.
+pub fn beside(page: &Path, name: &str) -> PathBuf {
+    page.parent().unwrap_or(Path::new("")).join(name)
+}
+
+/// Copies a file into a folder that is made.
+pub fn copy(from: &Path, to: &Path) -> Result<()> {
+    crate::make_parent(to)?;
+    fs::copy(from, to).with_context(|| from.display().to_string())?;
+    Ok(())
+}
+
 /// Copies the pictures of the page `from` that stand in the repository outside of the book into the folder `repository` beside its
 /// copy `to`; the page with its new paths.
 pub fn with_pictures(text: &str, from: &Path, to: &Path) -> Result<String> {
-    let folder = |file: &Path| file.parent().unwrap_or(Path::new("")).to_owned();
     let mut text = text.to_owned();
     for name in pictures(&text).into_iter().filter(|name| name.starts_with("../")) {
         let target = format!("repository/{}", name.trim_start_matches("../"));
-        let copy = folder(to).join(&target);
-        crate::make_parent(&copy)?;
-        fs::copy(folder(from).join(&name), copy).with_context(|| name.clone())?;
+        copy(&beside(from, &name), &beside(to, &target))?;
         text = text.replace(&format!("({name})"), &format!("({target})"));
     }
     Ok(text)
@@ -45,9 +60,7 @@ pub fn with_pictures(text: &str, from: &Path, to: &Path) -> Result<String> {
 /// Copies a folder with everything in it.
 pub fn copy_folder(from: &Path, to: &Path) -> Result<()> {
     for path in files(from)? {
-        let copy = to.join(&path);
-        crate::make_parent(&copy)?;
-        fs::copy(from.join(&path), copy)?;
+        copy(&from.join(&path), &to.join(&path))?;
     }
     Ok(())
 }

@@ -113,6 +113,16 @@ impl ComparisonFile {
         }
     }
 
+    /// The circles under each rule: that of the task, the other one, the lattice sum.
+    pub fn rules(&self) -> [(CircleRadius, &[CircleRecord]); 3] {
+        let other = self.other_rule.as_ref().map_or(&[][..], |other| &other.localized);
+        [
+            (self.rule, &self.localized),
+            (self.rule.other(), other),
+            (CircleRadius::LatticeSum, self.lattice_sum.as_slice()),
+        ]
+    }
+
     /// Reads the content of `compare.json`.
     ///
     /// # Errors
@@ -142,6 +152,14 @@ impl From<&CircleComparison> for CircleRecord {
             difference: circle.difference,
             mesh_error: circle.mesh_error,
         }
+    }
+}
+
+impl PointStresses {
+    /// Largest difference of a stress component, a pressure.
+    pub fn difference(&self) -> f64 {
+        let (a, b) = (self.spectral.components(), self.localized.components());
+        (0..6).map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max)
     }
 }
 

@@ -1,18 +1,20 @@
 //! `identification.json` and `identification.csv`: parameters found from a measured indentation curve, and the fit.
 
 use super::head::{Head, with_head};
-use super::json::indented;
+use super::json::{Unreadable, indented, read_back};
 use super::number::{number, with_error};
 use super::table::Table;
 use percoat_case::case::Case;
 use percoat_case::units::Units;
 use percoat_core::identification::{Doubt, Estimate, Identification, LEVEL, Measurement, Missing, Sensitivity, Trial};
-use serde::Serialize;
+use percoat_core::notation::WIDE;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::fmt::Write;
 
 with_head! {
     /// The content of `identification.json`.
-    #[derive(Debug, Clone, Serialize)]
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     pub struct IdentificationFile {
         parameters: Vec<FoundParameter>,
         correlation: Vec<Vec<f64>>,
@@ -23,13 +25,14 @@ with_head! {
         model_error: Option<f64>,
         contact_radii: [f64; 2],
         sensitivities: Vec<KnownNumber>,
-        warnings: Vec<String>,
+        /// Warnings about the fit, a sentence each.
+        pub warnings: Vec<String>,
         steps: usize,
     }
 }
 
 /// A number that was taken as known, and the derivatives of the parameters by it.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct KnownNumber {
     name: String,
     value: f64,
@@ -37,7 +40,7 @@ struct KnownNumber {
 }
 
 /// A parameter in the file.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct FoundParameter {
     name: String,
     start: f64,
@@ -103,58 +106,86 @@ pub fn trial(case: &Case, trial: Trial) -> String {
     format!("trial {}, residual {}", trial.number, residual.unwrap_or("unknown: no contact is solved there".to_owned()))
 }
 
-/// The text of `percoat identify`.
-pub fn identified(found: &Identification, case: &Case, width: usize) -> String {
-    let units = case.units();
-    let head = ["parameter", "start", "value", "95 % interval", "relative"];
-    let row = |estimate: &Estimate| {
-        let [low, high] = estimate.interval.map(number);
-        let relative = 100.0 * estimate.error / estimate.value.abs();
-        vec![
-            estimate.parameter.name.clone(),
-            number(estimate.parameter.start),
-            with_error(estimate.value, Some(estimate.error)),
-            format!("{low} to {high}"),
-            if relative.is_finite() { format!("± {relative:.2} %") } else { String::new() },
-        ]
-    };
-    let mut text = format!("{}\n\n", Table::new(&head, found.estimates.iter().map(row).collect(), 1).fitted(width));
-    let pairs = (0..found.estimates.len()).flat_map(|k| (0..k).map(move |other| (other, k)));
-    for (k, other) in pairs {
-        let names = [k, other].map(|k| found.estimates[k].parameter.name.as_str());
-        text += &format!("correlation of {} and {}: {:+.3}\n", names[0], names[1], found.correlation[k][other]);
-    }
-    if let Some(table) = sensitivities(found) {
+/// The text of `percoat identify`, by the content of its file.
+pub fn identified(file: &IdentificationFile, units: &Units, width: usize) -> String {
+    let mut text = format!("{}\n\n", file.found().fitted(width));
+    text += &file.correlations().into_iter().map(|line| line + "\n").collect::<String>();
+    if let Some(table) = file.by_known() {
         text += &format!("\n{}\n\n", table.fitted(width));
     }
-    let length = units.length();
-    let [least, most] = found.radii.map(|radius| length.with_unit(radius, number));
-    text += &format!(
-        "{} points, residual {} (root mean square); contact radii {least} to {most}\n",
-        found.fitted.len(),
-        length.with_unit(found.rms, number)
-    );
-    if let Some(chi) = found.reduced_chi_square {
-        text += &format!("reduced chi-square {chi:.2}, about 1 where model and deviations hold\n");
-    }
-    if let Some(error) = found.model_error {
-        text += &format!("error of the computed penetrations by the grid: {:.1e} at most\n", error);
-    }
-    text
+    text + &file.fit(units).into_iter().map(|line| line + "\n").collect::<String>()
 }
 
-/// The derivatives of the parameters by what was taken as known, in the units of the case; `None` without any.
-fn sensitivities(found: &Identification) -> Option<Table> {
-    let parameters = found.estimates.iter().map(|estimate| format!("d {}", estimate.parameter.name));
-    let head: Vec<String> =
-        ["by what was taken as known", "value"].map(str::to_owned).into_iter().chain(parameters).collect();
-    let row = |sensitivity: &Sensitivity| {
-        let numbers =
-            std::iter::once(sensitivity.fixed.start).chain(sensitivity.derivatives.iter().copied()).map(number);
-        std::iter::once(sensitivity.fixed.name.clone()).chain(numbers).collect()
-    };
-    let rows: Vec<Vec<String>> = found.sensitivities.iter().map(row).collect();
-    (!rows.is_empty()).then(|| Table::new(&head, rows, 1))
+impl IdentificationFile {
+    /// Table of the parameters with their errors.
+    pub fn found(&self) -> Table {
+        let head = ["parameter", "start", "value", "95 % interval", "relative"];
+        let row = |found: &FoundParameter| {
+            let [low, high] = found.interval_95.map(number);
+            let relative = found.standard_error / found.value.abs();
+            vec![
+                found.name.clone(),
+                number(found.start),
+                with_error(found.value, Some(found.standard_error)),
+                format!("{low} to {high}"),
+                match relative {
+                    wide if wide.is_finite() && wide > WIDE => format!("more than {:.0} %", 100.0 * WIDE),
+                    _ if relative.is_finite() => format!("± {:.2} %", 100.0 * relative),
+                    _ => String::new(),
+                },
+            ]
+        };
+        Table::new(&head, self.parameters.iter().map(row).collect(), 1)
+    }
+
+    /// The correlations of the parameters, a line for each pair.
+    pub fn correlations(&self) -> Vec<String> {
+        let pairs = (0..self.parameters.len()).flat_map(|k| (0..k).map(move |other| (other, k)));
+        let line = |(other, k): (usize, usize)| {
+            let names = [k, other].map(|k| self.parameters[k].name.as_str());
+            format!("correlation of {} and {}: {:+.3}", names[0], names[1], self.correlation[k][other])
+        };
+        pairs.map(line).collect()
+    }
+
+    /// The derivatives of the parameters by what was taken as known, in the units of the case; `None` without any.
+    pub fn by_known(&self) -> Option<Table> {
+        let parameters = self.parameters.iter().map(|found| format!("d {}", found.name));
+        let head: Vec<String> =
+            ["by what was taken as known", "value"].map(str::to_owned).into_iter().chain(parameters).collect();
+        let row = |known: &KnownNumber| {
+            let numbers = std::iter::once(known.value).chain(known.derivatives.iter().copied()).map(number);
+            std::iter::once(known.name.clone()).chain(numbers).collect()
+        };
+        let rows: Vec<Vec<String>> = self.sensitivities.iter().map(row).collect();
+        (!rows.is_empty()).then(|| Table::new(&head, rows, 1))
+    }
+
+    /// How well the model fits, in lines.
+    pub fn fit(&self, units: &Units) -> Vec<String> {
+        let length = units.length();
+        let [least, most] = self.contact_radii.map(|radius| length.with_unit(radius, number));
+        let mut lines = vec![format!(
+            "{} points, residual {} (root mean square); contact radii {least} to {most}",
+            self.points,
+            length.with_unit(self.rms_residual, number)
+        )];
+        if let Some(chi) = self.reduced_chi_square {
+            lines.push(format!("reduced chi-square {chi:.2}, about 1 where model and deviations hold"));
+        }
+        if let Some(error) = self.model_error {
+            lines.push(format!("error of the computed penetrations by the grid: {error:.1e} at most"));
+        }
+        lines
+    }
+
+    /// Reads the content of `identification.json`.
+    ///
+    /// # Errors
+    /// [`Unreadable`] with the key that is not as this version writes it.
+    pub fn read(file: &Value) -> Result<Self, Unreadable> {
+        read_back(file)
+    }
 }
 
 /// Why values and standard errors of a fit may not hold, a sentence each; `case` has the values found.

@@ -4,18 +4,22 @@ use percoat_case::units::{Prefixed, Unit, Units};
 use percoat_core::measured::Measured;
 use percoat_core::quantity::{Kind, Named};
 
+use percoat_core::notation::WIDE;
 pub use percoat_core::notation::number;
 
 /// Relative errors below this are rounding.
 pub(super) const ROUNDING: f64 = 1e-12;
 
 /// A number with its error, both to the first digit of the error: 0.4217 ± 0.0001. A smaller error than one of the fifth digit is
-/// shown as one of it; an error of rounding is left out; a number below its error has at most one digit more than the error.
+/// shown as one of it; an error of rounding is left out. An error of more than three tenths of the number is shown by the interval,
+/// "0.035 to 0.076"; a number below its error has at most one digit more than the error, since its sign is not known.
 pub fn with_error(x: f64, error: Option<f64>) -> String {
     let Some(error) = error.filter(|error| error.is_finite() && *error > ROUNDING * x.abs() && x.is_finite()) else {
         return number(x);
     };
-    let exponent = |x: f64| x.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
+    if error > WIDE * x.abs() && error < x.abs() {
+        return interval(x, error);
+    }
     let digit = exponent(error).max(exponent(x) - 4);
     // Errors are rounded up: 1.2e-4 is 2e-4.
     let counted = (error / 10f64.powi(digit) * (1.0 - 1e-9)).ceil();
@@ -30,6 +34,25 @@ pub fn with_error(x: f64, error: Option<f64>) -> String {
     } else {
         let (scale, decimals) = (10f64.powi(-lead), usize::try_from(lead - digit).unwrap_or(0));
         format!("{:.decimals$}e{lead} ± {:.decimals$}e{lead}", x * scale, error * scale)
+    }
+}
+
+/// The power of ten of a number's first digit.
+fn exponent(x: f64) -> i32 {
+    x.abs().max(f64::MIN_POSITIVE).log10().floor() as i32
+}
+
+/// The numbers between which one lies by its error, less than the number, to the second digit of it, rounded away from it.
+fn interval(x: f64, error: f64) -> String {
+    let lead = exponent(x);
+    let digit = 10f64.powi(lead - 1);
+    let [low, high] = [((x - error) / digit).floor(), ((x + error) / digit).ceil()].map(|counted| counted * digit);
+    if (-3..6).contains(&lead) {
+        let decimals = usize::try_from(1 - lead).unwrap_or(0);
+        format!("{low:.decimals$} to {high:.decimals$}")
+    } else {
+        let scale = 10f64.powi(-lead);
+        format!("{:.1}e{lead} to {:.1}e{lead}", low * scale, high * scale)
     }
 }
 
@@ -88,6 +111,9 @@ mod tests {
             (0.0553, Some(0.7)),
             (0.39, Some(5.3)),
             (0.0007, Some(8.0)),
+            (0.055_395, Some(0.02)),
+            (-97.0, Some(60.0)),
+            (8.1e6, Some(5e6)),
             (0.25, Some(1e-16)),
             (210e9, Some(3e6)),
             (1.5e-7, Some(2e-9)),
@@ -105,6 +131,9 @@ mod tests {
                 "0.06 ± 0.70",
                 "0.4 ± 6.0",
                 "0.0 ± 8.0",
+                "0.035 to 0.076",
+                "-157 to -37",
+                "3.1e6 to 13.1e6",
                 "0.25000",
                 "2.1000e11 ± 0.0001e11",
                 "1.50e-7 ± 0.02e-7",

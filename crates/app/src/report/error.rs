@@ -9,15 +9,15 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// The path is no folder.
-    #[error("{} is not a folder: give the output folder of percoat solve, sweep, limit or life", plain::path(.0))]
+    #[error("{} is not a folder: give the output folder of percoat solve, sweep, limit, life, identify or compare", plain::path(.0))]
     NoFolder(PathBuf),
     /// The folder has no finished result.
     #[error(
-        "{} holds no finished result (no summary.json, limit.json, life.json or sweep.json){}", plain::path(folder),
+        "{} holds no finished result (no summary.json, limit.json, life.json, sweep.json, identification.json or compare.json){}", plain::path(folder),
         if *unfinished {
             ", only steps of a run that has not ended (unfinished/): let it end or run the command again, then report"
         } else {
-            ": run percoat solve, sweep, limit or life with -o into it first"
+            ": run percoat solve, sweep, limit, life, identify or compare with -o into it first"
         }
     )]
     Nothing {

@@ -4,7 +4,7 @@ use super::markup::{Markup, tag, void, with};
 use super::part::Part;
 use super::results::Results;
 use super::trailer::with_trailer;
-use super::{ReportError, life, limit, run, sweep};
+use super::{ReportError, comparison, identification, life, limit, run, sweep};
 use std::path::Path;
 
 /// The report of an output folder.
@@ -31,6 +31,12 @@ pub fn page(folder: &Path) -> Result<Page, ReportError> {
     }
     if let Some(file) = &results.life {
         parts.push(life::part(&results, file)?);
+    }
+    if let Some(file) = &results.identification {
+        parts.push(identification::part(&results, file)?);
+    }
+    if let Some(file) = &results.comparison {
+        parts.push(comparison::part(&results, file)?);
     }
     if let Some(file) = &results.run {
         parts.push(run::part(&results, file)?);

@@ -3,7 +3,7 @@
 use super::markup::{Markup, tag, with};
 use super::problem::is_elastic;
 use super::resolution::upper;
-use crate::output::table::{Assumptions, library_strengths};
+use crate::output::table::{Assumptions, library_strengths, scatter};
 use percoat_case::case::kind_of;
 use percoat_core::body::MeanStress;
 use serde_json::Value;
@@ -80,7 +80,14 @@ fn assumptions(case: &Value) -> Assumptions {
     let kind = kind_of(case);
     let mean = kind.surroundings.per_cell(mean);
     let rigid = !is_elastic(case) && !kind.is_given;
-    Assumptions { mean, line: None, rigid, untested: untested(case), library: library_strengths(case) }
+    Assumptions {
+        mean,
+        line: None,
+        rigid,
+        untested: untested(case),
+        library: library_strengths(case),
+        scatter: scatter(case),
+    }
 }
 
 /// Names of the materials without a strength, as the case names them.

@@ -1,7 +1,10 @@
 //! The finished results of a folder.
 
 use super::ReportError;
-use crate::output::{LifeFile, LimitFile, SWEEP_LOG, Summary, Unreadable, damaged_results, disk, is_beside};
+use crate::output::{
+    ComparisonFile, IdentificationFile, LifeFile, LimitFile, SWEEP_LOG, Summary, Unreadable, damaged_results, disk,
+    is_beside,
+};
 use crate::sweep::{Description, Part, Row};
 use serde_json::Value;
 use std::io::ErrorKind;
@@ -17,6 +20,10 @@ pub(super) struct Results {
     pub limit: Option<LimitFile>,
     /// `life.json`.
     pub life: Option<LifeFile>,
+    /// `identification.json`.
+    pub identification: Option<IdentificationFile>,
+    /// `compare.json`.
+    pub comparison: Option<ComparisonFile>,
     /// `sweep.json` with its log.
     pub sweep: Option<Swept>,
     /// Files that are missing or were changed since percoat wrote them, each with what is wrong with it.
@@ -24,7 +31,8 @@ pub(super) struct Results {
 }
 
 /// Files whose numbers a page shows.
-const SHOWN: [&str; 5] = ["summary.json", "limit.json", "life.json", "sweep.json", SWEEP_LOG];
+const SHOWN: [&str; 7] =
+    ["summary.json", "limit.json", "life.json", "identification.json", "compare.json", "sweep.json", SWEEP_LOG];
 
 /// `sweep.json` with the rows of its log.
 #[derive(Debug)]
@@ -46,10 +54,13 @@ impl Results {
         let run = record(&folder.join("summary.json"), Summary::read)?;
         let limit = record(&folder.join("limit.json"), LimitFile::read)?;
         let life = record(&folder.join("life.json"), LifeFile::read)?;
+        let identification = record(&folder.join("identification.json"), IdentificationFile::read)?;
+        let comparison = record(&folder.join("compare.json"), ComparisonFile::read)?;
         let unlike = damaged_results(folder);
-        let results = Self { folder: folder.to_owned(), run, limit, life, sweep, unlike };
-        let Self { run, limit, life, sweep, .. } = &results;
-        if run.is_none() && limit.is_none() && life.is_none() && sweep.is_none() {
+        let results = Self { folder: folder.to_owned(), run, limit, life, identification, comparison, sweep, unlike };
+        let Self { run, limit, life, identification, comparison, sweep, .. } = &results;
+        let others = identification.is_some() || comparison.is_some();
+        if run.is_none() && limit.is_none() && life.is_none() && sweep.is_none() && !others {
             let unfinished = ["unfinished", "unfinished-life", "unfinished-sweep"]
                 .iter()
                 .any(|name| disk::is_folder(&folder.join(name)));

@@ -258,7 +258,7 @@ mod tests {
             .zip(limits)
             .map(|(n, limit)| row(n, &[("a", n.to_string())], vec![SweepResult::Limits(vec![limit])]))
             .collect();
-        assert_eq!(lines(&rows)[2], "worst 0.5 ± 0.3 GPa, within the errors 1: a = 1");
+        assert_eq!(lines(&rows)[2], "worst 0.20 to 0.80 GPa, within the errors 1: a = 1");
     }
 
     #[test]

@@ -278,7 +278,7 @@ mod tests {
             SweepResult::Limits(limits).limit_value(of).map(|value| value.to_string())
         };
         let text = |text: &str| Some(text.to_owned());
-        assert_eq!(told(vec![reached(parts, 0.006_646_1, 0.0025), never(yields, 3.5)], None), text("0.007 ± 0.003"));
+        assert_eq!(told(vec![reached(parts, 0.006_646_1, 0.0025), never(yields, 3.5)], None), text("0.0041 to 0.0092"));
         assert_eq!(told(vec![below(parts, 0.0012)], None), text("< 0.0012000"));
         assert_eq!(told(vec![never(yields, 3.5)], Some(yields)), text("> 3.5000"));
         assert_eq!(

@@ -5,8 +5,13 @@ use super::keys::{Form, Key, Range, Unit};
 use super::reader::TableAt;
 use super::section::section;
 use percoat_core::body::{Durability, Endurance, Fatigue, MaterialError};
+use serde_json::Value;
+use std::ops::Bound;
 
 const SIZE: Form = Form::Number(Range::Size);
+const PART: Form = Form::Number(Range::Within(Bound::Excluded(0.0), Bound::Excluded(1.0)));
+/// Part of specimens that has failed at the passes that are stated, where a law has a scatter and no other part.
+const FAILURES: f64 = 0.1;
 static LAW: [Form; 1] = [Form::Table(&FATIGUE)];
 static LIMITS: [Form; 1] = [Form::Table(&ENDURANCE)];
 
@@ -23,13 +28,21 @@ pub(super) const ENDURANCE_LIMITS: Key =
 section! {
     /// Damage by the range of the shear stress, (range/amplitude)^exponent/passes in a pass.
     #[derive(Copy)]
-    pub struct FatigueSection = FATIGUE {
+    pub struct FatigueSection = FATIGUE, rules scatter_has_a_slope {
         /// range of the shear stress that does the damage 1 in `passes`
         pub amplitude: f64 = Key::new(&[SIZE], "0.4").unit(Unit::Pressure),
         /// passes of the range `amplitude` to failure
         pub passes: f64 = Key::new(&[SIZE], "1e6"),
         /// power of the range with which damage grows
         pub exponent: f64 = Key::new(&[SIZE], "8.0"),
+        /// slope of the Weibull distribution of the passes of many specimens, of which `passes` is the median
+        pub weibull_slope: Option<f64> = Key::new(&[Form::Number(Range::POSITIVE)], "1.5")
+            .otherwise("no scatter is known")
+            .omitted_as_nothing(),
+        /// part of many specimens that has failed at the passes that are stated
+        pub failures: Option<f64> = Key::new(&[PART], "0.05")
+            .otherwise("0.1, with `weibull_slope`")
+            .omitted_as_nothing(),
     }
 }
 
@@ -53,10 +66,48 @@ fn tension_does_no_good(limits: &EnduranceSection, section: &TableAt<'_>) -> Res
     })
 }
 
-impl FatigueSection {
-    pub(super) fn fatigue(&self) -> Result<Fatigue, MaterialError> {
-        Fatigue::new(self.amplitude, self.passes, self.exponent)
+/// Refuses a part of failures without the slope of their distribution.
+fn scatter_has_a_slope(law: &FatigueSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    if law.failures.is_none() || law.weibull_slope.is_some() {
+        return Ok(());
     }
+    let failures = section.value("failures")?;
+    let message = format!("`{}` needs `weibull_slope`, by which the passes scatter", failures.path);
+    Err(Refusal::new(failures.node.span, message, "of a distribution that is not known")
+        .help("give the slope, or the passes of that part of failures and no `failures`"))
+}
+
+impl FatigueSection {
+    /// The law; with a scatter that of the part of failures: 1 − exp(−(N/η)^β) have failed after N passes, half of all after `passes`.
+    pub(super) fn fatigue(&self) -> Result<Fatigue, MaterialError> {
+        let part =
+            self.scatter().map_or(1.0, |[slope, failures]| ((-failures).ln_1p() / 0.5f64.ln()).powf(1.0 / slope));
+        Fatigue::new(self.amplitude, self.passes * part, self.exponent)
+    }
+
+    /// Slope of the Weibull distribution of the passes, and the part that has failed at those of the law; `None` without a scatter.
+    fn scatter(&self) -> Option<[f64; 2]> {
+        Some([self.weibull_slope?, self.failures.unwrap_or(FAILURES)])
+    }
+}
+
+/// The parts of failures for which the laws of fatigue of a serialised case state passes, each once, ascending; empty without a scatter.
+pub fn failures_of(case: &Value) -> Vec<f64> {
+    let mut found = Vec::new();
+    let mut below = vec![case];
+    while let Some(value) = below.pop() {
+        if value["weibull_slope"].is_number() {
+            found.push(value["failures"].as_f64().unwrap_or(FAILURES));
+        }
+        match value {
+            Value::Object(keys) => below.extend(keys.values()),
+            Value::Array(items) => below.extend(items),
+            _ => {}
+        }
+    }
+    found.sort_by(f64::total_cmp);
+    found.dedup();
+    found
 }
 
 impl EnduranceSection {
@@ -131,6 +182,26 @@ mod tests {
             assert_eq!((bodies.counterbody(), bodies.body()), (None, plain.half_space()));
             assert!(case.counterbody.as_ref().is_some_and(|counterbody| !counterbody.is_elastic()));
         }
+    }
+
+    /// The rolling bearing's rule: with the slope 1.5 half of all have failed after 3.51 times the passes of a tenth, with the slope 10/9 after
+    /// 5.45 times.
+    #[test]
+    fn passes_with_a_scatter_are_those_of_the_first_failures() {
+        let law = |more: &str| {
+            let law = format!("{{ amplitude = 0.4, passes = 1e6, exponent = 8{more} }}");
+            let case = read(&format!("substrate = {{ young = 1, poisson = 0.3, fatigue = {law} }}\n"));
+            let parts = failures_of(&serde_json::json!(case));
+            (case.half_space().durabilities().next().unwrap().fatigue.unwrap().passes(), parts)
+        };
+        for (slope, ratio) in [(1.5, 3.51), (10.0 / 9.0, 5.45)] {
+            let (passes, parts) = law(&format!(", weibull_slope = {slope}"));
+            assert!((1e6 / passes / ratio - 1.0).abs() < 2e-3, "{passes}");
+            assert_eq!(parts, [0.1]);
+        }
+        let (passes, parts) = law(", weibull_slope = 3.0, failures = 0.5");
+        assert!((passes - 1e6).abs() < 1e-6, "{passes}");
+        assert_eq!((parts, law("")), (vec![0.5], (1e6, vec![])));
     }
 
     #[test]

@@ -64,7 +64,7 @@ mod writer;
 
 pub use composite_hardness::CompositeHardnessSection;
 pub use document::Document;
-pub use durability::{EnduranceSection, FatigueSection};
+pub use durability::{EnduranceSection, FatigueSection, failures_of};
 pub use elastic_counterbody::CounterbodySection;
 pub use error::CaseError;
 pub use feasibility::single_contact::foreseen;

@@ -42,7 +42,7 @@ section! {
             &[Form::Table(&CUT)],
             "{ from = \"level 1\", toward = \"level 2\", length = 1.0, depth = 1.0 }",
         )
-        .otherwise("no cut"),
+        .otherwise("no cut; of an isolated contact without planes, points and volume the cut through the first indenter across the whole window"),
         /// single points, z ≥ 0 into the body
         pub points: Vec<[f64; 3]> = Key::new(
             &[Form::List { of: &Form::Tuple("a point [x, y, z]", &[COORDINATE, COORDINATE, SIZE_OR_ZERO]), count: [0, 100_000] }],
@@ -144,7 +144,9 @@ impl StressSection {
         if stress.section.is_some_and(|cut| cut.toward.is_none()) && sliding.is_none() {
             return Err(section.value("section")?.table()?.missing("toward"));
         }
-        let stress = Self { section: stress.section.map(|cut| cut.completed(sliding)), ..stress };
+        let is_free = stress.planes.is_empty() && stress.points.is_empty() && stress.volume.is_none();
+        let unasked = || if is_free { CutSection::across_window(problem, sliding) } else { None };
+        let stress = Self { section: stress.section.map(|cut| cut.completed(sliding)).or_else(unasked), ..stress };
         stress.within(problem, section)?;
         if stress.mean == MeanStress::Line && problem.loaded_by().line().is_none() {
             return Err(no_line(section)?);
@@ -219,6 +221,20 @@ fn check_levels(cut: &ValueAt<'_>, levels: usize) -> Result<(), Refusal> {
 }
 
 impl CutSection {
+    /// The cut through the first indenter, or the middle, from border to border of the window along x or the direction of sliding, half of the
+    /// window's shorter side deep; `None` in a periodic cell.
+    fn across_window(problem: &Problem, sliding: Option<[f64; 2]>) -> Option<Self> {
+        let cell = problem.cell();
+        let sides = cell.window_sides()?;
+        let direction = sliding.unwrap_or([1.0, 0.0]);
+        let from = if problem.levels().is_empty() { Origin::Place([0.0; 2]) } else { Origin::Level(1) };
+        let cut = Self { from, toward: Some(Toward::Direction(direction)), length: 0.0, behind: None, depth: 0.0 };
+        let line = cut.line(problem.indenters().map(Indenters::lattice))?;
+        let reach = sides[0].hypot(sides[1]);
+        let [first, last] = cell.clipped(line.origin, line.unit(), [-reach, reach]);
+        Some(Self { length: last - first, behind: Some(-first), depth: 0.5 * sides[0].min(sides[1]), ..cut })
+    }
+
     /// The cut with the direction of sliding where it has none; it then begins behind the origin, to show both edges of a contact.
     fn completed(self, sliding: Option<[f64; 2]>) -> Self {
         let behind = if self.toward.is_none() { 0.5 * self.length } else { 0.0 };

@@ -257,6 +257,25 @@ fn a_section_is_that_of_a_case_with_this_key() {
     }
 }
 
+/// The window is 4 by 2: a cut along (3, 4) leaves it 1.25 from the middle.
+#[test]
+fn an_isolated_contact_is_cut_across_its_window_unless_other_places_are_named() {
+    let ball = "[lattice]\nkind = \"isolated\"\nsize = [4.0, 2.0]\n[[levels]]\nshape = \"sphere\"\nradius = 10.0\n[substrate]\nyoung = 1.0\n\
+        poisson = 0.3\n[load]\nforce = 0.01\n[stress]\n";
+    let cut = |more: &str, set: &[&str]| read(&format!("{ball}{more}"), set).unwrap().run().stress.unwrap().cut;
+    for (more, half, direction) in
+        [("", 2.0, [1.0, 0.0]), ("[friction]\ncoefficient = 0.1\ndirection = [3.0, 4.0]\n", 1.25, [0.6, 0.8])]
+    {
+        let cut = cut(more, &[]).unwrap();
+        let found = [cut.line.span[0] + half, cut.line.span[1] - half, cut.depth - 1.0];
+        let turned = [0, 1].map(|k| cut.line.unit()[k] - direction[k]);
+        assert!(found.into_iter().chain(turned).all(|x| x.abs() < 1e-12), "{cut:?}");
+        assert_eq!(cut.line.origin, [0.0; 2]);
+    }
+    assert!(cut("planes = [0.1]\n", &[]).is_none() && cut("points = [[0.0, 0.0, 0.1]]\n", &[]).is_none());
+    assert!(read(&fig2(), &["stress={}"]).unwrap().run().stress.unwrap().cut.is_none());
+}
+
 #[test]
 fn layers_and_circles_without_end_are_refused() {
     let layers = fig2() + &"[[layers]]\nthickness = 1\nshear_ratio = 2\npoisson = 0.2\n".repeat(200);

@@ -158,7 +158,7 @@ impl Cell {
 
     /// The part of the `span` [s₁, s₂] of the line `origin` + s `direction`, from an origin in the cell, that lies in a window;
     /// lengths over that of the direction. Of a periodic cell the span itself.
-    pub(crate) fn clipped(&self, origin: [f64; 2], direction: [f64; 2], span: [f64; 2]) -> [f64; 2] {
+    pub fn clipped(&self, origin: [f64; 2], direction: [f64; 2], span: [f64; 2]) -> [f64; 2] {
         if !self.is_isolated() {
             return span;
         }

@@ -4,7 +4,7 @@ use super::advance::lowering;
 use super::beginning::Beginning;
 use super::state::{LifeEnd, LifeState};
 use super::task::LifeTask;
-use crate::notation::number;
+use crate::notation::{number, power_error};
 use crate::reading::{Life, contact_radii};
 use crate::run::RefinementEnd;
 use crate::run::warnings::warnings;
@@ -20,9 +20,9 @@ impl LifeTask {
             begun.record.fatigue.as_ref().and_then(|fatigue| fatigue.first.error).filter(|error| *error > UNKNOWN)
         {
             warnings.push(format!(
-                "the passes to the first failure are known to {:.0} % only: an error of the range of the shear stress counts as often as \
+                "the passes to the first failure are uncertain{}: an error of the range of the shear stress counts as often as \
                  the exponent; raise grid.points, or prescribe grid.accuracy",
-                100.0 * error
+                power_error(Some(error))
             ));
         }
         if let Some(life) = self.counterbody_failure(begun) {

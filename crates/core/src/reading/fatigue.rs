@@ -16,6 +16,7 @@ use super::stress::{Tip, beside_site, contact_radii};
 use super::{Reading, Utilisation};
 use crate::body::{Fatigue, HalfSpace, InterfaceId, MaterialId, Side};
 use crate::measured::Measured;
+use crate::notation::power_error;
 use crate::numeric::serialised;
 use crate::quantity::quantities;
 use crate::spectral::Step;
@@ -106,7 +107,7 @@ impl Life {
 
     /// The life in words, numbers formatted by `format`: "TiN after 3.2e6 passes ± 8 %".
     pub fn in_words(&self, format: impl Fn(f64) -> String) -> String {
-        let error = self.error.map_or(String::new(), |error| format!(" ± {:.0} %", (100.0 * error).ceil()));
+        let error = power_error(self.error);
         match self.passes {
             0.0 => format!("{} in the first pass, under a tip", self.part),
             passes if passes.is_finite() => format!("{} after {} passes{error}", self.part, format(passes)),

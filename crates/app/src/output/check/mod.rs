@@ -185,10 +185,12 @@ impl fmt::Display for Check {
             "force" => self.units.force(),
             _ => self.units.pressure().clone(),
         };
-        let [first, last] = [self.loads[0], self.loads[self.loads.len() - 1]].map(|load| unit.with_unit(load, number));
+        let unit = unit.suited(self.loads.iter().copied());
+        let [first, last] = [self.loads[0], self.loads[self.loads.len() - 1]];
+        let last = unit.with_unit(last, number);
         match self.loads.len() {
-            1 => writeln!(f, "load: {} {first}", self.quantity)?,
-            count => writeln!(f, "load: {} {first} … {last}, {count} steps", self.quantity)?,
+            1 => writeln!(f, "load: {} {last}", self.quantity)?,
+            count => writeln!(f, "load: {} {} … {last}, {count} steps", self.quantity, number(unit.shown(first)))?,
         }
         if let Some(Touches { points: [n1, n2], quantity, levels }) = &self.touches {
             writeln!(f, "first touch, on {n1} × {n2} samples:")?;
@@ -252,7 +254,9 @@ mod tests {
             let [found, error] =
                 ["first_touch", "first_touch_error"].map(|key| told[key][1].as_f64().unwrap_or(f64::NAN));
             assert!((found - exact).abs() < error && error < 0.05 * exact, "{found} ± {error}, {exact}");
-            let stated = format!("  level 2: force {}\u{a0}mN", crate::output::with_error(found, Some(error)));
+            // GPa·µm² = mN.
+            let micro = crate::output::with_error(1e3 * found, Some(1e3 * error));
+            let stated = format!("  level 2: force {micro}\u{a0}µN");
             assert!(check.to_string().contains(&stated), "{stated}:\n{check}");
         }
     }

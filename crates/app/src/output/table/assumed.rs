@@ -1,8 +1,9 @@
 //! Assumptions of largest stresses and limit loads, in sentences below their tables.
 
 use super::text::lines;
+use crate::output::number;
 use percoat_case::case::suggestions::joined;
-use percoat_case::case::{Case, LibraryStrength};
+use percoat_case::case::{Case, LibraryStrength, failures_of};
 use percoat_core::body::{Bodies, HalfSpace, MeanStress};
 use serde_json::{Value, json};
 
@@ -40,18 +41,21 @@ pub struct Assumptions {
     pub untested: Vec<String>,
     /// The strengths that are numbers of the library, in sentences.
     pub library: Vec<String>,
+    /// For which part of failures passes are stated, in a sentence; `None` where laws of fatigue have no scatter.
+    pub scatter: Option<String>,
 }
 
 impl Assumptions {
     /// Assumptions of a case.
     pub fn of(case: &Case) -> Self {
-        let problem = case.problem();
+        let (problem, keys) = (case.problem(), json!(case));
         Self {
             mean: problem.cell().surroundings().per_cell(case.mean_stress()),
             line: problem.loaded_by().line(),
             rigid: problem.has_rigid_counterbody(),
             untested: untested(problem.bodies()),
-            library: library_strengths(&json!(case)),
+            library: library_strengths(&keys),
+            scatter: scatter(&keys),
         }
     }
 
@@ -61,7 +65,7 @@ impl Assumptions {
         let rigid = (with_strength && self.rigid).then(|| RIGID.to_owned());
         let without_strength = self.without_strength().filter(|_| with_strength);
         let library = self.library.iter().filter(|_| with_strength).cloned();
-        [mean, without_strength, rigid].into_iter().flatten().chain(library).collect()
+        [mean, without_strength, rigid].into_iter().flatten().chain(library).chain(self.scatter.clone()).collect()
     }
 
     /// The materials without a strength, in a sentence; `None` where all have one.
@@ -75,6 +79,17 @@ impl Assumptions {
     pub(super) fn lines(&self, with_strength: bool, width: usize) -> String {
         self.sentences(with_strength).iter().map(|sentence| lines(sentence, width)).collect()
     }
+}
+
+/// For which part of failures the laws of fatigue of a serialised case state passes, in a sentence; `None` without a scatter.
+pub fn scatter(case: &Value) -> Option<String> {
+    let parts: Vec<String> = failures_of(case).into_iter().map(|part| format!("{} %", number(100.0 * part))).collect();
+    (!parts.is_empty()).then(|| {
+        format!(
+            "by the laws with a `weibull_slope`, passes are those at which {} of many have failed",
+            joined(&parts, "or")
+        )
+    })
 }
 
 /// The strengths of a serialised case that are numbers of the library with their kind of test and their range, in sentences; empty

@@ -49,7 +49,8 @@ pub(super) fn by_step(
     let last = (0..steps.len()).rev().find(|&step| rows.iter().any(|row| row.found[step].is_some()))?;
     let shown = if steps.len() <= DETAILED { 0..steps.len() } else { last..last + 1 };
     let loads = steps[shown.clone()].iter().map(|step| step.reading.load(units.quantity()));
-    let loads = loads.map(|load| format!("{} = {}", units.quantity().symbol(), units.load().with_unit(load, number)));
+    let load_unit = units.load().suited(loads.clone());
+    let loads = loads.map(|load| format!("{} = {}", units.quantity().symbol(), load_unit.with_unit(load, number)));
     let place_of = if shown.len() > 1 { "place (x, y, z) in the last" } else { "place (x, y, z)" };
     let unit =
         unit.suited(rows.iter().flat_map(|row| &row.found[shown.clone()]).flatten().map(|found| found.measured.value));

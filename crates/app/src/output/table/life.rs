@@ -5,6 +5,7 @@ use crate::output::LifeFile;
 use crate::output::number::number;
 use percoat_case::units::{Unit, Units, pascals};
 use percoat_core::life::{Course, Event, First, FirstKind, LifeEnd};
+use percoat_core::notation::power_error;
 use percoat_core::spectral::Stop;
 
 /// Most events in the table, from both ends.
@@ -74,8 +75,7 @@ pub fn headline(file: &LifeFile, units: &Units) -> String {
             format!("first event: {} is worn through after {} passes{}", first.part, number(first.passes), slid(first))
         }
         _ => {
-            let error = first.error.map_or(String::new(), |error| format!(" ± {:.0} %", (100.0 * error).ceil()));
-            let passes = number(first.passes);
+            let (passes, error) = (number(first.passes), power_error(first.error));
             format!("first damage of {} after {passes} passes{error}{}", first.part, slid(first))
         }
     }

@@ -15,7 +15,7 @@ mod strength;
 mod text;
 
 pub use alone::alone;
-pub use assumed::{Assumptions, library_strengths};
+pub use assumed::{Assumptions, library_strengths, scatter};
 pub use comparison::{differences, readings, stresses};
 pub use fatigue::lives;
 pub use hertz::hertz;
@@ -29,11 +29,10 @@ pub(super) use text::lines;
 pub use text::{Table, Worded};
 
 use super::number::{number, percent, with_unit};
-use super::{LifeFile, Timing};
+use super::{ComparisonFile, LifeFile, Timing};
 use percoat_case::case::{Case, SurfaceSection};
 use percoat_case::units::Units;
 use percoat_common::plain;
-use percoat_core::comparison::Comparison;
 use percoat_core::numeric::search::largest;
 use percoat_core::quantity::{Named, Quantity};
 use percoat_core::reading::{LEVEL, READING};
@@ -145,7 +144,7 @@ pub fn wider_windows(found: &Limits, units: &Units) -> Option<String> {
 }
 
 /// The text of `percoat compare`: both methods under the last load of a case.
-pub fn compared(case: &Case, comparison: &Comparison, width: usize) -> String {
+pub fn compared(case: &Case, comparison: &ComparisonFile, width: usize) -> String {
     let (units, steps) = (case.units(), case.load.values().len());
     let mut text = heading(case);
     if steps > 1 {
@@ -154,7 +153,7 @@ pub fn compared(case: &Case, comparison: &Comparison, width: usize) -> String {
     let readings = readings(comparison, &units).fitted(width);
     text += &format!("\n{readings}\n\n{}\n\n", differences(comparison).fitted(width));
     let mean = Assumptions::of(case).lines(false, width);
-    text + &stresses(comparison, &units).map_or(String::new(), |stresses| format!("{stresses}\n{mean}"))
+    text + &stresses(comparison, case).map_or(String::new(), |stresses| format!("{stresses}\n{mean}"))
 }
 
 /// "`name` by +1.25 %": the relative change of a quantity, from its value `without` layers or neighbours to the one `found`; `None`

@@ -45,7 +45,9 @@ fn in_words(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units) -> Opt
             .iter()
             .flat_map(|step| step.strength.iter().map(move |utilisation| (step.reading.load(quantity), utilisation)))
     };
-    let told = |load: f64| units.load().with_unit(load, number);
+    // One prefix for all loads of the sentence.
+    let unit = units.load().suited(steps.iter().map(|step| step.reading.load(quantity)));
+    let told = |load: f64| unit.with_unit(load, number);
     let least = |loads: &mut dyn Iterator<Item = f64>| loads.min_by(f64::total_cmp);
     let fails =
         least(&mut taken().filter(|(_, utilisation)| utilisation.verdict == Verdict::Fails).map(|(load, _)| load));
@@ -111,7 +113,7 @@ pub fn limits(limits: &Limits, units: &Units) -> Worded {
         format!(
             "has the utilisation {utilisation} at {} = {}",
             limits.quantity.symbol(),
-            units.load().with_unit(at, number)
+            load_unit.with_unit(at, number)
         )
     };
     let row = |limit: &&Limit| {
@@ -139,6 +141,6 @@ pub fn limits(limits: &Limits, units: &Units) -> Worded {
     };
     let rows = limits.ordered().iter().map(row).collect();
     let header = ["criterion".to_owned(), load_unit.headed(limits.quantity.name()), length.headed("place (x, y, z)")];
-    let words = limits.in_words(|x| units.load().with_unit(x, number));
+    let words = limits.in_words(|load| load_unit.with_unit(load, number));
     Worded { words, table: Table::new(&header, rows, 1) }
 }

@@ -6,7 +6,7 @@ use super::numbers::{Bound, Number};
 use crate::sweep::{Foremost, Row, SweepResult};
 use percoat_draw::axis::Axis;
 use percoat_draw::bar::Bar;
-use percoat_draw::canvas::Canvas;
+use percoat_draw::canvas::{Canvas, Dash, Stroke};
 use percoat_draw::colour::Colour;
 use percoat_draw::label::Label;
 use percoat_draw::map::{Fill, Map, Over};
@@ -16,6 +16,12 @@ use std::collections::BTreeMap;
 
 /// Numbers of more than this ratio have a logarithmic bar.
 const WIDE: f64 = 20.0;
+
+/// Lines over a cell in which nothing fails, in parts of its sides: one pattern with those of its neighbours.
+const DIAGONALS: [[[f64; 2]; 2]; 3] = [[[0.0, 0.0], [1.0, 1.0]], [[0.0, 0.5], [0.5, 1.0]], [[0.5, 0.0], [1.0, 0.5]]];
+/// Width of such a line, and of that between what fails and what does not, points.
+const HATCH: f64 = 0.4;
+const FRONTIER: f64 = 1.4;
 
 /// A value of each cell, the first key fastest; `None` where a combination has none.
 type MapValues<T> = Vec<Option<T>>;
@@ -35,11 +41,14 @@ impl Keys {
         let undecided = self.field(rows, |result| (!result.rivals().is_empty()).then_some("?"));
         let question = |(word, first): (Option<_>, &Option<_>)| Some((word?, ink(first.unwrap_or(Colour::PALE))));
         let questions = undecided.into_iter().zip(&firsts).map(question).collect();
+        let holds = self.field(rows, |result| Some(result.largest_utilisation()?.value < 1.0));
         let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.step().is_some());
         let what = if of_loads { "what governs" } else { "what comes first" };
         let names = counted.iter().map(|(first, count)| (colours[first], format!("{first} ({count})")));
         let first = (!counted.is_empty()).then(|| NamedMap {
-            map: plane.map(format!("{what} (in how many combinations)"), Fill::Colours(&first), questions),
+            map: plane
+                .map(format!("{what} (in how many combinations)"), Fill::Colours(&first), questions)
+                .under(plane.holding(&holds)),
             names: names.collect(),
         });
         let finite = |shown: &Number| self.field(rows, |result| shown.value(result).filter(|value| value.is_finite()));
@@ -52,7 +61,8 @@ impl Keys {
         });
         let maps: Vec<Map> = maps.collect();
         let panels = first.iter().map(|first| first as &dyn Panel).chain(maps.iter().map(|map| map as &dyn Panel));
-        Some(sheet(caption, &panels.collect::<Vec<_>>()))
+        let hatched = if holds.contains(&Some(true)) { " Hatched: nothing fails." } else { "" };
+        Some(sheet(&format!("{caption}{hatched}"), &panels.collect::<Vec<_>>()))
     }
 
     /// The words over a map of numbers: the bound where there is no number, 0 where a logarithmic bar has no place for it, and a
@@ -135,6 +145,32 @@ impl<'a> Plane<'a> {
         y.at(v) * x.values.len() + x.at(u)
     }
 
+    /// Hatches over the cells in which nothing fails, and lines of utilisation 1 between them and the others.
+    fn holding(&self, holds: &[Option<bool>]) -> Vec<Over> {
+        let [x, y] = &self.axes;
+        let columns = x.values.len();
+        let is = |i: usize, j: usize| holds.get(j * columns + i).copied().flatten();
+        let line = |points: Vec<[f64; 2]>, width: f64| {
+            Over::Line(Stroke { points, width, dash: Dash::Solid, colour: Colour::BLACK })
+        };
+        let mut over = Vec::new();
+        for (j, i) in (0..y.values.len()).flat_map(|j| (0..columns).map(move |i| (j, i))) {
+            let [(left, right), (low, high)] = [x.ends(i), y.ends(j)];
+            if is(i, j) == Some(true) {
+                let place = |[s, t]: [f64; 2]| [x.scale.between(left, right, s), y.scale.between(low, high, t)];
+                over.extend(DIAGONALS.map(|ends| line(ends.map(place).to_vec(), HATCH)));
+            }
+            let differs = |other: Option<bool>| is(i, j).zip(other).is_some_and(|(here, there)| here != there);
+            if i + 1 < columns && differs(is(i + 1, j)) {
+                over.push(line(vec![[right, low], [right, high]], FRONTIER));
+            }
+            if differs(is(i, j + 1)) {
+                over.push(line(vec![[left, high], [right, high]], FRONTIER));
+            }
+        }
+        over
+    }
+
     /// A map with words over its cells.
     fn map<'b>(&self, title: String, fill: Fill<'b>, signs: Signs) -> Map<'b> {
         let ([x, y], [along, up]) = (&self.axes, self.names);
@@ -173,6 +209,11 @@ impl AxisCells {
         }
     }
 
+    /// Borders of a cell.
+    fn ends(&self, cell: usize) -> (f64, f64) {
+        (self.borders[cell], self.borders[cell + 1])
+    }
+
     fn at(&self, place: f64) -> usize {
         self.borders[1..].partition_point(|border| *border < place).min(self.borders.len() - 2)
     }
@@ -193,6 +234,25 @@ mod tests {
         let [low, high] = cells.axis("").range.unwrap();
         let quarter = |part: f64| cells.at(cells.scale.between(low, high, part));
         assert_eq!([0.01, 0.24, 0.26, 0.49, 0.51, 0.74, 0.76, 0.99].map(quarter), [0, 0, 1, 1, 2, 2, 3, 3]);
+    }
+
+    #[test]
+    fn what_holds_is_hatched_and_parted_by_lines_from_what_fails() {
+        let label = Label::from("");
+        let plane = Plane { axes: [0, 1].map(|_| AxisCells::new(&[1.0, 2.0])), names: [&label, &label] };
+        let over = plane.holding(&[Some(true), Some(false), Some(false), None]);
+        let lines = |width: f64| -> Vec<Vec<[f64; 2]>> {
+            let of = |over: &Over| match over {
+                Over::Line(stroke) if stroke.width == width => Some(stroke.points.clone()),
+                _ => None,
+            };
+            over.iter().filter_map(of).collect()
+        };
+        // The cell from 0.5 to 1.5 along both.
+        assert_eq!(lines(HATCH)[0], [[0.5, 0.5], [1.5, 1.5]]);
+        assert_eq!(lines(FRONTIER), [[[1.5, 0.5], [1.5, 1.5]], [[0.5, 1.5], [1.5, 1.5]]]);
+        assert_eq!(over.len(), 5);
+        assert!(plane.holding(&[None; 4]).is_empty());
     }
 
     #[test]

@@ -275,7 +275,7 @@ mod tests {
         assert!(marks == 6 && said.contains("leave open what comes first in 3"), "{marks}: {said}");
         let (marks, said) = told(&load);
         assert!(marks == 1 && said.contains("leave open whether anything fails in 1"), "{marks}: {said}");
-        assert!(said.contains("what governs"), "{said}");
+        assert!(said.contains("what governs") && said.contains("Hatched: nothing fails."), "{said}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The limit loads that were found, with their intervals and their order.
 
 use crate::load::LoadQuantity;
+use crate::notation::WIDE;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
 use crate::reading::Criterion;
@@ -9,9 +10,6 @@ use crate::run::words::Numbered;
 use crate::run::{RefinementEnd, StepRecord};
 use crate::spectral::Step;
 use std::cmp::Ordering;
-
-/// Relative error above which the ends of the interval of a limit are shown in place of the error.
-const WIDE: f64 = 0.3;
 
 /// Reason for which a search of limits ends at its largest load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
