@@ -55,10 +55,7 @@ fn moduli_are_found_and_written_with_their_fit() {
     let (table, rest) = answer.out.split_once("correlation of").expect("a correlation behind the table");
     assert_has_cells(&page, table, 14);
     let (correlation, _) = rest.split_once('\n').expect("a line");
-    assert_says(
-        &page,
-        &[&format!("Correlation of{correlation}"), "<figure id=\"identification\"", "8 points", "300.0"],
-    );
+    assert_says(&page, &[&format!("Correlation of{correlation}"), "<figure id=\"identification\"", "8 points"]);
 }
 
 #[test]

@@ -10,7 +10,7 @@ fn tables_and_captions_have_prefixes_and_files_the_numbers_of_the_case() {
     let desk = Desk::new();
     let answer = desk.percoat(&[&["solve", "tin-on-steel", "-o", "si", "--pictures", "svg"], &SMALL[..]].concat());
     let (out, folder) = (answer.out.replace('\u{a0}', " "), Folder(desk.path("si")));
-    for head in ["mean pressure (MPa)", "penetration (nm)", "load on one (N)", "peak pressure (GPa)", "p̄ = 50.000 MPa"]
+    for head in ["mean pressure (MPa)", "penetration (nm)", "load on one (mN)", "peak pressure (GPa)", "p̄ = 50.000 MPa"]
     {
         assert!(out.contains(head), "{head}: {out}");
     }
@@ -59,7 +59,7 @@ fn the_tables_of_check_have_units() {
             "layer 1 (TiN): thickness 3.0000 µm",
             "E 450.00 GPa",
             "spacing 67.658 nm",
-            "load: mean_pressure 50.000 MPa … 1.0000 GPa, 10 steps",
+            "load: mean_pressure 0.050000 … 1.0000 GPa, 10 steps",
             "  level 2: mean pressure ",
             "Pa\n",
         ],

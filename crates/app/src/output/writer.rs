@@ -72,6 +72,6 @@ impl Writer {
 
     /// Whether a new result outdates what a command has written: the report of an earlier result.
     pub(super) fn outdates(self, by: Self) -> bool {
-        by == Self::Report && [Self::Solve, Self::Limit, Self::Life, Self::Sweep].contains(&self.listed())
+        by == Self::Report && ![Self::Check, Self::Validate, Self::Report].contains(&self.listed())
     }
 }
