@@ -166,7 +166,10 @@ fn matches(pattern: &[String], lines: &[String]) -> bool {
 /// Whether two lines have the same words, and numbers that differ by no more than processors do.
 fn equal(shown: &str, found: &str) -> bool {
     let (a, b): (Vec<&str>, Vec<&str>) = (shown.split_whitespace().collect(), found.split_whitespace().collect());
-    a.len() == b.len() && (0..a.len()).all(|i| a[i] == b[i] || near(a[i], b[i], i > 0 && a[i - 1] == "±"))
+    // Ends of an interval, "0.2 to 0.4", hold the error as well.
+    let word = |i: usize| a.get(i).copied().unwrap_or_default();
+    let has_error = |i: usize| i > 0 && ["±", "to"].contains(&word(i - 1)) || word(i + 1) == "to";
+    a.len() == b.len() && (0..a.len()).all(|i| a[i] == b[i] || near(a[i], b[i], has_error(i)))
 }
 
 /// Whether two words are rules of a table, or numbers that differ by a thousandth; errors have one digit, and may differ by half.
@@ -236,5 +239,6 @@ mod tests {
         ));
         assert!(tools.alike("───\n 0.30461 ± 0.00006  (1.5, 2)", "────\n  0.30462 ± 0.00008  (1.5, 2)"));
         assert!(!tools.alike("0.305 ± 0.001", "0.301 ± 0.001"));
+        assert!(tools.alike("0.22 to 0.44 %", "0.20 to 0.45 %") && !tools.alike("0.22 to 0.44 %", "0.22 to 0.99 %"));
     }
 }
