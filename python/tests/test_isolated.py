@@ -25,7 +25,7 @@ def test_a_step_prints_its_force_and_its_area(ball: percoat.Result) -> None:
         assert repr(step).startswith(f"<percoat.Step: force {force:.5g}, penetration ") and area in repr(step)
         (level,) = step.levels
         assert step.contact_area == pytest.approx(np.pi * level.contact_radius**2, rel=1e-3)
-    assert repr(pickle.loads(pickle.dumps(ball))[0]) == repr(ball[0]) and "force (mN)" in str(ball)
+    assert repr(pickle.loads(pickle.dumps(ball))[0]) == repr(ball[0]) and "force (N)" in str(ball)
 
 
 def test_a_periodic_case_in_force_prints_its_force() -> None:

@@ -142,7 +142,7 @@ impl IdentificationFile {
     pub fn correlations(&self) -> Vec<String> {
         let pairs = (0..self.parameters.len()).flat_map(|k| (0..k).map(move |other| (other, k)));
         let line = |(other, k): (usize, usize)| {
-            let names = [k, other].map(|k| self.parameters[k].name.as_str());
+            let names = [other, k].map(|k| self.parameters[k].name.as_str());
             format!("correlation of {} and {}: {:+.3}", names[0], names[1], self.correlation[k][other])
         };
         pairs.map(line).collect()
