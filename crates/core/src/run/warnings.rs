@@ -250,22 +250,24 @@ fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
         .max_by(|a: &(usize, usize, f64), b| slope(a.1, a.2).total_cmp(&slope(b.1, b.2)));
     let (step, level, radius) = steepest.filter(|&(_, level, radius)| slope(level, radius) > STEEP)?;
     let question = "are lengths, load and moduli in consistent units?";
-    Some(flank(&format!("step {step}"), level, levels[level - 1].shape(), radius, question))
+    Some(flank(&format!("step {step}"), problem, level, radius, question))
 }
 
-/// Warning that the flank of a level is steep at the edge of a contact of radius a, with a question that says what to do.
-pub fn flank(context: &str, level: usize, shape: Shape, a: f64, question: &str) -> String {
+/// Warning that the flank of a level, from 1, is steep at the edge of a contact of radius a, with a question that says what to do.
+pub fn flank(context: &str, problem: &Problem, level: usize, a: f64, question: &str) -> String {
+    let shape = problem.levels()[level - 1].shape();
     let size = match shape {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } if a >= radius => {
-            format!("larger than its radius {}", number(radius))
+            format!("is larger than the indenter's radius {}", number(radius))
         }
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
-            format!("{} of its radius {}", ratio(a / radius), number(radius))
+            format!("is {} of the indenter's radius {}", ratio(a / radius), number(radius))
         }
-        _ => format!("where its flank has the slope {}", ratio(shape.slope(a))),
+        _ => format!("reaches up to where the flank has the slope {}", ratio(shape.slope(a))),
     };
+    let name = problem.level_name(level);
     format!(
-        "{context}: the contact radius {} of level {level} is {size}: strains are not small any more; {question}",
+        "{context}: the contact radius {} under {name} {size}: strains are not small any more; {question}",
         number(a)
     )
 }

@@ -105,7 +105,7 @@ impl Check {
         Ok(Self {
             title: if case.title.is_empty() { name.to_owned() } else { case.title.clone() },
             problem: [
-                described::loaded_by(&units, case.problem().loaded_by()),
+                described::loaded_by(&units, case.problem()),
                 described::bodies(&units, case.problem()),
             ],
             units,
