@@ -100,7 +100,7 @@ pub fn library_strengths(case: &Value) -> Vec<String> {
 }
 
 /// Sentence on what a tensile strength from a bar says of a contact.
-const BARS: &str = "a tensile strength of the library is that of bars, which break at their largest flaw; the small volume under a contact \
+pub(in crate::output) const BARS: &str = "a tensile strength of the library is that of bars, which break at their largest flaw; the small volume under a contact \
                     bears more: loads of cracking by it err to the safe side";
 
 /// Names of the materials without a strength, each once.
