@@ -76,7 +76,7 @@ fn rigid_indenters_are_said_where_strengths_and_limits_are_and_nowhere_else() {
 #[test]
 fn materials_without_a_strength_are_named_beside_strengths() {
     let desk = Desk::new();
-    let said = "no strength is given of TiAlN and 100Cr6 of the counterbody";
+    let said = "no strength is given for TiAlN and 100Cr6 of the counterbody";
     let solve =
         ["solve", "ball-on-disc", "-o", "solved", "--set=grid.points=48", "--set=load.force=1000", "--no-pictures"];
     let answer = desk.percoat(&solve);
@@ -122,8 +122,8 @@ fn strengths_of_the_library_are_stated_with_their_range() {
     let said = [
         "strengths of the library, not of your part:".to_owned(),
         format!("tensile strength of {name} 0.38 GPa (flexural, 0.25 to 0.43 GPa)"),
-        "a tensile strength of the library is that of bars".to_owned(),
-        "no strength is given of 100Cr6 of the counterbody".to_owned(),
+        "tensile strengths of the library are those of test bars".to_owned(),
+        "no strength is given for 100Cr6 of the counterbody".to_owned(),
     ];
     let set = format!("--set=layers.0.material={name}");
     for (folder, command) in [("solved", "solve"), ("limit", "limit"), ("", "check")] {

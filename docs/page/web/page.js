@@ -332,7 +332,7 @@ function show() {
   write("verdict", limit ? limit.verdict + searched : coated.verdict);
   write("here", limit ? coated.verdict : null);
   const without = isWhole && coated.without_strength;
-  write("unknown", without ? `${without}; give those of layers and substrate under “moduli and strengths”` : null);
+  write("unknown", without ? `${without}; give the strengths of layers and substrate under “moduli and strengths”` : null);
   showNumbers(coated, bare, points);
   const warnings = [...coated.warnings, ...(bare?.warnings ?? []).map((text) => `Bare substrate: ${text}`), ...failures];
   at("warnings").replaceChildren(...warnings.map((text) => element("li", { textContent: text })));

@@ -45,7 +45,7 @@ fn steep_ball(case: &Case) -> Option<String> {
     let radius = highest_radius(case, ball, stiffer_modulus(case.problem().bodies()))?;
     (ball.slope(radius) > STEEP).then(|| {
         format!(
-            "by Hertz the contact radius {} is as large as a ball of the radius {} hardly allows: strains are not small any more; is {}?",
+            "by Hertz the contact radius {} is a large part of the radius {} of the ball: strains are not small any more; is {}?",
             number(radius),
             number(case.problem().topography().and_then(|topography| topography.ball()).unwrap_or_default()),
             measured(case, 0)
