@@ -62,7 +62,7 @@ pub struct Check {
     pub surface: Option<Roughness>,
     /// The strengths that are numbers of the library.
     pub library_strengths: Vec<LibraryStrength>,
-    /// Strengths and residual stresses with their origin, a sentence for each part of the bodies.
+    /// Strengths and residual stresses with their origin, a sentence for each part of the bodies; empty where none is given.
     pub strengths: Vec<String>,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
@@ -188,6 +188,9 @@ impl fmt::Display for Check {
             1 => writeln!(f, "load: {} {first}", self.quantity)?,
             count => writeln!(f, "load: {} {first} … {last}, {count} steps", self.quantity)?,
         }
+        let none = if self.strengths.is_empty() { " none given, failure is not checked" } else { "" };
+        writeln!(f, "strengths:{none}")?;
+        self.strengths.iter().try_for_each(|sentence| f.write_str(&table::indented(sentence, WIDTH)))?;
         if let Some(Touches { points: [n1, n2], quantity, levels }) = &self.touches {
             writeln!(f, "first touch, on {n1} × {n2} samples:")?;
             for (level, touch) in (1..).zip(levels) {
@@ -200,8 +203,6 @@ impl fmt::Display for Check {
                 }
             }
         }
-        writeln!(f, "strengths:")?;
-        self.strengths.iter().try_for_each(|sentence| f.write_str(&table::indented(sentence, WIDTH)))?;
         self.surface.as_ref().map_or(Ok(()), |surface| surface.write(f, &self.units))
     }
 }

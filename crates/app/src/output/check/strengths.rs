@@ -8,9 +8,15 @@ use serde_json::Value;
 const STRENGTHS: [&str; 2] = ["yield_strength", "tensile_strength"];
 
 /// Sentences on the strengths of each part of a serialised case and the residual stress of each layer, from the surface down, those
-/// of the counterbody last; then what a strength of the library is worth.
+/// of the counterbody last; then what a strength of the library is worth. Empty where no strength and no residual stress is given.
 pub(super) fn sentences(case: &Value) -> Vec<String> {
     let unit = case["units"]["pressure"].as_str();
+    let is_given = |section: &Value| {
+        STRENGTHS.iter().chain(&["interface_strength", "residual_stress"]).any(|key| !section[*key].is_null())
+    };
+    if !parts(case).iter().any(|(_, section)| is_given(section)) {
+        return Vec::new();
+    }
     let told = parts(case).into_iter().map(|(part, section)| format!("{part}: {}", told(section, unit)));
     let library = LibraryStrength::of_case(case);
     let worth = (!library.is_empty()).then(|| WORTH.to_owned());
@@ -116,5 +122,7 @@ mod tests {
         let case = json!({ "units": { "pressure": "GPa" }, "substrate": { "material": "M2", "yield_strength": 2.0 },
                            "counterbody": { "rigid": true, "hardness": 9.0 } });
         assert_eq!(sentences(&case), ["substrate: yield strength 2\u{a0}GPa (given)"]);
+        let bare = json!({ "layers": [{ "thickness": 1, "young": 2 }], "substrate": { "young": 1, "poisson": 0.3 } });
+        assert!(sentences(&bare).is_empty());
     }
 }
