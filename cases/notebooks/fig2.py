@@ -41,7 +41,7 @@ cell = abs(np.linalg.det([result.a1, result.a2]))
 balance = sum(level.load for level in step.levels) / (0.06 * cell) - 1
 assert abs(balance) < step.pressure.size * np.finfo(float).eps  # rounding of a sum over the samples
 
-# Largest pressures from an independent periodic solver, on 756 points along three periods; 252 and 504 points
+# Peak pressures from an independent periodic solver, on 756 points along three periods; 252 and 504 points
 # give the same four digits (validation/paper/fig2).
 independent = np.array([0.42169, 0.39448, 0.36528])
 peaks = np.array([level.max_pressure for level in step.levels])
@@ -77,7 +77,7 @@ assert abs(excess[2] - 0.0435) < 3e-4
 #
 # - “For relatively large average pressure three levels are in contact”: so they are here.
 # - “Maximum value of the contact pressure in Fig. 2a is 0.07”, under level 3. It **cannot be compared**:
-#   the printed parameters give 0.365. A peak of 0.07 belongs to a nominal pressure of 0.0047 instead of
+#   the printed parameters give 0.365. A peak of 0.07 belongs to a mean pressure of 0.0047 instead of
 #   0.06, or to 0.008, that of the paper's Fig. 3, if pressures are divided by the coating's E₁.
 # - “We have got not circular contact zone, especially for the indenters of the lowest level”: **not
 #   found**. The radii of every spot differ by less than 1 %, those of level 2 the most.
@@ -97,7 +97,7 @@ readings = {
     "p̄ = 0.008, over E₁": middle.levels[2].max_pressure / coating,
 }
 for reading, peak in readings.items():
-    print(f"largest pressure under level 3, {reading}: {peak:.3f}")
+    print(f"peak pressure under level 3, {reading}: {peak:.3f}")
 rounds = [abs(peak - 0.07) < 0.005 for peak in readings.values()]  # to the two digits printed
 assert rounds == [False, True, True]
 

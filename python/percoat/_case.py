@@ -115,7 +115,8 @@ def explain(key: Optional[str] = None) -> None:
 
 
 def materials(file: Union[None, str, PathLike[str]] = None) -> dict[str, dict[str, Any]]:
-    """The library of materials by their names, those of a file of one's own before them; moduli and strengths in GPa.
+    """The library of materials by their names, those of a file of one's own before them; moduli and strengths in GPa. The other names that a
+    case may use stand under ``aliases``.
 
     Parameters
     ----------

@@ -705,7 +705,7 @@ def _result(common: Common, kept: Sequence[tuple[int, dict[str, Any], bytes]]) -
 def aside(place: Optional[str]) -> None:
     """Warn where files are now that stood where a result is gathered."""
     if place is not None:
-        warn([f"steps of an interrupted run, or files of somebody else, stood where a result is gathered; they are now in {place}"])
+        warn([f"steps of an interrupted run, or files that are not percoat's, were in the place where a result is gathered; they are now in {place}"])
 
 
 def listener(progress: Listener) -> Optional[Callable[[_core.Progress], object]]:

@@ -118,7 +118,7 @@ def contact(step: Step, *, ax: Optional[Axes] = None, window: Optional[Window] =
     colours = artist.get("cmap", ListedColormap([f"C{level % 10}" for level in range(levels)]))
     scale = ScalarMappable(BoundaryNorm(np.arange(levels + 1) + 0.5, levels), colours)
     ax = _map(ax, step, spots, scale, step.units, window, artist)
-    if owner.any():
+    if levels > 1:
         touching = np.unique(spots.compressed())
         keys = [Patch(color=tuple(scale.to_rgba(level)), label=f"level {level}") for level in touching]
         ax.legend(handles=keys, ncol=4, frameon=False, loc="lower left", bbox_to_anchor=(0.0, 1.0))

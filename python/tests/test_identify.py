@@ -87,7 +87,7 @@ def test_derivatives_by_what_is_known_are_those_of_hertz(found: percoat.Identifi
 
 def test_a_zero_that_was_missed_is_told_and_can_be_stated(curve: tuple[Any, Any]) -> None:
     force, penetration = curve
-    with pytest.warns(UserWarning, match="zero of the penetration seems to be missed by .*free `offset`"):
+    with pytest.warns(UserWarning, match="zero of the penetration seems to be off by .*free `offset`"):
         percoat.identify(CASE, (force, penetration + 5e-3), "substrate.young")
     fit = percoat.identify(CASE, (force, penetration + 5e-3), "substrate.young", known={"offset": 5e-3})
     assert fit.warnings == [] and fit.values["substrate.young"] == pytest.approx(YOUNG, rel=3e-3)

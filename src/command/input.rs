@@ -46,7 +46,7 @@ pub fn default_folder(name: &str) -> Result<PathBuf, Failure> {
         return Ok(Path::new("out").join(name));
     }
     Err(Failure::Refused(format!(
-        "the name of the case, `{}`, is none for a folder in out/: say with -o where the result shall go, or rename the file",
+        "the name of the case, `{}`, cannot be the name of a folder in out/: give a folder with -o, or rename the file",
         plain::line(name)
     )))
 }

@@ -21,7 +21,7 @@ pub fn run(name: Option<&str>, file: Option<&Path>) -> Result<Ending, Failure> {
     };
     let all = || of_file.iter().chain(library());
     let unknown = || Failure::refused(UnknownMaterial::among(name, all()));
-    write!(out, "{}", all().find(|material| material.name == name).ok_or_else(unknown)?.to_toml())?;
+    write!(out, "{}", all().find(|material| material.is_called(name)).ok_or_else(unknown)?.to_toml())?;
     Ok(Ending::Done)
 }
 

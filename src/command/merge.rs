@@ -123,7 +123,7 @@ fn common_parent(folders: &[PathBuf]) -> Result<PathBuf, Failure> {
         Some(parent) if parents.iter().all(|parent| *parent == parents[0]) => {
             Ok(if parent == Path::new("") { PathBuf::from(".") } else { parent.to_owned() })
         }
-        _ => Err(Failure::refused("the parts stand in different folders: say with -o where the whole shall be")),
+        _ => Err(Failure::refused("the parts are in different folders: give the folder of the whole with -o")),
     }
 }
 

@@ -62,7 +62,7 @@ pub fn clear_line() {
 pub fn tell_aside(place: Option<&Path>, quiet: bool) {
     if let (Some(place), false) = (place, quiet) {
         tell!(
-            "note: steps of an interrupted run, or files of somebody else, stood where a result is gathered; they are now in {}",
+            "note: steps of an interrupted run, or files that are not percoat's, were in the place where a result is gathered; they are now in {}",
             plain::path(place)
         );
     }

@@ -76,7 +76,7 @@ fn rigid_indenters_are_said_where_strengths_and_limits_are_and_nowhere_else() {
 #[test]
 fn materials_without_a_strength_are_named_beside_strengths() {
     let desk = Desk::new();
-    let said = "no strength is given of TiAlN and 100Cr6 of the counterbody";
+    let said = "no strength is given for TiAlN and 100Cr6 of the counterbody";
     let solve =
         ["solve", "ball-on-disc", "-o", "solved", "--set=grid.points=48", "--set=load.force=1000", "--no-pictures"];
     let answer = desk.percoat(&solve);
@@ -122,8 +122,8 @@ fn strengths_of_the_library_are_stated_with_their_range() {
     let said = [
         "strengths of the library, not of your part:".to_owned(),
         format!("tensile strength of {name} 0.38 GPa (flexural, 0.25 to 0.43 GPa)"),
-        "a tensile strength of the library is that of bars".to_owned(),
-        "no strength is given of 100Cr6 of the counterbody".to_owned(),
+        "tensile strengths of the library are those of test bars".to_owned(),
+        "no strength is given for 100Cr6 of the counterbody".to_owned(),
     ];
     let set = format!("--set=layers.0.material={name}");
     for (folder, command) in [("solved", "solve"), ("limit", "limit"), ("", "check")] {
@@ -132,7 +132,15 @@ fn strengths_of_the_library_are_stated_with_their_range() {
             arguments.extend(["-o", folder, "--no-pictures"]);
         }
         let answer = desk.percoat(&arguments);
-        for words in &said[..if command == "check" { 3 } else { 4 }] {
+        let of_check = [
+            format!(
+                "layer 1 ({name}): tensile strength 0.38 GPa (library: flexural, 0.25 to 0.43 GPa); no residual stress given"
+            ),
+            "substrate (D2): yield strength 2.15 GPa (library: ".to_owned(),
+            "counterbody (100Cr6): no strength given".to_owned(),
+            said[2].clone(),
+        ];
+        for words in if command == "check" { &of_check } else { &said } {
             assert!(line(&answer.out).contains(words), "{command}: {words}\n{}", answer.out);
         }
         if command != "check" {
@@ -142,5 +150,5 @@ fn strengths_of_the_library_are_stated_with_their_range() {
         }
     }
     let given = desk.percoat(&["check", "ball-on-disc", &set, "--set=layers.0.tensile_strength=1"]);
-    assert!(!line(&given.out).contains(&said[1]), "{}", given.out);
+    assert!(line(&given.out).contains(&format!("layer 1 ({name}): tensile strength 1 GPa (given)")), "{}", given.out);
 }

@@ -81,7 +81,8 @@ fn a_penetration_that_reaches_no_sample_is_told() {
                 [substrate]\nyoung = 1.0\npoisson = 0.3\n[load]\npenetration = [1e-5, 1e-3]\n[grid]\npoints = 64\n";
     desk.write("between.toml", case);
     let answer = desk.percoat(&["solve", "between.toml", "-o", "out", "--no-pictures"]);
-    answer.complains(3, &["warning: the penetration of step 1 reaches hardly a sample", "raise grid.points"]);
+    answer
+        .complains(3, &["warning: the penetration of step 1 brings hardly a sample into contact", "raise grid.points"]);
     assert!(!answer.err.contains("not converged"), "{}", answer.err);
     let steps = Folder(desk.path("out")).steps();
     assert_eq!((&steps[0]["converged"], &steps[0]["stop_reason"]), (&false.into(), &"unresolved".into()));

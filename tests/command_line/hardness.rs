@@ -18,8 +18,8 @@ fn the_end_of_the_elastic_answer_stands_beside_the_numbers_once() {
     let desk = Desk::new();
     desk.write("thin.toml", THIN);
     let answer = desk.succeeds(&["solve", "thin.toml", "-o", "run", "--no-pictures"]);
-    let words = "the elastic answer has ended in step 1, 2: yield of C45 has the utilisation";
-    assert_eq!(answer.err.matches("the elastic answer has ended").count(), 1, "{}", answer.err);
+    let words = "the elastic solution no longer holds in step 1, 2: yield of C45 has the utilisation";
+    assert_eq!(answer.err.matches("the elastic solution no longer holds").count(), 1, "{}", answer.err);
     assert!(answer.err.contains(words), "{}", answer.err);
     // Lines are broken to the width.
     let table = answer.out.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -132,7 +132,7 @@ fn what_the_fit_does_not_know_is_told() {
     changed(&desk, "shifted.csv", |_, penetration| penetration - 0.01);
     let free = ["identify", "shifted.csv", "case.toml", "--free", "substrate.young", "--set", "layers.0.young=300"];
     let answer = desk.succeeds(&[&free[..], &["--no-pictures", "-o", "out"]].concat());
-    let zero = "the zero of the penetration seems to be missed by -";
+    let zero = "the zero of the penetration seems to be off by -";
     assert!(answer.err.contains(zero) && answer.err.contains("free `offset`"), "{}", answer.err);
     assert_says(
         &answer.out,

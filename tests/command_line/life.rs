@@ -203,7 +203,7 @@ fn a_counterbody_that_fails_is_warned_of_since_only_the_body_is_followed() {
     let warning = "warning: the counterbody fails: pin of the counterbody after ";
     let (answer, first) = life("life={}");
     assert!(answer.err.contains(warning), "{}", answer.err);
-    assert!(answer.out.contains("nothing of the body ever fails by fatigue"), "{}", answer.out);
+    assert!(answer.out.contains("no part of the body ever fails by fatigue"), "{}", answer.out);
     assert!(first["end"] == "endless" && first["first"]["body"] == "counterbody", "{}", first["first"]);
     assert!(first["events"].as_array().unwrap().is_empty());
     let passes = number(&first, "/first/passes");

@@ -43,6 +43,9 @@ fn a_material_is_printed_as_a_file_of_materials() {
 fn names_and_files_that_are_none_are_refused() {
     let desk = Desk::new();
     desk.percoat(&["materials", "dlc a-c:h"]).complains(2, &["there is no material", "did you mean \"DLC a-C:H\"?"]);
+    let kinds = "did you mean \"DLC a-C:H\", \"DLC ta-C\" or \"DLC WC/a-C:H\"?";
+    desk.percoat(&["materials", "DLC"]).complains(2, &["there is no material \"DLC\"", kinds]);
+    assert!(desk.percoat(&["materials", "SUJ2"]).out.starts_with("[[material]]\nname = \"100Cr6\"\naliases = ["));
     desk.percoat(&["materials", "xyz"]).complains(2, &["no material \"xyz\"", "percoat materials lists them"]);
     desk.percoat(&["materials", "--file", "absent.toml"]).complains(4, &["absent.toml"]);
     desk.write("own.toml", OWN.replace("0.29", "0.92"));

@@ -98,7 +98,7 @@ fn contacts_of_few_samples_are_warned_of() {
     };
     let coarse = ["--no-pictures", "--set", "grid.points=24"];
     let solve = desk.percoat(&[&["solve", "-o", "few"], &coarse[..]].concat());
-    warned(solve, &["warning: a contact radius has less than 10 samples in step 1", "raise grid.points"]);
+    warned(solve, &["warning: a contact radius has fewer than 10 samples in step 1", "raise grid.points"]);
     let small = ["--set", "localized.elements=12", "--set", "localized.indenters=[7]"];
     let compare = desk.percoat(&[&["compare", "-o", "few"], &coarse[..], &small[..]].concat());
     warned(compare, &["warning: a contact radius has only 3.", "in the spectral solution", "raise grid.points"]);
@@ -121,7 +121,7 @@ fn contacts_of_few_samples_are_warned_of() {
         desk.percoat(&["solve", "peaks.toml", "-o", "peaks", "--no-pictures"])
     };
     let words =
-        ["half of the load lies on contact spots of less than 10 samples", "give the topography on more points"];
+        ["half of the load lies on contact spots of fewer than 10 samples", "give the topography on more points"];
     warned(case(0.002), &words);
     let step = &Folder(desk.path("peaks")).steps()[0];
     assert_eq!(step["contact_spots"], 16);

@@ -133,7 +133,7 @@ fn mixed_units_are_told_by_check_and_solve_and_stand_in_the_summary() {
     let answer = desk.percoat(&[&["solve", "fig2", "-o", "run", "--no-pictures"], &settings[..]].concat());
     assert!(answer.err.contains("warning: load.mean_pressure"), "{}", answer.err);
     // The substrate is the softer one, and a mean pressure reaches it.
-    assert!(answer.err.contains("of E* of material 2, so much of it reaches the depth 0.5"), "{}", answer.err);
+    assert!(answer.err.contains("the pressure that reaches material 2 at the depth 0.5"), "{}", answer.err);
     let few = ["--set=localized={indenters=[7],elements=8}", "--no-pictures"];
     let compared = desk.percoat(&[&["compare", "fig2", "-o", "both"], &settings[..], &few].concat());
     assert!(compared.err.contains("warning: load.mean_pressure"), "{}", compared.err);

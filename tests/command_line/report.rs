@@ -126,8 +126,8 @@ fn the_page_of_an_isolated_contact_has_its_force_its_window_and_hertz_beside() {
     assert_says(
         page,
         &[
-            "One elastic indenter is pressed into an elastic half-space with a coating of one layer.",
-            "The indenters, level by level",
+            "An elastic ball is pressed into an elastic half-space with a coating of one layer.",
+            "The indenter<",
             "The counterbody, from its surface inward",
             "Under the force 5.0000 N",
             "contact area",

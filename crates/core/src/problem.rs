@@ -1,7 +1,7 @@
 //! The problem: a layered elastic half-space, loaded by a counterbody, rigid or elastic, at rest or sliding, or by a given pressure.
 
 use crate::body::{Bodies, CompositeError, CompositeHardness, HalfSpace, Interface, Side};
-use crate::counterbody::{Counterbody, GivenPressure, Indenters, Level, LoadedBy, Topography};
+use crate::counterbody::{Counterbody, GivenPressure, Indenters, Level, LevelName, LoadedBy, Topography};
 use crate::friction::{Friction, FrictionError};
 use crate::kind::{ContactKind, Datum};
 use crate::lattice::{Cell, Surroundings};
@@ -130,6 +130,11 @@ impl Problem {
             (Surroundings::FreeSpace, 1, [level, ..]) => Some(level),
             _ => None,
         }
+    }
+
+    /// The name in words of a level by its number, from 1.
+    pub fn level_name(&self, level: usize) -> LevelName {
+        LevelName::new(level, self.lone_indenter())
     }
 
     /// The levels of the indenters; none under a topography and a given pressure.

@@ -110,12 +110,12 @@ impl Page {
 fn of_steps(case: &Case, steps: &[StepRecord]) -> Answer {
     let (units, last) = (case.units(), steps.last());
     let mut tables = vec![TableText::new("contact", table::steps(steps, &units))];
-    tables.extend(table::largest_stresses(steps, &units).map(|stresses| TableText::new("largest stresses", stresses)));
-    tables.extend(table::largest_strains(steps, &units).map(|strains| TableText::new("largest strains", strains)));
     let utilised = table::utilisations(steps, Some(case.problem().bodies()), &units)
         .map(|utilisations| TableText::worded("utilisation of strengths", utilisations));
     let (verdict, utilised) = utilised.unzip();
     tables.extend(utilised);
+    tables.extend(table::largest_stresses(steps, &units).map(|stresses| TableText::new("largest stresses", stresses)));
+    tables.extend(table::largest_strains(steps, &units).map(|strains| TableText::new("largest strains", strains)));
     Answer {
         case: case.to_toml(),
         converged: steps.iter().all(StepRecord::converged),

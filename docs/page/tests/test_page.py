@@ -167,6 +167,39 @@ def test_a_ball_on_a_coating(browser, tmp_path):
     shot(browser, "ball")
 
 
+# Pairs of numbers with their errors, and how the page writes the difference of the first from the second.
+DIFFERENCES = [
+    ((0.93, 0.3), (0.6, 0.2), "within the errors"),
+    ((1.548, 0.004), (1.0, 0.002), "+54.8 ± 0.8 %"),
+    ((0.5, 0.001), (1.0, 0.001), "-50.0 ± 0.2 %"),
+    ((2.0, 0.2), (1.0, 0.1), "+60 to +140 %"),
+    ((11.0, 1.0), (1.0, 0.09), "+1000 ± 200 %"),
+    ((None, None), (1.0, 0.1), "–"),
+]
+
+
+def test_differences_have_no_more_digits_than_their_errors_allow(browser):
+    opened(browser)
+    done(browser)
+    of = "const record = ([value, error]) => ({ value, error }); return arguments[0].map(([a, b]) => differenceOf(record(a), record(b)))"
+    assert browser.execute_script(of, [pair for *pair, _ in DIFFERENCES]) == [text for *_, text in DIFFERENCES]
+    shown = [cells[2] for cells in numbers(browser).values()]
+    written = r"–|within the errors|[+-]?[\d.]+( ± [\d.]+| to [+-]?[\d.]+)? %"
+    assert all(re.fullmatch(written, text) for text in shown) and any("±" in text for text in shown), shown
+
+
+def test_the_grid_stands_above_the_numbers_and_what_fails_first_before_the_largest_stresses(browser):
+    opened(browser)
+    done(browser)
+    assert browser.find_element(By.CSS_SELECTOR, "#numbers caption").text == "on 192 × 192 samples"
+    captions = "return [...document.querySelectorAll('#more caption')].map((caption) => caption.textContent)"
+    order = browser.execute_script(captions)
+    assert order[0] == "contact" and order[1].startswith("limits"), order
+    assert order.index("utilisation of strengths") < order.index("largest stresses"), order
+    drawn = browser.execute_script("return shown.coated.pictures.map(([, svg]) => svg).join('')")
+    assert ">ball<" in drawn and "level 1" not in drawn, "a ball alone has no number"
+
+
 def test_a_change_is_computed_at_once_and_stands_in_the_address(browser, tmp_path):
     opened(browser)
     before = numbers(browser)["contact radius"][0]

@@ -275,6 +275,38 @@ async function stages(own) {
 
 // --- What is shown
 
+// A number is written to the first digit of its error, which is rounded up.
+function digitOf(error) {
+  return Math.floor(Math.log10(error));
+}
+
+// A difference in per cent with its sign, `digit` being the power of ten of its last digit.
+function signed(difference, digit, round) {
+  const step = 10 ** digit;
+  const text = (round(difference / step) * step).toFixed(Math.max(0, -digit));
+  return Number(text) > 0 ? `+${text}` : text;
+}
+
+// By how much a number differs from another one, no more exactly than the errors of both allow; "–" where one of them is missing.
+function differenceOf(number, other) {
+  if (!other?.value || number.value === null) return "–";
+  const ratio = number.value / other.value;
+  const difference = 100 * (ratio - 1);
+  if (number.error === null || other.error === null) return `${signed(difference, -1, Math.round)} %`;
+  const error = 100 * (number.error / Math.abs(other.value) + Math.abs(ratio / other.value) * other.error);
+  if (Math.abs(difference) <= error) return "within the errors";
+  // Nothing is stated beyond a hundredth of a per cent.
+  const digit = Math.max(digitOf(error), -2);
+  if (error > 0.3 * Math.abs(difference)) {
+    return `${signed(difference - error, digit, Math.floor)} to ${signed(difference + error, digit, Math.ceil)} %`;
+  }
+  const shown = Math.ceil(error / 10 ** digit - 1e-9);
+  // Nine and a bit is ten: one digit further left.
+  const last = shown > 9 ? digit + 1 : digit;
+  const rounded = (shown > 9 ? 1 : Math.max(shown, 1)) * 10 ** last;
+  return `${signed(difference, last, Math.round)} ± ${rounded.toFixed(Math.max(0, -last))} %`;
+}
+
 // A line that is there only with a text.
 function write(id, text) {
   at(id).hidden = !text;
@@ -300,13 +332,15 @@ function show() {
   write("verdict", limit ? limit.verdict + searched : coated.verdict);
   write("here", limit ? coated.verdict : null);
   const without = isWhole && coated.without_strength;
-  write("unknown", without ? `${without}; give those of layers and substrate under “moduli and strengths”` : null);
-  showNumbers(coated, bare);
+  write("unknown", without ? `${without}; give the strengths of layers and substrate under “moduli and strengths”` : null);
+  showNumbers(coated, bare, points);
   const warnings = [...coated.warnings, ...(bare?.warnings ?? []).map((text) => `Bare substrate: ${text}`), ...failures];
   at("warnings").replaceChildren(...warnings.map((text) => element("li", { textContent: text })));
   showPictures(coated, isWhole);
   const limits = (limit?.tables ?? []).map((table) => ({ ...table, name: table.name + searched }));
-  const tables = [...coated.tables, ...limits].map(tableOf);
+  // What fails first stands before the largest stresses.
+  const [contact, ...others] = coated.tables;
+  const tables = [contact, ...limits, ...others].map(tableOf);
   const notes = [...coated.assumptions, ...(limit?.warnings ?? []).map((text) => `Search of limits, ${samples(FIRST)}: ${text}`)].map((text) => element("p", { textContent: text }));
   const details = element("details", { open: at("more").querySelector("details")?.open ?? false },
     element("summary", { textContent: "all tables" }), ...tables, ...notes);
@@ -314,19 +348,18 @@ function show() {
   at("actions").hidden = at("same").hidden = !isWhole;
 }
 
-function showNumbers(coated, bare) {
+function showNumbers(coated, bare, points) {
   const head = element("tr", {}, ...["", state.layers.length ? "coated" : "bare", ...(bare ? ["bare substrate", "difference"] : [])]
     .map((text) => element("th", { textContent: text, scope: "col" })));
   const rows = coated.numbers.map((number) => {
     const cells = [number.name, number.text];
     if (bare) {
       const other = bare.numbers.find(({ name }) => name === number.name);
-      const change = other?.value && number.value !== null ? 100 * (number.value / other.value - 1) : null;
-      cells.push(other?.text ?? "–", change === null ? "–" : `${change > 0 ? "+" : ""}${change.toFixed(1)} %`);
+      cells.push(other?.text ?? "–", differenceOf(number, other));
     }
     return element("tr", {}, ...cells.map((text, index) => element(index ? "td" : "th", { textContent: text })));
   });
-  at("numbers").replaceChildren(element("thead", {}, head), element("tbody", {}, ...rows));
+  at("numbers").replaceChildren(element("caption", { textContent: `on ${samples(points)}` }), element("thead", {}, head), element("tbody", {}, ...rows));
 }
 
 // In the order in which they are shown.

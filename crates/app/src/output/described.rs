@@ -75,13 +75,16 @@ fn given_pressure(units: &Units, given: &GivenPressure) -> String {
 }
 
 /// The cell and what loads the body in it in words, one line a level.
-pub(super) fn loaded_by(units: &Units, loaded_by: &LoadedBy) -> String {
-    let what = match loaded_by {
-        LoadedBy::Pressure(given) => given_pressure(units, given),
-        LoadedBy::Counterbody(Counterbody::Topography(heights)) => topography(units, heights),
-        LoadedBy::Counterbody(Counterbody::Indenters(all)) => indenters(units, all),
+pub(super) fn loaded_by(units: &Units, problem: &Problem) -> String {
+    let what = match problem.loaded_by() {
+        LoadedBy::Pressure(given) => format!(", {}", given_pressure(units, given)),
+        LoadedBy::Counterbody(Counterbody::Topography(heights)) => format!(", {}", topography(units, heights)),
+        LoadedBy::Counterbody(Counterbody::Indenters(all)) => match problem.lone_indenter() {
+            Some(level) => format!("\n{}: {}", problem.level_name(1), shape(units, level.shape())),
+            None => format!(", {}", indenters(units, all)),
+        },
     };
-    format!("{}, {what}", cell(units, loaded_by.cell()))
+    format!("{}{what}", cell(units, problem.cell()))
 }
 
 /// A topography in words.

@@ -199,7 +199,7 @@ fn doubt(doubt: &Doubt, found: &Identification, units: &Units) -> String {
     let length = |x: f64| units.length().with_unit(x, number);
     match doubt {
         Doubt::Systematic(pattern) => format!(
-            "the residuals are no scatter: over the force they have {} runs of one sign where scatter has {:.1} (chance makes such a pattern in \
+            "the residuals are not scatter: over the force they have {} runs of one sign where scatter has {:.1} (chance makes such a pattern in \
              fewer than 1 of {:.0} curves); the model does not hold, nor do the standard errors: leave out the larger forces where something \
              yields, free `offset` or `frame_compliance`, or look for drift and a wrong fixed number",
             pattern.runs,
@@ -208,7 +208,7 @@ fn doubt(doubt: &Doubt, found: &Identification, units: &Units) -> String {
         ),
         Doubt::Offset(missing) => {
             let size = format!("{} ± {}", length(missing.value), length(missing.error));
-            format!("the zero of the penetration seems to be missed by {size}: {}", with_it(missing, found, "offset"))
+            format!("the zero of the penetration seems to be off by {size}: {}", with_it(missing, found, "offset"))
         }
         Doubt::FrameCompliance(missing) => {
             let unit = match (units.force().name(), units.length().name()) {
@@ -219,7 +219,7 @@ fn doubt(doubt: &Doubt, found: &Identification, units: &Units) -> String {
             format!("the frame seems to have a compliance of {size}: {}", with_it(missing, found, "frame_compliance"))
         }
         Doubt::NoDerivative(underivable) => format!(
-            "what was found has no derivative by {}, which the model does not allow to be varied: {}; how far an error of it is carried is unknown",
+            "what was found has no derivative by {}, which the model does not allow to vary: {}; how an error of it affects the result is unknown",
             underivable.names.join(", "),
             underivable.reason
         ),

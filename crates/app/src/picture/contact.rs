@@ -46,7 +46,8 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
     maps.extend(close.map(|part| map("one contact", part, None)));
     let letter = if close.is_some() { 'c' } else { 'b' };
     let radii = radii(snapshot, letter, without_mutual_effect);
-    let mut words = "Numbers are levels.".to_owned() + &merged_words(snapshot);
+    let mut words = if snapshot.is_lone() { String::new() } else { "Numbers are levels.".to_owned() };
+    words += &merged_words(snapshot);
     if let Some((_, beyond)) = &radii {
         words += &radii_words(snapshot, letter, without_mutual_effect.is_some(), beyond);
     }
@@ -61,7 +62,7 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
         maps[0].title.clear();
     }
     let panels = maps.iter().map(|map| map as &dyn Panel).chain(plot.iter().map(|plot| plot as &dyn Panel));
-    Some(sheet(&snapshot.caption(&words), &panels.collect::<Vec<_>>()))
+    Some(sheet(&snapshot.caption(words.trim_start()), &panels.collect::<Vec<_>>()))
 }
 
 /// The located boundaries and holes in a window, and dashed circles of the radii without mutual effect.
@@ -134,7 +135,9 @@ fn merged_words(snapshot: &Snapshot) -> String {
             plural(&merged)
         );
     }
-    if !few.is_empty() {
+    if !few.is_empty() && snapshot.is_lone() {
+        words += " The contact has too few samples for a radius (black outline).";
+    } else if !few.is_empty() {
         words += &format!(" Contacts of {} have too few samples for a radius (black outlines).", plural(&few));
     }
     words
@@ -149,6 +152,7 @@ fn radii(snapshot: &Snapshot, letter: char, without_mutual_effect: Option<&[f64]
         (0..=count).map(|k| [degrees(k, count), 100.0 * (radii[k % count] / mean - 1.0)]).collect()
     };
     let (mut curves, mut alone) = (Vec::new(), Vec::new());
+    let name = |level: usize| snapshot.step.problem().level_name(level).label();
     for level in 1..=snapshot.levels() {
         let site = snapshot.step.surface().site_of(level)?;
         let Some(boundary) = &snapshot.reading.boundaries[site] else { continue };
@@ -162,11 +166,11 @@ fn radii(snapshot: &Snapshot, letter: char, without_mutual_effect: Option<&[f64]
         let (mean, errors) = (boundary.mean_radius(), snapshot.reading.levels[level - 1].errors);
         let error =
             errors.radius_min.into_iter().chain(errors.radius_max).reduce(f64::max).map(|error| 100.0 * error / mean);
-        curves.push(curve(format!("level {level}"), deviations(&boundary.radii, mean), error, Style::Line));
+        curves.push(curve(name(level), deviations(&boundary.radii, mean), error, Style::Line));
         if !boundary.hole.is_empty() {
             let points = deviations(&boundary.hole, boundary.mean_hole_radius());
             let error = 100.0 * boundary.hole_error / boundary.mean_hole_radius();
-            curves.push(curve(format!("level {level}, hole"), points, Some(error), Style::Dotted));
+            curves.push(curve(format!("{}, hole", name(level)), points, Some(error), Style::Dotted));
         }
         let undisturbed = without_mutual_effect.and_then(|radii| radii.get(level - 1)).filter(|radius| **radius > 0.0);
         if let Some(radius) = undisturbed {
@@ -191,7 +195,7 @@ fn radii(snapshot: &Snapshot, letter: char, without_mutual_effect: Option<&[f64]
         if (low..=high).contains(&deviation) {
             curves.push(curve);
         } else {
-            beyond.push(format!("level {level} at {}\u{a0}%", signed(&format!("{deviation:.1}"))));
+            beyond.push(format!("{} at {}\u{a0}%", name(level), signed(&format!("{deviation:.1}"))));
         }
     }
     let chart = Chart {

@@ -28,7 +28,7 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
     let touches = touches(problem, steps, units.quantity());
     let loads: Vec<f64> = steps.iter().map(|step| step.reading.load(units.quantity())).collect();
     // Loads that are spread evenly on a logarithmic axis rather than on a linear one have one.
-    let path = LoadPath { steps, levels, units, logarithmic: log_spaced(&loads), touches: &touches };
+    let path = LoadPath { problem, steps, levels, units, logarithmic: log_spaced(&loads), touches: &touches };
     let mut charts = vec![path.peak_pressure(), path.extent(), path.penetration()];
     charts.extend(path.indentation());
     if path.levels > 1 {
@@ -53,6 +53,7 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
 
 /// The steps of a run, and how they are drawn.
 struct LoadPath<'a> {
+    problem: &'a Problem,
     steps: &'a [StepRecord],
     /// Number of levels; 0 for a topography.
     levels: usize,
@@ -101,7 +102,9 @@ impl LoadPath<'_> {
         }
         let touching = |level: &LevelReading| if level.load > 0.0 { quantity.finite(level) } else { None };
         let of = |level: usize| {
-            self.curve(&format!("level {level}"), level.into(), |step| touching(&step.reading.levels[level - 1]))
+            self.curve(&self.problem.level_name(level).label(), level.into(), |step| {
+                touching(&step.reading.levels[level - 1])
+            })
         };
         (1..=self.levels).map(of).collect()
     }

@@ -49,6 +49,7 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
         (0, _) if kind.is_given && is_one => "White: no pressure.",
         (0, _) if kind.is_given => "White: no pressure; thin line: the unit cell.",
         (0, Surroundings::FreeSpace) => "White: no contact.",
+        (_, Surroundings::FreeSpace) if snapshot.is_lone() => "White: no contact.",
         (_, Surroundings::FreeSpace) => "Numbers are levels; white: no contact.",
         (0, Surroundings::Periodic) if is_one => "White: no contact; one unit cell.",
         (0, Surroundings::Periodic) => "White: no contact; thin line: the unit cell.",
@@ -124,8 +125,11 @@ fn names(snapshot: &Snapshot, view: View, [origin, along1, _, along2]: [[f64; 2]
     [beside("a₁", along1, along2), beside("a₂", along2, along1)].into_iter().flatten().collect()
 }
 
-/// The number of the level at each site within the view; numbers that would overlap others nearer to the middle are left out.
+/// The number of the level at each site within the view, none at a lone indenter; numbers that would overlap others nearer to the middle are left out.
 pub fn numbers(snapshot: &Snapshot, view: View, colour: impl Fn([f64; 2]) -> Colour) -> Vec<Over> {
+    if snapshot.is_lone() {
+        return Vec::new();
+    }
     let [[x0, x1], [y0, y1]] = view.window;
     let inner = view.window.map(|[first, last]| {
         let border = 0.02 * (last - first);

@@ -18,7 +18,7 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
     for level in 1..=snapshot.levels() {
         let Some((direction, points)) = snapshot.profile(level) else { continue };
         curves.push(Curve {
-            label: format!("level {level}"),
+            label: snapshot.step.problem().level_name(level).label(),
             points,
             errors: Vec::new(),
             style: Style::Line,

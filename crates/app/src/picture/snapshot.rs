@@ -69,6 +69,11 @@ impl Snapshot {
         self.step.problem().levels().len()
     }
 
+    /// Whether the indenter is the only one of an isolated contact, which needs no number.
+    pub fn is_lone(&self) -> bool {
+        self.step.problem().lone_indenter().is_some()
+    }
+
     /// Caption: the title, the parameters of the case and the load, then more text.
     pub fn caption(&self, more: &str) -> String {
         let [n1, n2] = self.step.grid().points();

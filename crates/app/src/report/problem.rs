@@ -6,6 +6,7 @@ use crate::output::number;
 use crate::output::table::Table;
 use percoat_case::case::kind_of;
 use percoat_case::words::AroundWords;
+use percoat_core::counterbody::LevelName;
 use percoat_core::lattice::Surroundings;
 use serde_json::{Map, Value};
 
@@ -46,9 +47,15 @@ pub(super) fn problem(case: &Value) -> Markup {
     let words = AroundWords::of(kind_of(case).surroundings);
     let mut parts = vec![tag("p", sentence(case))];
     let levels = list(case, "levels");
-    if !levels.is_empty() {
-        let caption = if is_elastic(case) { "The indenters" } else { "The indenters, rigid" };
-        parts.push(items(&format!("{caption}, level by level"), "level", levels, |number| number.to_string()));
+    let rigid = if is_elastic(case) { "" } else { ", rigid" };
+    if let Some(shape) = lone_shape(case) {
+        parts.push(items(&format!("The indenter{rigid}"), "indenter", levels, |_| {
+            LevelName::of_shape(shape).to_owned()
+        }));
+    } else if !levels.is_empty() {
+        parts.push(items(&format!("The indenters{rigid}, level by level"), "level", levels, |number| {
+            number.to_string()
+        }));
     }
     parts.push(materials("The body, from the surface down", list(case, "layers"), &case["substrate"]));
     if let Some(keys) = case["counterbody"].as_object().filter(|_| !is_elastic(case)) {
@@ -151,11 +158,12 @@ fn counterbody(case: &Value) -> (String, bool) {
     let [of, one, several] =
         if is_elastic(case) { ["elastic", "An elastic", "Elastic"] } else { ["rigid", "A rigid", "Rigid"] };
     let heights = if levels.len() == 1 { "one height".to_owned() } else { format!("{} levels", levels.len()) };
-    let indenters: usize = levels.iter().map(|level| level["sites"].as_array().map_or(1, Vec::len)).sum();
-    match (indenters, surroundings) {
+    match (count(levels), surroundings) {
         (0, Surroundings::Periodic) => (format!("{one} topography, repeated without end,"), true),
         (0, Surroundings::FreeSpace) => (format!("{one} topography in a window"), true),
-        (1, Surroundings::FreeSpace) => (format!("One {of} indenter"), true),
+        (1, Surroundings::FreeSpace) => {
+            (format!("{one} {}", lone_shape(case).map_or("indenter", LevelName::of_shape)), true)
+        }
         (count, Surroundings::FreeSpace) => (format!("{count} {of} indenters of {heights} in a window"), false),
         (_, Surroundings::Periodic) => {
             let lattice = match case["lattice"]["kind"].as_str().unwrap_or("periodic") {
@@ -165,6 +173,18 @@ fn counterbody(case: &Value) -> (String, bool) {
             (format!("{several} indenters of {heights} on {lattice} lattice"), false)
         }
     }
+}
+
+/// Number of indenters of levels.
+fn count(levels: &[Value]) -> usize {
+    levels.iter().map(|level| level["sites"].as_array().map_or(1, Vec::len)).sum()
+}
+
+/// Shape of the only indenter of an isolated contact, in the word of case files; `None` of others.
+fn lone_shape(case: &Value) -> Option<&str> {
+    let levels = list(case, "levels");
+    let is_lone = count(levels) == 1 && kind_of(case).surroundings == Surroundings::FreeSpace;
+    levels.first().filter(|_| is_lone)?["shape"].as_str()
 }
 
 /// A list of the case as one table: a row an item, a column for every key of any item.
@@ -277,7 +297,7 @@ mod tests {
             ),
             (
                 json!({ "lattice": isolated, "levels": levels(1), "counterbody": steel, "friction": { "coefficient": 0.3 } }),
-                "One elastic indenter is pressed into an uncoated elastic half-space, and slides over it with friction μ = 0.3.",
+                "An elastic ball is pressed into an uncoated elastic half-space, and slides over it with friction μ = 0.3.",
             ),
             (
                 json!({ "lattice": isolated, "levels": levels(2) }),

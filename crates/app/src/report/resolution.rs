@@ -26,7 +26,7 @@ pub(super) fn resolution(steps: &[StepRecord], change: Option<f64>) -> Markup {
             let least = touching(index).reduce(f64::min)?;
             let most = largest(touching(index));
             let range = if least < most { format!("{least:.1} to {most:.1}") } else { format!("{most:.1}") };
-            Some(format!("level {}: {range}", index + 1))
+            Some(if levels > 1 { format!("level {}: {range}", index + 1) } else { range })
         })
         .collect();
     if levels == 0 {

@@ -166,7 +166,8 @@ fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey], quantity: LoadQuantity) ->
         add(quantity.named().name.to_owned(), Box::new(move |shown| quantity_text(quantity, shown)));
     }
     let levels = steps().map(|step| step.reading.levels.len()).max().unwrap_or(0);
-    for index in 0..levels {
+    // A single level has the whole load.
+    for index in (0..levels).filter(|_| levels > 1) {
         let share = move |shown: Shown<'_>| {
             LEVEL.load_share.of(shown.result?.step()?.reading.levels.get(index)?).map(percent_with_error)
         };

@@ -1,4 +1,4 @@
-//! `[load]`: the nominal pressures, forces or penetrations to solve for, one after another, or a pressure that is given.
+//! `[load]`: the mean pressures, forces or penetrations to solve for, one after another, or a pressure that is given.
 
 use serde::{Serialize, Serializer};
 use std::slice;
@@ -23,7 +23,7 @@ const LOADS: Form = Form::List { of: &SIZE_OR_ZERO, count: [1, STEPS] };
 section! {
     /// The section `[load]`: one of the keys, one value a load step.
     pub struct LoadSection = LOAD, rules one {
-        /// the nominal pressure p̄
+        /// the mean pressure p̄
         pub mean_pressure: Option<Steps> =
             Key::new(&[SIZE_OR_ZERO, LOADS, Form::Table(&PRESSURES)], "[0.01, 0.06]").unit(Unit::Pressure),
         /// the force P on one cell, or on an isolated contact, in the unit of pressure times that of length squared
@@ -165,7 +165,7 @@ impl LoadSection {
         values.iter().map(|&value| load(value)).collect()
     }
 
-    /// The nominal pressures p̄ on a cell of this area; `None` where penetrations are prescribed.
+    /// The mean pressures p̄ on a cell of this area; `None` where penetrations are prescribed.
     pub fn mean_pressures(&self, area: f64) -> Option<Vec<f64>> {
         match self.prescribed() {
             (_, load, values) if load(1.0) == Load::MeanPressure(1.0) => Some(values.to_vec()),

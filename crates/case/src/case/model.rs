@@ -143,7 +143,7 @@ impl Case {
         measures::load(text, &self.units())
     }
 
-    /// The nominal pressures p̄; `None` where penetrations are prescribed.
+    /// The mean pressures p̄; `None` where penetrations are prescribed.
     pub fn mean_pressures(&self) -> Option<Vec<f64>> {
         self.load.mean_pressures(self.problem.cell().area())
     }

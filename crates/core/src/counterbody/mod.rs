@@ -4,6 +4,7 @@
 mod error;
 mod indenter;
 mod indenters;
+mod level_name;
 mod loaded_by;
 mod loaded_disc;
 mod pressure;
@@ -14,6 +15,7 @@ mod topography;
 pub use error::CounterbodyError;
 pub use indenter::{IndenterError, Level, Shape};
 pub use indenters::{Indenters, Site};
+pub use level_name::LevelName;
 pub use loaded_by::LoadedBy;
 pub use loaded_disc::LoadedDisc;
 pub use pressure::GivenPressure;

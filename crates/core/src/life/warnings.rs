@@ -20,8 +20,8 @@ impl LifeTask {
             begun.record.fatigue.as_ref().and_then(|fatigue| fatigue.first.error).filter(|error| *error > UNKNOWN)
         {
             warnings.push(format!(
-                "the passes to the first failure are uncertain{}: an error of the range of the shear stress counts as often as \
-                 the exponent; raise grid.points, or prescribe grid.accuracy",
+                "the passes to the first failure are uncertain{}: a relative error of the range of the shear stress is \
+                 multiplied by the exponent; raise grid.points, or prescribe grid.accuracy",
                 power_error(Some(error))
             ));
         }
@@ -33,7 +33,7 @@ impl LifeTask {
         }
         if let Some(row) = state.course.iter().find(|row| row.is_grooved()) {
             warnings.push(format!(
-                "after {} passes a groove is deeper than the layers that are left: layers are taken as even, as thick as they are on the average",
+                "after {} passes a groove is deeper than the remaining layers: layers are taken as even, with their mean thickness",
                 number(row.passes)
             ));
         }
@@ -55,7 +55,7 @@ impl LifeTask {
             self.passes.is_some() && wears.iter().take(gone).any(|wears| *wears) && wears.get(gone) == Some(&false);
         stays.then(|| {
             format!(
-                "{} is uncovered and has no `wear`: from there on sliding wears the body no further; give it a coefficient",
+                "{} is uncovered and has no `wear`: from then on sliding does not wear the body; give it a coefficient",
                 original.material_id(gone + 1)
             )
         })
@@ -67,8 +67,8 @@ impl LifeTask {
         let [_, radius] = contact_radii(&begun.step, &begun.record.reading);
         (way < 2.0 * radius).then(|| {
             format!(
-                "the counterbody slides {} in one way, less than the contact is wide, {}: points of the body are not passed from rest to \
-                 rest, as damage and wear suppose; this is fretting",
+                "the counterbody slides {} one way, less than the width {} of the contact: points of the body do not go from rest to \
+                 rest, as damage and wear assume; this is fretting",
                 number(way),
                 number(2.0 * radius)
             )
@@ -87,9 +87,7 @@ impl LifeTask {
         let through = through.map_or(String::new(), |passes| {
             format!("; at the wear of the first pass the first layer is worn through after {} passes", number(passes))
         });
-        Some(format!(
-            "wear is not followed, and the passes are those of surfaces that stay as they are: give life.passes{through}"
-        ))
+        Some(format!("wear is not followed, and the passes are those of unworn surfaces: give life.passes{through}"))
     }
 
     /// The first failure of an elastic counterbody, where it comes before the end of the passes that are followed, or before any of the

@@ -1,7 +1,7 @@
 //! The circle around an indenter: the indenters inside, and its radius.
 //!
 //! Whole shells of indenters at equal distance are taken, so that the circle has the lattice's symmetry. Outside the
-//! radius R the nominal pressure p̄ acts. Eq. (4) gives R for one level only; two rules hold for any number:
+//! radius R the mean pressure p̄ acts. Eq. (4) gives R for one level only; two rules hold for any number:
 //!
 //! - **area-balanced**: π R² = N A₁, N indenters inside with the cell area A₁ of one;
 //! - **load-balanced**: π R² p̄ = Σ_c N_c P_c, equilibrium inside the circle. It reduces to Eq. (4) for one level.
@@ -13,7 +13,7 @@ use crate::lattice::Lattice;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Rule for the radius R of the circle outside of which the nominal pressure acts, or what acts there instead.
+/// Rule for the radius R of the circle outside of which the mean pressure acts, or what acts there instead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CircleRadius {

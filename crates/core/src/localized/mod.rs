@@ -1,4 +1,4 @@
-//! The paper's own method: boundary elements inside a circle, the nominal pressure outside it.
+//! The paper's own method: boundary elements inside a circle, the mean pressure outside it.
 //!
 //! Around an indenter of each level a circle holds a number of indenters, each with its own pressure, equal for all
 //! indenters of a site; outside it acts p̄. The displacement under the indenter in its centre is

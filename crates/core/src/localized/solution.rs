@@ -45,7 +45,7 @@ impl fmt::Display for Stop {
 #[derive(Debug, Clone)]
 pub struct Solution {
     pub(super) system: Arc<System>,
-    /// Nominal pressure p̄, in the unit of Young's modulus.
+    /// Mean pressure p̄, in the unit of Young's modulus.
     pub mean_pressure: f64,
     /// Penetration δ, common to all levels, a length.
     pub penetration: f64,

@@ -1,4 +1,4 @@
-//! The end of the elastic answer: yield inside, pressures that softer materials beneath the surface do not bear, and penetrations
+//! Where the elastic solution no longer holds: yield inside, pressures that softer materials beneath the surface do not bear, and penetrations
 //! beyond the layers.
 //!
 //! Contact is solved for bodies that are elastic inside, and yield at the surface alone where that has a hardness. What is stated beyond
@@ -16,7 +16,7 @@ const EXCEEDED: f64 = 1.02;
 /// Part of their thickness from which on what is pressed into layers is held by the substrate too (Bückle's rule).
 const OF_THE_LAYERS: f64 = 0.1;
 
-/// Sentence on the steps whose elastic answers have ended, and why; `None` where all hold.
+/// Sentence on the steps whose elastic solutions no longer hold, and why; `None` where all hold.
 pub(super) fn ended(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let yields: Vec<&Utilisation> = steps.iter().flat_map(|(_, step)| exceeded(step)).collect();
     let has_ended = |step: &StepRecord| exceeded(step).next().is_some() || step.beneath.is_some();
@@ -30,7 +30,7 @@ pub(super) fn ended(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let pressed = steps.iter().filter_map(|(_, step)| pressed_beyond(problem, step));
     why.extend(pressed.max_by(|a, b| a[0].total_cmp(&b[0])).map(|[depth, thickness]| {
         format!(
-            "what is pressed in, {}, is {} of the thickness of the layers, beyond a tenth of which the hardness is not theirs alone",
+            "the depth pressed in, {}, is {} of the thickness of the layers; beyond a tenth of it the hardness is not that of the layers alone",
             number(depth),
             ratio(depth / thickness)
         )
@@ -42,7 +42,7 @@ pub(super) fn ended(problem: &Problem, steps: &[Numbered]) -> Option<String> {
             .map(|part| format!("the penetration is {} of the thickness of the layers", ratio(part))),
     );
     Some(format!(
-        "the elastic answer has ended in step {list}: {}; the numbers of these steps are those of bodies that stay elastic inside",
+        "the elastic solution no longer holds in step {list}: {}; the numbers of these steps are for bodies that stay elastic inside",
         why.join("; ")
     ))
 }
@@ -65,8 +65,8 @@ pub(super) fn beyond(problem: &Problem, steps: &[Numbered]) -> Option<String> {
         )
     } else {
         format!(
-            "the penetration is {part} of the thickness of the layers in step {list}: the substrate bears what they do not, and nothing says \
-             how much that is; give it a yield_strength or a hardness"
+            "the penetration is {part} of the thickness of the layers in step {list}: the substrate carries what they do not, and how much \
+             it bears is not known; give it a yield_strength or a hardness"
         )
     })
 }
@@ -142,19 +142,22 @@ struct Strain {
     part: f64,
     step: usize,
     peak: f64,
-    /// Words for the material and its depth.
-    whose: String,
+    /// Material beneath the surface with its depth, in words; `None` at the surface.
+    beneath: Option<String>,
 }
 
 /// The largest pressure over E*, of all steps and materials, where strains are not small any more.
 pub(super) fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let all = steps.iter().flat_map(|step| strains(problem, step)).filter(|strain| strain.part > HIGH);
-    let Strain { part, step, peak, whose } = all.reduce(|a, b| if b.part > a.part { b } else { a })?;
-    Some(format!(
-        "step {step}: the peak pressure {} is {} of E* {whose}: strains are not small any more; are load and moduli in one unit?",
-        number(peak),
-        ratio(part)
-    ))
+    let Strain { part, step, peak, beneath } = all.reduce(|a, b| if b.part > a.part { b } else { a })?;
+    let (peak, part) = (number(peak), ratio(part));
+    let high = match beneath {
+        None => format!("the peak pressure {peak} is {part} of E* at the surface"),
+        Some(beneath) => {
+            format!("under the peak pressure {peak}, the pressure that reaches {beneath} is {part} of its E*")
+        }
+    };
+    Some(format!("step {step}: {high}: strains are not small any more; are load and moduli in one unit?"))
 }
 
 /// Sentences of a step: at the surfaces, and at the materials beneath by what reaches them.
@@ -169,11 +172,8 @@ fn strains(problem: &Problem, &(step, record): &Numbered) -> Vec<Strain> {
                 true => pressure_on(problem, reading, record.points, (body, index)),
                 false => reading.finite_peak().unwrap_or(0.0),
             };
-            let whose = match is_beneath {
-                true => format!("of {}, so much of it reaches the depth {}", body.material_id(index), number(depth)),
-                false => "at the surface".to_owned(),
-            };
-            Strain { part: pressure / material.contact_modulus(), step, peak: reading.grid_peak(), whose }
+            let beneath = is_beneath.then(|| format!("{} at the depth {}", body.material_id(index), number(depth)));
+            Strain { part: pressure / material.contact_modulus(), step, peak: reading.grid_peak(), beneath }
         };
         body.materials().zip((1..).zip(depths)).map(of).collect()
     };

@@ -70,7 +70,7 @@ pub struct BeyondHardness {
 /// A prescribed penetration at which all of the softer surface is at its hardness: any greater one has the same pressure.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "load.penetration = {penetration} takes all of the surface to its hardness {}, where it yields as a whole and any greater penetration \
+    "load.penetration = {penetration} brings the whole surface to its hardness {}, where it yields as a whole and any greater penetration \
      has the same pressure: that begins at {}; prescribe less, or mean_pressure instead",
     number(*.hardness), number(*.complete)
 )]

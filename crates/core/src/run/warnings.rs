@@ -66,16 +66,16 @@ pub(super) fn of_judged(
 fn unresolved(steps: &[Numbered]) -> Option<String> {
     let list = list(steps, |step| step.stop == Stop::Unresolved)?;
     Some(format!(
-        "the penetration of step {list} reaches hardly a sample: contact is no wider than the grid's spacing, and its load \
-         is unknown; raise grid.points, or prescribe more"
+        "the penetration of step {list} brings hardly a sample into contact: it is no wider than the spacing of the samples, and its \
+         load is unknown; raise grid.points, or prescribe a larger penetration"
     ))
 }
 
 fn beyond_hardness(steps: &[Numbered]) -> Option<String> {
     let list = list(steps, |step| step.stop == Stop::BeyondHardness)?;
     Some(format!(
-        "step {list} takes all of the surface to its hardness, where it yields as a whole: any greater penetration has the same pressure, and \
-         a greater load no solution; prescribe less"
+        "step {list} brings the whole surface to its hardness: a larger penetration has the same pressure, and a larger load has no \
+         solution; prescribe less"
     ))
 }
 
@@ -90,8 +90,9 @@ fn dropped(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let is_pressed_in = |step: &StepRecord| step.plastic.is_some_and(|plastic| plastic.is_pressed_in());
     let list = list(before, is_pressed_in).filter(|_| problem.is_swept())?;
     Some(format!(
-        "what step {list} has pressed in is dropped: the body is the softer one and moves away below the sliding counterbody ([friction]), so \
-         that each load meets it as it was at first; for loads one after another at one place leave [friction] out, or its coefficient 0"
+        "the indentation left by step {list} is dropped: the body is the softer one and moves away below the sliding counterbody \
+         ([friction]), so that each load meets a fresh surface; for loads one after another at one place leave [friction] out, or set its \
+         coefficient to 0"
     ))
 }
 
@@ -105,7 +106,7 @@ fn at_window(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let list = list(steps, |step| step.stop == Stop::AtBorder)?;
     let [[width, _], [_, height]] = problem.cell().vectors();
     Some(format!(
-        "contact reaches the border of the window of {} × {} in step {list}, and would go on beyond it: enlarge lattice.size, \
+        "contact reaches the border of the window of {} × {} in step {list}, and would extend beyond it: enlarge lattice.size, \
          to twice that or more",
         number(width),
         number(height)
@@ -120,9 +121,9 @@ fn without_errors(steps: &[Numbered]) -> Option<String> {
     };
     let list = list(steps, is_alone)?;
     Some(format!(
-        "no coarser grid has solved step {list}, so that errors are not known, neither of contact nor of what follows from it: solver.method = \
-         \"preconditioned\" has one from grid.points = {} along each side on, where the load is not beyond its complete contact or its hardness; \
-         raise grid.points, or take a smaller load",
+        "no coarser grid has solved step {list}, so the errors of the contact and of all that follows from it are unknown: solver.method = \
+         \"preconditioned\" solves one from grid.points = {} along each side on, unless the load brings it to complete contact or to its \
+         hardness; raise grid.points, or take a smaller load",
         2 * MIN_POINTS
     ))
 }
@@ -132,7 +133,7 @@ fn few_samples(steps: &[Numbered]) -> Option<String> {
         |step: &StepRecord| step.reading.levels.iter().any(|level| level.load > 0.0 && level.resolution < FEW_SAMPLES);
     let list = list(steps, coarse)?;
     Some(format!(
-        "a contact radius has less than {FEW_SAMPLES} samples in step {list}: its radius and peak pressure are rough; raise \
+        "a contact radius has fewer than {FEW_SAMPLES} samples in step {list}: its radius and peak pressure are rough; raise \
          grid.points"
     ))
 }
@@ -149,12 +150,12 @@ fn small_spots(steps: &[Numbered]) -> Option<String> {
     let list = list(steps, rough)?;
     if steps.iter().any(|(_, step)| step.kind().is_given) {
         return Some(format!(
-            "half of the load lies on spots of less than {FEW_SAMPLES} samples to the radius: stresses near the surface are rough; raise \
+            "half of the load lies on spots of fewer than {FEW_SAMPLES} samples to the radius: stresses near the surface are rough; raise \
              grid.points"
         ));
     }
     Some(format!(
-        "half of the load lies on contact spots of less than {FEW_SAMPLES} samples to the radius in step {list}: contact area \
+        "half of the load lies on contact spots of fewer than {FEW_SAMPLES} samples to the radius in step {list}: contact area \
          and pressures are rough; give the topography on more points"
     ))
 }
@@ -250,22 +251,24 @@ fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
         .max_by(|a: &(usize, usize, f64), b| slope(a.1, a.2).total_cmp(&slope(b.1, b.2)));
     let (step, level, radius) = steepest.filter(|&(_, level, radius)| slope(level, radius) > STEEP)?;
     let question = "are lengths, load and moduli in consistent units?";
-    Some(flank(&format!("step {step}"), level, levels[level - 1].shape(), radius, question))
+    Some(flank(&format!("step {step}"), problem, level, radius, question))
 }
 
-/// Warning that the flank of a level is steep at the edge of a contact of radius a, with a question that says what to do.
-pub fn flank(context: &str, level: usize, shape: Shape, a: f64, question: &str) -> String {
+/// Warning that the flank of a level, from 1, is steep at the edge of a contact of radius a, with a question that says what to do.
+pub fn flank(context: &str, problem: &Problem, level: usize, a: f64, question: &str) -> String {
+    let shape = problem.levels()[level - 1].shape();
     let size = match shape {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } if a >= radius => {
-            format!("larger than its radius {}", number(radius))
+            format!("is larger than the indenter's radius {}", number(radius))
         }
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
-            format!("{} of its radius {}", ratio(a / radius), number(radius))
+            format!("is {} of the indenter's radius {}", ratio(a / radius), number(radius))
         }
-        _ => format!("where its flank has the slope {}", ratio(shape.slope(a))),
+        _ => format!("reaches up to where the flank has the slope {}", ratio(shape.slope(a))),
     };
+    let name = problem.level_name(level);
     format!(
-        "{context}: the contact radius {} of level {level} is {size}: strains are not small any more; {question}",
+        "{context}: the contact radius {} under {name} {size}: strains are not small any more; {question}",
         number(a)
     )
 }

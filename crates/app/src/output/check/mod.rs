@@ -1,10 +1,11 @@
 //! The result of `percoat check`: problem, grid, memory and disk, first touches and warnings of a case.
 //!
 //! `first_touches`: the loads at which the levels of indenters begin to touch; `roughness`: statistics of a topography, and how the
-//! heights of its file were prepared.
+//! heights of its file were prepared; `strengths`: strengths and residual stresses with their origin.
 
 mod first_touches;
 mod roughness;
+mod strengths;
 
 pub use first_touches::Touches;
 pub use roughness::Roughness;
@@ -61,8 +62,8 @@ pub struct Check {
     pub surface: Option<Roughness>,
     /// The strengths that are numbers of the library.
     pub library_strengths: Vec<LibraryStrength>,
-    /// Strengths of the library in sentences.
-    pub library: Vec<String>,
+    /// Strengths and residual stresses with their origin, a sentence for each part of the bodies; empty where none is given.
+    pub strengths: Vec<String>,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
 }
@@ -104,10 +105,7 @@ impl Check {
         let counts = || case.layers.iter().map(percoat_case::case::LayerSection::sublayers).collect();
         Ok(Self {
             title: if case.title.is_empty() { name.to_owned() } else { case.title.clone() },
-            problem: [
-                described::loaded_by(&units, case.problem().loaded_by()),
-                described::bodies(&units, case.problem()),
-            ],
+            problem: [described::loaded_by(&units, case.problem()), described::bodies(&units, case.problem())],
             units,
             sublayers: sublayer_error(case).map(|error| (counts(), error)),
             points,
@@ -121,7 +119,7 @@ impl Check {
             touches,
             surface: Roughness::of(case)?,
             library_strengths: LibraryStrength::of_case(&json!(case)),
-            library: table::library_strengths(&json!(case)),
+            strengths: strengths::sentences(&json!(case)),
             warnings,
         })
     }
@@ -192,6 +190,9 @@ impl fmt::Display for Check {
             1 => writeln!(f, "load: {} {last}", self.quantity)?,
             count => writeln!(f, "load: {} {} … {last}, {count} steps", self.quantity, number(unit.shown(first)))?,
         }
+        let none = if self.strengths.is_empty() { " none given, failure is not checked" } else { "" };
+        writeln!(f, "strengths:{none}")?;
+        self.strengths.iter().try_for_each(|sentence| f.write_str(&table::indented(sentence, WIDTH)))?;
         if let Some(Touches { points: [n1, n2], quantity, levels }) = &self.touches {
             writeln!(f, "first touch, on {n1} × {n2} samples:")?;
             for (level, touch) in (1..).zip(levels) {
@@ -204,7 +205,6 @@ impl fmt::Display for Check {
                 }
             }
         }
-        self.library.iter().try_for_each(|sentence| f.write_str(&table::lines(sentence, WIDTH)))?;
         self.surface.as_ref().map_or(Ok(()), |surface| surface.write(f, &self.units))
     }
 }

@@ -11,21 +11,21 @@ use serde_json::{Value, json};
 fn mean_stress(mean: MeanStress, line: Option<usize>) -> String {
     match mean {
         MeanStress::HalfSpace => {
-            "stresses with stress.mean = \"half-space\": lateral stress under p̄ as in the centre of a wide loaded disc"
+            "stresses with stress.mean = \"half-space\": the lateral stress under p̄ is that in the centre of a wide loaded disc"
                 .to_owned()
         }
         MeanStress::Line => format!(
-            "stresses with stress.mean = \"line\": lateral stress under p̄ as under lines far apart{}, in plane strain",
+            "stresses with stress.mean = \"line\": the lateral stress under p̄ is that under lines far apart{}, in plane strain",
             line.map_or("", |axis| [" along a₁", " along a₂"][axis])
         ),
         _ => {
-            "stresses with stress.mean = \"confined\": lateral stress under p̄ as without mean lateral strain".to_owned()
+            "stresses with stress.mean = \"confined\": the lateral stress under p̄ is that without mean lateral strain".to_owned()
         }
     }
 }
 
 /// Sentence on what a counterbody without moduli means for utilisations and limit loads.
-const RIGID: &str = "the indenters are rigid: elastic ones press less sharply, fail in their own ways, and lead to other \
+const RIGID: &str = "the indenters are rigid: elastic ones press less sharply, may fail themselves, and lead to other \
                      limits; a section [counterbody] with `young` and `poisson`, or `material`, makes them elastic";
 
 /// Assumptions of the largest stresses and limit loads of a case.
@@ -71,7 +71,7 @@ impl Assumptions {
     /// The materials without a strength, in a sentence; `None` where all have one.
     pub fn without_strength(&self) -> Option<String> {
         (!self.untested.is_empty()).then(|| {
-            format!("no strength is given of {}: nothing is said of what fails there", joined(&self.untested, "and"))
+            format!("no strength is given for {}: failure there is not checked", joined(&self.untested, "and"))
         })
     }
 
@@ -115,8 +115,8 @@ pub fn library_strengths(case: &Value) -> Vec<String> {
 }
 
 /// Sentence on what a tensile strength from a bar says of a contact.
-const BARS: &str = "a tensile strength of the library is that of bars, which break at their largest flaw; the small volume under a contact \
-                    bears more: loads of cracking by it err to the safe side";
+pub(in crate::output) const BARS: &str = "tensile strengths of the library are those of test bars, which break at their largest flaw; the small volume under a \
+                    contact bears more, so that loads of cracking computed from them are on the safe side";
 
 /// Names of the materials without a strength, each once.
 fn untested(bodies: &Bodies) -> Vec<String> {

@@ -88,7 +88,7 @@ pub fn left(file: &LifeFile, units: &Units) -> Option<String> {
     let length = |x: f64| units.length().with_unit(x, number);
     let why = match end {
         LifeEnd::Passes => String::new(),
-        LifeEnd::Endless => return Some("nothing of the body ever fails by fatigue under this load".to_owned()),
+        LifeEnd::Endless => return Some("no part of the body ever fails by fatigue under this load".to_owned()),
         LifeEnd::NothingLeft => ", and nothing is left on the rigid base".to_owned(),
         LifeEnd::Unsolved => {
             format!("; the contact of the worn surfaces could not be solved any further: {}", unsolved(file.stop))
@@ -116,7 +116,7 @@ pub fn left(file: &LifeFile, units: &Units) -> Option<String> {
 fn unsolved(stop: Option<Stop>) -> String {
     match stop {
         Some(Stop::AtBorder) => {
-            "it reaches the border of its window, which has been enlarged as often as is done; give a larger lattice.size".to_owned()
+            "it reaches the border of its window, which has been enlarged as often as allowed; give a larger lattice.size".to_owned()
         }
         Some(Stop::BeyondHardness) => "no pressure below the hardness bears the load".to_owned(),
         Some(stop) => format!("{stop}; raise solver.max_iterations, or give a finer grid"),

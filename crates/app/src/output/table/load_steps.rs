@@ -123,7 +123,10 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
     };
     // A single level has the whole load.
     for quantity in [&LEVEL.max_pressure, &LEVEL.load_share].into_iter().take(if levels > 1 { 2 } else { 1 }) {
-        let named = |level: usize| format!("{} {level}", quantity.named.short);
+        let named = |level: usize| match levels {
+            1 => quantity.named.name.to_owned(),
+            _ => format!("{} {level}", quantity.named.short),
+        };
         columns.extend((1..=levels).map(|level| of_level(quantity, &named(level), level)));
     }
     if levels == 0 {

@@ -15,6 +15,7 @@ mod strength;
 mod text;
 
 pub use alone::alone;
+pub(super) use assumed::BARS;
 pub use assumed::{Assumptions, library_strengths, scatter};
 pub use comparison::{differences, readings, stresses};
 pub use fatigue::lives;
@@ -25,8 +26,8 @@ pub use load_steps::{DETAILED, steps};
 pub use plastic::plastic;
 pub use strains::largest_strains;
 pub use strength::{limits, utilisations};
-pub(super) use text::lines;
 pub use text::{Table, Worded};
+pub(super) use text::{indented, lines};
 
 use super::number::{number, percent, with_unit};
 use super::{ComparisonFile, LifeFile, Timing};

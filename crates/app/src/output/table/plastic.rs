@@ -23,13 +23,13 @@ pub fn plastic(steps: &[StepRecord], units: &Units) -> Option<(String, Option<Ta
             let [pressure, hardness] =
                 [beneath.pressure, beneath.hardness].map(|x| units.pressure().with_unit(x, number));
             format!(
-                ", but {pressure} reaches {} beneath, of hardness {hardness}: the elastic answer has ended",
+                ", but {pressure} reaches {} beneath, of hardness {hardness}: the elastic solution no longer holds",
                 beneath.material
             )
         });
         let at = if last.hardness_depth.is_some() { " at the penetration of the last step" } else { "" };
         let words =
-            format!("hardness {hardness}{at}: no pressure reaches it, the largest is {part:.0} % of it{beneath}");
+            format!("hardness {hardness}{at}: no pressure reaches it, the peak pressure is {part:.0} % of it{beneath}");
         return Some((words, None));
     }
     let shown = if pressed.len() > DETAILED { &pressed[pressed.len() - 1..] } else { &pressed[..] };

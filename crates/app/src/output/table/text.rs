@@ -40,6 +40,16 @@ pub(in crate::output) fn lines(sentence: &str, width: usize) -> String {
     lines.into_iter().map(|line| line.replace("\u{a0}±\u{a0}", " ± ") + "\n").collect()
 }
 
+/// A sentence in lines of at most `width` letters, each with its end, indented by two letters and from the second line on by four.
+pub(in crate::output) fn indented(sentence: &str, width: usize) -> String {
+    let lines = lines(sentence, width - 4);
+    lines
+        .lines()
+        .zip(std::iter::once("  ").chain(std::iter::repeat("    ")))
+        .map(|(line, by)| format!("{by}{line}\n"))
+        .collect()
+}
+
 impl Table {
     /// A table of `rows` under `head`, the first `words` columns aligned left.
     pub fn new(head: &[impl ToString], rows: Vec<Vec<String>>, words: usize) -> Self {

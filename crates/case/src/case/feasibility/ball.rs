@@ -49,9 +49,9 @@ fn high_pressure(case: &Case, index: usize, radius: f64) -> Option<String> {
     let is_hard = young * 10f64.powi(exponent(units.pressure())?) >= HARD;
     (is_hard && pressure > CRYSTAL * young).then(|| {
         format!(
-            "by Hertz the peak pressure under level {} is {}, {} of the least Young's modulus {}, and no crystal bears more than a \
+            "by Hertz the peak pressure under {} is {}, {} of the least Young's modulus {}, and no crystal bears more than a \
              fifth: is {}?",
-            index + 1,
+            case.problem().level_name(index + 1),
             units.pressure().with_unit(pressure, number),
             ratio(pressure / young),
             units.pressure().with_unit(young, number),
@@ -68,8 +68,8 @@ fn few_atoms(case: &Case, index: usize, _: f64) -> Option<String> {
     let metres = width * 10f64.powi(exponent(units.length())?);
     (0.0 < metres && metres < ATOMS).then(|| {
         format!(
-            "by Hertz the contact under level {} is {} wide at the highest load, a few atoms, which are no continuum: is {}?",
-            index + 1,
+            "by Hertz the contact under {} is {} wide at the highest load, a few atoms, which are no continuum: is {}?",
+            case.problem().level_name(index + 1),
             units.length().with_unit(width, number),
             measured(case, index)
         )
@@ -116,19 +116,19 @@ mod tests {
             (
                 &["levels.0.radius=3", "lattice.size=10"][..],
                 format!(
-                    "by the formulas of a single contact: the contact radius 2.9912 of level 1 is 1.00 of its radius 3.0000: strains are \
+                    "by the formulas of a single contact: the contact radius 2.9912 under the ball is 1.00 of the indenter's radius 3.0000: strains are \
                      not small any more; {ASKED}"
                 ),
             ),
             (
                 &["levels.0.radius=3", "lattice.size=10", "load={ penetration = 5 }"],
-                "by the formulas of a single contact: the contact radius 3.8730 of level 1 is larger than its radius 3.0000: strains \
+                "by the formulas of a single contact: the contact radius 3.8730 under the ball is larger than the indenter's radius 3.0000: strains \
                  are not small any more; is levels[0].radius in µm, and load.penetration in µm?"
                     .to_owned(),
             ),
             (
                 &["load.force=5"],
-                "at load.force = 5.0000 the contact radius of level 1 will have about 5.5 samples, by the formulas of a single contact: \
+                "at load.force = 5.0000 the contact radius under the ball will have about 5.5 samples, by the formulas of a single contact: \
                  radii and peak pressures are rough below 10; raise grid.points, or lower lattice.size to 8.4569: the window is 21.52 \
                  times as wide as the contact at the highest load, with levels[0].radius in µm, and load.force in mN"
                     .to_owned(),
@@ -136,14 +136,14 @@ mod tests {
             (
                 &["levels.0.radius=20", "lattice.size=20"],
                 format!(
-                    "by Hertz the peak pressure under level 1 is 50.504 GPa, 0.24 of the least Young's modulus 210.00 GPa, and no \
+                    "by Hertz the peak pressure under the ball is 50.504 GPa, 0.24 of the least Young's modulus 210.00 GPa, and no \
                      crystal bears more than a fifth: {ASKED}"
                 ),
             ),
             (
                 &["levels.0.radius=0.05", "load.force=1e-7", "lattice.size=0.002"],
                 format!(
-                    "by Hertz the contact under level 1 is 506.58 pm wide at the highest load, a few atoms, which are no continuum: \
+                    "by Hertz the contact under the ball is 506.58 pm wide at the highest load, a few atoms, which are no continuum: \
                      {ASKED}"
                 ),
             ),

@@ -33,10 +33,10 @@ fn steep_flank(case: &Case) -> Option<String> {
     let flanks = levels.filter(|(_, shape)| !matches!(shape, Shape::Cone { .. }));
     let mut estimates =
         flanks.filter_map(|(number, shape)| Some((number, shape, highest_radius(case, shape, modulus)?)));
-    let (number, shape, radius) =
+    let (number, _, radius) =
         estimates.find(|&(_, shape, radius): &(usize, Shape, f64)| shape.slope(radius) > STEEP)?;
     let question = format!("is {}?", measured(case, number - 1));
-    Some(flank("by the formulas of a single contact", number, shape, radius, &question))
+    Some(flank("by the formulas of a single contact", case.problem(), number, radius, &question))
 }
 
 /// A contact that is wide beside the ball on which its roughness stands.
@@ -45,7 +45,7 @@ fn steep_ball(case: &Case) -> Option<String> {
     let radius = highest_radius(case, ball, stiffer_modulus(case.problem().bodies()))?;
     (ball.slope(radius) > STEEP).then(|| {
         format!(
-            "by Hertz the contact radius {} is as large as a ball of the radius {} hardly allows: strains are not small any more; is {}?",
+            "by Hertz the contact radius {} is a large part of the radius {} of the ball: strains are not small any more; is {}?",
             number(radius),
             number(case.problem().topography().and_then(|topography| topography.ball()).unwrap_or_default()),
             measured(case, 0)
@@ -123,10 +123,11 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
     let samples = radius / grid.sample_area().sqrt();
     (samples < FEW_SAMPLES).then(|| {
         format!(
-            "at load.{} = {} the contact radius of level {number_of_highest} will have about {samples:.1} samples, by the \
+            "at load.{} = {} the contact radius under {} will have about {samples:.1} samples, by the \
              formulas of a single contact: radii and peak pressures are rough below {FEW_SAMPLES}; raise grid.points{}",
             case.load.quantity(),
             number(prescribed),
+            case.problem().level_name(number_of_highest),
             wide_window(case).unwrap_or_default()
         )
     })
@@ -253,7 +254,7 @@ mod tests {
     fn a_contact_larger_than_its_ball_is_foreseen() {
         let text = "lattice={kind=\"square\",period=10}\nlevels=[{shape=\"sphere\",radius=1}]\n\
                     substrate={young=1,poisson=0.3}\nload={mean_pressure=0.05}";
-        assert!(foreseen(&case(text), &[]).join("").contains("larger than its radius 1.0000"));
+        assert!(foreseen(&case(text), &[]).join("").contains("larger than the indenter's radius 1.0000"));
     }
 
     /// A rough ball as a ball: too small a window, and a radius in another unit.

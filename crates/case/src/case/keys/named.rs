@@ -121,7 +121,7 @@ mod tests {
             ("counterbody.layers.0.thickness", "thickness of layer 1 of the counterbody", "µm"),
             ("levels.2.radius", "radius at the apex of level 3", "µm"),
             ("friction.coefficient", "coefficient of friction μ", ""),
-            ("load.mean_pressure", "nominal pressure p̄", "GPa"),
+            ("load.mean_pressure", "mean pressure p̄", "GPa"),
             ("load.force", "force P on one cell", "mN"),
             ("lattice.period", "period", "µm"),
             ("no.such.key", "no.such.key", ""),

@@ -11,9 +11,13 @@ use crate::case::value::ValueAt;
 /// Most letters of a material's name and kind.
 pub(in crate::case) const LETTERS: usize = 40;
 
+/// Most other names of a material.
+const ALIASES: usize = 100;
+
 /// Most materials of a file.
 const MATERIALS: usize = 10_000;
 
+const NAME: Form = Form::Name("a name", LETTERS);
 const TEXT: Form = Form::Text("a text");
 static SIZES: [Form; 2] = [Form::Number(Range::Size), Form::Table(&PROPERTY)];
 static RATIOS: [Form; 2] = [Form::Number(Range::between(0.0, 0.5)), Form::Table(&PROPERTY)];
@@ -54,7 +58,11 @@ section! {
     /// A material of a library, `[[material]]`; moduli, hardness and strengths in GPa.
     pub struct LibraryMaterial = MATERIAL {
         /// its name, by which a case calls it
-        pub name: String = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\""),
+        pub name: String = Key::new(&[NAME], "\"TiN\""),
+        /// other names by which a case may call it, such as those of other standards
+        pub aliases: Vec<String> = Key::new(&[Form::List { of: &NAME, count: [0, ALIASES] }], "[\"AISI 52100\", \"SUJ2\"]")
+            .default("[]")
+            .omitted_as_nothing(),
         /// its kind, such as steel or hard coating
         pub kind: Option<String> = Key::new(&[Form::Name("a kind", LETTERS)], "\"hard coating\"").otherwise("not said"),
         /// what its numbers depend on
@@ -110,6 +118,16 @@ impl KeyValue for Property {
 }
 
 impl LibraryMaterial {
+    /// Its name, then its other names.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(&self.name).chain(&self.aliases).map(String::as_str)
+    }
+
+    /// Whether a case may call it by this name.
+    pub fn is_called(&self, name: &str) -> bool {
+        self.names().any(|known| known == name)
+    }
+
     /// The number that it gives a key of a case, GPa or without unit; `None` of other keys, and where it is not known.
     pub(super) fn number(&self, key: &str) -> Option<f64> {
         let property = match key {

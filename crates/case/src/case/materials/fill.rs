@@ -115,14 +115,18 @@ impl Filling<'_> {
             self.materials = Some(materials(self.source, file, *at)?);
         }
         let all = || self.materials.iter().flatten().chain(library());
-        all().find(|material| material.name == name).ok_or_else(|| {
-            let unknown = UnknownMaterial::among(name, all());
+        all().find(|material| material.is_called(name)).ok_or_else(|| {
             let message = format!("`{path}.material`: there is no material \"{name}\"");
-            Refusal::new(span, message, "unknown material").help(match unknown.near {
-                Some(near) => format!("did you mean \"{near}\"?"),
-                None => {
-                    "`percoat materials` lists them; or give `young` and `poisson`, and it is a name alone".to_owned()
-                }
+            let refusal = Refusal::new(span, message, "unknown material");
+            let add = |file: &str| format!("add it to {file}:\n{}", entry(name));
+            let file = self.file.as_ref().map(|(file, _)| file);
+            refusal.help(match (UnknownMaterial::among(name, all()).help(), file) {
+                (Some(meant), None) => meant,
+                (Some(meant), Some(file)) => format!("{meant} Or {}", add(file)),
+                (None, file) => format!(
+                    "`percoat materials` lists them; or give `young` and `poisson`, and it is a name alone; or {}",
+                    add(file.map_or("a file that `materials` names", String::as_str))
+                ),
             })
         })
     }
@@ -145,13 +149,20 @@ impl Filling<'_> {
     }
 }
 
+/// An entry of a file of materials, the shortest with this name.
+fn entry(name: &str) -> String {
+    format!("[[material]]\nname = {}\nyoung = 210.0      # GPa\npoisson = 0.3", toml::Value::from(name))
+}
+
 /// The materials of the file `name` of a case, which stands at `span`; a fault of it is shown in its own text.
 fn materials(source: &Source, name: &str, span: Span) -> Result<Vec<LibraryMaterial>, Refusal> {
     let file = source.text_of(name).map_err(|error| {
         let shown = source.path(name).map_or_else(|| name.to_owned(), |path| path.display().to_string());
         let message = format!("`{FILE}`: cannot read {shown}: {error}");
-        Refusal::new(span, message, "this file")
-            .help("a file of [[material]] entries; its path is relative to the case file")
+        Refusal::new(span, message, "this file").help(format!(
+            "its path is relative to the case file; it is a list of such entries:\n{}",
+            entry("shop steel")
+        ))
     })?;
     library::read(&file).map_err(|refusal| refusal.in_file(&file.name, &file.text))
 }
@@ -291,6 +302,10 @@ mod tests {
             ),
             (entry("young = { value = 1, certainty = \"sure\" }\npoisson = 0.3\n"), &["\"sourced\" or \"assumed\""]),
             ([OWN, OWN].concat(), &["`material[2].name`", "no other material", "\"mine\""]),
+            (
+                format!("{OWN}{}aliases = [\"TiN\"]", entry("young = 1\npoisson = 0.3\n").replace("mine", "theirs")),
+                &["`material[2].aliases`", "no other material"],
+            ),
             ("[[materials]]\n".to_owned(), &["own.toml:1:3", "did you mean `material`?"]),
             (String::new(), &["`material` is missing"]),
             ("young = \n".to_owned(), &["own.toml:1", "not valid TOML"]),
@@ -303,14 +318,49 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_material_is_told_the_nearest_of_file_and_library() {
-        let units = "units = { pressure = \"GPa\" }";
-        for (name, words) in
-            [("Mine", "\"mine\""), ("tin", "\"TiN\""), ("DLC", "\"DLC "), ("xyz", "`percoat materials`")]
-        {
-            let lines = format!("materials = \"own.toml\"\nsubstrate = {{ material = \"{name}\" }}\n{units}");
-            let told = read(&lines, OWN, &[]).unwrap_err().to_string();
-            assert!(told.contains("case.toml:2:") && told.contains(words), "{words} does not stand in\n{told}");
+    fn a_material_has_other_names_and_keeps_the_one_that_is_typed() {
+        for (name, young) in [("52100", 207.0), ("SUJ2", 207.0), ("440C", 205.0), ("HSS", 207.0), ("ta-C", 493.0)] {
+            let lines = format!("substrate = {{ material = \"{name}\" }}\nunits = {{ pressure = \"GPa\" }}");
+            let substrate = valid(&lines, "", &[]).substrate;
+            assert_eq!((substrate.young, substrate.name.as_deref()), (Some(young), Some(name)));
         }
+        let own = "[[material]]\nname = \"mine\"\naliases = [\"52100\", \"theirs\"]\nyoung = 3\npoisson = 0.3\n";
+        let of = |name: &str| {
+            let lines = format!(
+                "materials = \"own.toml\"\nsubstrate = {{ material = \"{name}\" }}\nunits = {{ pressure = \"GPa\" }}"
+            );
+            valid(&lines, own, &[]).substrate.young
+        };
+        assert_eq!((of("theirs"), of("52100"), of("SUJ2")), (Some(3.0), Some(3.0), Some(207.0)));
+    }
+
+    #[test]
+    fn an_unknown_material_is_told_the_nearest_of_file_and_library_and_how_a_file_has_one() {
+        let units = "units = { pressure = \"GPa\" }";
+        let has_entry = |told: &str, name: &str| {
+            ["[[material]]\n", &format!("name = \"{name}\"\n"), "young = 210.0"].iter().all(|line| told.contains(line))
+        };
+        for (name, words) in [
+            ("Mine", "did you mean \"mine\"?"),
+            ("tin", "did you mean \"TiN\"?"),
+            ("DLC", "did you mean \"DLC a-C:H\", \"DLC ta-C\" or \"DLC WC/a-C:H\"?"),
+            ("Suj2", "did you mean \"SUJ2\"?"),
+            ("xyz", "`percoat materials`"),
+        ] {
+            let lines = format!("substrate = {{ material = \"{name}\" }}\n{units}");
+            let told = read(&format!("materials = \"own.toml\"\n{lines}"), OWN, &[]).unwrap_err().to_string();
+            for words in ["case.toml:2:", words, "dd it to own.toml:"] {
+                assert!(told.contains(words) && has_entry(&told, name), "{words} does not stand in\n{told}");
+            }
+            let told = read(&lines, "", &[]).unwrap_err().to_string();
+            assert_ne!(told.contains("did you mean"), has_entry(&told, name), "{told}");
+        }
+        let told = read(
+            "materials = \"absent.toml\"\nsubstrate = { material = \"a\" }\nunits = { pressure = \"GPa\" }",
+            "",
+            &[],
+        );
+        let told = told.unwrap_err().to_string();
+        assert!(told.contains("absent.toml") && has_entry(&told, "shop steel"), "{told}");
     }
 }

@@ -10,7 +10,7 @@ use crate::case::lookup::NoCase;
 use crate::case::reader::TableAt;
 use crate::case::source::Source;
 use crate::case::span::Span;
-use crate::case::suggestions::nearest;
+use crate::case::suggestions::{alternatives, nearest};
 
 const TEXT: &str = include_str!("library.toml");
 
@@ -26,26 +26,43 @@ pub fn library() -> &'static [LibraryMaterial] {
 
 /// Why a name is that of no material.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("there is no material \"{name}\"{}", .near.as_ref().map_or_else(
-    || "; percoat materials lists them".to_owned(),
-    |near| format!("; did you mean \"{near}\"?"),
-))]
+#[error("there is no material \"{name}\"; {}", self.help().unwrap_or_else(|| "percoat materials lists them".to_owned()))]
 pub struct UnknownMaterial {
     /// The name.
     pub name: String,
-    /// The most similar name of a material.
-    pub near: Option<String>,
+    /// Names of the materials that have it as a word, such as the three kinds of "DLC"; else the most similar name; empty without one.
+    pub near: Vec<String>,
 }
 
 impl UnknownMaterial {
     /// The error for a name that none of the materials has.
     pub fn among<'a>(name: &str, materials: impl IntoIterator<Item = &'a LibraryMaterial>) -> Self {
-        let names: Vec<&str> = materials.into_iter().map(|material| &material.name[..]).collect();
+        let materials: Vec<&LibraryMaterial> = materials.into_iter().collect();
+        let mut kinds: Vec<String> = materials
+            .iter()
+            .filter(|material| has_word(&material.name, name))
+            .map(|material| material.name.clone())
+            .collect();
+        kinds.dedup();
+        if !kinds.is_empty() {
+            return Self { name: name.to_owned(), near: kinds };
+        }
+        let names: Vec<&str> = materials.iter().flat_map(|material| material.names()).collect();
         let lower: Vec<String> = names.iter().map(|name| name.to_lowercase()).collect();
         let near = nearest(name, &lower.iter().map(String::as_str).collect::<Vec<_>>());
         let near = near.and_then(|(near, _)| Some(names[lower.iter().position(|listed| listed == near)?].to_owned()));
-        Self { name: name.to_owned(), near }
+        Self { name: name.to_owned(), near: near.into_iter().collect() }
     }
+
+    /// Names that may be meant, as a question; `None` without one.
+    pub fn help(&self) -> Option<String> {
+        (!self.near.is_empty()).then(|| format!("did you mean {}?", alternatives(&self.near, '"')))
+    }
+}
+
+/// Whether one of the words of a name, between blanks and signs, is `word`, capital or not.
+fn has_word(name: &str, word: &str) -> bool {
+    name.split(|letter: char| !letter.is_alphanumeric()).any(|part| part.to_lowercase() == word.to_lowercase())
 }
 
 /// The materials of a file.
@@ -78,9 +95,11 @@ pub(super) fn read(source: &Source) -> Result<Vec<LibraryMaterial>, Refusal> {
     let mut all: Vec<LibraryMaterial> = Vec::new();
     for section in root.sections("material")? {
         let material = LibraryMaterial::read_table(&section)?;
-        if all.iter().any(|other| other.name == material.name) {
-            let refusal = section.value("name")?.refuse("a name that no other material of the file has");
-            return Err(refusal);
+        if all.iter().any(|other| other.is_called(&material.name)) {
+            return Err(section.value("name")?.refuse("a name that no other material of the file has"));
+        }
+        if material.aliases.iter().any(|alias| all.iter().any(|other| other.is_called(alias))) {
+            return Err(section.value("aliases")?.refuse("names that no other material of the file has"));
         }
         all.push(material);
     }
@@ -144,6 +163,15 @@ mod tests {
                 material.name
             );
         }
+    }
+
+    #[test]
+    fn a_name_is_that_of_one_material() {
+        let mut names: Vec<&str> = library().iter().flat_map(LibraryMaterial::names).collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert!(names.len() == count && count > library().len() + 40);
     }
 
     #[test]

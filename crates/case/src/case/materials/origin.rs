@@ -31,9 +31,7 @@ impl LibraryStrength {
     /// The strengths of a serialised case that are numbers of the library, each once, from the surface down; those of the counterbody
     /// last.
     pub fn of_case(case: &Value) -> Vec<Self> {
-        let Some(factor) = case["units"]["pressure"].as_str().and_then(pascals).map(|pascals| GPA / pascals) else {
-            return Vec::new();
-        };
+        let unit = case["units"]["pressure"].as_str();
         let counterbody = &case["counterbody"];
         let layers = |body: &Value| body["layers"].as_array().cloned().unwrap_or_default();
         let mut parts = layers(case);
@@ -41,7 +39,7 @@ impl LibraryStrength {
         parts.extend(layers(counterbody));
         parts.push(counterbody.clone());
         let mut all: Vec<Self> = Vec::new();
-        for origin in parts.iter().flat_map(|part| Self::of_section(part, factor)) {
+        for origin in parts.iter().flat_map(|part| Self::of_section(part, unit)) {
             if !all.contains(&origin) {
                 all.push(origin);
             }
@@ -49,10 +47,13 @@ impl LibraryStrength {
         all
     }
 
-    /// Strengths of a section with a material; `factor` is a GPa in the pressure unit of the case.
-    fn of_section(section: &Value, factor: f64) -> Vec<Self> {
-        let Some(name) = section["material"].as_str() else { return Vec::new() };
-        let Some(material) = library().iter().find(|material| material.name == name) else { return Vec::new() };
+    /// Strengths of a section of a serialised case that are numbers of the library; `unit` is the pressure unit of the case.
+    pub fn of_section(section: &Value, unit: Option<&str>) -> Vec<Self> {
+        let (Some(name), Some(pascals)) = (section["material"].as_str(), unit.and_then(pascals)) else {
+            return Vec::new();
+        };
+        let factor = GPA / pascals;
+        let Some(material) = library().iter().find(|material| material.is_called(name)) else { return Vec::new() };
         let origin = |(key, property): (&'static str, &'static Property)| {
             let convert = |x: f64| rounded(x * factor);
             let value = section[key].as_f64().filter(|value| *value == convert(property.value))?;
