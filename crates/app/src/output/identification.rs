@@ -7,6 +7,7 @@ use super::table::Table;
 use percoat_case::case::Case;
 use percoat_case::units::Units;
 use percoat_core::identification::{Doubt, Estimate, Identification, LEVEL, Measurement, Missing, Sensitivity, Trial};
+use percoat_core::run::tip::outside;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -161,7 +162,9 @@ fn sensitivities(found: &Identification) -> Option<Table> {
 pub fn doubts(measured: &Measurement, found: &Identification, case: &Case) -> Vec<String> {
     let units = case.units();
     let told = found.doubts.iter().map(|raised| doubt(raised, found, &units));
-    told.chain(beyond_hardness(measured, found, case)).collect()
+    let level = case.problem().levels().first();
+    let beyond_tip = level.and_then(|level| outside("the tip", level.shape(), found.radii));
+    told.chain(beyond_hardness(measured, found, case)).chain(beyond_tip).collect()
 }
 
 fn doubt(doubt: &Doubt, found: &Identification, units: &Units) -> String {

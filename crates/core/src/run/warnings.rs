@@ -5,7 +5,7 @@
 
 use super::accuracy::RefinementEnd;
 use super::words::{Numbered, STEEP, list, ratio};
-use super::{StepRecord, ended};
+use super::{StepRecord, ended, tip};
 use crate::counterbody::Shape;
 use crate::counterbody::roughness::Window;
 use crate::notation::number;
@@ -56,6 +56,7 @@ pub(super) fn of_judged(
         mean_matters(problem, judged),
         at_border(problem, judged),
         steep_flank(problem, judged),
+        tip::beyond(problem, judged),
         ended::high_pressure(problem, judged),
         ended::ended(problem, judged),
         ended::beyond(problem, judged),
@@ -254,8 +255,8 @@ fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 }
 
 /// Warning that the flank of a level is steep at the edge of a contact of radius a, with a question that says what to do.
-pub fn flank(context: &str, level: usize, shape: Shape, a: f64, question: &str) -> String {
-    let size = match shape {
+pub fn flank(context: &str, level: usize, shape: &Shape, a: f64, question: &str) -> String {
+    let size = match *shape {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } if a >= radius => {
             format!("larger than its radius {}", number(radius))
         }
