@@ -22,6 +22,8 @@ mod given_load;
 mod hardness;
 #[path = "library/identification.rs"]
 mod identification;
+#[path = "library/indenters.rs"]
+mod indenters;
 #[path = "library/instruments.rs"]
 mod instruments;
 #[path = "library/interface_friction.rs"]

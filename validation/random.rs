@@ -54,7 +54,8 @@ pub fn indenters(random: &mut Random) -> Result<Indenters, StudyError> {
             2 => Shape::Cone { slope: random.logarithmic(0.02, 0.2) },
             _ => Shape::Power { coefficient: random.logarithmic(0.1, 1.0), exponent: random.between(1.2, 4.0) },
         };
-        Ok(Level::new(shape, -random.between(0.0, 3.0) * shape.profile(0.1))?)
+        let height = -random.between(0.0, 3.0) * shape.profile(0.1);
+        Ok(Level::new(shape, height)?)
     });
     let levels = levels.collect::<Result<_, _>>()?;
     Ok(Indenters::new(lattice, levels)?)

@@ -135,8 +135,8 @@ impl Random {
         a * (b / a).powf(self.unit())
     }
 
-    pub fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[(self.unit() * choices.len() as f64) as usize]
+    pub fn pick<T: Clone>(&mut self, choices: &[T]) -> T {
+        choices[(self.unit() * choices.len() as f64) as usize].clone()
     }
 }
 

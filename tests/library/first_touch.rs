@@ -27,8 +27,9 @@ fn random_problem(random: &mut Random) -> Problem {
     let levels = lattice.sites().iter().map(|_| {
         let paraboloid = Shape::Paraboloid { radius: random.log(0.5, 5.0) };
         let power = Shape::Power { coefficient: random.log(0.1, 1.0), exponent: 1.4 + 2.6 * random.unit() };
-        let shape = random.pick(&[paraboloid, paraboloid, power]);
-        Level::new(shape, -random.log(0.02, 1.0) * shape.profile(0.2)).unwrap()
+        let shape = random.pick(&[paraboloid.clone(), paraboloid, power]);
+        let height = -random.log(0.02, 1.0) * shape.profile(0.2);
+        Level::new(shape, height).unwrap()
     });
     let levels = levels.collect();
     Problem::new(Indenters::new(lattice, levels).unwrap(), HalfSpace::new(layers, substrate))

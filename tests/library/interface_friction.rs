@@ -64,7 +64,7 @@ fn the_largest_utilisation_is_that_of_a_dense_plane_of_stresses() {
         for friction in [0.0, 0.2, 1.0] {
             let lattice = Lattice::square(1.0, 1).unwrap();
             let body = layered(stack, normal, friction);
-            let problem = Problem::new(one_level(lattice, sphere), body);
+            let problem = Problem::new(one_level(lattice, sphere.clone()), body);
             let problem = problem.sliding(Friction::new(sliding, [1.0, 0.0]).unwrap()).unwrap();
             let load = Load::MeanPressure(0.05);
             let run = Run::new(problem.clone(), vec![load], Sampling::Points([64; 2]));

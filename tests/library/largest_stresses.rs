@@ -242,7 +242,8 @@ fn changes_with_more_sublayers(counts: [usize; 2], friction: f64) -> f64 {
     };
     let lattice = Lattice::new(Cell::window([4.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
     let ball = Level::new(Shape::Paraboloid { radius: 10.0 }, 0.0).unwrap();
-    let problem = |count: usize| Problem::new(Indenters::new(lattice.clone(), vec![ball]).unwrap(), body(count));
+    let problem =
+        |count: usize| Problem::new(Indenters::new(lattice.clone(), vec![ball.clone()]).unwrap(), body(count));
     let sliding = |count: usize| problem(count).sliding(Friction::new(friction, [1.0, 0.0]).unwrap()).unwrap();
     let largest = |problem: Problem| {
         let run = Run::new(problem, vec![Load::Force(0.05)], Sampling::Points([7; 2]));

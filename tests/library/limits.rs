@@ -117,20 +117,20 @@ fn a_search_up_to_a_load_solves_no_higher_one() {
 
 #[test]
 fn what_is_never_reached_or_at_once_is_said() {
-    let paraboloid = Shape::Paraboloid { radius: 1.0 };
+    const PARABOLOID: Shape = Shape::Paraboloid { radius: 1.0 };
     let at = |problem: Problem| {
         let found = limits(problem, Load::MeanPressure(0.01), 48);
         assert!(found.converged(), "{:?}", found.warnings);
         (found.limits[0].at, found.to_string(), found)
     };
-    let (never, words, found) = at(bare(paraboloid, 100.0));
+    let (never, words, found) = at(bare(PARABOLOID, 100.0));
     let At::Never { up_to, utilisation, at: load, .. } = never else { panic!("{never:?}") };
     assert!((up_to / found.complete - 1.0).abs() < 1e-12 && 0.0 < utilisation && utilisation < 1.0 && load <= up_to);
     assert!(found.steps.last().unwrap().reading.contact_fraction.unwrap() > 0.99);
     assert!(words.contains("nothing fails") && words.contains("contact is complete"), "{words}");
     assert!(found.first().is_none() && found.shown.is_empty());
 
-    let (below, words, found) = at(bare(paraboloid, 1e-5));
+    let (below, words, found) = at(bare(PARABOLOID, 1e-5));
     let At::Below { load: mean_pressure, .. } = below else { panic!("{below:?}") };
     // Three samples along the radius, and the load is halved: 2^⅓ times as many at most.
     let samples = found.steps[0].reading.contact_fraction.unwrap() * 48.0 * 48.0;
@@ -144,9 +144,9 @@ fn what_is_never_reached_or_at_once_is_said() {
     // A tip on the lower of two levels fails where it touches, from whatever load the search begins.
     let lower = |start: f64| {
         let level = |shape, height| Level::new(shape, height).unwrap();
-        let levels = vec![level(paraboloid, 0.01), level(Shape::Cone { slope: 0.1 }, 0.0)];
+        let levels = vec![level(PARABOLOID, 0.01), level(Shape::Cone { slope: 0.1 }, 0.0)];
         let indenters = percoat::Indenters::new(Lattice::square(1.0, 2).unwrap(), levels).unwrap();
-        let half_space = bare(paraboloid, 2.0).half_space().clone();
+        let half_space = bare(PARABOLOID, 2.0).half_space().clone();
         limits(Problem::new(indenters, half_space), Load::MeanPressure(start), 48)
     };
     let [before, after] = [1e-4, 0.2].map(|start| match lower(start).limits[0].at {
@@ -161,7 +161,7 @@ fn what_is_never_reached_or_at_once_is_said() {
         let layer = Layer::new(material, 0.1, Interface::Bonded).unwrap().with_residual_stress(residual).unwrap();
         layer.with_strengths(Strength { yielding: Some(0.1), tensile: Some(0.1) }, NO_BOND).unwrap()
     };
-    let indenters = || one_level(Lattice::hexagonal(1.0, 1).unwrap(), Level::new(paraboloid, 0.0).unwrap());
+    let indenters = || one_level(Lattice::hexagonal(1.0, 1).unwrap(), Level::new(PARABOLOID, 0.0).unwrap());
     let rest = |residual| at(Problem::new(indenters(), HalfSpace::new(vec![layer(residual)], material))).2;
     let pressed = rest(-0.1);
     assert_eq!(pressed.limits[0].at, At::Rest);
@@ -181,18 +181,18 @@ fn hard(shape: Shape, yielding: f64, hardness: f64) -> Problem {
 /// The search ends at 0.999 of the hardness, which is not complete contact, unless contact is complete before.
 #[test]
 fn a_search_ends_at_the_hardness_and_says_so() {
-    let paraboloid = Shape::Paraboloid { radius: 1.0 };
+    const PARABOLOID: Shape = Shape::Paraboloid { radius: 1.0 };
     let ended = |problem: Problem| {
         let found = limits(problem, Load::MeanPressure(0.01), 48);
         assert!(found.converged(), "{:?}", found.warnings);
         let At::Never { up_to, end, .. } = found.limits[0].at else { panic!("{found}") };
         (up_to, end, found)
     };
-    let (complete, end, elastic) = ended(bare(paraboloid, 100.0));
+    let (complete, end, elastic) = ended(bare(PARABOLOID, 100.0));
     assert_eq!((end, elastic.hardness_load), (SearchEnd::CompleteContact, f64::INFINITY));
 
     let hardness = 0.05 * complete;
-    let (up_to, end, found) = ended(hard(paraboloid, 100.0, hardness));
+    let (up_to, end, found) = ended(hard(PARABOLOID, 100.0, hardness));
     assert_eq!((end, found.complete), (SearchEnd::Hardness, f64::INFINITY));
     assert!((up_to / (0.999 * hardness) - 1.0).abs() < 1e-9 && found.hardness_load == 0.999 * hardness, "{up_to}");
     let last = &found.steps.last().unwrap().reading;
@@ -203,7 +203,7 @@ fn a_search_ends_at_the_hardness_and_says_so() {
         "nothing fails up to the mean pressure 0.9990 H, 0.999 of the most that the hardness lets the surface bear"
     );
 
-    let (up_to, end, found) = ended(hard(paraboloid, 100.0, 20.0 * complete));
+    let (up_to, end, found) = ended(hard(PARABOLOID, 100.0, 20.0 * complete));
     assert_eq!((end, found.complete), (SearchEnd::CompleteContact, elastic.complete));
     assert!((up_to / complete - 1.0).abs() < 1e-9 && found.to_string().ends_with("where contact is complete"));
 }
@@ -233,10 +233,10 @@ fn a_hardness_ends_the_search_under_a_flat_surface() {
 fn a_hardness_does_not_end_the_search_of_an_isolated_contact() {
     let cell = Cell::window([1.0; 2]).unwrap();
     let lattice = Lattice::new(cell, vec![vec![[0.5; 2]]]).unwrap();
-    let paraboloid = Shape::Paraboloid { radius: 1.0 };
-    let indenters = percoat::Indenters::new(lattice, vec![Level::new(paraboloid, 0.0).unwrap()]).unwrap();
+    const PARABOLOID: Shape = Shape::Paraboloid { radius: 1.0 };
+    let indenters = percoat::Indenters::new(lattice, vec![Level::new(PARABOLOID, 0.0).unwrap()]).unwrap();
     for hardness in [0.01, 0.3] {
-        let body = hard(paraboloid, 100.0, hardness).half_space().clone();
+        let body = hard(PARABOLOID, 100.0, hardness).half_space().clone();
         let found = limits(Problem::new(indenters.clone(), body), Load::Force(0.001), 24);
         let At::Never { up_to, end, .. } = found.limits[0].at else { panic!("{found}") };
         let stops: Vec<Stop> = found.steps.iter().map(|step| step.stop).collect();
@@ -478,10 +478,10 @@ fn the_first_failure_is_that_of_a_hump_below_the_load_of_the_case() {
 #[test]
 fn a_contact_that_outgrows_its_window_has_the_limits_of_a_wide_one() {
     let periodic = coated([1.0, 1.0]);
-    let level = periodic.indenters().unwrap().levels()[0];
+    let level = periodic.indenters().unwrap().levels()[0].clone();
     let found = |side: f64, points: usize| {
         let lattice = Lattice::new(Cell::window([side; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
-        let problem = Problem::new(one_level(lattice, level), periodic.half_space().clone());
+        let problem = Problem::new(one_level(lattice, level.clone()), periodic.half_space().clone());
         limits(problem.sliding(*periodic.friction().unwrap()).unwrap(), Load::Force(1.0), points)
     };
     let (narrow, wide) = (found(4.0, 32), found(24.0, 64));
@@ -497,7 +497,7 @@ fn a_contact_that_outgrows_its_window_has_the_limits_of_a_wide_one() {
     let shown = narrow.shown.iter().find(|shown| shown.record.reading.levels[0].contact_radius > Some(2.0));
     let shown = shown.expect("a contact wider than the narrow window");
     let lattice = Lattice::new(Cell::window([4.0; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
-    let problem = Problem::new(one_level(lattice, level), periodic.half_space().clone());
+    let problem = Problem::new(one_level(lattice, level.clone()), periodic.half_space().clone());
     let problem = problem.sliding(*periodic.friction().unwrap()).unwrap();
     let sections = shown.sections(&Run::new(problem, vec![], Sampling::Points([32; 2]))).unwrap();
     let [from, to] = sections[0].line.span;

@@ -93,7 +93,7 @@ fn a_topography_with_a_disc_beside_a_ring_has_the_area_of_both() {
     let case = case();
     let cell = Cell::new([1.0, 0.0], [0.0, 3.0]).unwrap();
     let lattice = Lattice::new(cell, vec![vec![[0.5, 0.25]], vec![[0.5, 0.75]]]).unwrap();
-    let levels = vec![case.problem().levels()[0], common::paraboloid(0.5, -0.005)];
+    let levels = vec![case.problem().levels()[0].clone(), common::paraboloid(0.5, -0.005)];
     let beside = Problem::new(Indenters::new(lattice, levels).unwrap(), case.half_space().clone());
     let load = Load::MeanPressure(0.005);
     let indenters = read_at(load, &beside, [160, 480]);

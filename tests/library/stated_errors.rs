@@ -45,8 +45,9 @@ fn indenters(random: &mut Random) -> Indenters {
     let levels = lattice.sites().iter().map(|_| {
         let paraboloid = Shape::Paraboloid { radius: random.log(0.5, 5.0) };
         let power = Shape::Power { coefficient: random.log(0.1, 1.0), exponent: 1.4 + 2.6 * random.unit() };
-        let shape = random.pick(&[paraboloid, paraboloid, paraboloid, power]);
-        Level::new(shape, -2.0 * random.unit() * shape.profile(0.1)).unwrap()
+        let shape = random.pick(&[paraboloid.clone(), paraboloid.clone(), paraboloid, power]);
+        let height = -2.0 * random.unit() * shape.profile(0.1);
+        Level::new(shape, height).unwrap()
     });
     let levels = levels.collect();
     Indenters::new(lattice, levels).unwrap()
@@ -296,7 +297,7 @@ fn alone(seed: u64, cases: usize) -> Vec<Alone> {
         };
         let place = [0.45 + 0.1 * random.unit(), 0.45 + 0.1 * random.unit()];
         let lattice = Lattice::new(Cell::window([1.0; 2]).unwrap(), vec![vec![place]]).unwrap();
-        let indenters = Indenters::new(lattice, vec![Level::new(shape, 0.0).unwrap()]).unwrap();
+        let indenters = Indenters::new(lattice, vec![Level::new(shape.clone(), 0.0).unwrap()]).unwrap();
         let problem = Problem::new(indenters, half_space(&mut random));
         let points = 2 * random.log(24.0, 64.99) as usize;
         let (depth, by_load) = (shape.profile(random.log(0.08, 0.5)), random.unit() < 0.5);

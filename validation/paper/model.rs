@@ -115,7 +115,7 @@ impl Model {
     pub fn indenters(&self) -> Result<Vec<Indenter>, StudyError> {
         let indenters = self.case.problem().indenters().ok_or("no indenters")?;
         let indenter = |(level, drop): (&Level, f64)| match level.shape() {
-            Shape::Paraboloid { radius } => Ok(Indenter { curvature: radius, drop }),
+            Shape::Paraboloid { radius } => Ok(Indenter { curvature: *radius, drop }),
             other => Err(format!("{other} is no paraboloid").into()),
         };
         indenters.levels().iter().zip(indenters.drops()).map(indenter).collect()

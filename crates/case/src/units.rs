@@ -33,7 +33,11 @@ impl Units {
         let is_one = |x: f64| (x - 1.0).abs() < 1e-9;
         let length = match problem.levels().first().map(Level::shape) {
             Some(_) if problem.period().is_some_and(is_one) => Some("l"),
-            Some(Shape::Paraboloid { radius } | Shape::Sphere { radius }) if is_one(radius) => Some("r₁"),
+            Some(Shape::Paraboloid { radius } | Shape::Sphere { radius } | Shape::SpheroCone { radius, .. })
+                if is_one(*radius) =>
+            {
+                Some("r₁")
+            }
             _ => None,
         };
         // Without an elastic substrate that of the surface.

@@ -51,6 +51,8 @@ const OTHERS: [(&[&str], f64, i32, i32, i32); 16] = [
 impl Measure {
     /// The metre.
     pub const METRE: Self = Self { factor: 1.0, exponent: 0, newtons: 0, metres: 1 };
+    /// The square metre.
+    pub const SQUARE_METRE: Self = Self { factor: 1.0, exponent: 0, newtons: 0, metres: 2 };
     /// The newton.
     pub const NEWTON: Self = Self { factor: 1.0, exponent: 0, newtons: 1, metres: 0 };
     /// The pascal.

@@ -79,8 +79,8 @@ pub use body::{
     MaterialError, MeanStress, Strength, Substrate,
 };
 pub use counterbody::{
-    Counterbody, CounterbodyError, GivenPressure, IndenterError, Indenters, Level, LoadedBy, LoadedDisc, Shape,
-    Surface, Topography,
+    Counterbody, CounterbodyError, GivenPressure, IndenterError, Indenters, Level, LoadedBy, LoadedDisc, MeasuredTip,
+    Shape, Surface, Topography,
 };
 pub use friction::{Friction, FrictionError};
 pub use kind::{ContactKind, Datum};

@@ -3,7 +3,9 @@
 use super::number::{number, with_error};
 use percoat_case::units::{Unit, Units};
 use percoat_core::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Side};
-use percoat_core::counterbody::{Counterbody, GivenPressure, Indenters, LoadedBy, LoadedDisc, Shape, Topography};
+use percoat_core::counterbody::{
+    Counterbody, GivenPressure, Indenters, LoadedBy, LoadedDisc, Shape, Topography, half_angle,
+};
 use percoat_core::lattice::{Cell, Grid};
 use percoat_core::problem::Problem;
 
@@ -49,14 +51,21 @@ fn cell(units: &Units, cell: Cell) -> String {
     format!("cell a₁ = {a1}, a₂ = {a2}, area {}", area(units, cell.area()))
 }
 
-fn shape(units: &Units, shape: Shape) -> String {
-    let sizes = match shape {
+fn shape(units: &Units, shape: &Shape) -> String {
+    let sizes = match *shape {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => format!("radius {}", length(units, radius)),
         Shape::Cone { slope } => format!("slope {}", number(slope)),
         Shape::Power { coefficient, exponent } => {
             let coefficient =
                 compound(coefficient, &[units.length()], |names| format!("{}^{}", names[0], 1.0 - exponent));
             format!("coefficient {coefficient}, exponent {}", number(exponent))
+        }
+        Shape::SpheroCone { radius, slope } => {
+            format!("radius {}, half angle {:.2}°", length(units, radius), half_angle(slope))
+        }
+        Shape::Measured(ref tip) => {
+            let [least, most] = tip.range().map(|radius| length(units, radius));
+            format!("radii {least} to {most}")
         }
     };
     format!("{}, {sizes}", shape.name())

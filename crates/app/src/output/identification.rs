@@ -8,6 +8,7 @@ use percoat_case::case::Case;
 use percoat_case::units::Units;
 use percoat_core::identification::{Doubt, Estimate, Identification, LEVEL, Measurement, Missing, Sensitivity, Trial};
 use percoat_core::notation::WIDE;
+use percoat_core::run::tip::outside;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::fmt::Write;
@@ -192,7 +193,9 @@ impl IdentificationFile {
 pub fn doubts(measured: &Measurement, found: &Identification, case: &Case) -> Vec<String> {
     let units = case.units();
     let told = found.doubts.iter().map(|raised| doubt(raised, found, &units));
-    told.chain(beyond_hardness(measured, found, case)).collect()
+    let level = case.problem().levels().first();
+    let beyond_tip = level.and_then(|level| outside("the tip", level.shape(), found.radii));
+    told.chain(beyond_hardness(measured, found, case)).chain(beyond_tip).collect()
 }
 
 fn doubt(doubt: &Doubt, found: &Identification, units: &Units) -> String {

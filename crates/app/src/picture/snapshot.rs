@@ -3,7 +3,7 @@
 use crate::picture::labels::Labels;
 use percoat_case::units::{Unit, Units, lowered, reference_index};
 use percoat_core::body::{HalfSpace, Interface, Layer, Material};
-use percoat_core::counterbody::{Level, Shape};
+use percoat_core::counterbody::{Level, Shape, half_angle};
 use percoat_core::friction::Friction;
 use percoat_core::lattice::{Cell, LatticeError};
 use percoat_core::problem::Problem;
@@ -231,11 +231,11 @@ fn geometry(problem: &Problem, units: &Units) -> Option<String> {
     let levels = indenters.levels();
     let period = problem.period().filter(|_| *units.length() != Unit::Relative("l".to_owned()));
     parts.extend(period.map(|period| units.length_equals("l", &[period])));
-    let radius = |level: &Level| match level.shape() {
+    let radius = |level: &Level| match *level.shape() {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some(radius),
         _ => None,
     };
-    let shape = |level: &Level| match level.shape() {
+    let shape = |level: &Level| match *level.shape() {
         Shape::Cone { slope } => format!("cone of slope {}", short(slope)),
         Shape::Power { coefficient, exponent } => {
             let coefficient = if coefficient == 1.0 { String::new() } else { short(coefficient) + "\u{a0}" };
@@ -244,6 +244,11 @@ fn geometry(problem: &Problem, units: &Units) -> Option<String> {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
             format!("{} of {}", level.shape().name(), units.length_equals("r", &[radius]))
         }
+        Shape::SpheroCone { radius, slope } => {
+            let radius = units.length_equals("r", &[radius]);
+            format!("sphero-cone of {radius} and half angle {}°", short(half_angle(slope)))
+        }
+        Shape::Measured(_) => "measured tip".to_owned(),
     };
     match levels.iter().map(radius).collect::<Option<Vec<f64>>>() {
         Some(radii) => {

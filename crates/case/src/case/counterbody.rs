@@ -40,8 +40,10 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
             loaded_by: pressure.into(),
         });
     }
+    let length = length_unit(root)?;
     let level_sections = root.sections("levels")?;
-    let levels: Vec<LevelSection> = level_sections.iter().map(LevelSection::read_table).collect::<Result<_, _>>()?;
+    let read = level_sections.iter().map(|table| LevelSection::read_in(table, source, length.as_deref()));
+    let (levels, built): (Vec<LevelSection>, Vec<Level>) = read.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
     let surface_section = match (&level_sections[..], root.section("surface")?) {
         ([], Some(section)) => Some(section),
         ([_, ..], None) => None,
@@ -56,7 +58,7 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
     let lattice_section = root.section("lattice")?;
     if let Some(section) = surface_section {
         let (lattice, grid) = (lattice_section.clone(), grid_section.clone());
-        let around = Around { source, lattice, grid, length: length_unit(root)? };
+        let around = Around { source, lattice, grid, length };
         let read = surface::read(&section, &around)?;
         return Ok(CounterbodySections {
             levels,
@@ -71,8 +73,6 @@ pub(super) fn read<'a>(root: &TableAt<'a>, source: &Source) -> Result<Counterbod
     let cell_section = root.required_section("lattice")?;
     let lattice_section = LatticeSection::read_table(&cell_section)?;
     let lattice = lattice::build(&lattice_section, &cell_section, &levels, &level_sections)?;
-    let built = levels.iter().zip(&level_sections).map(|(level, section)| level.build(section));
-    let built: Vec<Level> = built.collect::<Result<_, _>>()?;
     magnitude::profiles(&built, &level_sections, lattice.cell())?;
     // Both were checked key by key.
     let loaded_by = Indenters::new(lattice, built)

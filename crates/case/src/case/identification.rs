@@ -14,8 +14,10 @@ use serde_json::{Value, json};
 const OFFSET: &str = "offset";
 const FRAME: &str = "frame_compliance";
 /// Keys of numbers by which what is found is differentiated where they are taken as known.
-const KNOWN: [&str; 10] = [
+const KNOWN: [&str; 12] = [
     "radius",
+    "tip_radius",
+    "half_angle",
     "slope",
     "coefficient",
     "exponent",

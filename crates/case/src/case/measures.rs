@@ -142,7 +142,7 @@ impl CaseUnits {
             return Err(fault(format!("\"{unit}\" is no unit that is known"), "which unit?", help));
         };
         let missing = match of {
-            Unit::Pure | Unit::LengthToOneMinusN => {
+            Unit::Pure | Unit::LengthToOneMinusN | Unit::AreaCoefficient | Unit::Degree => {
                 let help = "write the number alone".to_owned();
                 return Err(fault(format!("it has no unit, and {unit} is written behind it"), "a unit", help));
             }
@@ -165,7 +165,7 @@ impl CaseUnits {
     fn unit(self, of: Unit) -> Option<Measure> {
         let Self { length, pressure } = self;
         match of {
-            Unit::Pure | Unit::LengthToOneMinusN => None,
+            Unit::Pure | Unit::LengthToOneMinusN | Unit::AreaCoefficient | Unit::Degree => None,
             Unit::Length => length,
             Unit::Pressure => pressure,
             Unit::Force => Some(pressure?.by(length?, 2)),

@@ -3,7 +3,7 @@
 //! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and converted to the core's types: its problem,
 //! and the run that solves it. Faults are refused with their line ([`CaseError`]).
 //!
-//! One file a section: lattice, levels, surface, layers (with the substrate, `durability`, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
+//! One file a section: lattice, levels (with `area_function`), surface, layers (with the substrate, `durability`, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
 //! friction, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
 //! makes of them the texts of `percoat explain` and the schema; `identification` lets numbers be free; `materials` is the library. A [`Document`] is parsed to a tree (`node`) once, changed by `overrides`,
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
@@ -15,6 +15,7 @@
 //! assert_eq!(case.load.values(), [0.01]);
 //! ```
 
+mod area_function;
 mod composite_hardness;
 mod counterbody;
 mod document;
@@ -62,6 +63,7 @@ mod units;
 mod value;
 mod writer;
 
+pub use area_function::{AreaSection, CoefficientsSection};
 pub use composite_hardness::CompositeHardnessSection;
 pub use document::Document;
 pub use durability::{EnduranceSection, FatigueSection, failures_of};

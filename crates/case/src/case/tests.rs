@@ -10,6 +10,18 @@ use serde_json::{Value, json};
 /// A case with every section.
 const RICH: &str = include_str!("../../../../tests/common/rich.toml");
 
+/// Indenters as instruments have them.
+const TIPS: &str = "lattice = { kind = \"hexagonal\", period = 9 }
+levels = [
+    { shape = \"sphero-cone\", radius = 1, half_angle = 60 },
+    { shape = \"vickers\", tip_radius = 1 },
+    { shape = \"measured\", area = { coefficients = [24.5, 1], depths = [0.1, 1], unit = \"nm\" } },
+]
+units = { length = \"µm\" }
+substrate = { young = 1, poisson = 0.3 }
+load = { mean_pressure = 1e-3 }
+";
+
 fn source(text: &str) -> Source {
     Source { name: "case.toml".to_owned(), text: text.to_owned(), ..Source::default() }
 }
@@ -70,7 +82,7 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
                      layers = [{ thickness = 0.1, young = 2, poisson = 0.3, hardness = 0.2 }]\n\
                      substrate = { young = 1, poisson = 0.3, hardness = 0.1 }\nload = { force = 1e-3 }\n\
                      composite_hardness = { law = \"korsunsky\", constant = 1 }\n";
-    let texts = [RICH, &other, isolated, rigid, ball, to_and_fro, composite];
+    let texts = [RICH, &other, isolated, rigid, ball, to_and_fro, composite, TIPS];
     let texts = texts.into_iter().chain(surfaces.iter().chain(&bodies).map(String::as_str));
     for text in embedded::all().iter().map(|(_, text)| *text).chain(texts) {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };

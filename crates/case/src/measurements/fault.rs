@@ -1,15 +1,14 @@
-//! Why a table is no measured curve.
+//! Why a table is no measured curve, or no area function.
 
+use percoat_core::counterbody::TipError;
 use percoat_core::identification::MeasurementError;
 
-/// Why a table is no measured curve.
+/// Why a table is no measured curve, or no area function.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Fault {
     /// No line names columns.
-    #[error(
-        "no line names the columns: one must, as `force,penetration`, `force_mN,penetration_nm` or `Load (mN);Depth (nm)`"
-    )]
-    Empty,
+    #[error("no line names the columns: one must, as {0}")]
+    Empty(&'static str),
     /// A column that is needed is missing.
     #[error(
         "{}no column `{name}` among {found}; name it, with a unit if it is another than the case's: `{name}_{unit}`",
@@ -71,6 +70,9 @@ pub enum Fault {
     /// Values that are no curve.
     #[error("{}{}{}", .1.map_or(String::new(), |line| format!("line {line}, ")), .0, .2)]
     Values(MeasurementError, Option<usize>, &'static str),
+    /// Depths and areas that are none of a tip.
+    #[error("{}{}", at(*.1), .0)]
+    Tip(TipError, Option<usize>),
 }
 
 fn at(line: Option<usize>) -> String {

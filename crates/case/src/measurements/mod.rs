@@ -3,13 +3,14 @@
 //! A line names the columns: `force` (or load, P, …) and `penetration` (depth, displacement, h, …), alone in the units of the case, or with
 //! their own as in `force_mN`, `Load (mN)`, `Depth [nm]` or in a line of units below, which are converted where the case names its units.
 //! `penetration_error` is the standard deviation of each penetration, in the unit of the penetration unless it names its own. Other
-//! columns are left out. Columns that stand in no table but in memory are read alike.
+//! columns are left out. Columns that stand in no table but in memory are read alike. Area functions of tips stand in such tables too ([`tip`](tip())).
 //!
 //! Points without a force before the largest one are those before contact, and left out. Of a test with hold and unloading the
 //! [segment](Segment) of loading can be taken.
 
 mod fault;
 mod table;
+mod tip;
 
 use crate::units::Units;
 use percoat_common::measure::Measure;
@@ -19,6 +20,7 @@ use table::{Table, bare};
 
 pub use fault::Fault;
 pub use table::text;
+pub use tip::tip;
 
 /// Part of the largest force up to which a test is loaded: creep and the noise of a hold begin above it.
 const LOADED: f64 = 0.995;
@@ -72,6 +74,9 @@ struct Kind {
     example: &'static str,
 }
 
+/// A line of names of a measured curve.
+const EXAMPLE: &str = "`force,penetration`, `force_mN,penetration_nm` or `Load (mN);Depth (nm)`";
+
 const FORCE: Kind = Kind {
     names: &[
         "force",
@@ -119,26 +124,12 @@ const DEVIATION: Kind = Kind {
 /// # Errors
 /// [`Fault`] with the line.
 pub fn read(text: &str, segment: Segment, units: &Units) -> Result<Curve, Fault> {
-    let has = |names: &[&str], kind: &Kind| names.iter().any(|name| kind.unit_of(name).is_some());
-    let table = Table::of(text, |names| has(names, &FORCE) && has(names, &PENETRATION)).ok_or(Fault::Empty)?;
+    let table = Table::of(text, |names| FORCE.is_in(names) && PENETRATION.is_in(names)).ok_or(Fault::Empty(EXAMPLE))?;
     let columns = Columns::find(&table.names, &table.units, Some(table.line), units)?;
     let Columns { force, penetration, deviation } = columns;
-    let needed = [Some(force), Some(penetration), deviation].into_iter().flatten().map(|column| column.place).max();
     let mut points = Points::default();
     for (line, row) in &table.rows {
-        let (found, expected) = (row.len(), table.names.len());
-        if found > expected || needed.is_some_and(|place| place >= found) {
-            return Err(Fault::Cells { line: *line, found, expected });
-        }
-        let number = |column: Column| {
-            let place = column.place;
-            let fault = || Fault::Number {
-                line: *line,
-                column: plain::line(table.names[place]).to_string(),
-                text: format!("`{}`", plain::line(row[place])),
-            };
-            table.number(row[place]).map(|x| column.converted(x)).ok_or_else(fault)
-        };
+        let number = |column: Column| column.of(&table, *line, row);
         points.forces.push(number(force)?);
         points.penetrations.push(number(penetration)?);
         deviation.map_or(Ok(()), |column| number(column).map(|x| points.deviations.push(x)))?;
@@ -256,14 +247,8 @@ impl Columns {
     /// The columns among those with these names, and with units in a line of their own, which stand in a line of a table.
     fn find(names: &[&str], units_below: &[&str], line: Option<usize>, units: &Units) -> Result<Self, Fault> {
         let column = |kind: &Kind| kind.column(names, units_below, line, units);
-        let missing = |kind: &Kind| Fault::Missing {
-            line,
-            name: kind.names[0],
-            found: plain::line(&names.join(", ")).to_string(),
-            unit: kind.example,
-        };
-        let force = column(&FORCE)?.ok_or_else(|| missing(&FORCE))?;
-        let penetration = column(&PENETRATION)?.ok_or_else(|| missing(&PENETRATION))?;
+        let force = column(&FORCE)?.ok_or_else(|| FORCE.missing(names, line))?;
+        let penetration = column(&PENETRATION)?.ok_or_else(|| PENETRATION.missing(names, line))?;
         // Without a unit of its own it has that of the penetration.
         let deviation =
             column(&DEVIATION)?.map(|column| Column { units: column.units.or(penetration.units), ..column });
@@ -272,12 +257,37 @@ impl Columns {
 }
 
 impl Column {
+    /// The number of the column in a row of a table, converted.
+    fn of(self, table: &Table<'_>, line: usize, row: &[&str]) -> Result<f64, Fault> {
+        let (found, expected) = (row.len(), table.names.len());
+        if found > expected || self.place >= found {
+            return Err(Fault::Cells { line, found, expected });
+        }
+        let fault = || Fault::Number {
+            line,
+            column: plain::line(table.names[self.place]).to_string(),
+            text: format!("`{}`", plain::line(row[self.place])),
+        };
+        table.number(row[self.place]).map(|x| self.converted(x)).ok_or_else(fault)
+    }
+
     fn converted(self, number: f64) -> f64 {
         self.units.and_then(|[from, to]| from.convert(number, to)).unwrap_or(number)
     }
 }
 
 impl Kind {
+    /// Whether a column of the kind is among those with these names.
+    fn is_in(&self, names: &[&str]) -> bool {
+        names.iter().any(|name| self.unit_of(name).is_some())
+    }
+
+    /// The refusal of columns with these names, in a line of a table, without one of the kind.
+    fn missing(&self, names: &[&str], line: Option<usize>) -> Fault {
+        let found = plain::line(&names.join(", ")).to_string();
+        Fault::Missing { line, name: self.names[0], found, unit: self.example }
+    }
+
     /// The unit in the name of a column of the kind, `Some(None)` without one; `None` of another column.
     fn unit_of(&self, name: &str) -> Option<Option<String>> {
         let plain = |text: &str| text.replace('_', " ").split_whitespace().collect::<Vec<_>>().join(" ").to_lowercase();
@@ -324,10 +334,10 @@ impl Kind {
         let place = *place;
         let Some(from) = unit.as_deref().and_then(measure) else { return Ok(Some(Column { place, units: None })) };
         let [length, pressure] = units.measures();
-        let to = if self.base == Measure::METRE {
-            length
-        } else {
-            pressure.zip(length).map(|(pressure, length)| pressure.by(length, 2))
+        let to = match self.base {
+            Measure::METRE => length,
+            Measure::SQUARE_METRE => length.map(|length| length.by(length, 1)),
+            _ => pressure.zip(length).map(|(pressure, length)| pressure.by(length, 2)),
         };
         let to = to.ok_or_else(|| Fault::Unnamed(line, plain::line(names[place]).to_string(), self.names[0]))?;
         Ok(Some(Column { place, units: Some([from, to]) }))

@@ -4,8 +4,10 @@
 //! the radius r from its axis. The drop d_m = h₁ − h_m ≥ 0 of the level is the distance of its apex behind that of the highest
 //! level, which touches first.
 
+use super::MeasuredTip;
 use crate::notation::number;
 use std::fmt;
+use std::sync::Arc;
 
 /// Why an indenter cannot be built.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -26,7 +28,7 @@ pub enum IndenterError {
 }
 
 /// Profile f(r) of a rigid axisymmetric indenter.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// Paraboloid f = r²/(2R), R the radius of curvature at the apex.
     Paraboloid {
@@ -50,6 +52,15 @@ pub enum Shape {
         /// Exponent n > 0.
         exponent: f64,
     },
+    /// Sphere of the radius R near the apex, which goes over tangentially into a cone of the slope s at r = R s/√(1 + s²).
+    SpheroCone {
+        /// Radius R of the sphere, a length.
+        radius: f64,
+        /// Slope s of the cone against the surface, dimensionless; cot α of the half angle α between its flank and its axis.
+        slope: f64,
+    },
+    /// Profile of equal area of a tip that was measured.
+    Measured(Arc<MeasuredTip>),
 }
 
 impl Shape {
@@ -60,6 +71,8 @@ impl Shape {
             Self::Sphere { .. } => "sphere",
             Self::Cone { .. } => "cone",
             Self::Power { .. } => "power",
+            Self::SpheroCone { .. } => "sphero-cone",
+            Self::Measured(_) => "measured",
         }
     }
 
@@ -67,11 +80,15 @@ impl Shape {
     pub fn profile(&self, r: f64) -> f64 {
         match *self {
             Self::Paraboloid { radius } => r * r / (2.0 * radius),
-            // R − √(R² − r²) without cancellation near the apex.
-            Self::Sphere { radius } if r < radius => r * r / (radius + ((radius - r) * (radius + r)).sqrt()),
+            Self::Sphere { radius } if r < radius => cap(radius, r),
             Self::Sphere { radius } => radius,
             Self::Cone { slope } => slope * r,
             Self::Power { coefficient, exponent } => coefficient * r.powf(exponent),
+            Self::SpheroCone { radius, slope } => {
+                let rim = radius * slope / slope.hypot(1.0);
+                if r < rim { cap(radius, r) } else { cap(radius, rim) + slope * (r - rim) }
+            }
+            Self::Measured(ref tip) => tip.profile(r),
         }
     }
 
@@ -91,6 +108,11 @@ impl Shape {
             Self::Sphere { .. } => f64::INFINITY,
             Self::Cone { slope } => slope,
             Self::Power { coefficient, exponent } => coefficient * exponent * r.powf(exponent - 1.0),
+            Self::SpheroCone { radius, slope } if r < radius * slope / slope.hypot(1.0) => {
+                r / ((radius - r) * (radius + r)).sqrt()
+            }
+            Self::SpheroCone { slope, .. } => slope,
+            Self::Measured(ref tip) => tip.slope(r),
         }
     }
 
@@ -104,7 +126,7 @@ impl Shape {
     /// Exponent n of the profile near the apex, f ~ rⁿ.
     pub fn exponent(&self) -> f64 {
         match *self {
-            Self::Paraboloid { .. } | Self::Sphere { .. } => 2.0,
+            Self::Paraboloid { .. } | Self::Sphere { .. } | Self::SpheroCone { .. } | Self::Measured(_) => 2.0,
             Self::Cone { .. } => 1.0,
             Self::Power { exponent, .. } => exponent,
         }
@@ -115,8 +137,28 @@ impl Shape {
             Self::Paraboloid { radius } | Self::Sphere { radius } => vec![("radius", radius)],
             Self::Cone { slope } => vec![("slope", slope)],
             Self::Power { coefficient, exponent } => vec![("coefficient", coefficient), ("exponent", exponent)],
+            Self::SpheroCone { radius, slope } => vec![("radius", radius), ("slope", slope)],
+            Self::Measured(ref tip) => {
+                let [least, most] = tip.range();
+                vec![("least radius", least), ("largest radius", most)]
+            }
         }
     }
+}
+
+/// Slope against the surface of a flank whose angle to the axis is this, degrees.
+pub fn flank_slope(half_angle: f64) -> f64 {
+    (90.0 - half_angle).to_radians().tan()
+}
+
+/// Angle to the axis, degrees, of a flank of this slope against the surface.
+pub fn half_angle(slope: f64) -> f64 {
+    90.0 - slope.atan().to_degrees()
+}
+
+/// R − √(R² − r²) without cancellation near the apex.
+fn cap(radius: f64, r: f64) -> f64 {
+    r * r / (radius + ((radius - r) * (radius + r)).sqrt())
 }
 
 impl fmt::Display for Shape {
@@ -128,7 +170,7 @@ impl fmt::Display for Shape {
 }
 
 /// One level of a multi-level system: equal indenters of equal height.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Level {
     shape: Shape,
     height: f64,
@@ -152,8 +194,8 @@ impl Level {
     }
 
     /// Shape of the level's indenters.
-    pub fn shape(&self) -> Shape {
-        self.shape
+    pub fn shape(&self) -> &Shape {
+        &self.shape
     }
 
     /// Height h_m of the level's apices, a length.
@@ -182,6 +224,7 @@ mod tests {
             Shape::Sphere { radius: 0.8 },
             Shape::Cone { slope: 0.3 },
             Shape::Power { coefficient: 2.0, exponent: 3.5 },
+            Shape::SpheroCone { radius: 0.8, slope: 0.3 },
         ] {
             let mut squares = [0.0, 1e-8, 0.1, 0.64, 2.0];
             let expected = squares.map(|square: f64| shape.profile(square.sqrt()));
@@ -191,6 +234,20 @@ mod tests {
                 "{squares:?}"
             );
         }
+    }
+
+    /// The rim of a Rockwell diamond, 120° and 200 µm, is at R cos 60° = 100 µm and R(1 − sin 60°) above the apex.
+    #[test]
+    fn a_sphero_cone_goes_over_into_its_flank_without_a_kink() {
+        let (radius, slope) = (200.0, 30f64.to_radians().tan());
+        let tip = Shape::SpheroCone { radius, slope };
+        let height = radius * (1.0 - 60f64.to_radians().sin());
+        assert!((tip.profile(100.0) - height).abs() < 1e-12 && (tip.slope(100.0) - slope).abs() < 1e-12);
+        let [inside, outside] = [100.0 - 1e-7, 100.0 + 1e-7].map(|r| [tip.profile(r), tip.slope(r)]);
+        assert!((inside[0] - outside[0]).abs() < 2e-7 && (inside[1] - outside[1]).abs() < 1e-8);
+        assert_eq!(tip.profile(40.0), Shape::Sphere { radius }.profile(40.0));
+        assert!((tip.profile(300.0) - (height + 200.0 * slope)).abs() < 1e-12 && !tip.singular_peak());
+        assert!(Level::new(Shape::SpheroCone { radius: 0.0, slope }, 0.0).is_err());
     }
 
     #[test]

@@ -6,7 +6,7 @@ use crate::notation::number;
 use std::fmt;
 
 /// Site of an indenter in the cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Site {
     /// Level of the indenter, from 1.
     pub level: usize,
@@ -80,7 +80,7 @@ impl Indenters {
         let drops = self.drops();
         let of_level = |(index, places): (usize, &Vec<[f64; 2]>)| -> Vec<Site> {
             let (level, shape, drop) = (index + 1, self.levels[index].shape(), drops[index]);
-            places.iter().map(|&place| Site { level, place, shape, drop }).collect()
+            places.iter().map(|&place| Site { level, place, shape: shape.clone(), drop }).collect()
         };
         self.lattice.sites().iter().enumerate().flat_map(of_level).collect()
     }
@@ -104,7 +104,7 @@ mod tests {
     #[test]
     fn levels_and_sites_must_match() {
         let level = Level::new(Shape::Cone { slope: 0.1 }, 0.0).unwrap();
-        let three = |levels: usize| Indenters::new(Lattice::hexagonal(1.0, 3).unwrap(), vec![level; levels]);
+        let three = |levels: usize| Indenters::new(Lattice::hexagonal(1.0, 3).unwrap(), vec![level.clone(); levels]);
         assert!(three(3).is_ok());
         for levels in [0, 2, 4] {
             assert_eq!(three(levels), Err(CounterbodyError::Levels { sites: 3, levels }));

@@ -1,23 +1,26 @@
 //! Loading of the body: a counterbody of indenters at several levels or of a topography, or a given pressure; and the
 //! surface of the counterbody on a grid.
 
+mod bare;
 mod error;
 mod indenter;
 mod indenters;
 mod level_name;
 mod loaded_by;
 mod loaded_disc;
+mod measured_tip;
 mod pressure;
 pub mod roughness;
 mod surface;
 mod topography;
 
 pub use error::CounterbodyError;
-pub use indenter::{IndenterError, Level, Shape};
+pub use indenter::{IndenterError, Level, Shape, flank_slope, half_angle};
 pub use indenters::{Indenters, Site};
 pub use level_name::LevelName;
 pub use loaded_by::LoadedBy;
 pub use loaded_disc::LoadedDisc;
+pub use measured_tip::{MeasuredTip, TipError};
 pub use pressure::GivenPressure;
 pub use surface::Surface;
 pub use topography::Topography;

@@ -47,16 +47,16 @@ pub fn radii(problem: &Problem, reading: &Reading) -> Option<Vec<f64>> {
 pub fn profiles(problem: &Problem, reading: &Reading) -> Option<Vec<Vec<[f64; 2]>>> {
     let size = problem.cell().reduced().longer_side();
     let levels = problem.levels().iter().zip(&reading.levels);
-    let of_level = |(level, loaded): (&Level, &LevelReading)| profile(*level, problem.bodies(), loaded.load, size);
+    let of_level = |(level, loaded): (&Level, &LevelReading)| profile(level, problem.bodies(), loaded.load, size);
     stand_apart(reading).then(|| levels.map(|level| of_level(level).unwrap_or_default()).collect())
 }
 
 /// Pressure of a single indenter of `level` under a `force`, as in [`profiles`]; `size` is a length of the order of the contact's
 /// or larger. `None` without force or solution.
-fn profile(level: Level, bodies: &Bodies, force: f64, size: f64) -> Option<Vec<[f64; 2]>> {
+fn profile(level: &Level, bodies: &Bodies, force: f64, size: f64) -> Option<Vec<[f64; 2]>> {
     let lattice = Lattice::square(ISOLATING_PERIOD * size, 1).ok()?;
     let mean_pressure = Load::MeanPressure(force / lattice.cell().area());
-    let alone = Indenters::new(lattice, vec![level]).ok().filter(|_| force > 0.0)?;
+    let alone = Indenters::new(lattice, vec![level.clone()]).ok().filter(|_| force > 0.0)?;
     let alone = Localized::new(&Problem::new(alone, bodies.clone()), 1).ok()?;
     let Solution { spots, stop, .. } = alone.solve(mean_pressure, &ISOLATED);
     let spot = &spots[0];
@@ -79,7 +79,7 @@ mod tests {
         let half_space = HalfSpace::new(vec![], Material::from_young(1.0, 0.0).unwrap());
         let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
         let a = 0.2f64;
-        let points = profile(level, &half_space.into(), 4.0 / 3.0 * a.powi(3), 1.0).unwrap();
+        let points = profile(&level, &half_space.into(), 4.0 / 3.0 * a.powi(3), 1.0).unwrap();
         for [r, p] in points.into_iter().filter(|[r, _]| *r < 0.9 * a) {
             let hertz = 2.0 / std::f64::consts::PI * (a * a - r * r).sqrt();
             assert!((p / hertz - 1.0).abs() < 8e-3, "{r}: {p} {hertz}");

@@ -87,16 +87,17 @@ mod tests {
         let indenters = |lattice: &Lattice, shape: Shape| {
             Indenters::new(lattice.clone(), vec![Level::new(shape, 0.0).unwrap()]).unwrap()
         };
-        let (ball, cone) = (Shape::Paraboloid { radius: 2.0 }, Shape::Cone { slope: 0.1 });
+        const BALL: Shape = Shape::Paraboloid { radius: 2.0 };
+        const CONE: Shape = Shape::Cone { slope: 0.1 };
         let mut compared = 0;
         for (index, body) in bodies.iter().enumerate() {
             let elastic = Bodies::elastic(body.clone(), counterbody.clone());
             let problems = [
-                Problem::new(indenters(&periodic, ball), body.clone())
+                Problem::new(indenters(&periodic, BALL), body.clone())
                     .sliding(Friction::new(0.3, [0.6, 0.8]).unwrap())
                     .unwrap(),
-                Problem::new(indenters(&periodic, cone), body.clone()),
-                Problem::new(indenters(&isolated, ball), elastic),
+                Problem::new(indenters(&periodic, CONE), body.clone()),
+                Problem::new(indenters(&isolated, BALL), elastic),
             ];
             for problem in problems {
                 let mut solver = Solver::new(problem, [64; 2], Settings::default()).unwrap();

@@ -25,7 +25,7 @@ pub fn alone(problem: &Problem, reading: &Reading) -> Option<Reading> {
     let radius = level_reading.contact_radius.filter(|_| is_sparse)?;
     let window = Cell::window([2.0 * ROOM * radius; 2]).ok()?;
     let lattice = Lattice::new(window, vec![vec![[0.5; 2]]]).ok()?;
-    let mut single = Problem::new(Indenters::new(lattice, vec![*level]).ok()?, problem.bodies());
+    let mut single = Problem::new(Indenters::new(lattice, vec![level.clone()]).ok()?, problem.bodies());
     if let Some(friction) = problem.friction() {
         single = single.sliding(*friction).ok()?;
     }

@@ -30,6 +30,7 @@ mod record;
 mod recorder;
 mod sampling;
 mod tapered;
+pub mod tip;
 pub mod touches;
 pub mod warnings;
 mod wear;

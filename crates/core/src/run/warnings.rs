@@ -5,7 +5,7 @@
 
 use super::accuracy::RefinementEnd;
 use super::words::{Numbered, STEEP, list, ratio};
-use super::{StepRecord, ended};
+use super::{StepRecord, ended, tip};
 use crate::counterbody::Shape;
 use crate::counterbody::roughness::Window;
 use crate::notation::number;
@@ -56,6 +56,7 @@ pub(super) fn of_judged(
         mean_matters(problem, judged),
         at_border(problem, judged),
         steep_flank(problem, judged),
+        tip::beyond(problem, judged),
         ended::high_pressure(problem, judged),
         ended::ended(problem, judged),
         ended::beyond(problem, judged),
@@ -257,7 +258,7 @@ fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 /// Warning that the flank of a level, from 1, is steep at the edge of a contact of radius a, with a question that says what to do.
 pub fn flank(context: &str, problem: &Problem, level: usize, a: f64, question: &str) -> String {
     let shape = problem.levels()[level - 1].shape();
-    let size = match shape {
+    let size = match *shape {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } if a >= radius => {
             format!("is larger than the indenter's radius {}", number(radius))
         }

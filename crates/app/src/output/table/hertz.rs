@@ -9,45 +9,29 @@ use percoat_core::reading::{PlasticReading, Reading};
 use percoat_core::run::StepRecord;
 use std::f64::consts::PI;
 
-/// The contact of a ball with bare bodies.
-struct Hertz {
-    radius: f64,
-    peak: f64,
-    approach: f64,
-}
-
-impl Hertz {
-    /// The contact under a `force` of a ball of this radius on bodies with the contact modulus E*.
-    fn new(force: f64, ball: f64, modulus: f64) -> Self {
-        let radius = (0.75 * force * ball / modulus).cbrt();
-        Self { radius, peak: 1.5 * force / (PI * radius * radius), approach: radius * radius / ball }
-    }
-}
-
-/// Peak pressure, contact radius and penetration by Hertz of the ball on the bare substrates, under the force of the last converged
-/// step with contact, and the relative differences of that step from them, in two lines; `None` unless the contact is isolated and that
-/// of one ball, where no substrate is elastic, and where a surface is pressed in.
+/// Contact radius and penetration of the only indenter on the bare substrates, and under a ball the peak pressure, with the force of the last
+/// converged step with contact; and the relative differences of that step from them, in two lines. `None` unless the contact is isolated and
+/// that of one indenter, where no substrate is elastic, and where a surface is pressed in.
 pub fn hertz(case: &Case, steps: &[StepRecord], units: &Units) -> Option<[String; 2]> {
     let problem = case.problem();
-    let level = problem.lone_indenter()?;
-    let (Shape::Paraboloid { radius: ball } | Shape::Sphere { radius: ball }) = level.shape() else { return None };
+    let shape = problem.lone_indenter()?.shape();
     let step = steps.iter().rev().find(|step| step.reading.touches() && step.converged())?;
     if step.plastic.as_ref().is_some_and(PlasticReading::is_pressed_in) {
         return None;
     }
     let Reading { force, penetration, .. } = step.reading;
-    let hertz = Hertz::new(force, ball, problem.bodies().substrate_modulus()?);
-    let [load, peak, radius, approach] = [
-        units.force().with_unit(force, number),
-        units.pressure().with_unit(hertz.peak, number),
-        units.length().with_unit(hertz.radius, number),
-        units.length().with_unit(hertz.approach, number),
-    ];
+    let radius = shape.radius_under(force / problem.bodies().substrate_modulus()?);
+    let [approach, _] = shape.on_half_space(radius);
+    let is_ball = matches!(shape, Shape::Paraboloid { .. } | Shape::Sphere { .. });
+    let peak = is_ball.then(|| 1.5 * force / (PI * radius * radius));
+    let load = units.force().with_unit(force, number);
+    let length = |x: f64| units.length().with_unit(x, number);
+    let told = peak.map(|peak| format!("peak pressure {}, ", units.pressure().with_unit(peak, number)));
     let level = step.reading.levels.first()?;
     let changes: Vec<String> = [
-        change("the peak pressure", level.finite_peak(), Some(hertz.peak)),
-        change("the contact radius", level.contact_radius, Some(hertz.radius)),
-        change("the penetration", Some(penetration), Some(hertz.approach)),
+        peak.and_then(|peak| change("the peak pressure", level.finite_peak(), Some(peak))),
+        change("the contact radius", level.contact_radius, Some(radius)),
+        change("the penetration", Some(penetration), Some(approach)),
     ]
     .into_iter()
     .flatten()
@@ -55,7 +39,11 @@ pub fn hertz(case: &Case, steps: &[StepRecord], units: &Units) -> Option<[String
     let what = if problem.bodies().is_bare() { "here they differ in" } else { "the layers change" };
     Some([
         format!(
-            "Hertz, bare substrates, {load}: peak pressure {peak}, contact radius {radius}, penetration {approach}"
+            "{}, bare substrates, {load}: {}contact radius {}, penetration {}",
+            if is_ball { "Hertz" } else { "Sneddon" },
+            told.unwrap_or_default(),
+            length(radius),
+            length(approach)
         ),
         format!("{what} {}", changes.join(", ")),
     ])

@@ -24,9 +24,9 @@ const BELOW_COATING: f64 = 2e-3;
 
 /// Warnings, a sentence each, about each kind of fault the first level that has it.
 pub(super) fn doubts(case: &Case) -> Vec<String> {
-    let balls = case.problem().levels().iter().enumerate().filter_map(|(index, level)| match level.shape() {
+    let balls = case.problem().levels().iter().enumerate().filter_map(|(index, level)| match *level.shape() {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some((index, radius)),
-        Shape::Cone { .. } | Shape::Power { .. } => None,
+        _ => None,
     });
     let balls: Vec<(usize, f64)> = balls.collect();
     let first =

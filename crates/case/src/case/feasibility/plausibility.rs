@@ -1,9 +1,9 @@
 //! Warnings about a case that can be solved but is implausible: units mixed up, strains that are not small.
 
 use super::{ball, durability, si_sizes, springs, sublayers};
-use crate::case::{Case, LayerSection};
+use crate::case::{Case, LayerSection, LevelSection};
 use percoat_core::body::{HalfSpace, Material, MeanStress};
-use percoat_core::counterbody::{Level, Shape, Topography};
+use percoat_core::counterbody::{Level, Shape, Topography, half_angle};
 use percoat_core::lattice::Cell;
 use percoat_core::notation::number;
 use percoat_core::run::words::{HIGH, STEEP, ratio};
@@ -34,7 +34,9 @@ pub fn of_case(case: &Case) -> Vec<String> {
     if problem.indenters().is_some() {
         doubts.extend(heights(problem.levels(), cell));
     }
-    doubts.extend(problem.levels().iter().enumerate().filter_map(|(index, level)| steep_cone(index, level)));
+    doubts.extend(equal_areas(case));
+    let levels = case.levels.iter().zip(problem.levels()).enumerate();
+    doubts.extend(levels.filter_map(|(index, (section, level))| steep_cone(index, section, level)));
     doubts.extend(problem.topography().and_then(topography));
     doubts.extend_from_slice(case.file_doubts());
     if case.stress.as_ref().is_some_and(|stress| stress.mean == MeanStress::HalfSpace) {
@@ -141,20 +143,14 @@ fn lengths(case: &Case, cell: Cell) -> Vec<String> {
     let [side, other] = cell.vectors().map(|[x, y]| x.hypot(y));
     let side = side.min(other);
     let mut all: Vec<(String, f64)> = Vec::new();
-    for (number, level) in case.problem().levels().iter().enumerate() {
-        match level.shape() {
-            Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
-                all.push((format!("levels[{number}].radius"), radius));
-            }
-            // The radius of the paraboloid with the slope of the profile there.
-            Shape::Power { coefficient, exponent } if exponent > 1.0 => {
-                let slope = coefficient * exponent * side.powf(exponent - 1.0);
-                all.push((
-                    format!("levels[{number}]: the side of the cell over the slope of c·rⁿ there"),
-                    side / slope,
-                ));
-            }
-            Shape::Power { .. } | Shape::Cone { .. } => {}
+    for (number, (section, level)) in case.levels.iter().zip(case.problem().levels()).enumerate() {
+        all.extend(section.apex_radius().map(|(key, radius)| (format!("levels[{number}].{key}"), radius)));
+        // The radius of the paraboloid with the slope of the profile there.
+        if let Shape::Power { coefficient, exponent } = *level.shape()
+            && exponent > 1.0
+        {
+            let slope = coefficient * exponent * side.powf(exponent - 1.0);
+            all.push((format!("levels[{number}]: the side of the cell over the slope of c·rⁿ there"), side / slope));
         }
     }
     let layers = case.layers.iter().enumerate();
@@ -189,14 +185,43 @@ fn heights(levels: &[Level], cell: Cell) -> Option<String> {
     })
 }
 
-fn steep_cone(index: usize, level: &Level) -> Option<String> {
-    let Shape::Cone { slope } = level.shape() else { return None };
+/// Pyramids and measured tips, which are taken as round.
+fn equal_areas(case: &Case) -> Option<String> {
+    let levels = case
+        .levels
+        .iter()
+        .zip(case.problem().levels())
+        .enumerate()
+        .filter(|(_, (section, _))| section.is_of_equal_area());
+    let told = levels.map(|(index, (section, level))| {
+        let angle = match *level.shape() {
+            Shape::Cone { slope } | Shape::SpheroCone { slope, .. } => {
+                format!(", half angle {:.2}°", half_angle(slope))
+            }
+            _ => String::new(),
+        };
+        format!("levels[{index}] ({}{angle})", section.shape.word())
+    });
+    let told: Vec<String> = told.collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "{}: taken as round, with the area of the tip at each depth; edges of a pyramid, where pressure and stress are higher, are not \
+             resolved",
+            told.join(", ")
+        )
+    })
+}
+
+fn steep_cone(index: usize, section: &LevelSection, level: &Level) -> Option<String> {
+    let Shape::Cone { slope } = *level.shape() else { return None };
+    let given = match section.slope {
+        Some(_) => format!("slope = {}", number(slope)),
+        None => format!("shape = \"{}\", of the slope {}", section.shape.word(), number(slope)),
+    };
     (slope > STEEP).then(|| {
         format!(
-            "levels[{}].slope = {}: the flank of a cone must be flat against the surface for small strains, its slope below \
-             {STEEP}",
-            index,
-            number(slope)
+            "levels[{index}].{given}: the flank of a cone must be flat against the surface for small strains, its slope below \
+             {STEEP}"
         )
     })
 }

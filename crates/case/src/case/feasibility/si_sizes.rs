@@ -7,7 +7,7 @@ use crate::case::{Case, LayerSection};
 use crate::units::{Unit, is_force, is_length, is_pressure};
 use percoat_core::body::{Layer, Material};
 use percoat_core::counterbody::roughness::Statistics;
-use percoat_core::counterbody::{Level, Shape, Topography};
+use percoat_core::counterbody::{Level, Topography};
 use percoat_core::notation::number;
 use percoat_core::run::words::{HIGH, ratio};
 
@@ -101,10 +101,9 @@ fn lengths(case: &Case) -> Vec<(String, f64)> {
     // A given pressure may be that on a road or a foundation.
     all.retain(|_| problem.counterbody().is_some());
     all.dedup_by(|a, b| a.1 == b.1);
-    let levels = problem.levels().iter().map(Level::shape).enumerate();
-    all.extend(levels.filter_map(|(number, shape): (usize, Shape)| match shape {
-        Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some((format!("levels[{number}].radius"), radius)),
-        Shape::Cone { .. } | Shape::Power { .. } => None,
+    all.extend(case.levels.iter().enumerate().filter_map(|(number, level)| {
+        let (key, radius) = level.apex_radius()?;
+        Some((format!("levels[{number}].{key}"), radius))
     }));
     // Single heights are not checked: their reference is arbitrary, and they may differ by less than an atom.
     let heights = problem.levels().iter().map(Level::height);

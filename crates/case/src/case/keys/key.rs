@@ -183,7 +183,9 @@ impl Key {
     }
 
     pub(in crate::case) fn excludes(&self, other: &Self) -> bool {
-        let kinds = !self.kinds.is_empty() && !other.kinds.is_empty() && self.kinds != other.kinds;
+        let kinds = !self.kinds.is_empty()
+            && !other.kinds.is_empty()
+            && self.kinds.iter().all(|kind| !other.kinds.contains(kind));
         let one = |a: &Self, b: &Self| a.instead_of == Some(b.name) || a.and_of.contains(&b.name);
         kinds || one(self, other) || one(other, self)
     }

@@ -33,7 +33,8 @@ impl NamedKey {
             unit.name().map_or(units::Unit::None, |name| units::Unit::Named(text(name)))
         };
         match self.unit {
-            Unit::Pure | Unit::LengthToOneMinusN => units::Unit::None,
+            Unit::Pure | Unit::LengthToOneMinusN | Unit::AreaCoefficient => units::Unit::None,
+            Unit::Degree => units::Unit::Named("°".to_owned()),
             Unit::Length => units.length().clone(),
             Unit::Pressure => units.pressure().clone(),
             Unit::Force => units.force(),
@@ -48,8 +49,7 @@ impl NamedKey {
 
     /// Words in the place of a unit that is not known; `None` of a pure number.
     pub fn unknown_unit(&self) -> Option<String> {
-        let is_pure = matches!(self.unit, Unit::Pure | Unit::LengthToOneMinusN);
-        (!is_pure).then(|| format!("unit\u{a0}of\u{a0}{}", self.unit.quantity()))
+        self.unit.is_converted().then(|| format!("unit\u{a0}of\u{a0}{}", self.unit.quantity()))
     }
 }
 

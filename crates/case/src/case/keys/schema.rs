@@ -72,7 +72,7 @@ fn description(key: &Key) -> String {
 /// A form of a value whose numbers have a unit; with one that is written they are texts, which the reader converts.
 fn form(form: &Form, unit: Unit) -> Value {
     match form {
-        Form::Number(range) if matches!(unit, Unit::Pure | Unit::LengthToOneMinusN) => number(*range),
+        Form::Number(range) if !unit.is_converted() => number(*range),
         Form::Number(range) => {
             json!({ "anyOf": [number(*range), { "type": "string", "pattern": WITH_UNIT }] })
         }

@@ -15,9 +15,18 @@ pub(in crate::case) enum Unit {
     PressurePerLength,
     /// Unit of the coefficient of a power law.
     LengthToOneMinusN,
+    /// Units of the coefficients of an area function.
+    AreaCoefficient,
+    /// Degrees of an angle.
+    Degree,
 }
 
 impl Unit {
+    /// Whether a unit may stand behind its numbers, which are then converted to that of the case.
+    pub(in crate::case) fn is_converted(self) -> bool {
+        !matches!(self, Self::Pure | Self::LengthToOneMinusN | Self::AreaCoefficient | Self::Degree)
+    }
+
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Pure => "none",
@@ -27,13 +36,16 @@ impl Unit {
             Self::PerPressure => "one over a pressure: 1/GPa in a case of GPa",
             Self::PressurePerLength => "pressure per length",
             Self::LengthToOneMinusN => "length to the power 1 − n",
+            Self::AreaCoefficient => "none of C₀, length of C₁, length to the power 3/2 of C₂, …",
+            Self::Degree => "degrees",
         }
     }
 
     /// The quantity, in a word.
     pub(in crate::case) fn quantity(self) -> &'static str {
         match self {
-            Self::Pure | Self::LengthToOneMinusN => "number",
+            Self::Pure | Self::LengthToOneMinusN | Self::AreaCoefficient => "number",
+            Self::Degree => "angle",
             Self::Length => "length",
             Self::Pressure => "pressure",
             Self::Force => "force",

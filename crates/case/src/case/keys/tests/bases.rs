@@ -46,6 +46,7 @@ fn folder() -> tempfile::TempDir {
     surface("lines.npy", |k| (k / 8).pow(2) % 7);
     let material = "[[material]]\nname = \"own\"\nyoung = 210.0\npoisson = 0.3\n";
     std::fs::write(folder.path().join("own.toml"), material).unwrap();
+    std::fs::write(folder.path().join("tip.csv"), "depth,area\n0.01,0.1\n1.0,30.0\n").unwrap();
     folder
 }
 
@@ -115,6 +116,11 @@ impl Bases {
                  composite_hardness = {{ law = \"area\", constant = 0.5 }}\n",
                 BODY.replace("mean_pressure", "force").replace("poisson = 0.3", "poisson = 0.3, hardness = 0.1"),
                 layer("young = 2.0, poisson = 0.2, hardness = 0.2")
+            ),
+            format!(
+                "lattice = {{ kind = \"hexagonal\", period = 10.0 }}\nlevels = [\
+                 {{ shape = \"measured\", area = {{ coefficients = [24.5, 0.2], depths = [0.05, 1.0], unit = \"nm\" }} }}, \
+                 {{ shape = \"sphero-cone\", radius = 1.0, half_angle = 60.0 }}, {{ shape = \"berkovich\", tip_radius = 0.5 }}]\n{BODY}"
             ),
             BODY.to_owned(),
         ];

@@ -34,8 +34,10 @@ fn a_key_is_at_home_in_every_table_that_has_it() {
 #[test]
 fn sizes_of_one_shape_exclude_those_of_the_others() {
     let [levels, lattice, localized] = ["levels", "lattice", "localized"].map(|name| CASE.within(name));
-    assert_eq!(levels.excluded("slope"), ["radius", "coefficient", "exponent"]);
-    assert_eq!(levels.excluded("exponent"), ["radius", "slope"]);
+    assert_eq!(levels.excluded("slope"), ["radius", "coefficient", "exponent", "half_angle", "tip_radius", "area"]);
+    assert_eq!(levels.excluded("exponent"), ["radius", "slope", "half_angle", "tip_radius", "area"]);
+    // A sphero-cone has both.
+    assert_eq!(levels.excluded("half_angle"), ["slope", "coefficient", "exponent", "tip_radius", "area"]);
     assert_eq!(lattice.excluded("period"), ["a1", "a2", "size"]);
     assert_eq!((CASE.excluded("levels"), CASE.excluded("surface")), (vec!["surface"], vec!["levels"]));
     assert!(levels.excluded("height").is_empty() && localized.excluded("radius").is_empty());
