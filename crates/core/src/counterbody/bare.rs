@@ -16,43 +16,53 @@ const HALVINGS: usize = 40;
 /// Doublings within which a contact radius is searched for.
 const DOUBLINGS: usize = 400;
 
+/// Laws by which profiles have their forces and penetrations.
+enum Law<'a> {
+    /// Profile c rⁿ, by c and n.
+    Power(f64, f64),
+    /// Sphere that goes over into a cone.
+    SpheroCone { radius: f64, slope: f64 },
+    /// Measured profile.
+    Measured(&'a MeasuredTip),
+}
+
 impl Shape {
     /// Penetration δ of the contact of the radius `a`, a length, and its force over E*, a length squared.
     pub fn on_half_space(&self, a: f64) -> [f64; 2] {
-        if let Some((c, n)) = self.power_law() {
-            let penetration = kappa(n) * c * a.powf(n);
-            return [penetration, 2.0 * penetration * a * n / (n + 1.0)];
-        }
-        match self {
-            Self::SpheroCone { radius, slope } => sphero_cone(*radius, *slope, a),
-            Self::Measured(tip) => measured(tip, a),
-            Self::Paraboloid { .. } | Self::Sphere { .. } | Self::Cone { .. } | Self::Power { .. } => [f64::NAN; 2],
+        match self.law() {
+            Law::Power(c, n) => {
+                let penetration = kappa(n) * c * a.powf(n);
+                [penetration, 2.0 * penetration * a * n / (n + 1.0)]
+            }
+            Law::SpheroCone { radius, slope } => sphero_cone(radius, slope, a),
+            Law::Measured(tip) => measured(tip, a),
         }
     }
 
     /// Contact radius under a force over E*, a length squared; a length.
     pub fn radius_under(&self, force: f64) -> f64 {
-        match self.power_law() {
-            Some((c, n)) => (force * (n + 1.0) / (2.0 * n * kappa(n) * c)).powf(1.0 / (n + 1.0)),
-            None => self.radius_where(1, force),
+        match self.law() {
+            Law::Power(c, n) => (force * (n + 1.0) / (2.0 * n * kappa(n) * c)).powf(1.0 / (n + 1.0)),
+            Law::SpheroCone { .. } | Law::Measured(_) => self.radius_where(1, force),
         }
     }
 
     /// Contact radius at a penetration; lengths.
     pub fn radius_at(&self, penetration: f64) -> f64 {
-        match self.power_law() {
-            Some((c, n)) => (penetration / (kappa(n) * c)).powf(1.0 / n),
-            None => self.radius_where(0, penetration),
+        match self.law() {
+            Law::Power(c, n) => (penetration / (kappa(n) * c)).powf(1.0 / n),
+            Law::SpheroCone { .. } | Law::Measured(_) => self.radius_where(0, penetration),
         }
     }
 
-    /// c and n of the profile c rⁿ; `None` of another one. A sphere is a paraboloid where its contact is small.
-    fn power_law(&self) -> Option<(f64, f64)> {
+    /// Law of the profile; a sphere is a paraboloid where its contact is small.
+    fn law(&self) -> Law<'_> {
         match *self {
-            Self::Paraboloid { radius } | Self::Sphere { radius } => Some((0.5 / radius, 2.0)),
-            Self::Cone { slope } => Some((slope, 1.0)),
-            Self::Power { coefficient, exponent } => Some((coefficient, exponent)),
-            Self::SpheroCone { .. } | Self::Measured(_) => None,
+            Self::Paraboloid { radius } | Self::Sphere { radius } => Law::Power(0.5 / radius, 2.0),
+            Self::Cone { slope } => Law::Power(slope, 1.0),
+            Self::Power { coefficient, exponent } => Law::Power(coefficient, exponent),
+            Self::SpheroCone { radius, slope } => Law::SpheroCone { radius, slope },
+            Self::Measured(ref tip) => Law::Measured(tip),
         }
     }
 
