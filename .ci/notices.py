@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-LICENCE_FILES = ("LICENSE*", "LICENCE*", "license*", "COPYING*", "COPYRIGHT*", "NOTICE*", "UNLICENSE*")
+LICENCE_FILES = ("licenses/*", "LICENSE*", "LICENCE*", "license*", "COPYING*", "COPYRIGHT*", "NOTICE*", "UNLICENSE*")
 
 
 def linked(target, package):

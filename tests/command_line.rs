@@ -77,6 +77,8 @@ mod sweep;
 mod temporary;
 #[path = "command_line/topography.rs"]
 mod topography;
+#[path = "command_line/uncertainty.rs"]
+mod uncertainty;
 #[path = "command_line/units.rs"]
 mod units;
 #[path = "command_line/validate.rs"]

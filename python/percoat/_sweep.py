@@ -41,8 +41,16 @@ class Columns(Dict[str, NDArray[Any]]):
         """How many rows it has."""
         return len(next(iter(self.values()), ()))
 
+    @property
+    def uncertainty(self) -> Columns:
+        """The uncertainty of every result, with ``vary``: the columns of ``uncertainty.csv``, one row a result; none without."""
+        solved: Optional[Solved] = self.__dict__.get("_solved")
+        columns = [] if solved is None else _core.uncertainty(solved[0], solved[1])
+        return Columns({name: _column(name, cells) for name, cells in columns})
+
     def save(self, folder: Union[str, PathLike[str]]) -> None:
-        """Write the output folder of ``percoat sweep --no-pictures``: ``sweep.csv``, ``sweep.json`` and ``sweep.jsonl``.
+        """Write the output folder of ``percoat sweep --no-pictures``: ``sweep.csv``, ``sweep.json`` and ``sweep.jsonl``, and
+        with ``vary`` ``uncertainty.csv``.
 
         What was solved is written, whatever has become of the columns and of the files of the case since. As on the command line only files are
         replaced that percoat wrote there as a finished result. ``percoat report folder`` makes a page of it.
@@ -76,8 +84,11 @@ class Columns(Dict[str, NDArray[Any]]):
 
 def sweep(
     case: CaseLike,
-    set: Mapping[str, Any],
+    set: Optional[Mapping[str, Any]] = None,
     *,
+    vary: Optional[Mapping[str, Union[str, Tuple[float, float]]]] = None,
+    samples: int = 128,
+    seed: int = 0,
     zip: bool = False,
     limit: bool = False,
     threads: Optional[int] = None,
@@ -94,6 +105,13 @@ def sweep(
     set
         Keys and their values: ``{"layers.0.thickness": [0.1, 0.2], "friction.coefficient": np.linspace(0, 0.5, 6)}``; a
         value that is no list holds for all, and ``"0.1:1:5:log"`` gives five geometric ones, as on the command line.
+    vary
+        Uncertain keys and their ranges instead of values, as on the command line: ``{"layers.0.thickness": "10%", "substrate.young": (190,
+        213), "friction.coefficient": "normal:0.2:0.02", "layers.0.young": "library"}``; a pair is a lowest and a highest value.
+    samples
+        Number of samples of the uncertain keys, a power of 2: each takes two combinations and one more a key.
+    seed
+        Seed of the samples.
     zip
         Pair the values of the keys, instead of all their combinations.
     limit
@@ -117,7 +135,7 @@ def sweep(
     Columns
         One row a combination and load step: ``combination``, ``set_<key>`` of what was set, ``status``, ``step``, and the
         scalars of ``curve.csv``. Numbers that are not there are NaN, truths ``None``; whole numbers of which one is not
-        there are floats.
+        there are floats. With ``vary`` its ``uncertainty`` has quantiles and indices of every result.
 
     Raises
     ------
@@ -142,6 +160,13 @@ def sweep(
     >>> table["set_layers_0_thickness"], table["status"].tolist()
     (array([0.2, 0.5]), ['done', 'done'])
 
+    How far results spread, and which key matters; ``pandas.DataFrame(table.uncertainty)`` shows all:
+
+    >>> table = percoat.sweep("fig2", {"grid.points": 96}, vary={"layers.0.thickness": "10%", "levels.0.radius": "5%"}, samples=8)
+    >>> found = table.uncertainty
+    >>> [name for name in found if name.startswith("total_") and not name.endswith(("_low", "_high"))]
+    ['total_layers_0_thickness', 'total_levels_0_radius']
+
     On the processes of this machine; where processes are spawned the script needs ``if __name__ == "__main__":``
 
     >>> from concurrent.futures import ProcessPoolExecutor
@@ -163,6 +188,7 @@ def sweep(
     ...     with MPIPoolExecutor() as executor:
     ...         return percoat.sweep("fig2", {"layers.0.thickness": "0.05:2:25:log"}, executor=executor)
     """
+    set = {} if set is None else set
     if not isinstance(set, Mapping):
         raise TypeError("what is swept over is a dict of keys and their values, {'layers.0.thickness': [0.1, 0.2]}")
     if executor is not None and not isinstance(executor, Executor):
@@ -170,7 +196,7 @@ def sweep(
         raise TypeError(
             f"executor is a concurrent.futures.Executor, not a {kind}; a Dask client gives one by client.get_executor()"
         )
-    core = _core.Sweep(case, dict(set), zip, limit)
+    core = _core.Sweep(case, dict(set), zip, limit, [_range(key, spread) for key, spread in (vary or {}).items()], samples, seed)
     description = core.describe()
     done = _Done(core, listener(progress), on_row)
     rows = core.solve(threads, done.heard()) if executor is None else solve_on(executor, core, threads, done)
@@ -214,6 +240,14 @@ def _columns(arrays: Dict[str, NDArray[Any]], solved: Optional[Solved]) -> Colum
     if solved is not None:
         columns.__dict__["_solved"] = solved
     return columns
+
+
+def _range(key: str, spread: Union[str, Tuple[float, float]]) -> str:
+    """An uncertain key as on the command line."""
+    if isinstance(spread, str):
+        return f"{key}={spread}"
+    low, high = spread
+    return f"{key}={float(low)!r}:{float(high)!r}"
 
 
 def _cell(value: Any) -> str:

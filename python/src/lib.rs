@@ -59,7 +59,7 @@ mod _core {
     #[pymodule_export]
     use super::step::{Step, step};
     #[pymodule_export]
-    use super::sweep::{Sweep, columns};
+    use super::sweep::{Sweep, columns, uncertainty};
     #[pymodule_export]
     use super::tables::{life_tables, limit_tables, outcome_tables};
     #[pymodule_export]

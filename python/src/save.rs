@@ -144,7 +144,8 @@ pub fn save_sweep(
         let names = sweep::files().collect();
         let claim = RunFolder::claim(&folder, Plan { names, ..Plan::new(Writer::Sweep) })?;
         let aside = shown(claim.set_aside());
-        sweep::write(&claim.staging(), &rows, &description.after(&rows, wall))?;
+        let description = description.after(&rows, wall);
+        sweep::write(&claim.staging(), &rows, &description, description.uncertainty(&rows).as_ref())?;
         let later = claim.publish()?;
         Ok(shown(later.as_deref()).or(aside))
     })?;

@@ -3,13 +3,13 @@
 use crate::case::{self, Memory, in_memory, with_memory};
 use crate::errors::refused;
 use crate::progress::Progress;
-use crate::record::to_python;
+use crate::record::{from_python, to_python};
 use crate::row::Row;
 use crate::value::{text, value};
 use crate::work::{self, room};
 use percoat::case::Source;
 use percoat::machine::available_memory;
-use percoat::sweep::{self, Axis, Combination, Combinations, Description, Group, Study, Task};
+use percoat::sweep::{self, Axis, Combination, Combinations, Description, Design, Group, Study, Task};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -38,18 +38,35 @@ type Combined = (Vec<String>, Vec<String>, Vec<(usize, Vec<String>)>, bool);
 
 #[pymethods]
 impl Sweep {
-    /// The combinations of the values of `set`, with `zip` only those of values at the same place of their lists.
+    /// The combinations of the values of `set`, with `zip` only those of values at the same place of their lists; or with `vary`, texts
+    /// `KEY=RANGE`, those of samples of uncertain keys.
     #[new]
-    #[pyo3(signature = (case, set, zip = false, limit = false))]
-    fn new(case: &Bound<'_, PyAny>, set: &Bound<'_, PyDict>, zip: bool, limit: bool) -> PyResult<Self> {
+    #[pyo3(signature = (case, set, zip = false, limit = false, vary = Vec::new(), samples = 128, seed = 0))]
+    fn new(
+        case: &Bound<'_, PyAny>,
+        set: &Bound<'_, PyDict>,
+        zip: bool,
+        limit: bool,
+        vary: Vec<String>,
+        samples: usize,
+        seed: u32,
+    ) -> PyResult<Self> {
         let (mut source, _) = case::source(case)?;
         let (axes, fixed) = axes(set, &mut source)?;
+        let task = if limit { Task::Limit } else { Task::Solve };
+        if !vary.is_empty() {
+            if zip || !axes.is_empty() {
+                return Err(refused("vary takes one value of each other key, and no zip: sweep once for each value"));
+            }
+            let design = Design::new(&source, &fixed, &vary, samples, seed).map_err(refused)?;
+            return Ok(Self { source: Arc::new(source), fixed, combinations: Arc::new(design.combinations()), task });
+        }
         let groups = match zip && !axes.is_empty() {
             true => vec![Group::zip(&axes).map_err(refused)?],
             false => axes.iter().map(Group::of).collect(),
         };
         let combinations = Arc::new(Combinations::product(&groups).map_err(refused)?);
-        Ok(Self { source: Arc::new(source), fixed, combinations, task: if limit { Task::Limit } else { Task::Solve } })
+        Ok(Self { source: Arc::new(source), fixed, combinations, task })
     }
 
     fn __len__(&self) -> usize {
@@ -151,7 +168,12 @@ impl Sweep {
         let source = with_memory(Source { name, text, values, set, folder, ..Source::default() }, memory)?;
         let all = all.into_iter().map(|(number, values)| Combination { number, values }).collect();
         let task = if limit { Task::Limit } else { Task::Solve };
-        Ok(Self { source: Arc::new(source), fixed, combinations: Arc::new(Combinations { keys, all }), task })
+        Ok(Self {
+            source: Arc::new(source),
+            fixed,
+            combinations: Arc::new(Combinations { keys, all, design: None }),
+            task,
+        })
     }
 }
 
@@ -186,6 +208,19 @@ impl Sweep {
 pub fn columns<'py>(py: Python<'py>, rows: Vec<PyRef<'py, Row>>) -> PyResult<Bound<'py, PyAny>> {
     let rows: Vec<sweep::Row> = rows.iter().map(|row| row.row().clone()).collect();
     to_python(py, &sweep::columns(&rows))
+}
+
+/// The columns of the uncertainty of a sweep with its description, a row for each result; none of a sweep over given values.
+#[pyfunction]
+pub fn uncertainty<'py>(
+    py: Python<'py>,
+    description: &Bound<'py, PyAny>,
+    rows: Vec<PyRef<'py, Row>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let description: Description = from_python(description)?;
+    let rows: Vec<sweep::Row> = rows.iter().map(|row| row.row().clone()).collect();
+    let cells = work::run(py, None, None, move |_| description.uncertainty(&rows).map(|found| found.cells()))?;
+    to_python(py, &sweep::columns_of(|| cells.iter().flatten().cloned()))
 }
 
 /// The keys with lists of values, and `KEY=VALUE` of those with one value, in their order. Without a text among these they are

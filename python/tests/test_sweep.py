@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -230,3 +231,37 @@ def test_progress_of_a_sweep() -> None:
         for done in range(1, 8)
     ]
     assert all(progress.points is None and "done" in progress.phase for progress in heard)
+
+
+def test_uncertain_keys_have_quantiles_and_indices() -> None:
+    vary: dict[str, Any] = {"layers.0.thickness": (0.4, 0.6), "levels.0.radius": "5%"}
+    table = percoat.sweep("fig2", SMALL, vary=vary, samples=8, seed=3)
+    assert table.rows == 8 * 4 and set(table["status"]) == {"done"}
+    found = table.uncertainty
+    row = found["result"].tolist().index("penetration")
+    draws = np.concatenate([table["penetration"][0::4], table["penetration"][1::4]])
+    assert found["known"][row] == 16 and found["unknown"][row] == 0
+    assert found["mean"][row] == pytest.approx(draws.mean(), rel=1e-12)
+    assert found["deviation"][row] == pytest.approx(draws.std(), rel=1e-9)
+    assert [found[name][row] for name in ("q05", "median", "q95")] == pytest.approx(np.quantile(draws, [0.05, 0.5, 0.95]))
+    for key, column in (("layers_0_thickness", 2), ("levels_0_radius", 3)):
+        # Jansen's estimator, and that of Saltelli et al. (2010).
+        [a, b, ab] = [table["penetration"][place::4] - draws.mean() for place in (0, 1, column)]
+        assert found[f"total_{key}"][row] == pytest.approx(((a - ab) ** 2).mean() / (2.0 * draws.var()))
+        assert found[f"first_{key}"][row] == pytest.approx((b * (ab - a)).mean() / draws.var())
+        assert found[f"total_{key}_low"][row] <= found[f"total_{key}"][row] <= found[f"total_{key}_high"][row]
+    assert percoat.sweep("fig2", {**SMALL, "layers.0.thickness": [0.4, 0.6]}).uncertainty.rows == 0
+    with pytest.raises(percoat.CaseError, match="below the second one"):
+        percoat.sweep("fig2", SMALL, vary={"layers.0.thickness": (0.6, 0.4)})
+    with pytest.raises(percoat.CaseError, match="one value of each other key"):
+        percoat.sweep("fig2", {"grid.points": [48, 64]}, vary=vary)
+
+
+def test_the_uncertainty_is_the_same_on_an_executor() -> None:
+    vary = {"layers.0.thickness": "10%"}
+    here = percoat.sweep("fig2", SMALL, vary=vary, samples=8).uncertainty
+    with ThreadPoolExecutor(2) as executor:
+        there = percoat.sweep("fig2", SMALL, vary=vary, samples=8, executor=executor).uncertainty
+    assert list(here) == list(there)
+    for name in here:
+        np.testing.assert_array_equal(here[name], there[name])

@@ -50,6 +50,7 @@ help!(
     "sweep a.toml --zip --set levels.0.radius=1,2 --set layers.0.young=3,4",
     "sweep mine.toml --table settings.csv --resume",
     "sweep mine.toml --set friction.coefficient=0:0.5:6 --limit",
+    "sweep a.toml --vary layers.0.young=library --vary substrate.young=5%",
     "sweep mine.toml --set layers.0.thickness=0.1:1:50 --shard 3/8"
 );
 help!(

@@ -10,7 +10,8 @@ use super::sweep_files::{finish, may_write};
 use super::terminal::{self, tell};
 use clap::Args;
 use percoat_app::output::{Plan, SWEEP_LOG, Writer};
-use percoat_app::sweep::{self, Axis, Combinations, Description, Group, Log, Row, Study, Task};
+use percoat_app::sweep::{self, Axis, Combinations, Description, Design, Group, Log, Row, Study, Task, VaryError};
+use percoat_case::case::Source;
 use percoat_common::machine::Capacity;
 use percoat_common::plain;
 use std::path::{Path, PathBuf};
@@ -25,6 +26,15 @@ pub struct SweepOptions {
     /// Combinations from a CSV table: keys in its first line, a combination in each further one
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,
+    /// Vary a key within its uncertainty: KEY=A:B, KEY=10%, KEY=normal:MEAN:DEVIATION, KEY=normal:5% or KEY=library (repeatable)
+    #[arg(long, value_name = "KEY=RANGE", conflicts_with_all = ["zip", "table"])]
+    vary: Vec<String>,
+    /// Samples of the uncertain keys, a power of 2: each takes two combinations and one more a key
+    #[arg(long, value_name = "N", requires = "vary", default_value_t = 128)]
+    samples: usize,
+    /// Seed of the samples
+    #[arg(long, value_name = "SEED", requires = "vary", default_value_t = 0)]
+    seed: u32,
     /// Look for the limit loads of each combination, as `percoat limit` does
     #[arg(long)]
     limit: bool,
@@ -42,6 +52,15 @@ pub struct SweepOptions {
     no_fields: bool,
 }
 
+impl From<VaryError> for Failure {
+    fn from(error: VaryError) -> Self {
+        match error {
+            VaryError::Case(error) => error.into(),
+            refused => Self::refused(refused),
+        }
+    }
+}
+
 fn shard(text: &str) -> Result<(usize, usize), String> {
     let parts = text.split_once('/').and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
     parts
@@ -55,7 +74,7 @@ const REFRESH: Duration = Duration::from_secs(2);
 pub fn run(case: &Path, set: &[String], options: &SweepOptions, common: &Common) -> Result<Ending, Failure> {
     let started = Instant::now();
     let (source, name) = read_source(Some(case))?;
-    let (combinations, fixed) = combinations(options, set)?;
+    let (combinations, fixed) = combinations(&source, options, set)?;
     let task = if options.limit { Task::Limit } else { Task::Solve };
     let described = Description::of(&source, &fixed, &combinations, task);
     let mut folder = output_folder(common, &name)?;
@@ -154,7 +173,11 @@ fn solve(
 }
 
 /// The combinations of the keys that vary, and the settings of keys with one value.
-fn combinations(options: &SweepOptions, set: &[String]) -> Result<(Combinations, Vec<String>), Failure> {
+fn combinations(
+    source: &Source,
+    options: &SweepOptions,
+    set: &[String],
+) -> Result<(Combinations, Vec<String>), Failure> {
     let axes = set.iter().map(|text| Axis::parse(text)).collect::<Result<Vec<_>, _>>().map_err(Failure::refused)?;
     // A key with one value and with several is one of neither list alone.
     sweep::keys_once(axes.iter().map(|axis| axis.key.as_str())).map_err(Failure::refused)?;
@@ -167,7 +190,17 @@ fn combinations(options: &SweepOptions, set: &[String]) -> Result<(Combinations,
         sweep::keys_once(table.keys().chain(fixed)).map_err(Failure::refused)?;
         groups.push(table);
     }
-    let fixed = fixed.iter().flat_map(Axis::settings).collect();
+    let fixed: Vec<String> = fixed.iter().flat_map(Axis::settings).collect();
+    if !options.vary.is_empty() {
+        if let Some(axis) = axes.first() {
+            return Err(Failure::refused(format!(
+                "--vary takes one value of each other key, and --set gives several of `{}`: sweep once for each",
+                axis.key
+            )));
+        }
+        let design = Design::new(source, &fixed, &options.vary, options.samples, options.seed)?;
+        return Ok((design.combinations(), fixed));
+    }
     if options.zip && !axes.is_empty() {
         groups.push(Group::zip(&axes).map_err(Failure::refused)?);
     } else {

@@ -11,12 +11,13 @@ use percoat_case::units::Units;
 use std::collections::HashSet;
 use std::path::Path;
 
-/// Name of the picture.
-const PICTURE: &str = "sweep";
+/// Names of the pictures: of given values, and of uncertain keys.
+const PICTURES: [&str; 2] = ["sweep", "uncertainty"];
 
 /// Files of the result, without those of single combinations.
 pub fn may_write(writer: Writer, pictures: &PictureOptions) -> Plan {
-    Plan { names: sweep::files().chain(pictures.files(PICTURE)).collect(), ..Plan::new(writer) }
+    let drawn = PICTURES.iter().flat_map(|name| pictures.files(name));
+    Plan { names: sweep::files().chain(drawn).collect(), ..Plan::new(writer) }
 }
 
 /// Writes, publishes and prints the result with `rows` by ascending combination.
@@ -27,18 +28,29 @@ pub fn finish(
     pictures: &PictureOptions,
 ) -> Result<Ending, Failure> {
     let (staging, saying) = (results.staging(), results.saying);
-    sweep::write(&staging, rows, description)?;
+    let uncertainty = description.uncertainty(rows);
+    sweep::write(&staging, rows, description, uncertainty.as_ref())?;
     let units = description.first_case(rows, Path::new("")).map_or_else(Units::unknown, |case| case.units());
     let quantity = rows.iter().flat_map(|row| &row.results).find_map(SweepResult::quantity);
     let loads = units.clone().with_loads_in(quantity.unwrap_or(units.quantity()));
     let keys = description.named_keys(rows, Path::new(""));
-    pictures.write(&staging, PICTURE, || picture::sweep(&description.title, &units, &keys, rows))?;
+    let [of_values, of_uncertain] = PICTURES;
+    match &uncertainty {
+        Some(found) => {
+            pictures
+                .write(&staging, of_uncertain, || picture::uncertainty(&description.title, &units, &keys, found))?;
+        }
+        None => pictures.write(&staging, of_values, || picture::sweep(&description.title, &units, &keys, rows))?,
+    }
     let warnings = if saying.json { Vec::new() } else { [warnings(rows), failures(rows)].concat() };
-    let best = || {
-        let table = sweep::best_and_worst(rows, &loads);
-        table.map_or(String::new(), |best| format!("{}\n{}\n\n", best.words, best.table))
+    let tables = || {
+        let table = match &uncertainty {
+            Some(found) => found.table(&loads),
+            None => sweep::best_and_worst(rows, &loads).filter(|_| description.uncertain.is_none()),
+        };
+        table.map_or(String::new(), |told| format!("{}\n{}\n\n", told.words, told.table))
     };
-    results.finish("sweep.json", best, || counts(description), &warnings)?;
+    results.finish("sweep.json", tables, || counts(description), &warnings)?;
     Ok(Ending::of(description.done == rows.len()))
 }
 

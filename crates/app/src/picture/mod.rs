@@ -20,7 +20,7 @@
 //! - Its stresses under a line ([sections](percoat_core::stress::VerticalSection)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
 //! - Damage below the surface: [`damage`](damage()); what is left of a body pass after pass: [`course`](course()).
-//! - The rows of a sweep: [`sweep`](sweep()): curves over a key, maps over two.
+//! - The rows of a sweep: [`sweep`](sweep()): curves over a key, maps over two; of uncertain keys: [`uncertainty`](uncertainty()).
 //! - Localized against spectral: [`comparison`](comparison()).
 //! - A topography before anything is solved: [`spectrum`](spectrum()).
 
@@ -44,6 +44,7 @@ mod snapshot;
 mod spectrum;
 mod sweep;
 mod tiling;
+mod uncertainty;
 mod utilisations;
 mod window;
 mod zoom;
@@ -64,6 +65,7 @@ pub use section::section;
 pub use snapshot::Snapshot;
 pub use spectrum::spectrum;
 pub use sweep::sweep;
+pub use uncertainty::uncertainty;
 pub use utilisations::utilisations;
 pub use window::{View, Window};
 pub use zoom::view;

@@ -13,7 +13,10 @@ use super::units::{case_of, measured_in, units_of};
 use crate::output::UnitNames;
 use crate::output::table::Table;
 use crate::output::{percent_with_error, with_error};
-use crate::sweep::{Description, LimitValue, Row, Status, SweepResult, SweptKey, best_and_worst, shown_with, stated};
+use crate::sweep::{
+    Description, Design, LimitValue, Row, Status, SweepResult, SweptKey, best_and_worst, shown_with, stated,
+};
+use percoat_case::units::Units;
 use percoat_core::load::LoadQuantity;
 use percoat_core::quantity::Kind;
 use percoat_core::reading::{LEVEL, Verdict};
@@ -21,8 +24,14 @@ use percoat_core::run::OfStep;
 use serde_json::json;
 use std::collections::BTreeMap;
 
-const PICTURES: [PictureText; 1] =
-    [("sweep", "Curves of the results over the values of the sweep", "The results over the values of the sweep.")];
+const PICTURES: [PictureText; 2] = [
+    ("sweep", "Curves of the results over the values of the sweep", "The results over the values of the sweep."),
+    (
+        "uncertainty",
+        "Distributions of the results, and bars of the indices of the uncertain keys",
+        "How far the main results spread, and which of the uncertain keys makes it.",
+    ),
+];
 /// Most rows of the table.
 const ROWS: usize = 300;
 
@@ -37,20 +46,18 @@ pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError
     let units = units_of(&UnitNames::default(), first.as_ref(), &keys_of_case);
     let quantity = rows.iter().flat_map(|row| &row.results).find_map(SweepResult::quantity);
     let units = quantity.map_or(units.clone(), |quantity| units.with_loads_in(quantity));
-    let given = keys.iter().map(|key| vec![key.key.clone(), key.values.len().to_string(), values(key)]);
-    let head = ["key", "values", "which"].map(str::to_owned).to_vec();
-    let given = Table::new(&head, given.collect(), 1);
     let all_done = description.failed + description.not_converged == 0;
     let class = if all_done { "answer" } else { "answer doubt" };
-    let answer = vec![
-        with("p", &[("class", class)], done(description)),
-        sentences(rows, keys, &units).into(),
-        reasons(rows),
-        best_and_worst(rows, &units)
-            .map_or(Markup::default(), |ranking| table(&sentence(&ranking.words), &ranking.table)),
-        ranges(rows, keys, &units),
-        table("Keys of the case and their values", &given),
-    ];
+    let mut answer = vec![with("p", &[("class", class)], done(description)), reasons(rows)];
+    match &description.uncertain {
+        Some(design) => answer.extend(uncertain(description, design, rows, &units)),
+        None => {
+            answer.insert(1, sentences(rows, keys, &units).into());
+            let ranking = best_and_worst(rows, &units);
+            answer.extend(ranking.map(|ranking| table(&sentence(&ranking.words), &ranking.table)));
+            answer.extend([ranges(rows, keys, &units), table("Keys of the case and their values", &given(keys))]);
+        }
+    }
     let mut sections = vec![
         section("answer", "Answer", answer),
         section("pictures", "Pictures", vec![figures(results, "sweep.json", &PICTURES)?]),
@@ -66,6 +73,26 @@ pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError
     sections.push(section("time", "Time and version", vec![time, by(&description.percoat)]));
     sections.push(section("case", "Case", vec![case_to_copy(text, "sweep")]));
     Ok(Part { name: "sweep", kind: "Sweep", title: title.clone(), sections })
+}
+
+/// The table of the values that were given.
+fn given(keys: &[SweptKey]) -> Table {
+    let rows = keys.iter().map(|key| vec![key.key.clone(), key.values.len().to_string(), values(key)]);
+    Table::new(&["key", "values", "which"], rows.collect(), 1)
+}
+
+/// What the uncertain keys do to the results, and how they were varied.
+fn uncertain(description: &Description, design: &Design, rows: &[Row], units: &Units) -> Vec<Markup> {
+    let found = description.uncertainty(rows).and_then(|found| found.table(units));
+    let missing = "Some combinations are not here: without them nothing is said of the uncertainty.";
+    let told = match found {
+        Some(told) => table(&sentence(&told.words), &told.table),
+        None if rows.len() < design.count() => tag("p", missing),
+        None => tag("p", "No main result depends on the uncertain keys."),
+    };
+    let keys = design.keys.iter().map(|varied| vec![varied.key.clone(), varied.distribution.to_string()]);
+    let words = format!("Uncertain keys: {} samples, seed {}", design.samples, design.seed);
+    vec![told, table(&words, &Table::new(&["key", "distribution"], keys.collect(), 2))]
 }
 
 /// How many combinations are solved, as a sentence.

@@ -107,7 +107,7 @@ fn short(value: f64) -> f64 {
 }
 
 /// A number as TOML: in decimals between 1e-4 and 1e15, else with an exponent.
-fn plain(value: f64) -> String {
+pub(super) fn plain(value: f64) -> String {
     let size = value.abs();
     if value != 0.0 && !(1e-4..1e15).contains(&size) { format!("{value:e}") } else { value.to_string() }
 }

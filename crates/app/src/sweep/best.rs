@@ -69,7 +69,7 @@ fn merits(load: LoadQuantity) -> [Merit; 6] {
 }
 
 /// The first limit; where nothing fails, the least load up to which a criterion was followed, as a bound.
-fn first_limit(result: &SweepResult) -> Option<LimitValue> {
+pub(super) fn first_limit(result: &SweepResult) -> Option<LimitValue> {
     result.limit_value(None).or_else(|| {
         let loads = result.limits()?.iter().filter_map(|limit| match limit.into() {
             LimitValue::Above(load) => Some(load),
@@ -166,11 +166,18 @@ fn settings(row: &Row) -> String {
         Ok(x) if value.len() > LONG => number(x),
         _ => value.to_owned(),
     };
-    let last = |key: &str| key.rsplit('.').next().unwrap_or(key).to_owned();
-    let distinct: BTreeSet<String> = row.settings.iter().map(|(key, _)| last(key)).collect();
-    let name = |key: &str| if distinct.len() == row.settings.len() { last(key) } else { key.to_owned() };
-    let settings = row.settings.iter().map(|(key, value)| format!("{} = {}", name(key), short(value)));
+    let keys: Vec<&str> = row.settings.iter().map(|(key, _)| &key[..]).collect();
+    let settings = short_keys(&keys).into_iter().zip(&row.settings);
+    let settings = settings.map(|(name, (_, value))| format!("{name} = {}", short(value)));
     format!("{}: {}", row.combination, settings.collect::<Vec<_>>().join(", "))
+}
+
+/// Keys by their last part where no two have the same.
+pub(super) fn short_keys(keys: &[&str]) -> Vec<String> {
+    let last = |key: &str| key.rsplit('.').next().unwrap_or(key).to_owned();
+    let short: Vec<String> = keys.iter().map(|key| last(key)).collect();
+    let is_distinct = short.iter().collect::<BTreeSet<_>>().len() == keys.len();
+    if is_distinct { short } else { keys.iter().map(|&key| key.to_owned()).collect() }
 }
 
 #[cfg(test)]

@@ -1,12 +1,13 @@
 //! The combinations of a sweep: the product of axes, their pairs, or the rows of a table; and a part of them.
 
 use super::axis::Axis;
+use super::design::Design;
 use percoat_case::case::{self, given_twice};
 use std::collections::{BTreeMap, HashSet};
 use std::iter;
 
 /// Most combinations of a sweep.
-const MOST: usize = 1_000_000;
+pub(super) const MOST: usize = 1_000_000;
 
 /// Values of the keys of a sweep for which the case is solved once.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,12 +19,14 @@ pub struct Combination {
 }
 
 /// Keys, and the combinations of their values.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Combinations {
     /// The keys, as in the case file.
     pub keys: Vec<String>,
     /// The combinations, all of them or a [part](Self::shard).
     pub all: Vec<Combination>,
+    /// The samples that the combinations are; `None` of given values.
+    pub design: Option<Design>,
 }
 
 /// Why keys and values make no sweep.
@@ -213,7 +216,7 @@ impl Combinations {
             all = all.iter().flat_map(with).collect();
         }
         let all = (1..).zip(all).map(|(number, values)| Combination { number, values }).collect();
-        Ok(Self { keys, all })
+        Ok(Self { keys, all, design: None })
     }
 
     /// Every `of`-th combination from the `part`-th on, which is counted from 1. Neighbouring combinations, which take similar
@@ -243,7 +246,7 @@ impl Combinations {
 
     /// One combination alone, by its place among all of them, from 0; `None` beyond the last.
     pub fn alone(&self, index: usize) -> Option<Self> {
-        Some(Self { keys: self.keys.clone(), all: vec![self.all.get(index)?.clone()] })
+        Some(Self { all: vec![self.all.get(index)?.clone()], keys: self.keys.clone(), design: self.design.clone() })
     }
 
     /// The keys with their values in a combination.

@@ -1,10 +1,12 @@
 //! `sweep.csv` and `sweep.json`: the table of a sweep and its description.
 
 use super::combinations::Combinations;
+use super::design::Design;
 use super::log::lines;
 use super::row::{Row, Status};
 use super::task::Task;
-use crate::output::columns::{csv, names};
+use super::uncertainty::Uncertainty;
+use crate::output::columns::{Cells, csv, names};
 use crate::output::{OutputError, SWEEP_LOG, checksum, digest, write_text};
 use percoat_case::case::{Case, NamedKey, Source};
 use serde::{Deserialize, Serialize};
@@ -23,9 +25,13 @@ pub fn table(rows: &[Row]) -> String {
 pub fn columns(rows: &[Row]) -> Vec<(String, Vec<Value>)> {
     let mut sorted: Vec<&Row> = rows.iter().collect();
     sorted.sort_by_key(|row| row.combination);
-    let lines = || sorted.iter().flat_map(|row| row.cells());
-    let names = names(lines());
-    let mut lines: Vec<HashMap<String, Value>> = lines().map(|line| line.into_iter().collect()).collect();
+    columns_of(|| sorted.iter().flat_map(|row| row.cells()))
+}
+
+/// The columns of rows, which `rows` gives twice: names and scalars.
+pub fn columns_of<I: Iterator<Item = Cells>>(rows: impl Fn() -> I) -> Vec<(String, Vec<Value>)> {
+    let names = names(rows());
+    let mut lines: Vec<HashMap<String, Value>> = rows().map(|line| line.into_iter().collect()).collect();
     let column = |name: String| {
         let cells = lines.iter_mut().map(|line| line.remove(&name).unwrap_or_default()).collect();
         (name, cells)
@@ -44,6 +50,9 @@ pub struct Description {
     pub task: Task,
     /// The keys that change, with their values.
     pub keys: Vec<SweptKey>,
+    /// The samples of uncertain keys; `None` of given values.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertain: Option<Design>,
     /// Fingerprint of the common case and all combinations: equal only for parts of one sweep.
     pub fingerprint: String,
     /// Number of all combinations of the whole sweep.
@@ -90,6 +99,7 @@ impl Description {
             title: title.to_owned(),
             task,
             keys: Vec::new(),
+            uncertain: None,
             fingerprint,
             of,
             combinations: 0,
@@ -109,7 +119,8 @@ impl Description {
         let text = whole.as_ref().map_or_else(|| source.text.clone(), Case::to_toml);
         let fingerprint = fingerprint(&text, fixed, combinations);
         let title = whole.map_or(String::new(), |case| case.title);
-        Self::new(&title, &text, task, fingerprint, combinations.all.len())
+        let described = Self::new(&title, &text, task, fingerprint, combinations.all.len());
+        Self { uncertain: combinations.design.clone(), ..described }
     }
 
     /// The description after these rows and a wall time in seconds.
@@ -163,6 +174,11 @@ impl Description {
         keys.iter().map(|key| NamedKey::new(key, material)).collect()
     }
 
+    /// The uncertainty of the results of all rows; `None` of a sweep over given values, and where rows are missing.
+    pub fn uncertainty(&self, rows: &[Row]) -> Option<Uncertainty> {
+        Uncertainty::of(self.uncertain.as_ref()?, rows)
+    }
+
     /// The content of `sweep.json`.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("a description is numbers and texts under names") + "\n"
@@ -170,13 +186,14 @@ impl Description {
 }
 
 /// Content of a file of a sweep, by the rows and their description; `None` where there is no such file.
-type Content = fn(&[Row], &Description) -> Option<String>;
+type Content = fn(&[Row], &Description, Option<&Uncertainty>) -> Option<String>;
 
 /// The files of a sweep, by their names. The log of a sweep that was solved here had the order in which combinations ended.
-const FILES: [(&str, Content); 3] = [
-    (SWEEP_LOG, |rows, description| (!rows.is_empty()).then(|| lines(&description.identity(), rows))),
-    ("sweep.csv", |rows, _| Some(table(rows))),
-    ("sweep.json", |_, description| Some(description.to_json())),
+const FILES: [(&str, Content); 4] = [
+    (SWEEP_LOG, |rows, description, _| (!rows.is_empty()).then(|| lines(&description.identity(), rows))),
+    ("sweep.csv", |rows, _, _| Some(table(rows))),
+    ("sweep.json", |_, description, _| Some(description.to_json())),
+    ("uncertainty.csv", |_, _, uncertainty| uncertainty.map(|found| csv(|| found.cells().into_iter()))),
 ];
 
 /// Names of the files that [`write()`] writes.
@@ -184,12 +201,18 @@ pub fn files() -> impl Iterator<Item = String> {
     FILES.iter().map(|(name, _)| (*name).to_owned())
 }
 
-/// Writes the rows, by ascending combination, with their description into a folder: `sweep.jsonl`, `sweep.csv` and `sweep.json`.
+/// Writes the rows, by ascending combination, with their description and their uncertainty into a folder: `sweep.jsonl`, `sweep.csv`,
+/// `sweep.json` and, with an uncertainty, `uncertainty.csv`.
 ///
 /// # Errors
 /// [`OutputError`] with the path.
-pub fn write(folder: &Path, rows: &[Row], description: &Description) -> Result<(), OutputError> {
-    let texts = FILES.iter().filter_map(|(name, content)| Some((name, content(rows, description)?)));
+pub fn write(
+    folder: &Path,
+    rows: &[Row],
+    description: &Description,
+    uncertainty: Option<&Uncertainty>,
+) -> Result<(), OutputError> {
+    let texts = FILES.iter().filter_map(|(name, content)| Some((name, content(rows, description, uncertainty)?)));
     texts.into_iter().try_for_each(|(name, text)| write_text(&folder.join(name), &text))
 }
 

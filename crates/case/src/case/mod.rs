@@ -47,6 +47,7 @@ mod measures;
 mod model;
 mod named_pipes;
 mod node;
+mod number;
 mod overrides;
 mod plain_toml;
 mod reader;
@@ -94,6 +95,7 @@ pub use materials::{
 pub use measures::NoLoad;
 pub use model::Case;
 pub use named_pipes::Pipes;
+pub use number::NoRange;
 pub use overrides::{given_twice, parts};
 pub use source::{PhysicalSizes, Source};
 pub use stress::{CutSection, Origin, StressSection, Toward};

@@ -128,17 +128,16 @@ impl LibraryMaterial {
         self.names().any(|known| known == name)
     }
 
-    /// The number that it gives a key of a case, GPa or without unit; `None` of other keys, and where it is not known.
-    pub(super) fn number(&self, key: &str) -> Option<f64> {
-        let property = match key {
+    /// The property that it has for a key of a case, GPa or without unit; `None` of other keys, and where it is not known.
+    pub(in crate::case) fn property(&self, key: &str) -> Option<&Property> {
+        match key {
             "young" => Some(&self.young),
             "poisson" => Some(&self.poisson),
             "hardness" => self.hardness.as_ref(),
             "yield_strength" => self.yield_strength.as_ref(),
             "tensile_strength" => self.tensile_strength.as_ref(),
             _ => None,
-        };
-        property.map(|property| property.value)
+        }
     }
 
     /// The material as TOML, the form of a file of materials.

@@ -16,7 +16,7 @@ use crate::case::value::ValueAt;
 use crate::units::pascals;
 
 /// Pascals of the unit of the library.
-pub(super) const GPA: f64 = 1e9;
+pub(in crate::case) const GPA: f64 = 1e9;
 
 /// The key of a case that names a file of materials.
 const FILE: &str = "materials";
@@ -97,10 +97,12 @@ impl Filling<'_> {
         for key in absent {
             let value = match (key.name, &material) {
                 ("name", _) => Some(Value::Text(name.clone())),
-                (property, Some((material, factor))) => material.number(property).map(|x| match key.unit {
-                    Unit::Pressure => Value::Float(rounded(x * factor)),
-                    _ => Value::Float(x),
-                }),
+                (property, Some((material, factor))) => {
+                    material.property(property).map(|property| property.value).map(|x| match key.unit {
+                        Unit::Pressure => Value::Float(rounded(x * factor)),
+                        _ => Value::Float(x),
+                    })
+                }
                 _ => None,
             };
             let entry = |value| Entry { key: key.name.to_owned(), key_span: span, node: Node { value, span } };

@@ -8,6 +8,6 @@ mod library;
 mod origin;
 
 pub use entry::{Certainty, LibraryMaterial, Property};
-pub(super) use fill::{fill, path};
+pub(super) use fill::{GPA, fill, path};
 pub use library::{MaterialsError, UnknownMaterial, library, materials_of_file};
 pub use origin::LibraryStrength;
