@@ -148,7 +148,11 @@ impl Spread {
             value => in_unit(&unit, Measured::new(value, Some(estimate.half()))),
         };
         let middle = if median.value.is_finite() { unit.behind(&text(median)) } else { text(median) };
-        let bare = |estimate: &Estimate| text(estimate).split(" ±").next().unwrap_or_default().to_owned();
+        // The value alone; of a wide interval in five digits.
+        let bare = |estimate: &Estimate| match text(estimate) {
+            text if text.contains(" to ") => number(unit.shown(estimate.value)),
+            text => text.split(" ±").next().unwrap_or_default().to_owned(),
+        };
         let counts = self.counts();
         let words = ["", " above all that was searched", " below all that is resolved", " not known"];
         let counted = counts.iter().zip(words).filter(|(count, _)| **count > 0);

@@ -48,7 +48,7 @@ impl Case {
         let name =
             case.pointer(&format!("/{}/material", section.join("/"))).and_then(Value::as_str).ok_or_else(none)?;
         let file = self.materials.as_ref().and_then(|path| materials_of_file(Path::new(path)).ok()).unwrap_or_default();
-        let is_it = |material: &&LibraryMaterial| material.name == name;
+        let is_it = |material: &&LibraryMaterial| material.is_called(name);
         let material = file.iter().find(is_it).or_else(|| library().iter().find(is_it)).ok_or_else(none)?;
         let range = material.property(property).and_then(|property| property.range);
         let not_stated = || NoRange::NotStated { key: property.to_owned(), material: name.to_owned() };
