@@ -40,6 +40,8 @@ pub fn finish(
             pictures
                 .write(&staging, of_uncertain, || picture::uncertainty(&description.title, &units, &keys, found))?;
         }
+        // A part of uncertain samples has neither.
+        None if description.uncertain.is_some() => {}
         None => pictures.write(&staging, of_values, || picture::sweep(&description.title, &units, &keys, rows))?,
     }
     let warnings = if saying.json { Vec::new() } else { [warnings(rows), failures(rows)].concat() };

@@ -168,12 +168,17 @@ fn equal(shown: &str, found: &str) -> bool {
     let (a, b): (Vec<&str>, Vec<&str>) = (shown.split_whitespace().collect(), found.split_whitespace().collect());
     // Ends of an interval, "0.2 to 0.4", hold the error as well.
     let word = |i: usize| a.get(i).copied().unwrap_or_default();
-    let has_error = |i: usize| i > 0 && ["±", "to"].contains(&word(i - 1)) || word(i + 1) == "to";
-    a.len() == b.len() && (0..a.len()).all(|i| a[i] == b[i] || near(a[i], b[i], has_error(i)))
+    let number = |i: usize| word(i).trim_matches(['(', ')', ',']).parse::<f64>().ok();
+    let width = |i: usize| Some((number(i + 1)? - number(i.checked_sub(1)?)?).abs()).filter(|_| word(i) == "to");
+    let room = |i: usize| width(i + 1).or(i.checked_sub(1).and_then(width)).map_or(0.0, |width| 0.25 * width);
+    let has_error = |i: usize| i > 0 && word(i - 1) == "±";
+    let is_near = |i: usize| near(a[i], b[i], has_error(i), room(i));
+    a.len() == b.len() && (0..a.len()).all(|i| a[i] == b[i] || is_near(i))
 }
 
-/// Whether two words are rules of a table, or numbers that differ by a thousandth; errors have one digit, and may differ by half.
-fn near(shown: &str, found: &str, is_error: bool) -> bool {
+/// Whether two words are rules of a table, or numbers that differ by a thousandth, or by the `room` that an interval leaves; errors have one
+/// digit, and may differ by half.
+fn near(shown: &str, found: &str, is_error: bool, room: f64) -> bool {
     let is_rule = |word: &str| word.chars().all(|letter| letter == '─');
     let parts = |word: &str| -> Option<(String, f64, String)> {
         let number = word.trim_start_matches('(');
@@ -184,7 +189,7 @@ fn near(shown: &str, found: &str, is_error: bool) -> bool {
     match (parts(shown), parts(found)) {
         (Some((before, a, behind)), Some((other, b, end))) => {
             let most = if is_error { 0.5 } else { 1e-3 };
-            (before, behind) == (other, end) && (a - b).abs() <= most * a.abs().max(b.abs())
+            (before, behind) == (other, end) && (a - b).abs() <= (most * a.abs().max(b.abs())).max(room)
         }
         _ => is_rule(shown) && is_rule(found),
     }
@@ -239,6 +244,6 @@ mod tests {
         ));
         assert!(tools.alike("───\n 0.30461 ± 0.00006  (1.5, 2)", "────\n  0.30462 ± 0.00008  (1.5, 2)"));
         assert!(!tools.alike("0.305 ± 0.001", "0.301 ± 0.001"));
-        assert!(tools.alike("0.22 to 0.44 %", "0.20 to 0.45 %") && !tools.alike("0.22 to 0.44 %", "0.22 to 0.99 %"));
+        assert!(tools.alike("0.22 to 0.44 %", "0.20 to 0.45 %") && !tools.alike("0.22 to 0.44 %", "0.22 to 0.55 %"));
     }
 }

@@ -127,7 +127,7 @@ impl IdentificationFile {
             vec![
                 found.name.clone(),
                 number(found.start),
-                with_error(found.value, Some(found.standard_error)),
+                if relative > WIDE { number(found.value) } else { with_error(found.value, Some(found.standard_error)) },
                 format!("{low} to {high}"),
                 match relative {
                     wide if wide.is_finite() && wide > WIDE => format!("more than {:.0} %", 100.0 * WIDE),

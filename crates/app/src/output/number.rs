@@ -46,7 +46,8 @@ fn exponent(x: f64) -> i32 {
 fn interval(x: f64, error: f64) -> String {
     let lead = exponent(x);
     let digit = 10f64.powi(lead - 1);
-    let [low, high] = [((x - error) / digit).floor(), ((x + error) / digit).ceil()].map(|counted| counted * digit);
+    let [low, high] =
+        [((x - error) / digit).floor(), ((x + error) / digit).ceil()].map(|counted| counted * digit + 0.0);
     if (-3..6).contains(&lead) {
         let decimals = usize::try_from(1 - lead).unwrap_or(0);
         format!("{low:.decimals$} to {high:.decimals$}")

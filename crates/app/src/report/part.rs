@@ -90,9 +90,11 @@ fn assumptions(case: &Value) -> Assumptions {
     }
 }
 
-/// Names of the materials without a strength, as the case names them.
+/// Names of the materials without a strength, an endurance limit or a law of fatigue, as the case names them.
 fn untested(case: &Value) -> Vec<String> {
-    let has_strength = |part: &Value| ["yield_strength", "tensile_strength"].iter().any(|key| !part[key].is_null());
+    let has_strength = |part: &Value| {
+        ["yield_strength", "tensile_strength", "endurance", "fatigue"].iter().any(|key| !part[key].is_null())
+    };
     let is_rigid = |part: &Value| part.is_null() || part["rigid"] == true;
     let name = |part: &Value, number: usize| part["name"].as_str().map_or(format!("material {number}"), str::to_owned);
     let of = |layers: &Value, deepest: &Value, side: &str| -> Vec<String> {

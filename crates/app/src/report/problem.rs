@@ -184,7 +184,11 @@ fn count(levels: &[Value]) -> usize {
 fn lone_shape(case: &Value) -> Option<&str> {
     let levels = list(case, "levels");
     let is_lone = count(levels) == 1 && kind_of(case).surroundings == Surroundings::FreeSpace;
-    levels.first().filter(|_| is_lone)?["shape"].as_str()
+    let level = levels.first().filter(|_| is_lone)?;
+    // A sharp pyramid is solved as a cone.
+    let is_sharp = level["tip_radius"].is_null()
+        && ["berkovich", "vickers", "cube-corner"].iter().any(|name| level["shape"] == **name);
+    if is_sharp { Some("cone") } else { level["shape"].as_str() }
 }
 
 /// A list of the case as one table: a row an item, a column for every key of any item.

@@ -8,6 +8,7 @@ use crate::output::{in_unit, percent_with_error, with_unit};
 use crate::sweep::{Foremost, LimitValue, Row, SweepResult, SweptKey, shown_with, stated};
 use percoat_case::units::Units;
 use percoat_core::measured::Measured;
+use percoat_core::notation::WIDE;
 use percoat_core::quantity::{Kind, Named};
 use percoat_core::reading::{Criterion, READING};
 use percoat_core::run::OfStep;
@@ -127,7 +128,10 @@ fn range(
     let most = found.iter().rev().max_by(|a, b| a.0.value.total_cmp(&b.0.value))?;
     // Both in one unit.
     let unit = units.unit(kind).prefixed(most.0.value);
+    // An interval would not read between two words.
+    let is_wide = |found: Measured| found.relative().is_some_and(|relative| relative > WIDE);
     let text = |found: Measured| match kind {
+        _ if is_wide(found) => unit.behind(&in_unit(&unit, Measured::exact(found.value))),
         Kind::Fraction => percent_with_error(found),
         _ => unit.behind(&in_unit(&unit, found)),
     };

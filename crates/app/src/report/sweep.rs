@@ -88,6 +88,7 @@ fn uncertain(description: &Description, design: &Design, rows: &[Row], units: &U
     let told = match found {
         Some(told) => table(&sentence(&told.words), &told.table),
         None if rows.len() < design.count() => tag("p", missing),
+        None if rows.iter().all(|row| row.results.is_empty()) => tag("p", "No combination has a result."),
         None => tag("p", "No main result depends on the uncertain keys."),
     };
     let keys = design.keys.iter().map(|varied| vec![varied.key.clone(), varied.distribution.to_string()]);

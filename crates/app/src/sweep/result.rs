@@ -4,7 +4,7 @@ use crate::output::columns::{Cells, scalars};
 use crate::output::{FirstLimit, number, with_error};
 use percoat_core::load::LoadQuantity;
 use percoat_core::measured::Measured;
-use percoat_core::reading::{Criterion, LIFE, READING, UTILISATION, within_the_errors};
+use percoat_core::reading::{Criterion, LIFE, READING, UTILISATION, Utilisation, Verdict, within_the_errors};
 use percoat_core::run::{At, Limit, OfStep, StepRecord, first, rivals};
 use percoat_core::stress::maxima::EXTREMES;
 use serde::{Deserialize, Serialize};
@@ -122,6 +122,15 @@ impl SweepResult {
     pub fn largest_utilisation(&self) -> Option<Measured> {
         let finite = self.step()?.strength.iter().filter_map(|taken| UTILISATION.value.finite(taken));
         finite.max_by(|a, b| a.value.total_cmp(&b.value))
+    }
+
+    /// Whether every criterion holds by more than its error; false where one fails by more than its error, `None` where that is open, of a
+    /// load step without strengths, and of limits.
+    pub fn holds(&self) -> Option<bool> {
+        let strength = &self.step()?.strength;
+        let is = |verdict: Verdict| move |taken: &Utilisation| taken.verdict == verdict;
+        let fails = strength.iter().any(is(Verdict::Fails));
+        (fails || !strength.is_empty() && strength.iter().all(is(Verdict::Holds))).then_some(!fails)
     }
 
     /// The criterion that comes first; `None` of a load step without strengths.

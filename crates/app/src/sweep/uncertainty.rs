@@ -287,7 +287,7 @@ impl Gathered {
 /// The numbers of a result.
 fn found(result: &SweepResult) -> Vec<Found> {
     match result {
-        SweepResult::Step(step) => of_the_step(result, step),
+        SweepResult::Step(step) => of_the_step(step),
         SweepResult::Limits(limits) => {
             let first = limits.first().zip(first_limit(result)).map(|(limit, value)| {
                 let column = format!("first_{}", READING.load(limit.quantity).named.code);
@@ -304,7 +304,7 @@ fn found(result: &SweepResult) -> Vec<Found> {
 }
 
 /// The numbers of a load step, of its levels, and the utilisations of its criteria.
-fn of_the_step(result: &SweepResult, step: &StepRecord) -> Vec<Found> {
+fn of_the_step(step: &StepRecord) -> Vec<Found> {
     let known = |measured: Measured| LimitValue::At(measured.value, measured.error);
     let is_main = |named: &Named| SHOWN[2..].iter().any(|shown| shown.named() == named);
     let whole = of_step().into_iter().filter_map(|quantity| {
@@ -313,14 +313,16 @@ fn of_the_step(result: &SweepResult, step: &StepRecord) -> Vec<Found> {
         Some((column, What::Quantity(named, named.name.to_owned(), is_main(named)), known(value)))
     });
     let utilisation = &UTILISATION.value.named;
-    let largest = result.largest_utilisation().map(|value| {
+    // Under a tip one is infinite.
+    let taken = || step.strength.iter().filter_map(|taken| UTILISATION.value.of(taken));
+    let largest = taken().max_by(|a, b| a.value.total_cmp(&b.value)).map(|value| {
         let name = format!("largest {}", utilisation.name);
         (name.replace(' ', "_"), What::Quantity(utilisation, name, true), known(value))
     });
     let each = step.strength.iter().filter_map(|taken| {
         let name = format!("{}, {}", taken.criterion, utilisation.name);
         let column = format!("{}_{}", taken.criterion.code(), utilisation.code).replace(' ', "_");
-        Some((column, What::Quantity(utilisation, name, false), known(UTILISATION.value.finite(taken)?)))
+        Some((column, What::Quantity(utilisation, name, false), known(UTILISATION.value.of(taken)?)))
     });
     let levels = (1..).zip(&step.reading.levels).flat_map(|(number, level)| {
         LEVEL.each().into_iter().filter_map(move |quantity| {

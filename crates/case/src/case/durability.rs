@@ -9,6 +9,7 @@ use serde_json::Value;
 use std::ops::Bound;
 
 const SIZE: Form = Form::Number(Range::Size);
+const SLOPE: Form = Form::Number(Range::between(0.2, 50.0));
 const PART: Form = Form::Number(Range::Within(Bound::Excluded(0.0), Bound::Excluded(1.0)));
 /// Part of specimens that has failed at the passes that are stated, where a law has a scatter and no other part.
 const FAILURES: f64 = 0.1;
@@ -36,7 +37,7 @@ section! {
         /// power of the range with which damage grows
         pub exponent: f64 = Key::new(&[SIZE], "8.0"),
         /// slope of the Weibull distribution of the passes of many specimens, of which `passes` is the median
-        pub weibull_slope: Option<f64> = Key::new(&[Form::Number(Range::POSITIVE)], "1.5")
+        pub weibull_slope: Option<f64> = Key::new(&[SLOPE], "1.5")
             .otherwise("no scatter is known")
             .omitted_as_nothing(),
         /// part of many specimens that has failed at the passes that are stated

@@ -39,6 +39,9 @@ pub enum Fault {
         /// An example.
         example: &'static str,
     },
+    /// A unit of one of two columns that belong together.
+    #[error("{}a column has a unit and the other one none: name the units of both, or of none", at(*.0))]
+    OneUnit(Option<usize>),
     /// The case does not name its units.
     #[error(
         "{}the case does not name SI units, so that `{}` cannot be converted: add [units], or give the column in the case's unit as `{}`",

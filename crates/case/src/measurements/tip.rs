@@ -44,6 +44,9 @@ pub fn tip(text: &str, units: &Units) -> Result<MeasuredTip, Fault> {
         kind.column(&table.names, &table.units, line, units)?.ok_or_else(|| kind.missing(&table.names, line))
     };
     let columns = [column(&DEPTH)?, column(&AREA)?];
+    if columns[0].units.is_some() != columns[1].units.is_some() {
+        return Err(Fault::OneUnit(line));
+    }
     let point = |(line, row): &(usize, Vec<&str>)| -> Result<[f64; 2], Fault> {
         Ok([columns[0].of(&table, *line, row)?, columns[1].of(&table, *line, row)?])
     };

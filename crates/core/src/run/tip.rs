@@ -8,14 +8,16 @@ use std::f64::consts::PI;
 
 /// Warning about the levels whose contact leaves the measured part of their tip in some of the steps.
 pub(super) fn beyond(problem: &Problem, steps: &[Numbered]) -> Option<String> {
-    let mut levels = problem.levels().iter().enumerate();
-    levels.find_map(|(index, level)| {
+    let levels = (1..).zip(problem.levels()).zip(0..);
+    let told = levels.filter_map(|((number, level), index): ((usize, _), usize)| {
         let loads = steps.iter().filter_map(|(_, step)| step.reading.levels.get(index));
         // Merged contacts have no radius, but an area.
         let radii = loads.filter(|level| level.load > 0.0).map(|level| (level.contact_area / PI).sqrt());
         let ends = radii.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], a| [low.min(a), high.max(a)]);
-        outside(&format!("level {}", index + 1), level.shape(), ends)
-    })
+        outside(&problem.level_name(number).to_string(), level.shape(), ends)
+    });
+    let told: Vec<String> = told.collect();
+    (!told.is_empty()).then(|| told.join("; "))
 }
 
 /// Warning that contacts with radii from the least to the largest, lengths, leave the measured part of the tip of a `level`.

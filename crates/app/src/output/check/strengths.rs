@@ -12,7 +12,10 @@ const STRENGTHS: [&str; 2] = ["yield_strength", "tensile_strength"];
 pub(super) fn sentences(case: &Value) -> Vec<String> {
     let unit = case["units"]["pressure"].as_str();
     let is_given = |section: &Value| {
-        STRENGTHS.iter().chain(&["interface_strength", "residual_stress"]).any(|key| !section[*key].is_null())
+        STRENGTHS
+            .iter()
+            .chain(&["interface_strength", "residual_stress", "endurance", "fatigue"])
+            .any(|key| !section[*key].is_null())
     };
     if !parts(case).iter().any(|(_, section)| is_given(section)) {
         return Vec::new();
@@ -63,6 +66,9 @@ fn told(section: &Value, unit: Option<&str>) -> String {
         Some(format!("{} {value} ({origin})", key.replace('_', " ")))
     };
     let mut told: Vec<String> = STRENGTHS.iter().filter_map(strength).collect();
+    told.extend(
+        ["endurance", "fatigue"].into_iter().filter(|key| !section[*key].is_null()).map(|key| format!("{key} given")),
+    );
     if told.is_empty() {
         told.push("no strength given: failure there is not checked".to_owned());
     }

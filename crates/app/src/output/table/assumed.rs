@@ -1,10 +1,9 @@
 //! Assumptions of largest stresses and limit loads, in sentences below their tables.
 
 use super::text::lines;
-use crate::output::number;
 use percoat_case::case::suggestions::joined;
 use percoat_case::case::{Case, LibraryStrength, failures_of};
-use percoat_core::body::{Bodies, HalfSpace, MeanStress};
+use percoat_core::body::{Bodies, Durability, HalfSpace, MeanStress, Strength};
 use serde_json::{Value, json};
 
 /// The mean lateral stress in the largest stresses and limit loads, in a sentence; with the axis of lines, where it is known.
@@ -83,13 +82,18 @@ impl Assumptions {
 
 /// For which part of failures the laws of fatigue of a serialised case state passes, in a sentence; `None` without a scatter.
 pub fn scatter(case: &Value) -> Option<String> {
-    let parts: Vec<String> = failures_of(case).into_iter().map(|part| format!("{} %", number(100.0 * part))).collect();
+    let parts: Vec<String> = failures_of(case).into_iter().map(|part| format!("{} %", plain(100.0 * part))).collect();
     (!parts.is_empty()).then(|| {
         format!(
-            "by the laws with a `weibull_slope`, passes are those at which {} of many have failed",
+            "passes to damage are those after which {} of many specimens have failed (`weibull_slope`)",
             joined(&parts, "or")
         )
     })
+}
+
+/// A number with up to three digits, as short as it is.
+fn plain(x: f64) -> String {
+    format!("{x:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// The strengths of a serialised case that are numbers of the library with their kind of test and their range, in sentences; empty
@@ -118,11 +122,15 @@ pub fn library_strengths(case: &Value) -> Vec<String> {
 pub(in crate::output) const BARS: &str = "tensile strengths of the library are those of test bars, which break at their largest flaw; the small volume under a \
                     contact bears more, so that loads of cracking computed from them are on the safe side";
 
-/// Names of the materials without a strength, each once.
+/// Names of the materials without a strength, an endurance limit or a law of fatigue, each once.
 fn untested(bodies: &Bodies) -> Vec<String> {
     let of = |body: &HalfSpace| -> Vec<String> {
-        let strengths = (1..).zip(body.strengths());
-        let without = strengths.filter(|(_, strength)| strength.yielding.is_none() && strength.tensile.is_none());
+        let materials = (1..).zip(body.strengths().zip(body.durabilities()));
+        let is_tested = |strength: &Strength, durability: &Durability| {
+            let by_stress = strength.yielding.is_some() || strength.tensile.is_some();
+            by_stress || durability.endurance.is_some() || durability.fatigue.is_some()
+        };
+        let without = materials.filter(|(_, (strength, durability))| !is_tested(strength, durability));
         without.map(|(number, _)| body.material_id(number).to_string()).collect()
     };
     let mut names: Vec<String> = bodies.each().flat_map(of).collect();

@@ -41,7 +41,7 @@ impl Keys {
         let undecided = self.field(rows, |result| (!result.rivals().is_empty()).then_some("?"));
         let question = |(word, first): (Option<_>, &Option<_>)| Some((word?, ink(first.unwrap_or(Colour::PALE))));
         let questions = undecided.into_iter().zip(&firsts).map(question).collect();
-        let holds = self.field(rows, |result| Some(result.largest_utilisation()?.value < 1.0));
+        let holds = self.field(rows, SweepResult::holds);
         let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.step().is_some());
         let what = if of_loads { "what governs" } else { "what comes first" };
         let names = counted.iter().map(|(first, count)| (colours[first], format!("{first} ({count})")));

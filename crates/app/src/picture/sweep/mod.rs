@@ -276,6 +276,13 @@ mod tests {
         let (marks, said) = told(&load);
         assert!(marks == 1 && said.contains("leave open whether anything fails in 1"), "{marks}: {said}");
         assert!(said.contains("what governs") && said.contains("Hatched: nothing fails."), "{said}");
+        let of = |values: &[(f64, Option<f64>)]| {
+            strained(values.iter().map(|(value, error)| Utilisation::new(YIELDS, *value, *error, [0.0; 3])).collect())
+                .holds()
+        };
+        let known =
+            [of(&[(0.9, Some(0.05))]), of(&[(0.5, None), (f64::INFINITY, None)]), of(&[(0.99, Some(0.05))]), of(&[])];
+        assert_eq!(known, [Some(true), Some(false), None, None]);
     }
 
     #[test]

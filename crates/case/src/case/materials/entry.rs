@@ -118,12 +118,12 @@ impl KeyValue for Property {
 }
 
 impl LibraryMaterial {
-    /// Its name, then its other names.
+    /// Name and other names of the material.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         std::iter::once(&self.name).chain(&self.aliases).map(String::as_str)
     }
 
-    /// Whether a case may call it by this name.
+    /// Whether a case may call the material by this name.
     pub fn is_called(&self, name: &str) -> bool {
         self.names().any(|known| known == name)
     }
