@@ -109,7 +109,7 @@ def test_limits_up_to_a_load_with_its_unit() -> None:
 
 
 def test_doubts_about_limits_are_told_at_the_line_of_the_user() -> None:
-    with pytest.warns(percoat.PercoatWarning, match="less than 10 samples") as caught:
+    with pytest.warns(percoat.PercoatWarning, match="fewer than 10 samples") as caught:
         limits = percoat.limit(paraboloids(0.04, grid={"points": 48}))
     assert [str(warning.message) for warning in caught] == limits.warnings and limits.converged
     assert {warning.filename for warning in caught} == {__file__}

@@ -253,7 +253,7 @@ def test_what_has_not_converged_warns_at_the_line_of_the_user() -> None:
 
 
 def test_what_is_doubtful_warns_at_the_line_of_the_user() -> None:
-    with pytest.warns(percoat.PercoatWarning, match="less than 10 samples") as caught:
+    with pytest.warns(percoat.PercoatWarning, match="fewer than 10 samples") as caught:
         result = percoat.solve("fig2", set={"grid.points": 48})
     assert [str(warning.message) for warning in caught] == result.warnings
     assert [warning.filename for warning in caught] == [__file__]

@@ -155,7 +155,7 @@ def test_a_combination_that_fails_has_a_row_and_a_warning() -> None:
 
 def test_doubts_about_a_combination_are_told() -> None:
     # As `percoat sweep` says on standard error, and `percoat.solve` warns of the same case.
-    with pytest.warns(percoat.PercoatWarning, match="less than 10 samples") as caught:
+    with pytest.warns(percoat.PercoatWarning, match="fewer than 10 samples") as caught:
         percoat.sweep("fig2", {**SMALL, "layers.0.thickness": [0.1, 0.2, 0.3]})
     # Each doubt once, and how many others have it.
     assert len(caught) == 1 and "2 more" in str(caught[0].message) and caught[0].filename == __file__

@@ -674,7 +674,7 @@ fn layers_that_are_pressed_too_deep_are_told() {
     let hard_layer = |h: f64| layer(h).with_durability(hard(0.05), None).unwrap();
     for (thickness, expected) in [(0.01, true), (0.5, false)] {
         let body = HalfSpace::new(vec![hard_layer(thickness)], young(1.0, 0.3));
-        assert_eq!(told(body, Load::MeanPressure(0.01), "beyond a tenth of which"), expected, "{thickness}");
+        assert_eq!(told(body, Load::MeanPressure(0.01), "beyond a tenth of it"), expected, "{thickness}");
     }
     for (depth, expected) in [(0.05, true), (0.01, false)] {
         let body = HalfSpace::on_rigid_base(vec![layer(0.1)]).unwrap();
