@@ -21,7 +21,8 @@ fn desk() -> Desk {
     desk
 }
 
-fn sweep(desk: &Desk, name: &str, arguments: &[&str]) -> Answer {
+/// A sweep of `case.toml` into a folder, without pictures.
+pub fn sweep(desk: &Desk, name: &str, arguments: &[&str]) -> Answer {
     desk.percoat(&[&["sweep", "case.toml", "-o", name, "--no-pictures"], arguments].concat())
 }
 

@@ -1,6 +1,7 @@
 //! `percoat sweep --vary`: how far results spread, and which of the uncertain keys makes it.
 
-use crate::program::{Answer, Desk, Folder, kill, number};
+use crate::program::{Desk, Folder, kill, number};
+use crate::sweep::sweep;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
@@ -32,10 +33,6 @@ fn desk() -> Desk {
     let desk = Desk::new();
     desk.write("case.toml", HERTZ);
     desk
-}
-
-fn sweep(desk: &Desk, name: &str, arguments: &[&str]) -> Answer {
-    desk.percoat(&[&["sweep", "case.toml", "-o", name, "--no-pictures"], arguments].concat())
 }
 
 /// The row of a result of the first load step, by the names of the columns.

@@ -139,7 +139,7 @@ fn a_curve_of_a_sphero_cone_contains_modulus_and_tip_radius() {
     }
 }
 
-/// What is taken as round is told once, and so are flanks that are no small slopes.
+/// A warning names pyramids and measured tips, which are taken as round, and another one flanks that are too steep for small strains.
 #[test]
 fn what_is_assumed_of_a_tip_is_told() {
     let told = |level: &str| {

@@ -1,6 +1,6 @@
 //! Numbers in messages: five significant digits, and their relative errors.
 
-/// Relative error from which on "±" says too little: a number is told by its interval.
+/// Largest relative error of a number that is written behind "±"; one with a larger error is written as an interval.
 pub const WIDE: f64 = 0.3;
 
 /// A number with five significant digits, without exponent from 0.001 to 999999.

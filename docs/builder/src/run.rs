@@ -34,7 +34,7 @@ pub struct Difference {
     pub is_taken: bool,
 }
 
-/// What the cells of a page have printed and made.
+/// Outputs of the cells of a page that differ from what it shows, and the pictures that they made.
 #[derive(Debug)]
 pub struct Ran {
     /// Outputs that differ from what the page shows.

@@ -24,7 +24,7 @@ pub(super) fn part(results: &Results, file: &IdentificationFile) -> Result<Part,
     let text = case_text(case).map_err(|reason| ReportError::version(&path, &file.percoat, reason))?;
     let units = units_of(&file.units, case_of(&text, &results.folder).as_ref(), case);
     let lines = |lines: Vec<String>| lines.iter().map(|line| tag("p", numbers(&upper(line)))).collect::<Markup>();
-    let caption = "What was found; ± is one standard error by the scatter of the points";
+    let caption = "What was found; ± is one standard error by the scatter of the points, left out where it is more than three tenths";
     let known = file.by_known().map(|known| table("Change of what was found by what was taken as known", &known));
     let sections = vec![
         section("answer", "Answer", vec![table(caption, &file.found()), lines(file.correlations())]),

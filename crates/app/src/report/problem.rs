@@ -318,6 +318,17 @@ mod tests {
     }
 
     #[test]
+    fn a_sharp_pyramid_is_the_cone_that_is_solved() {
+        let named = |level: Value| {
+            let case = json!({ "lattice": { "kind": "isolated", "size": 2.0 }, "levels": [level] });
+            lone_shape(&case).map(|shape| LevelName::of_shape(shape).to_owned())
+        };
+        assert_eq!(named(json!({ "shape": "berkovich" })).as_deref(), Some("cone"));
+        assert_eq!(named(json!({ "shape": "berkovich", "tip_radius": 0.1 })).as_deref(), Some("tip"));
+        assert_eq!(named(json!({ "shape": "sphere", "radius": 1.0 })).as_deref(), Some("ball"));
+    }
+
+    #[test]
     fn what_bodies_bear_stands_in_words() {
         let law = json!({ "amplitude": 0.2, "passes": 1e6, "exponent": 8.0 });
         let case = json!({

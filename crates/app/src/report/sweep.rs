@@ -81,7 +81,7 @@ fn given(keys: &[SweptKey]) -> Table {
     Table::new(&["key", "values", "which"], rows.collect(), 1)
 }
 
-/// What the uncertain keys do to the results, and how they were varied.
+/// Spread of the results over the uncertain keys, and the distributions of these keys.
 fn uncertain(description: &Description, design: &Design, rows: &[Row], units: &Units) -> Vec<Markup> {
     let found = description.uncertainty(rows).and_then(|found| found.table(units));
     let missing = "Some combinations are not here: without them nothing is said of the uncertainty.";

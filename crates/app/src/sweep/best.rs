@@ -172,7 +172,7 @@ fn settings(row: &Row) -> String {
     format!("{}: {}", row.combination, settings.collect::<Vec<_>>().join(", "))
 }
 
-/// Keys by their last part where no two have the same.
+/// Dotted keys, each shortened to its last part if these all differ, else whole.
 pub(super) fn short_keys(keys: &[&str]) -> Vec<String> {
     let last = |key: &str| key.rsplit('.').next().unwrap_or(key).to_owned();
     let short: Vec<String> = keys.iter().map(|key| last(key)).collect();

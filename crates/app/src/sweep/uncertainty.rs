@@ -341,9 +341,9 @@ fn of_the_step(step: &StepRecord) -> Vec<Found> {
 #[cfg(test)]
 mod tests {
     use super::super::design::{Distribution, Varied};
-    use super::super::examples::{below, never, reached, row};
+    use super::super::examples::{below, never, reached, row, strained};
     use super::*;
-    use percoat_core::reading::Criterion;
+    use percoat_core::reading::{Criterion, Utilisation};
 
     /// Rows of 8 samples of a strength from 1 to 2 whose limit is what `limit` makes of it.
     fn found(limit: impl Fn(f64) -> SweepResult) -> (Design, Vec<Row>) {
@@ -361,6 +361,22 @@ mod tests {
     fn line(design: &Design, rows: &[Row]) -> Vec<String> {
         let told = Uncertainty::of(design, rows).unwrap().table(&Units::unknown()).unwrap();
         told.table.rows[0].iter().map(|cell| cell.split(" ±").next().unwrap().to_owned()).collect()
+    }
+
+    /// Under a tip a utilisation is infinite: four of the strengths lie above 1.75.
+    #[test]
+    fn infinite_utilisations_count_as_failing() {
+        let yields = Criterion::yield_of(1);
+        let (design, rows) = found(|strength| {
+            let value = if strength > 1.75 { f64::INFINITY } else { 0.5 * strength };
+            strained(vec![Utilisation::new(yields, value, None, [0.0; 3])])
+        });
+        let found = Uncertainty::of(&design, &rows).unwrap();
+        let utilisations: Vec<&Spread> = found.results.iter().filter(|spread| spread.failing().is_some()).collect();
+        assert_eq!(utilisations.len(), 2, "the largest one, and that of the criterion");
+        for spread in utilisations {
+            assert_eq!((spread.failing(), spread.counts()), (Some(4), [12, 4, 0, 0]), "{}", spread.column);
+        }
     }
 
     #[test]

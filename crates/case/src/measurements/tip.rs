@@ -89,6 +89,8 @@ mod tests {
             ("1,2\n3,4\n", "no line names the columns: one must, as `depth,area`"),
             ("depth,surface\n1,2\n", "line 1: no column `area` among depth, surface"),
             ("depth_nm,area_nm\n1,2\n", "`nm` is no unit of area"),
+            ("depth_nm,area\n1,2\n2,3\n", "line 1: a column has a unit and the other one none"),
+            ("depth,area_nm2\n1,2\n2,3\n", "line 1: a column has a unit"),
             ("depth,area\n1,2\n", "two depths above 0 at least, not 1"),
             ("depth,area\n1,2\n\n2,2\n", "line 4: depths and areas of a tip must be above 0 and rise"),
             ("depth,area\n1,x\n", "line 2, column area: `x` is no number"),

@@ -52,8 +52,7 @@ pub struct StressPair {
 impl StressPair {
     /// Largest difference of a stress component, a pressure.
     pub fn difference(&self) -> f64 {
-        let (a, b) = (self.spectral.components(), self.localized.components());
-        (0..6).map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max)
+        self.spectral.difference_from(&self.localized)
     }
 }
 

@@ -24,6 +24,12 @@ pub struct StressState {
 }
 
 impl StressState {
+    /// Largest difference of a stress component from that of another state, a pressure.
+    pub fn difference_from(&self, other: &Self) -> f64 {
+        let (a, b) = (self.components(), other.components());
+        (0..6).map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max)
+    }
+
     /// State from xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
     pub fn from_components([xx, yy, zz, xy, xz, yz, ux, uy, uz]: [f64; 9]) -> Self {
         Self { xx, yy, zz, xy, xz, yz, displacement: [ux, uy, uz] }

@@ -4,6 +4,7 @@ use super::text::lines;
 use percoat_case::case::suggestions::joined;
 use percoat_case::case::{Case, LibraryStrength, failures_of};
 use percoat_core::body::{Bodies, Durability, HalfSpace, MeanStress, Strength};
+use percoat_draw::number::short;
 use serde_json::{Value, json};
 
 /// The mean lateral stress in the largest stresses and limit loads, in a sentence; with the axis of lines, where it is known.
@@ -82,18 +83,13 @@ impl Assumptions {
 
 /// For which part of failures the laws of fatigue of a serialised case state passes, in a sentence; `None` without a scatter.
 pub fn scatter(case: &Value) -> Option<String> {
-    let parts: Vec<String> = failures_of(case).into_iter().map(|part| format!("{} %", plain(100.0 * part))).collect();
+    let parts: Vec<String> = failures_of(case).into_iter().map(|part| format!("{} %", short(100.0 * part))).collect();
     (!parts.is_empty()).then(|| {
         format!(
             "passes to damage are those after which {} of many specimens have failed (`weibull_slope`)",
             joined(&parts, "or")
         )
     })
-}
-
-/// A number with up to three digits, as short as it is.
-fn plain(x: f64) -> String {
-    format!("{x:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// The strengths of a serialised case that are numbers of the library with their kind of test and their range, in sentences; empty
@@ -168,5 +164,36 @@ mod tests {
             }
             assert!((approach - times * penetration).abs() < 1e-7 * approach, "{other}");
         }
+    }
+}
+
+#[cfg(test)]
+mod sentences {
+    use super::*;
+    use percoat_core::body::{Endurance, Fatigue, Material};
+
+    #[test]
+    fn the_parts_of_failures_are_told_once_each() {
+        let law = |failures: Value| json!({ "passes": 1e6, "weibull_slope": 1.5, "failures": failures });
+        let case = json!({ "layers": [{ "fatigue": law(json!(null)) }, { "interface_fatigue": law(json!(0.1)) }],
+                           "substrate": { "fatigue": law(json!(0.05)) } });
+        let told = "passes to damage are those after which 5 % or 10 % of many specimens have failed (`weibull_slope`)";
+        assert_eq!(scatter(&case).as_deref(), Some(told));
+        assert_eq!(scatter(&json!({ "substrate": { "fatigue": { "passes": 1e6 } } })), None);
+    }
+
+    #[test]
+    fn a_material_with_a_law_or_a_limit_of_fatigue_is_checked() {
+        let of = |durability: Durability| {
+            let body = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+            untested(&Bodies::from(body.with_substrate_durability(durability).unwrap())).len()
+        };
+        let (law, limits) = (Fatigue::new(0.4, 1e6, 8.0).unwrap(), Endurance::new(0.3, 0.5).unwrap());
+        let given = [
+            Durability { fatigue: Some(law), ..Durability::default() },
+            Durability { endurance: Some(limits), ..Durability::default() },
+            Durability { hardness: Some(1.0), ..Durability::default() },
+        ];
+        assert_eq!(given.map(of), [0, 0, 1]);
     }
 }

@@ -326,12 +326,12 @@ mod tests {
             let substrate = valid(&lines, "", &[]).substrate;
             assert_eq!((substrate.young, substrate.name.as_deref()), (Some(young), Some(name)));
         }
-        let own = "[[material]]\nname = \"mine\"\naliases = [\"52100\", \"theirs\"]\nyoung = 3\npoisson = 0.3\n";
+        let file = "[[material]]\nname = \"mine\"\naliases = [\"52100\", \"theirs\"]\nyoung = 3\npoisson = 0.3\n";
         let of = |name: &str| {
             let lines = format!(
                 "materials = \"own.toml\"\nsubstrate = {{ material = \"{name}\" }}\nunits = {{ pressure = \"GPa\" }}"
             );
-            valid(&lines, own, &[]).substrate.young
+            valid(&lines, file, &[]).substrate.young
         };
         assert_eq!((of("theirs"), of("52100"), of("SUJ2")), (Some(3.0), Some(3.0), Some(207.0)));
     }
