@@ -34,6 +34,10 @@ impl Pictured {
         picture::profiles(&self.last, profiles.as_deref())
     }
 
+    fn slip_loop(&self) -> Option<Canvas> {
+        picture::slip_loop(&self.last.title, self.last.step.problem(), &self.last.units, &self.steps)
+    }
+
     fn curve(&self) -> Option<Canvas> {
         picture::load_curves(&self.last.title, self.last.step.problem(), &self.last.units, &self.steps)
     }
@@ -43,14 +47,17 @@ impl Pictured {
 pub fn of_case(case: &Case, steps: usize) -> Vec<Declared<Pictured>> {
     let is_cut = case.stress.as_ref().is_some_and(|stress| stress.section.is_some());
     let is_indented = case.problem().bodies().hardness().is_some();
-    let pictures: [(bool, Declared<Pictured>); 7] = [
+    let sticks = case.tangential.is_some();
+    let pictures: [(bool, Declared<Pictured>); 9] = [
         (true, Picture("pressure", |solved| solved.touches().then(|| picture::pressure(&solved.last)))),
         (true, Picture("contact", Pictured::contact)),
         (true, Picture("profiles", Pictured::profiles)),
         (is_indented, Picture("indentation", |solved| picture::indentation(&solved.last))),
         (is_cut, Picture("section", |solved| Some(picture::section(&solved.last, solved.cut()?)))),
         (is_cut, Picture("lines", |solved| Some(picture::lines(&solved.last, solved.cut()?)))),
-        (steps > 1, Picture("curve", Pictured::curve)),
+        (sticks, Picture("slip", |solved| picture::slip(&solved.last))),
+        (sticks && steps > 1, Picture("loop", Pictured::slip_loop)),
+        (steps > 1 && !sticks, Picture("curve", Pictured::curve)),
     ];
     pictures.into_iter().filter_map(|(is_drawn, picture)| is_drawn.then_some(picture)).collect()
 }

@@ -78,6 +78,15 @@ impl Load {
         }
     }
 
+    /// The same quantity with another value.
+    pub(crate) fn with_value(self, value: f64) -> Self {
+        match self {
+            Self::MeanPressure(_) => Self::MeanPressure(value),
+            Self::Force(_) => Self::Force(value),
+            Self::Penetration(_) => Self::Penetration(value),
+        }
+    }
+
     /// Whether the mean pressure or the force is prescribed.
     pub fn is_load_control(self) -> bool {
         !matches!(self, Self::Penetration(_))

@@ -40,6 +40,12 @@ impl Problem {
         }
     }
 
+    /// The problem without friction: neither sliding nor sticking.
+    #[must_use]
+    pub fn at_rest(&self) -> Self {
+        Self { friction: None, ..self.clone() }
+    }
+
     /// Hardness that the pressure of contact does not exceed, in its unit, with the side of the softer surface. `None` without one, and
     /// under a given pressure, which is prescribed, displaces elastically and presses nothing in.
     pub fn hardness(&self) -> Option<(f64, Side)> {

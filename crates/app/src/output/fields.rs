@@ -6,7 +6,7 @@ use super::{Files, OutputError};
 use ndarray::Array2;
 use percoat_core::counterbody::Surface;
 use percoat_core::reading::Reading;
-use percoat_core::spectral::Step;
+use percoat_core::spectral::{Shear, Step};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -39,6 +39,12 @@ impl ContactArchive {
         }
         if let Some(depths) = step.indentation() {
             self.arrays.add("indentation", depths.shape(), depths.iter().copied())?;
+        }
+        if let Some(Shear { traction: [qx, qy], slip: [sx, sy], work, .. }) = step.finest().shear() {
+            let fields = [("traction_x", qx), ("traction_y", qy), ("slip_x", sx), ("slip_y", sy), ("work", work)];
+            for (name, field) in fields {
+                self.arrays.add(name, &step.grid().points(), field.iter().copied())?;
+            }
         }
         Ok(self.arrays.left())
     }

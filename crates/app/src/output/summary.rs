@@ -6,6 +6,8 @@ use super::fingerprint::fingerprint;
 use super::head::{Head, with_head};
 use super::json::{Unreadable, indented, read_back};
 use percoat_case::case::Case;
+use percoat_core::measured::Measured;
+use percoat_core::reading::cycle;
 use percoat_core::run::StepRecord;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -22,12 +24,24 @@ with_head! {
         /// Change between the two finest grids, where an accuracy was prescribed.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub accuracy: Option<f64>,
+        /// Energy that slip dissipates in the last closed cycle; `None` without one.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub cycle: Option<Cycle>,
         /// The load steps.
         pub steps: Vec<StepRecord>,
         /// Wall times by phases.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub timing: Option<Timing>,
     }
+}
+
+/// A closed cycle of the tangential force.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Cycle {
+    /// Energy that slip dissipates, of the cell or the isolated contact.
+    pub work: f64,
+    /// Error of the energy.
+    pub error: Option<f64>,
 }
 
 impl Summary {
@@ -42,6 +56,7 @@ impl Summary {
             warnings: warnings.to_vec(),
             fingerprint: fingerprint(case, ""),
             accuracy,
+            cycle: closed_cycle(steps).map(|Measured { value, error }| Cycle { work: value, error }),
             steps: steps.to_vec(),
             timing: Some(timing),
         }
@@ -61,6 +76,11 @@ impl Summary {
     pub fn to_json(&self) -> String {
         indented(self)
     }
+}
+
+/// Energy dissipated in the last closed cycle of a path; `None` without one.
+pub(super) fn closed_cycle(steps: &[StepRecord]) -> Option<Measured> {
+    cycle(steps.iter().filter_map(|step| Some((&step.reading, step.tangential.as_ref()?))))
 }
 
 /// Refuses steps that no run can have.

@@ -17,6 +17,7 @@
 //! - The part of the surface that a map shows: [`view`].
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles());
 //!   what hardness has pressed in: [`indentation`](indentation()).
+//! - Its partial slip: [`slip`](slip()), and the loop of all steps: [`slip_loop`].
 //! - Its stresses under a line ([sections](percoat_core::stress::VerticalSection)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
 //! - Damage below the surface: [`damage`](damage()); what is left of a body pass after pass: [`course`](course()).
@@ -40,6 +41,7 @@ mod profiles;
 mod section;
 mod shown_depths;
 mod signed_values;
+mod slip;
 mod snapshot;
 mod spectrum;
 mod sweep;
@@ -62,6 +64,7 @@ pub use load_curves::load_curves;
 pub use pressure::pressure;
 pub use profiles::profiles;
 pub use section::section;
+pub use slip::{slip, slip_loop};
 pub use snapshot::Snapshot;
 pub use spectrum::spectrum;
 pub use sweep::sweep;

@@ -60,7 +60,7 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
     let text = case_text(case).map_err(refused)?;
     // Without it the body is not known beyond its tables.
     let read = case_of(&text, &results.folder);
-    if let Some(loads) = read.as_ref().map(|case| case.load.values().len()).filter(|loads| *loads != steps.len()) {
+    if let Some(loads) = read.as_ref().map(|case| case.step_count()).filter(|loads| *loads != steps.len()) {
         return Err(refused(format!("it has {} steps, and its case {loads} loads", steps.len())));
     }
     let units = units_of(&summary.units, read.as_ref(), case);
@@ -90,6 +90,10 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         let caption = "What the hardness has pressed in; ± is the estimated error of the grid";
         let pressed = pressed.map(|pressed| table(caption, &pressed)).unwrap_or_default();
         sections.push(section("hardness", "Hardness", vec![tag("p", upper(&words)), pressed]));
+    }
+    if let Some((words, slip)) = tables::slip(steps, &units) {
+        let caption = "Partial slip; ± is the estimated error of the grid and of steps in which the load changes";
+        sections.push(section("slip", "Partial slip", vec![tag("p", upper(&words)), table(caption, &slip)]));
     }
     sections.extend(stresses(case, steps, &units));
     if let Some(taken) = &taken {

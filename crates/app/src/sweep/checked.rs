@@ -125,7 +125,7 @@ impl<'a> Study<'a> {
             fingerprint: output::fingerprint(&case, &format!("{:?}", self.task)),
             memory: points.map_or(self.room.memory, |points| needs(&case, points, self.job()).memory),
             is_small: points.is_some_and(|[n1, n2]| n1 * n2 <= SMALL),
-            files: solved_plan(&case, case.load.values().len(), true).names,
+            files: solved_plan(&case, case.step_count(), true).names,
             case: case.problem().topography().is_none().then(|| Box::new(case)),
         }
     }

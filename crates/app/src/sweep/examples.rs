@@ -62,6 +62,7 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: impl Into<O
         plastic: None,
         beneath: None,
         friction: None,
+        tangential: None,
         stress: None,
         strength: Vec::new(),
         governing: None,

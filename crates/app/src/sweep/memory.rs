@@ -37,11 +37,11 @@ pub(super) fn of_results(case: &Case, task: Task) -> u64 {
             } else {
                 0
             };
-            case.load.values().len() * (STEP + LEVEL * case.problem().levels().len() + stress)
+            case.step_count() * (STEP + LEVEL * case.problem().levels().len() + stress)
         }
     };
     let sites: usize = case.levels.iter().flat_map(|level| &level.sites).map(Vec::len).sum();
     let stress = case.stress.as_ref().map_or(0, |request| 3 * request.points.len() + request.planes.len());
-    let listed = 2 * sites + stress + case.load.values().len();
+    let listed = 2 * sites + stress + case.step_count();
     CASE + PART * (layers + case.levels.len()) as u64 + LISTED * listed as u64 + SCALAR * scalars as u64
 }

@@ -68,6 +68,11 @@ impl<'a> Compare<'a> {
                 "compare needs [[levels]]: the localized method knows indenters, not a [surface] or a given pressure; use percoat solve",
             ));
         }
+        if case.tangential.is_some() {
+            return Err(Refused::new(
+                "compare has no partial slip: the localized method knows no tangential force; leave [tangential] out, or use percoat solve",
+            ));
+        }
         let task = case.comparison();
         let run = Run { loads: vec![task.load], stress: None, ..case.run() };
         let allowed = Allowed::within(case, room, Job::Compare { pictures }).map_err(Refused::new)?;
@@ -110,6 +115,6 @@ impl Compared<'_> {
 
     /// The content of `compare.json`.
     pub fn file(&self) -> ComparisonFile {
-        ComparisonFile::new(&self.comparison, self.case, self.case.load.values().len())
+        ComparisonFile::new(&self.comparison, self.case, self.case.step_count())
     }
 }

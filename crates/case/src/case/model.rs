@@ -24,11 +24,13 @@ use super::solver::SOLVER;
 use super::span::Span;
 use super::stress::STRESS;
 use super::surface::SURFACE;
+use super::tangential::TANGENTIAL;
 use super::units::UNITS;
 use super::writer::written;
 use super::{
     CompositeHardnessSection, CounterbodySection, FrictionSection, LatticeSection, LayerSection, LevelSection,
-    LifeSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection, UnitsSection,
+    LifeSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection,
+    TangentialSection, UnitsSection,
 };
 use crate::units::Units;
 use percoat_core::body::{Bodies, HalfSpace, MeanStress};
@@ -43,6 +45,10 @@ use std::sync::Arc;
 
 /// Relative error of a step of wear without a section `[life]`.
 const LIFE_TOLERANCE: f64 = 1e-2;
+
+/// Why a contact that sticks has no life of sliding.
+const STICKS: &str = "wear and fatigue are followed under a counterbody that slides, and [tangential] lets this one stick: leave that section \
+                      out, or read stresses and dissipated energy of a cycle from percoat solve";
 
 section! { whole
     /// A valid case with every default resolved. Its values do not change after reading; overrides act while it is read.
@@ -87,6 +93,9 @@ section! { whole
         /// sliding friction of the indenters
         pub friction: Option<FrictionSection> =
             Key::new(&[Form::Table(&FRICTION)], "{ coefficient = 0.3 }").otherwise("no friction"),
+        /// tangential force or shift of a contact that sticks and slips
+        pub tangential: Option<TangentialSection> =
+            Key::new(&[Form::Table(&TANGENTIAL)], "{ force = [0.3, -0.3, 0.3] }").otherwise("with [friction] the counterbody slides"),
         /// hardness of a coating and its substrate together
         pub composite_hardness: Option<CompositeHardnessSection> =
             Key::new(&[Form::Table(&COMPOSITE_HARDNESS)], "{ law = \"area\", constant = 0.5 }")
@@ -148,6 +157,12 @@ impl Case {
         self.load.mean_pressures(self.problem.cell().area())
     }
 
+    /// Number of load steps.
+    pub fn step_count(&self) -> usize {
+        let loads = self.load.values().len();
+        self.tangential.as_ref().map_or(loads, TangentialSection::step_count)
+    }
+
     /// Warnings about its surface, a sentence each.
     pub(super) fn file_doubts(&self) -> &[String] {
         &self.file_doubts
@@ -177,6 +192,9 @@ impl Case {
     /// # Errors
     /// A sentence for a case with several loads, a given pressure, or a cell that is too oblong.
     pub fn life_task(&self) -> Result<LifeTask, String> {
+        if self.tangential.is_some() {
+            return Err(STICKS.to_owned());
+        }
         let loads = self.load.loads();
         let [load] = loads[..] else {
             return Err(format!(
@@ -227,9 +245,18 @@ impl Case {
 
     /// The run of `percoat solve`.
     pub fn run(&self) -> Run {
+        let friction = self.problem.friction();
+        let (loads, drives) = match &self.tangential {
+            None => (self.load.loads(), None),
+            Some(tangential) => {
+                let (loads, drives) = tangential.steps(self.load.loads(), friction);
+                (loads, Some(drives))
+            }
+        };
         Run {
             problem: Arc::clone(&self.problem),
-            loads: self.load.loads(),
+            loads,
+            drives,
             sampling: self.grid,
             settings: self.solver,
             stress: self.stress.as_ref().map(|stress| stress.request(&self.problem)),
@@ -241,8 +268,7 @@ impl Case {
 pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
     measures::convert(&mut root, &CASE)?;
     materials::fill(&mut root, &CASE, source)?;
-    let end = source.text.trim_end().len();
-    let root = TableAt::root(&root, &CASE, Span::new(0, end..end));
+    let root = TableAt::root(&root, &CASE, end_of(source));
     root.only()?;
     let title = title(&root)?;
     let CounterbodySections { levels, lattice, cell_section, grid_section, surface, doubts: file_doubts, loaded_by } =
@@ -273,6 +299,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         composite_hardness = Some(keys);
     }
     hardness::bears(&load, &load_section, &problem)?;
+    let tangential = TangentialSection::of_case(&root, &problem, friction.as_ref(), &load)?;
     Ok(Case {
         title,
         materials: materials::path(&root, source)?,
@@ -280,6 +307,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         grid: sampling,
         solver: settings,
         friction,
+        tangential,
         composite_hardness,
         units: root.section("units")?.as_ref().map(UnitsSection::read_table).transpose()?,
         stress: root
@@ -297,6 +325,12 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         file_doubts,
         problem: Arc::new(problem),
     })
+}
+
+/// The end of the text of a source, where what is missing is missed.
+fn end_of(source: &Source) -> Span {
+    let end = source.text.trim_end().len();
+    Span::new(0, end..end)
 }
 
 /// Reads the body and the section `[counterbody]`, with layers that are possible in the cell, and both bodies together.

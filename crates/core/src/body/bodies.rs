@@ -10,7 +10,7 @@
 //! wavevector and **e**. A rigid counterbody has C₂ = K₂ = 0; like bodies do not couple. At an edge of contact only the materials at
 //! the surfaces count: 1/E* = 1/E₁* + 1/E₂*, and Dundurs' β.
 
-use super::{Durability, HalfSpace, Layer, LayeredResponse, Material, MaterialError, Side};
+use super::{Durability, HalfSpace, Layer, LayeredResponse, Material, MaterialError, Side, SurfaceResponse};
 use std::fmt;
 use std::sync::Arc;
 
@@ -166,6 +166,20 @@ impl Bodies {
         (c1 * ratio1 - c2 * ratio2) / (c1 + c2)
     }
 
+    /// Response of both surfaces at the wavenumber q > 0 (1/length): C, L and S are sums, K = K₁ − K₂, since the counterbody is the mirror
+    /// image of a body and bears −p and −**q**. The displacement in the plane is that of the body less that of the counterbody.
+    pub fn surface(&self, wavenumber: f64) -> SurfaceResponse {
+        let body = self.body.response().surface(wavenumber);
+        let Some(counterbody) = &self.counterbody else { return body };
+        let above = counterbody.response().surface(wavenumber);
+        SurfaceResponse {
+            normal: body.normal + above.normal,
+            coupling: body.coupling - above.coupling,
+            along: body.along + above.along,
+            across: body.across + above.across,
+        }
+    }
+
     /// Compliance times wavenumber of the materials at the surfaces, Σ(1 − ν)/G = 2/E*; one over a pressure.
     pub fn surface_compliance(&self) -> f64 {
         self.each().map(unit_compliance).sum()
@@ -192,6 +206,12 @@ impl Bodies {
     /// cell the mean of w is this times p̄. Zero where no body has a rigid base.
     pub fn mean_compliance(&self) -> f64 {
         self.each().map(HalfSpace::mean_compliance).sum()
+    }
+
+    /// [Displacement under a uniform shear traction](HalfSpace::mean_shear_compliance) of both together, a length per pressure. Zero where
+    /// no body has a rigid base.
+    pub fn mean_shear_compliance(&self) -> f64 {
+        self.each().map(HalfSpace::mean_shear_compliance).sum()
     }
 
     /// Whether a body has a rigid base.

@@ -5,7 +5,7 @@
 //! two and the next, a Chebyshev series of few terms holds it to rounding. Outside the panels whose
 //! series is accurate the compliance is computed from the layers directly.
 
-use super::Bodies;
+use super::{Bodies, SurfaceResponse};
 use crate::numeric::chebyshev::{Chebyshev, inside, place};
 use crate::numeric::parallel;
 
@@ -104,6 +104,41 @@ impl<'a> Compliances<'a> {
     /// [Coupling over compliance](Bodies::coupling_ratio) at the wavenumber q > 0 (1/length).
     pub fn coupling_ratio(&self, wavenumber: f64) -> f64 {
         self.ratios.at(wavenumber).unwrap_or_else(|| self.bodies.coupling_ratio(wavenumber))
+    }
+}
+
+/// Compliances of the surfaces of one body or of two in contact under shear tractions, within a range of wavenumbers.
+#[derive(Debug)]
+pub(crate) struct ShearCompliances<'a> {
+    bodies: &'a Bodies,
+    /// kL and kS.
+    along: Panels,
+    across: Panels,
+}
+
+impl<'a> ShearCompliances<'a> {
+    /// Compliances to be evaluated `times` between the wavenumbers `least` and `most` (1/length); others take longer.
+    pub fn new(bodies: &'a Bodies, [least, most]: [f64; 2], times: usize) -> Self {
+        let times = if bodies.is_bare() { 0 } else { times };
+        let panels =
+            |of: fn(SurfaceResponse) -> f64| Panels::new([least, most], times, 0.0, |k| k * of(bodies.surface(k)));
+        Self { bodies, along: panels(|response| response.along), across: panels(|response| response.across) }
+    }
+
+    /// Compliances L along the wavevector and S across it at the wavenumber k > 0 (1/length): lengths per pressure.
+    pub fn at(&self, wavenumber: f64) -> [f64; 2] {
+        match (self.along.at(wavenumber), self.across.at(wavenumber)) {
+            (Some(along), Some(across)) => [along / wavenumber, across / wavenumber],
+            _ => {
+                let response = self.bodies.surface(wavenumber);
+                [response.along, response.across]
+            }
+        }
+    }
+
+    /// Displacement under a uniform shear traction, a length per pressure: 0 where displacements have zero mean.
+    pub fn mean(&self) -> f64 {
+        self.bodies.mean_shear_compliance()
     }
 }
 

@@ -142,6 +142,24 @@ impl HalfSpace {
         }
     }
 
+    /// Displacement of the surface under a uniform shear traction, over the traction, a length per pressure: Σ h/G of the layers and 1/k_t
+    /// of their springs, from the rigid base; infinite where a layer slides without friction. Zero on an elastic substrate, whose infinite
+    /// mean displacement is left out.
+    pub fn mean_shear_compliance(&self) -> f64 {
+        let compliance = |layer: &Layer| {
+            let slip = match layer.interface() {
+                Interface::Bonded => 0.0,
+                Interface::Spring { tangential, .. } => tangential.recip(),
+                Interface::Frictionless => f64::INFINITY,
+            };
+            layer.thickness() / layer.material().shear() + slip
+        };
+        match self.substrate {
+            Substrate::Elastic(_) => 0.0,
+            Substrate::Rigid => self.layers.iter().map(compliance).sum(),
+        }
+    }
+
     /// Number and name of material `number`, from 1 at the surface down to the substrate.
     pub fn material_id(&self, number: usize) -> MaterialId {
         let name = number.checked_sub(1).and_then(|index| self.materials().nth(index)?.name());

@@ -53,7 +53,7 @@ mod substrate;
 
 pub use across::Antiplane;
 pub use bodies::Bodies;
-pub(crate) use compliances::Compliances;
+pub(crate) use compliances::{Compliances, ShearCompliances};
 pub use composite_hardness::{CompositeError, CompositeHardness, HardnessLaw};
 pub use depth::Depth;
 pub use durability::{Durability, Endurance, Fatigue};

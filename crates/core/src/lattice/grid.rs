@@ -181,6 +181,25 @@ impl Grid {
         sum.map(|x| x / tied.len() as f64)
     }
 
+    /// Mean square c², s² and product cs of the direction (c, s) of the shortest aliases of the component (k₁, k₂); of the component (0, 0),
+    /// which has none, those of all directions.
+    pub fn mean_dyad(&self, component: [usize; 2]) -> [f64; 3] {
+        if component == [0, 0] {
+            return [0.5, 0.5, 0.0];
+        }
+        let dyad = |[x, y]: [f64; 2]| [x * x, y * y, x * y].map(|product| product / (x * x + y * y));
+        let q = self.wavevector(component);
+        if !self.zone.on_border(q, BORDER_TOLERANCE) {
+            return dyad(q);
+        }
+        let tied = self.tied_wavevectors(component, WAVENUMBER_TOLERANCE);
+        let sum = tied.iter().fold([0.0; 3], |sum, &(_, q)| {
+            let dyad = dyad(q);
+            [0, 1, 2].map(|k| sum[k] + dyad[k])
+        });
+        sum.map(|x| x / tied.len() as f64)
+    }
+
     /// Length |q| of [`Grid::wavevector`], 1/length.
     pub fn wavenumber(&self, component: [usize; 2]) -> f64 {
         let [x, y] = self.wavevector(component);

@@ -12,7 +12,7 @@ use super::zone::BrillouinZone;
 use std::f64::consts::TAU;
 
 /// Largest relative difference of wavenumbers within one shell, and of the lengths of tied aliases.
-pub(super) const WAVENUMBER_TOLERANCE: f64 = 1e-11;
+pub(crate) const WAVENUMBER_TOLERANCE: f64 = 1e-11;
 /// Relative distance from the border of the zone within which aliases may be tied.
 pub(super) const BORDER_TOLERANCE: f64 = 1e-9;
 /// Largest number of rows per sample along the sides: beyond it most rows of a skewed cell are empty.

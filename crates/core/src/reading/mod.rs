@@ -27,6 +27,7 @@ mod peak;
 mod plastic;
 mod rough;
 mod section;
+mod slip;
 mod spots;
 mod strength;
 mod strength_search;
@@ -52,6 +53,7 @@ pub use level::{FEW_SAMPLES, LEVEL, LevelErrors, LevelQuantities, LevelReading, 
 pub use plastic::{PLASTIC, PlasticQuantities, PlasticReading};
 pub use rough::{ROUGH, RoughQuantities, RoughReading, SpotSizes, stiffness};
 pub use section::{LargestInSection, SectionMeasure};
+pub use slip::{SLIP, SlipLevel, SlipQuantities, SlipReading, cycle};
 pub use strength::{Criterion, UTILISATION, Utilisation, UtilisationQuantities};
 pub(crate) use strength_search::utilisations_while;
 pub use stress::contact_radii;

@@ -29,6 +29,7 @@ mod quantities;
 mod record;
 mod recorder;
 mod sampling;
+mod slipping;
 mod tapered;
 pub mod tip;
 pub mod touches;
@@ -54,7 +55,7 @@ use crate::lattice::Grid;
 use crate::load::{Control, Load, LoadQuantity};
 use crate::problem::Problem;
 use crate::reading::{self, Criterion, PathReading, StressReading};
-use crate::spectral::{OtherGrids, Settings, Solver, Step};
+use crate::spectral::{Drive, OtherGrids, Settings, Solver, Step};
 use crate::stress::{PathSought, StressFields, Tables};
 use std::cell::Cell;
 use std::convert::Infallible;
@@ -90,6 +91,8 @@ pub struct Run {
     pub settings: Settings,
     /// The stresses to be computed, if any.
     pub stress: Option<StressRequest>,
+    /// Tangential force or shift at the end of each load, where friction sticks and slips; `None` where the counterbody slides or is still.
+    pub drives: Option<Vec<Drive>>,
 }
 
 /// Records of all loads on one grid, and the last step.
@@ -98,7 +101,7 @@ type Solved = (Vec<StepRecord>, Option<Step>);
 impl Run {
     /// A run without stresses, with the solver's defaults.
     pub fn new(problem: impl Into<Arc<Problem>>, loads: Vec<Load>, sampling: Sampling) -> Self {
-        Self { problem: problem.into(), loads, sampling, settings: Settings::default(), stress: None }
+        Self { problem: problem.into(), loads, sampling, settings: Settings::default(), stress: None, drives: None }
     }
 
     /// The quantity in which its loads are stated: forces where one is prescribed, and for an isolated contact.
@@ -181,7 +184,7 @@ impl Run {
                 if finished.as_ref().is_some_and(|finished| finished.points != points) {
                     return Err(OtherGrids.into());
                 }
-                let (steps, last) = self.on_grid(points, finished, recorder)?;
+                let (steps, last) = self.steps_on(points, finished, recorder)?;
                 (steps, last, points, None, None)
             }
             Sampling::Accuracy(accuracy) => {
@@ -198,7 +201,7 @@ impl Run {
                 }
                 loop {
                     let points = refinement.points();
-                    let (steps, last) = self.on_grid(points, finished.take(), recorder)?;
+                    let (steps, last) = self.steps_on(points, finished.take(), recorder)?;
                     let change = coarse.map(|coarse: Vec<StepRecord>| accuracy::change(&coarse, &steps));
                     if let Some(change) = change {
                         recorder.refined(points, change);
@@ -220,6 +223,19 @@ impl Run {
         let bodies = self.problem.bodies();
         let are_judged = || !Criterion::all(bodies).is_empty() || bodies.tire();
         self.stress.as_ref().map(|request| request.mean).or_else(|| are_judged().then(MeanStress::default))
+    }
+
+    /// Solves all loads on one grid, after those of the earlier run `finished`: with partial slip where there are drives.
+    fn steps_on<R: Recorder>(
+        &self,
+        points: [usize; 2],
+        finished: Option<EarlierRun>,
+        recorder: &mut R,
+    ) -> Result<Solved, RunError<R::Error>> {
+        match &self.drives {
+            Some(drives) => self.slip_on_grid(drives, points, finished, recorder),
+            None => self.on_grid(points, finished, recorder),
+        }
     }
 
     /// Solves all loads on one grid, after those of the earlier run `finished`.
@@ -278,8 +294,22 @@ impl Run {
         if loading == Loading::Path && is_indented && step.report.stop.solved() {
             record = record.with_stiffness(solver.stiffness(&step));
         }
+        let record = self.with_stresses(&step, record, tables, loading, (began, before), recorder)?;
+        Ok((record, step))
+    }
+
+    /// The record of a step with its stresses, passed to the recorder.
+    fn with_stresses<R: Recorder>(
+        &self,
+        step: &Step,
+        mut record: StepRecord,
+        tables: &Arc<Tables>,
+        loading: Loading,
+        (began, before): (Option<f64>, f64),
+        recorder: &mut R,
+    ) -> Result<StepRecord, RunError<R::Error>> {
         let fields = self.mean_stress().map(|mean| {
-            recorder.stresses(&step, &record);
+            recorder.stresses(step, &record);
             let strains = self.stress.as_ref().is_some_and(|request| request.strain);
             StressFields::with_tables(step.finest(), mean, tables).with_strains(strains)
         });
@@ -288,12 +318,17 @@ impl Run {
             let goes_on = || recorder.searching().map_err(|error| ended.set(Some(error))).is_ok();
             let bodies = self.problem.bodies();
             let judged = match loading {
-                Loading::Search => reading::utilisations_while(&step, &record.reading, fields, &goes_on)
+                Loading::Search => reading::utilisations_while(step, &record.reading, fields, &goes_on)
                     .map(|utilisations| record.clone().with_utilisations(utilisations)),
+                // What stays in place meets no range of stresses along a path of sliding.
+                Loading::Path if self.drives.is_some() => {
+                    StressReading::of_while(step, &record.reading, fields, &goes_on)
+                        .map(|stress| record.clone().with_stress(stress, bodies))
+                }
                 Loading::Path | Loading::Limit => {
                     let (stress, path) = (
-                        StressReading::of_while(&step, &record.reading, fields, &goes_on),
-                        PathReading::of_while(&step, &record.reading, fields, PathSought::ALL, &goes_on),
+                        StressReading::of_while(step, &record.reading, fields, &goes_on),
+                        PathReading::of_while(step, &record.reading, fields, PathSought::ALL, &goes_on),
                     );
                     stress.zip(path).map(|(stress, path)| record.clone().with_stress(stress, bodies).with_path(path))
                 }
@@ -304,7 +339,7 @@ impl Run {
             record = judged.expect("nothing has ended the search");
         }
         record.seconds = recorder.clock().zip(began).map(|(now, began)| before + now - began);
-        recorder.step(&step, &record, fields.as_ref()).map_err(RunError::Recorder)?;
-        Ok((record, step))
+        recorder.step(step, &record, fields.as_ref()).map_err(RunError::Recorder)?;
+        Ok(record)
     }
 }

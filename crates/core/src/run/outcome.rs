@@ -5,7 +5,7 @@ use super::accuracy::{RefinementEnd, TooOblong};
 use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::notation::number;
-use crate::spectral::{OtherGrids, Step};
+use crate::spectral::{OtherGrids, Slides, SlipError, Step};
 use std::error::Error;
 
 /// The result of a run.
@@ -119,6 +119,18 @@ pub enum RunError<E: Error + 'static> {
     /// A penetration is beyond complete contact.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
+    /// Limits are searched of a contact that sticks.
+    #[error(
+        "limits are loads of a counterbody that slides or is still, and [tangential] lets this one stick: leave that section out, or read the \
+         utilisations of each step from percoat solve"
+    )]
+    Sticks,
+    /// Partial slip cannot be set up.
+    #[error(transparent)]
+    Slip(#[from] SlipError),
+    /// A tangential force is beyond friction.
+    #[error(transparent)]
+    Slides(#[from] Slides),
     /// The earlier run has other grids than this one.
     #[error(transparent)]
     OtherGrids(#[from] OtherGrids),

@@ -4,7 +4,9 @@ use super::StepRecord;
 use super::record::STEP;
 use crate::measured::Measured;
 use crate::quantity::{Named, Quantity};
-use crate::reading::{LEVEL, LIFE, Life, PLASTIC, PlasticReading, READING, ROUGH, Reading, RoughReading, UTILISATION};
+use crate::reading::{
+    LEVEL, LIFE, Life, PLASTIC, PlasticReading, READING, ROUGH, Reading, RoughReading, SLIP, SlipReading, UTILISATION,
+};
 use crate::stress::maxima::{CARRIED, EXTREMES, Extremes};
 
 /// A record of a load step that has one of a kind.
@@ -45,6 +47,14 @@ impl Part<PlasticReading> for StepRecord {
 
     fn part(&self) -> Option<&PlasticReading> {
         self.plastic.as_ref()
+    }
+}
+
+impl Part<SlipReading> for StepRecord {
+    const PATH: &'static str = "tangential.";
+
+    fn part(&self) -> Option<&SlipReading> {
+        self.tangential.as_ref()
     }
 }
 
@@ -105,6 +115,7 @@ pub fn of_step() -> Vec<&'static dyn OfStep> {
         .chain(each(STEP.each()))
         .chain(each(ROUGH.each()))
         .chain(each(PLASTIC.each()))
+        .chain(each(SLIP.each()))
         .chain(each(EXTREMES.each()))
         .chain(each(LIFE.each()))
         .collect()

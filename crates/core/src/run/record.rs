@@ -6,8 +6,8 @@ use crate::kind::ContactKind;
 use crate::numeric::serialised;
 use crate::quantity::quantities;
 use crate::reading::{
-    Beneath, Criterion, FatigueReading, Governing, PathReading, PlasticReading, Reading, RoughReading, StressReading,
-    Utilisation, stiffness, within_the_errors,
+    Beneath, Criterion, FatigueReading, Governing, PathReading, PlasticReading, Reading, RoughReading, SlipReading,
+    StressReading, Utilisation, stiffness, within_the_errors,
 };
 use crate::spectral::{Certificate, Report, Route, Step, Stop};
 use serde::{Deserialize, Serialize};
@@ -58,6 +58,9 @@ quantities! {
         /// How contact and traction were solved together; `None` without friction.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub friction: Option<Sliding>,
+        /// Partial slip; `None` where nothing sticks.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub tangential: Option<SlipReading>,
         /// Largest stresses; `None` where they are not computed, without contact, and under loads of a search for limits that are not shown.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub stress: Option<StressReading>,
@@ -135,6 +138,7 @@ impl StepRecord {
             plastic,
             beneath,
             friction: step.problem().friction().map(|_| sliding),
+            tangential: None,
             stress: None,
             strength: Vec::new(),
             governing: None,
@@ -149,6 +153,13 @@ impl StepRecord {
     pub(super) fn with_stiffness(self, stiffness: Option<[f64; 2]>) -> Self {
         let [contact_stiffness, contact_stiffness_error] = [0, 1].map(|index| stiffness.map(|pair| pair[index]));
         Self { contact_stiffness, contact_stiffness_error, ..self }
+    }
+
+    /// The record with partial slip.
+    #[must_use]
+    pub(super) fn with_slip(self, slip: SlipReading) -> Self {
+        let stop = if slip.converged { self.stop } else { Stop::IterationLimit };
+        Self { tangential: Some(slip), stop, ..self }
     }
 
     /// Adds the stiffness dp̄/dδ of topographies, which depends on all steps of a path; of an isolated contact dP/dδ, where its

@@ -45,6 +45,7 @@ pub(super) fn of_judged(
     let warnings = [
         unresolved(all),
         beyond_hardness(all),
+        slips_beyond_hardness(problem, all),
         not_converged(all),
         at_window(problem, all),
         without_errors(judged),
@@ -77,6 +78,20 @@ fn beyond_hardness(steps: &[Numbered]) -> Option<String> {
     Some(format!(
         "step {list} brings the whole surface to its hardness: a larger penetration has the same pressure, and a larger load has no \
          solution; prescribe less"
+    ))
+}
+
+/// Partial slip of surfaces whose hardness the pressure exceeds.
+fn slips_beyond_hardness(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let (hardness, _) = problem.largest_hardness()?;
+    let peak = |step: &StepRecord| step.tangential.as_ref().map_or(0.0, |_| step.reading.grid_peak());
+    let list = list(steps, |step| peak(step) > hardness)?;
+    let most = steps.iter().map(|(_, step)| peak(step)).fold(0.0, f64::max);
+    Some(format!(
+        "partial slip is of elastic surfaces, and the peak pressure {} of step {list} is beyond the hardness {} of the softer one: it would \
+         yield; prescribe less",
+        number(most),
+        number(hardness)
     ))
 }
 

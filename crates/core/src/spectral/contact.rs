@@ -1,6 +1,7 @@
 //! A contact solved on one grid.
 
 use super::iteration::{Bounds, Certificate, Unknowns};
+use super::tangential::sticks;
 use crate::counterbody::Surface;
 use crate::kind::Datum;
 use crate::lattice::Grid;
@@ -10,6 +11,27 @@ use crate::numeric::sums;
 use crate::problem::Problem;
 use ndarray::ArrayView2;
 use std::sync::{Arc, OnceLock};
+
+/// Partial slip in a step, sample by sample, a₂ fastest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shear {
+    /// Tangential traction q_x and q_y on the body, pressures.
+    pub traction: [Vec<f64>; 2],
+    /// Slip of the counterbody against the body in the step, along x and y, lengths; zero where nothing touches.
+    pub slip: [Vec<f64>; 2],
+    /// Energy that slip has dissipated in the step, over the area: a pressure times a length.
+    pub work: Vec<f64>,
+    /// Coefficient of friction μ.
+    pub friction: f64,
+}
+
+impl Shear {
+    /// Whether a sample under a pressure sticks.
+    pub fn sticks(&self, sample: usize, pressure: f64) -> bool {
+        let [x, y] = &self.traction;
+        sticks([x[sample], y[sample]], self.friction * pressure)
+    }
+}
 
 /// Pressure and gap of a solved load step on one grid. It owns its fields and shares problem and surface, so that it
 /// outlives the solver.
@@ -22,6 +44,8 @@ pub struct Contact {
     penetration: f64,
     /// Depths pressed in by earlier loads, in the gap already; `None` without any.
     indented: Option<Arc<Vec<f64>>>,
+    /// Partial slip; `None` where the traction follows from the friction.
+    shear: Option<Arc<Shear>>,
     /// Counted at the first call of [`Self::spots`].
     spots: OnceLock<SpotCounts>,
 }
@@ -36,12 +60,23 @@ impl Contact {
         penetration: f64,
     ) -> Self {
         let (problem, surface) = (Arc::clone(problem), Arc::clone(surface));
-        Self { problem, surface, pressure, gap, penetration, indented: None, spots: OnceLock::new() }
+        let (indented, shear, spots) = (None, None, OnceLock::new());
+        Self { problem, surface, pressure, gap, penetration, indented, shear, spots }
     }
 
     /// The contact after earlier loads that have pressed in these depths, lengths, one per sample.
     pub(super) fn after(self, indented: Option<Arc<Vec<f64>>>) -> Self {
         Self { indented, ..self }
+    }
+
+    /// The contact with partial slip.
+    pub(super) fn with_shear(self, shear: Shear) -> Self {
+        Self { shear: Some(Arc::new(shear)), ..self }
+    }
+
+    /// Partial slip on the samples; `None` where the tangential traction follows from the friction.
+    pub fn shear(&self) -> Option<&Shear> {
+        self.shear.as_deref()
     }
 
     /// The contact under another pressure, closed wherever that presses.

@@ -15,6 +15,10 @@
 //! zero before and not used after. Rows of zeros have no place between the passes: a column gets them while it is transformed.
 //! The factor 1/(N₁N₂) of the inverse transform is applied in one place: [`Convolution::multiplier`] puts it into K.
 
+mod pair;
+
+pub use pair::{PairAction, ShearMultiplier, VectorMultiplier};
+
 use super::by_rows::{ByRows, ResultRows};
 use super::multiplier::{Action, Multiplier, SkewPart, SkewRatio};
 use crate::numeric::aligned::Aligned;

@@ -76,6 +76,6 @@ impl LayeredOperator {
 }
 
 /// Least and largest wavenumber of a grid.
-fn range(grid: &Grid) -> [f64; 2] {
+pub(super) fn range(grid: &Grid) -> [f64; 2] {
     [grid.least_wavenumber(), grid.largest_wavenumber()]
 }

@@ -154,6 +154,23 @@ impl Solver {
         rayon::scope(|_| self.solve_on_levels(load, progress))
     }
 
+    /// Solves a load on the finest grid alone, from its last pressure, with the gap opened by `lift`, lengths sample by sample: displacements
+    /// that the pressure does not cause.
+    pub(super) fn solve_lifted(&mut self, load: Load, lift: &[f64]) -> Step {
+        let level = &mut self.levels[0];
+        let (surface, indented) = (Arc::clone(level.surface()), level.indented().cloned());
+        let mut gap = surface.initial_gap().to_owned();
+        gap.iter_mut().zip(lift).for_each(|(gap, lift)| *gap += lift);
+        level.set_surface(Arc::new(surface.with_initial_gap(gap)), indented.clone());
+        let mut working = level.working_memory();
+        let progress = &mut |_: Progress| ControlFlow::Continue(());
+        let settings = self.settings;
+        let (report, work) = rayon::scope(|_| level.solve(None, load, settings, &mut working, progress));
+        level.set_surface(surface, indented);
+        let samples = level.surface().grid().len() as f64;
+        self.step(load, report, work / samples, 0)
+    }
+
     fn solve_on_levels(&mut self, load: Load, progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send)) -> Step {
         let finest = self.grid().len() as f64;
         let mut convolutions = 0.0;

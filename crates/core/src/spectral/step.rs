@@ -1,6 +1,6 @@
 //! One load step, solved.
 
-use super::Contact;
+use super::contact::{Contact, Shear};
 use super::iteration::{Certificate, Report};
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
@@ -38,6 +38,16 @@ impl Step {
     /// coarse for any, and from a grid on that the prescribed penetration is beyond complete contact.
     pub fn coarser(&self) -> &[Contact] {
         &self.coarser
+    }
+
+    /// The step with partial slip on the finest grid.
+    pub(super) fn with_shear(self, shear: Shear) -> Self {
+        Self { finest: self.finest.with_shear(shear), ..self }
+    }
+
+    /// The step with the contact of another one, solved on the next coarser grid, in the place of its coarser ones.
+    pub(super) fn with_coarser(self, coarser: Self) -> Self {
+        Self { coarser: vec![coarser.finest], ..self }
     }
 
     /// The step with the mean of the pressures of several moments on the finest grid, sample by sample, a₂ fastest.

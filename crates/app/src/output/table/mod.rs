@@ -10,6 +10,7 @@ mod largest;
 mod life;
 mod load_steps;
 mod plastic;
+mod slip;
 mod strains;
 mod strength;
 mod text;
@@ -24,6 +25,7 @@ pub use largest::largest_stresses;
 pub use life::{events, headline, left};
 pub use load_steps::{DETAILED, steps};
 pub use plastic::plastic;
+pub use slip::slip;
 pub use strains::largest_strains;
 pub use strength::{limits, utilisations};
 pub use text::{Table, Worded};
@@ -54,6 +56,9 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     if let Some((words, table)) = plastic(steps, &units) {
         text += &lines(&words, width);
         text += &table.map_or(String::new(), |table| format!("{}\n\n", table.fitted(width)));
+    }
+    if let Some((words, table)) = slip(steps, &units) {
+        text += &format!("{}{}\n\n", lines(&words, width), table.fitted(width));
     }
     text += &hertz(case, steps, &units).map_or(String::new(), |lines| format!("{}\n", lines.join(";\n")));
     let largest = largest_stresses(steps, &units);
@@ -146,7 +151,7 @@ pub fn wider_windows(found: &Limits, units: &Units) -> Option<String> {
 
 /// The text of `percoat compare`: both methods under the last load of a case.
 pub fn compared(case: &Case, comparison: &ComparisonFile, width: usize) -> String {
-    let (units, steps) = (case.units(), case.load.values().len());
+    let (units, steps) = (case.units(), case.step_count());
     let mut text = heading(case);
     if steps > 1 {
         text += &format!("the last of {steps} load steps\n");

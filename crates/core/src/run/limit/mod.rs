@@ -53,6 +53,9 @@ impl Run {
     }
 
     fn checked_for_limits<E: Error + 'static>(&self) -> Result<(), RunError<E>> {
+        if self.drives.is_some() {
+            return Err(RunError::Sticks);
+        }
         if Criterion::all(self.problem.bodies()).is_empty() {
             return Err(RunError::NoStrengths);
         }

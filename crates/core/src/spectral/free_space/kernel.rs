@@ -16,6 +16,13 @@
 //! K¹_{mn}/(d₁d₂) = (x/2πr) ∫₀^{k_N} b φ J₁(kr) dk + (1/π²) ∫∫ (k_x/k)(b/k)(1 − φ) sin(k_x m d₁) cos(k_y n d₂) d²k,
 //!
 //! K² with x and y exchanged. All to some 10⁻¹⁵ K₀₀.
+//!
+//! A shear traction **q** displaces in its own plane by Â = L**k̂k̂**ᵀ + S(1 − **k̂k̂**ᵀ): with θ the angle of **k** and φ that of the offset,
+//!
+//! A_xx = K⁰ + K^c, A_yy = K⁰ − K^c, A_xy = K^s,
+//!
+//! K⁰ the kernel of ½(L + S), K^c and K^s those of ½(L − S) cos 2θ and ½(L − S) sin 2θ, whose radial parts are −J₂ in the place of J₀,
+//! times cos 2φ and sin 2φ, and whose waves are cos·cos and −sin·sin.
 
 use super::cut::high_pass;
 use super::filon::{Filon, Wave};
@@ -42,16 +49,72 @@ pub struct Window {
 /// An axis of the grid.
 type Axis = usize;
 
+/// Dependence of a transform on the direction θ of the wave, which its kernel has on that of the offset.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Direction {
+    /// None.
+    Any,
+    /// The component of the unit vector along an axis, times −i.
+    Along(Axis),
+    /// cos 2θ.
+    CosineTwice,
+    /// sin 2θ.
+    SineTwice,
+}
+
+impl Direction {
+    /// The Bessel function of the radial part, and its sign.
+    fn bessel(self) -> (fn(f64) -> f64, f64) {
+        match self {
+            Self::Any => (libm::j0, 1.0),
+            Self::Along(_) => (libm::j1, 1.0),
+            Self::CosineTwice | Self::SineTwice => (|x| libm::jn(2, x), -1.0),
+        }
+    }
+
+    /// Value for a vector of a length > 0; 0 for the vector 0, where the radial part is 0 unless it depends on no direction.
+    fn of(self, [x, y]: [f64; 2]) -> f64 {
+        let square = x * x + y * y;
+        match self {
+            Self::Any => 1.0,
+            _ if square == 0.0 => 0.0,
+            Self::Along(axis) => [x, y][axis] / square.sqrt(),
+            Self::CosineTwice => (x - y) * (x + y) / square,
+            Self::SineTwice => 2.0 * x * y / square,
+        }
+    }
+
+    /// The wave along an axis that is left of the complex one, by symmetry.
+    fn wave(self, axis: Axis) -> Wave {
+        match self {
+            Self::SineTwice => Wave::Sine,
+            Self::Along(odd) if odd == axis => Wave::Sine,
+            _ => Wave::Cosine,
+        }
+    }
+
+    /// Sign of the product of both waves.
+    fn sign(self) -> f64 {
+        if self == Self::SineTwice { -1.0 } else { 1.0 }
+    }
+}
+
 impl Window {
     /// K_{mn} of c(k) = kĈ(k), lengths per pressure, at the offsets 0 ≤ m < N₁, 0 ≤ n < N₂; even in m and in n.
     pub fn kernel(&self, c: OfWavenumber<'_>) -> Array2<f64> {
-        self.table(c, None)
+        self.table(c, Direction::Any)
     }
 
     /// K¹_{mn} or K²_{mn}, by its axis, of b(k) = kB̂(k), lengths per pressure, at the offsets 0 ≤ m < N₁, 0 ≤ n < N₂; odd in
     /// the offset along its axis, even in the other.
     pub fn coupling_kernel(&self, b: OfWavenumber<'_>, axis: Axis) -> Array2<f64> {
-        self.table(b, Some(axis))
+        self.table(b, Direction::Along(axis))
+    }
+
+    /// K^c and K^s of a(k) = k·½(L − S), lengths per pressure, at the offsets 0 ≤ m < N₁, 0 ≤ n < N₂; the first even in m and in n, the
+    /// second odd in both.
+    pub fn shear_kernels(&self, a: OfWavenumber<'_>) -> [Array2<f64>; 2] {
+        [Direction::CosineTwice, Direction::SineTwice].map(|direction| self.table(a, direction))
     }
 
     /// Memory while a table is made, bytes: the weights of both axes, and the sums over one of them.
@@ -66,16 +129,16 @@ impl Window {
         (NODES as f64 * d1.max(d2) / self.spacings[axis]).ceil() as usize
     }
 
-    /// The kernel of f, odd along an axis if there is one.
-    fn table(&self, f: OfWavenumber<'_>, odd: Option<Axis>) -> Array2<f64> {
+    /// The kernel of f times a function of the direction.
+    fn table(&self, f: OfWavenumber<'_>, direction: Direction) -> Array2<f64> {
         let ([d1, d2], [n1, n2]) = (self.spacings, self.points);
         let spacing = d1.max(d2);
-        let (radial_scale, scale) = (0.5 * d1 * d2 / spacing, (PI * PI).recip());
+        let (bessel, sign) = direction.bessel();
+        let (radial_scale, scale) = (sign * 0.5 * d1 * d2 / spacing, direction.sign() * (PI * PI).recip());
         let [u1, u2] = [d1 / spacing, d2 / spacing];
         let reach = (u1 * n1 as f64).hypot(u2 * n2 as f64);
-        let bessel = if odd.is_some() { libm::j1 } else { libm::j0 };
         let radial = Radial::new(bessel, reach, |s| f(s * PI / spacing));
-        let rest = Rest::new(self, f, odd);
+        let rest = Rest::new(self, f, direction);
         let mut table = Array2::zeros((n1, n2));
         parallel::each_chunk_with(
             table.as_slice_mut().expect("made row by row"),
@@ -86,8 +149,7 @@ impl Window {
                 for (n, (value, rest)) in row.iter_mut().zip(&*sums).enumerate() {
                     let x = [u1 * m as f64, u2 * n as f64];
                     let rho = x[0].hypot(x[1]);
-                    let direction = odd.map_or(1.0, |axis| if rho > 0.0 { x[axis] / rho } else { 0.0 });
-                    *value = radial_scale * direction * radial.at(rho) + scale * rest;
+                    *value = radial_scale * direction.of(x) * radial.at(rho) + scale * rest;
                 }
             },
         );
@@ -103,13 +165,10 @@ struct Rest {
 }
 
 impl Rest {
-    fn new(window: &Window, f: OfWavenumber<'_>, odd: Option<Axis>) -> Self {
+    fn new(window: &Window, f: OfWavenumber<'_>, direction: Direction) -> Self {
         let Window { spacings, points } = *window;
         let spacing = spacings[0].max(spacings[1]);
-        let filon = |axis: Axis| {
-            let wave = if odd == Some(axis) { Wave::Sine } else { Wave::Cosine };
-            Filon::new(window.nodes(axis), points[axis], wave)
-        };
+        let filon = |axis: Axis| Filon::new(window.nodes(axis), points[axis], direction.wave(axis));
         let [along, across] = [0, 1].map(filon);
         let mut sums = vec![0.0; along.nodes.len() * points[1]];
         parallel::each_chunk(&mut sums, points[1], |number, sums| {
@@ -118,8 +177,7 @@ impl Rest {
             let integrand = |node: &f64| {
                 let ky = PI / spacings[1] * node;
                 let k = kx.hypot(ky);
-                let direction = odd.map_or(1.0, |axis| [kx, ky][axis] / k);
-                direction * f(k) / k * high_pass(k * spacing / PI)
+                direction.of([kx, ky]) * f(k) / k * high_pass(k * spacing / PI)
             };
             let values: Vec<f64> = across.nodes.iter().map(integrand).collect();
             for (sum, weights) in sums.iter_mut().zip(across.offsets()) {
@@ -187,8 +245,8 @@ mod tests {
         parts.flat_map(nodes).collect()
     }
 
-    /// The integrals over the zone in polar coordinates, K of c and K¹, K² of b, at some offsets.
-    fn polar(window: &Window, [c, b]: [OfWavenumber<'_>; 2], offsets: &[[usize; 2]]) -> Vec<[f64; 3]> {
+    /// The integrals over the zone in polar coordinates, K of c and K¹, K², K^c, K^s of b, at some offsets.
+    fn polar(window: &Window, [c, b]: [OfWavenumber<'_>; 2], offsets: &[[usize; 2]]) -> Vec<[f64; 5]> {
         let sides = window.spacings.map(|d| PI / d);
         let place = |offset: &[usize; 2]| [0, 1].map(|axis| offset[axis] as f64 * window.spacings[axis]);
         let reach = offsets.iter().map(|offset| place(offset)[0].hypot(place(offset)[1])).fold(0.0, f64::max);
@@ -203,7 +261,7 @@ mod tests {
         let rays = parallel::map_items(&sectors.collect::<Vec<(usize, f64, f64)>>(), |&(side, angle, weight)| {
             let direction = [angle.cos(), angle.sin()];
             let border = sides[side] / direction[side];
-            let mut sums = vec![[0.0; 3]; offsets.len()];
+            let mut sums = vec![[0.0; 5]; offsets.len()];
             for [s, w] in graded(border * reach) {
                 let (k, w) = (s * border, area * weight * border * w);
                 let (c, b) = (w * c(k), w * b(k));
@@ -212,12 +270,14 @@ mod tests {
                     sums[0] += c * x.1 * y.1;
                     sums[1] += b * direction[0] * x.0 * y.1;
                     sums[2] += b * direction[1] * x.1 * y.0;
+                    sums[3] += b * (2.0 * angle).cos() * x.1 * y.1;
+                    sums[4] -= b * (2.0 * angle).sin() * x.0 * y.0;
                 }
             }
             sums
         });
-        rays.into_iter().fold(vec![[0.0; 3]; offsets.len()], |whole, ray| {
-            whole.into_iter().zip(ray).map(|(a, b)| [0, 1, 2].map(|kind| a[kind] + b[kind])).collect()
+        rays.into_iter().fold(vec![[0.0; 5]; offsets.len()], |whole, ray| {
+            whole.into_iter().zip(ray).map(|(a, b)| std::array::from_fn(|kind| a[kind] + b[kind])).collect()
         })
     }
 
@@ -245,16 +305,16 @@ mod tests {
             let window = Window { spacings, points: [24, 24] };
             for (name, half_space) in bodies(h) {
                 let (c, b) = (c(&half_space), b(&half_space));
-                let (even, odd) = (window.kernel(&c), [0, 1].map(|axis| window.coupling_kernel(&b, axis)));
-                let at_zero = even[[0, 0]];
-                let (mut worst, mut worst_odd) = (0.0f64, 0.0f64);
+                let [along, across] = [0, 1].map(|axis| window.coupling_kernel(&b, axis));
+                let [cosine, sine] = window.shear_kernels(&b);
+                let tables = [window.kernel(&c), along, across, cosine, sine];
+                let at_zero = tables[0][[0, 0]];
                 for (offset, exact) in OFFSETS.iter().zip(polar(&window, [&c, &b], &OFFSETS)) {
-                    worst = worst.max((even[*offset] - exact[0]).abs() / at_zero);
-                    for axis in [0, 1] {
-                        worst_odd = worst_odd.max((odd[axis][*offset] - exact[1 + axis]).abs() / at_zero);
+                    for (kind, (table, exact)) in tables.iter().zip(exact).enumerate() {
+                        let error = (table[*offset] - exact).abs() / at_zero;
+                        assert!(error < 1e-14, "{name}, {spacings:?}, h {h}, kernel {kind} at {offset:?}: {error:e}");
                     }
                 }
-                assert!(worst < 1e-14 && worst_odd < 1e-14, "{name}, {spacings:?}, h {h}: {worst:e}, {worst_odd:e}");
             }
         }
     }

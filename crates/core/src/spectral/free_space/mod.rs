@@ -13,8 +13,10 @@ mod quadrant;
 mod radial;
 
 pub use kernel::OfWavenumber;
+pub(super) use kernel::Window;
 pub use operator::Coupling;
-pub(super) use padded_window::{bytes_per_sample, bytes_while_made};
+pub(super) use operator::{EVALUATIONS, range as wavenumbers};
+pub(super) use padded_window::{bytes_per_sample, bytes_while_made, coupling_multiplier, padded, shear_multiplier};
 
 #[cfg(test)]
 mod tests {

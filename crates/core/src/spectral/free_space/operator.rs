@@ -18,7 +18,7 @@ use std::fmt;
 /// the substrates to rounding.
 const LEAST_WAVENUMBER: f64 = 1e-11;
 /// Number of wavenumbers at which a kernel evaluates a compliance, in order of magnitude.
-const EVALUATIONS: usize = 100_000;
+pub(in crate::spectral) const EVALUATIONS: usize = 100_000;
 
 /// How a shear traction that goes with the pressure displaces the surfaces.
 #[derive(Clone, Copy)]
@@ -111,7 +111,7 @@ impl LayeredOperator {
 }
 
 /// Wavenumbers at which a grid asks the bodies, from its spacings alone, so that every window has the same compliance.
-fn range(grid: &Grid) -> [f64; 2] {
+pub(in crate::spectral) fn range(grid: &Grid) -> [f64; 2] {
     let largest = grid.largest_wavenumber();
     [LEAST_WAVENUMBER * largest, largest]
 }

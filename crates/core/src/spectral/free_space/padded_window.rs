@@ -7,7 +7,7 @@ use super::quadrant::{Parity, transformed};
 use crate::lattice::{Cell, Grid};
 use crate::numeric::fourier::fast_points;
 use crate::numeric::lanes::Real;
-use crate::spectral::convolution::Convolution;
+use crate::spectral::convolution::{Convolution, ShearMultiplier, VectorMultiplier};
 use crate::spectral::layered_operator::Transforms;
 use crate::spectral::multiplier::{Multiplier, SkewPart};
 use ndarray::Array2;
@@ -31,7 +31,7 @@ pub(in crate::spectral) fn bytes_while_made(window: Cell, points: [usize; 2]) ->
 }
 
 /// Samples of the transforms for a window: at least 2Nᵢ − 1, even, and with small prime factors.
-pub(super) fn padded(points: [usize; 2]) -> [usize; 2] {
+pub(in crate::spectral) fn padded(points: [usize; 2]) -> [usize; 2] {
     points.map(|n| 2 * fast_points(n))
 }
 
@@ -64,6 +64,53 @@ pub(super) fn skew_part(
                 values.each_ref().map(|values| values.as_ref().map_or(0.0, |values| values[[k2, k1]]));
             *to = sign * first + second;
         }
+    })
+}
+
+/// Â, the transform of the kernels of shear tractions of c(k) = k·½(L + S) and a(k) = k·½(L − S) on a window with the unit vectors `axes`.
+pub(in crate::spectral) fn shear_multiplier(
+    convolution: &Convolution<f64>,
+    window: Window,
+    axes: [[f64; 2]; 2],
+    [c, a]: [OfWavenumber<'_>; 2],
+) -> ShearMultiplier {
+    let padded = padded(window.points);
+    let uniform = transformed(&window.kernel(c), padded, [Parity::Even; 2]);
+    let [cosine, sine] = window.shear_kernels(a);
+    let cosine = transformed(&cosine, padded, [Parity::Even; 2]);
+    // The transform of a kernel that is odd along both axes is minus its sum of products of sines.
+    let sine = transformed(&sine, padded, [Parity::Odd; 2]);
+    let [[x1, y1], [x2, y2]] = axes;
+    ShearMultiplier::new(convolution, |[k1, k2]| {
+        let (k1, sign) = if 2 * k1 <= padded[0] { (k1, -1.0) } else { (padded[0] - k1, 1.0) };
+        let place = [k2, k1];
+        let (along, across) = (uniform[place] + cosine[place], uniform[place] - cosine[place]);
+        let mixed = sign * sine[place];
+        [
+            x1 * x1 * along + x2 * x2 * across + 2.0 * x1 * x2 * mixed,
+            y1 * y1 * along + y2 * y2 * across + 2.0 * y1 * y2 * mixed,
+            x1 * y1 * along + x2 * y2 * across + (x1 * y2 + x2 * y1) * mixed,
+        ]
+    })
+}
+
+/// G of both components of a shear traction on a window with the unit vectors `axes`.
+pub(in crate::spectral) fn coupling_multiplier(
+    convolution: &Convolution<f64>,
+    window: Window,
+    axes: [[f64; 2]; 2],
+    b: OfWavenumber<'_>,
+) -> VectorMultiplier {
+    let padded = padded(window.points);
+    let values = [0, 1].map(|axis| {
+        let mut parities = [Parity::Even; 2];
+        parities[axis] = Parity::Odd;
+        transformed(&window.coupling_kernel(b, axis), padded, parities)
+    });
+    VectorMultiplier::new(convolution, |[k1, k2]| {
+        let (k1, sign) = if 2 * k1 <= padded[0] { (k1, 1.0) } else { (padded[0] - k1, -1.0) };
+        let [along, across] = [sign * values[0][[k2, k1]], values[1][[k2, k1]]];
+        [0, 1].map(|component| along * axes[0][component] + across * axes[1][component])
     })
 }
 

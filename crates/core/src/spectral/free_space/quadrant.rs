@@ -80,7 +80,8 @@ mod tests {
     fn transforms_are_their_direct_sums() {
         let ([n1, n2], [m1, m2]) = ([5, 4], [10, 7]);
         let quadrant = Array2::from_shape_fn((n1, n2), |(m, n)| ((7 * m + 3 * n * n) % 11) as f64 - 4.0);
-        for parities in [[Parity::Even; 2], [Parity::Odd, Parity::Even], [Parity::Even, Parity::Odd]] {
+        for parities in [[Parity::Even; 2], [Parity::Odd, Parity::Even], [Parity::Even, Parity::Odd], [Parity::Odd; 2]]
+        {
             let found = transformed(&quadrant, [m1, m2], parities);
             for ((k2, k1), value) in found.indexed_iter() {
                 let trig = |axis: usize, k: usize, offset: usize, points: usize| {

@@ -74,14 +74,18 @@ impl ShearForm {
 }
 
 impl<'a> Traction<'a> {
-    /// Traction on the body under a solved contact: its pressure, and μ p **e** of a counterbody that slides.
+    /// Traction on the body under a solved contact: its pressure, and μ p **e** of a counterbody that slides, or the tractions of partial
+    /// slip.
     pub fn sliding(contact: &'a Contact) -> Self {
         let problem = contact.problem();
         let beta = problem.bodies().dundurs_beta();
         Self {
             grid: Arc::clone(contact.grid()),
             pressure: contact.pressures().into(),
-            tangential: coulomb(problem.friction(), beta),
+            tangential: match contact.shear() {
+                Some(shear) => Tangential::Fields(shear.traction.each_ref().map(|field| (&field[..]).into())),
+                None => coulomb(problem.friction(), beta),
+            },
             discs: discs_under(contact),
             is_contact: problem.counterbody().is_some(),
             line: problem.loaded_by().line(),

@@ -64,3 +64,7 @@ pub(super) const PICTURE: u64 = 3 * MEBIBYTE / 10;
 pub(super) const DAMAGE: [u64; 2] = [80 << 10, 40 << 10];
 /// Most of these lines.
 pub(super) const DAMAGE_LINES: u64 = 512;
+/// Per sample, with partial slip: operators, tractions and histories of the grid, once more in half as many parts, and on the next coarser one;
+/// and its fields in files.
+pub(super) const SLIP: u64 = 1700;
+pub(super) const SLIP_FIELDS: u64 = 40;

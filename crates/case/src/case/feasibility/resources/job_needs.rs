@@ -2,7 +2,7 @@
 
 use super::constants::{
     AGAIN, CHECKPOINTS, COMPARED, COMPARISON, CURVES, CUTS, DAMAGE, DAMAGE_LINES, DEPTHS, FIELD, KEPT, MAPS, PICTURE,
-    PLACES, PROGRAM, READING, SEARCH, SHOWN, SPOT_FIELDS, STATE, STEP, STRESS, STRESSES, WORN,
+    PLACES, PROGRAM, READING, SEARCH, SHOWN, SLIP, SLIP_FIELDS, SPOT_FIELDS, STATE, STEP, STRESS, STRESSES, WORN,
 };
 use super::job::Needs;
 use super::stress_needs::{of_series, of_shells, of_stress};
@@ -25,7 +25,7 @@ pub(super) fn of_solving(
     fields: bool,
 ) -> Needs {
     let series = of_series(case, samples);
-    let steps = case.load.values().len() as u64;
+    let steps = case.step_count() as u64;
     let bodies = case.problem().bodies();
     let (stress, written, volume) = case.stress.as_ref().map_or((0, 0, 0), |stress| {
         let each = bodies.each().map(|half_space| {
@@ -46,22 +46,28 @@ pub(super) fn of_solving(
     let drawn = if pictures { of_pictures(case) } else { 0 };
     let drawing = PROGRAM + KEPT * samples + heights + drawn;
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
-    let depths = if yields(case) { DEPTHS } else { 0 };
+    let sticks = case.tangential.is_some();
+    let depths = if yields(case) { DEPTHS } else { 0 } + if sticks { SLIP_FIELDS } else { 0 };
+    let slip = if sticks { SLIP * samples } else { 0 };
     let (fields, written, volume) =
         if fields { (steps * (24 + depths) * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
-    let pages = if pictures { PICTURE * (3 + 2 * u64::from(has_cut(case)) + u64::from(steps > 1)) } else { 0 };
+    let pages = if pictures {
+        PICTURE * (3 + 2 * u64::from(has_cut(case)) + u64::from(steps > 1) + u64::from(sticks))
+    } else {
+        0
+    };
     let disk = fields + steps * (written + volume) + summary + pages;
     // A refinement keeps the steps of the last grid, a quarter, until those of the next are complete.
     let coarser = if matches!(case.grid, Sampling::Accuracy(_)) { disk / 4 } else { 0 };
     let disk_while_running = disk + fields.max(steps * written) + coarser + (CHECKPOINTS + 3 * depths) * samples;
-    let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
+    let solving = PROGRAM + grids + heights + slip + working.max(READING * samples).max(stress);
     Needs { memory: solving.max(drawing), disk, disk_while_running }
 }
 
 /// Steps that stay in memory, without files.
 pub(super) fn of_keeping(case: &Case, samples: u64, grids: [u64; 3]) -> Needs {
     let solving = of_solving(case, samples, grids, false, false).memory;
-    let kept = case.load.values().len() as u64 * STEP + PLACES;
+    let kept = case.step_count() as u64 * STEP + PLACES;
     Needs { memory: solving + kept * samples, disk: 0, disk_while_running: 0 }
 }
 
@@ -118,7 +124,7 @@ pub(super) fn of_identifying(solving: u64, pictures: bool) -> Needs {
 }
 
 fn of_pictures(case: &Case) -> u64 {
-    let curves = if case.load.values().len() > 1 { CURVES } else { 0 };
+    let curves = if case.step_count() > 1 { CURVES } else { 0 };
     MAPS + curves + if has_cut(case) { CUTS } else { 0 }
 }
 

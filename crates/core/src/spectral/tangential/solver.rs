@@ -1,0 +1,467 @@
+//! Partial slip from step to step, with the errors of its results.
+//!
+//! A step at a fixed pressure is exact in time, of any size, where slip keeps its direction. While the pressure changes the implicit step is of
+//! first order: such a step is divided, followed in half as many parts too, and extrapolated,
+//!
+//! 2X_n − X_{n/2},
+//!
+//! with the difference X_n − X_{n/2} as its error. The first load presses without a tangential force, then the force or shift is brought up at that
+//! load; later steps change load and force, or shift, in proportion. The whole history is followed on the next coarser grid as well, and the
+//! difference is the error of the grid.
+
+use super::disc::{Vector, add, dot, length, scale, sub};
+use super::rolling::{NotAlongGrid, Rolling, Stride, contact_length};
+use super::stick_slip::{SlipReport, SlipSettings};
+use super::track::{Track, TrackStep};
+use crate::lattice::LatticeError;
+use crate::load::{Control, Load};
+use crate::measured::Measured;
+use crate::notation::number;
+use crate::numeric::sums;
+use crate::problem::Problem;
+use crate::spectral::{Settings, Shear, Solver, Step};
+use std::sync::Arc;
+
+/// Parts of a step in which the load changes; even.
+const PARTS: usize = 16;
+/// Parts of a step at one load in which the pressure follows the tractions a little.
+const PARTS_AT_ONE_LOAD: usize = 2;
+/// Fewest points of a coarser grid along a lattice vector.
+const COARSEST: usize = 24;
+
+/// Tangential force or shift at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Drive {
+    /// Tangential force on the body over μP, below 1 in size.
+    Part(Vector),
+    /// Shift of the counterbody against the body since the first contact, a length.
+    Shift(Vector),
+}
+
+/// A tangential force that friction does not bear: the counterbody slides.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "a tangential force of {} times μP is not borne by friction: the counterbody slides; keep it below 1, or leave [tangential] out, where \
+     friction slides everywhere", number(*.0)
+)]
+pub struct Slides(pub f64);
+
+/// Why partial slip cannot be set up.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SlipError {
+    /// The problem has no friction.
+    #[error("partial slip needs a coefficient of friction above 0")]
+    Frictionless,
+    /// A pressure is given.
+    #[error("partial slip needs a counterbody: a given pressure has none that sticks")]
+    Given,
+    /// The grid is refused.
+    #[error(transparent)]
+    Grid(#[from] LatticeError),
+}
+
+/// A contact that sticks and slips, step after step, of elastic surfaces: a hardness is left out.
+#[derive(Debug)]
+pub struct SlipSolver {
+    problem: Arc<Problem>,
+    whole: Track,
+    /// The same steps in half as many parts.
+    halved: Track,
+    /// The same steps on the next coarser grid; `None` where that has too few points.
+    coarser: Option<Track>,
+    parts: usize,
+    /// Load and drive of the step before.
+    last: Option<(Load, Drive)>,
+    /// Whether a step has been divided so far, so that `whole` and `halved` differ.
+    is_divided: bool,
+}
+
+/// A vector, and the length of its error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuredVector {
+    /// The vector.
+    pub value: Vector,
+    /// Length of its error.
+    pub error: f64,
+}
+
+/// A step of partial slip.
+#[derive(Debug)]
+pub struct SlipStep {
+    /// The normal contact, with its partial slip.
+    pub contact: Step,
+    /// Tangential force on the body, a pressure times an area, on the cell or the isolated contact.
+    pub force: MeasuredVector,
+    /// Shift of the counterbody against the body since the first contact, a length.
+    pub shift: MeasuredVector,
+    /// Creepage: rise of the shift over the distance rolled; `None` unless the contact rolls.
+    pub creepage: Option<MeasuredVector>,
+    /// Work that slip dissipates in the step, an energy.
+    pub work: Measured,
+    /// Largest friction μP.
+    pub limit: f64,
+    /// How the last part of the step was solved.
+    pub report: SlipReport,
+    /// Turns between normal and tangential problem in the last part; 1 where they do not couple.
+    pub turns: usize,
+    /// Part of the samples in contact that stick.
+    pub stick_fraction: Measured,
+    /// Whether all parts converged.
+    pub converged: bool,
+}
+
+/// A step on one track.
+struct Followed {
+    contact: Step,
+    numbers: Numbers,
+    limit: f64,
+    report: SlipReport,
+    turns: usize,
+    converged: bool,
+}
+
+/// Results of a step on one track.
+#[derive(Debug, Clone, Copy)]
+struct Numbers {
+    force: Vector,
+    shift: Vector,
+    work: f64,
+    stick_fraction: f64,
+    /// `None` unless the contact rolls.
+    creepage: Option<Vector>,
+}
+
+impl Numbers {
+    fn minus(&self, other: &Self) -> Self {
+        Self {
+            force: sub(self.force, other.force),
+            shift: sub(self.shift, other.shift),
+            work: self.work - other.work,
+            stick_fraction: self.stick_fraction - other.stick_fraction,
+            creepage: self.creepage.zip(other.creepage).map(|(a, b)| sub(a, b)),
+        }
+    }
+}
+
+/// The result of a step, extrapolated where it was followed in half as many parts too, with the difference `of_grid` from the coarser grid,
+/// whose contact is that of the errors of stresses.
+fn result(step: Followed, coarser: Option<Step>, halved: Option<Numbers>, of_grid: Option<Numbers>) -> SlipStep {
+    let Followed { contact, numbers, limit, report, turns, converged } = step;
+    let in_time = halved.map(|halved| numbers.minus(&halved));
+    let measured = |of: fn(&Numbers) -> Vector| {
+        let change = in_time.as_ref().map_or([0.0; 2], of);
+        let error = length(change) + of_grid.as_ref().map_or(0.0, |grid| length(of(grid)));
+        MeasuredVector { value: add(of(&numbers), change), error }
+    };
+    let number = |of: fn(&Numbers) -> Vector| {
+        let MeasuredVector { value: [value, _], error } = measured(of);
+        Measured::new(value, of_grid.map(|_| error))
+    };
+    SlipStep {
+        force: measured(|numbers| numbers.force),
+        shift: measured(|numbers| numbers.shift),
+        creepage: numbers.creepage.map(|_| measured(|numbers| numbers.creepage.unwrap_or_default())),
+        work: number(|numbers| [numbers.work, 0.0]),
+        stick_fraction: number(|numbers| [numbers.stick_fraction, 0.0]),
+        contact: match coarser {
+            Some(coarse) => contact.with_coarser(coarse),
+            None => contact,
+        },
+        limit,
+        report,
+        turns,
+        converged,
+    }
+}
+
+impl SlipSolver {
+    /// The contact of a problem with friction before any load, on a grid of `points`.
+    ///
+    /// # Errors
+    /// [`SlipError`].
+    pub fn new(
+        problem: impl Into<Arc<Problem>>,
+        points: [usize; 2],
+        settings: Settings,
+        slip: SlipSettings,
+    ) -> Result<Self, SlipError> {
+        let problem = problem.into();
+        if problem.friction().is_none_or(|friction| friction.coefficient() == 0.0) {
+            return Err(SlipError::Frictionless);
+        }
+        if problem.kind().is_given {
+            return Err(SlipError::Given);
+        }
+        let track = |points: [usize; 2]| Track::new(&problem, points, settings, slip);
+        let line = problem.loaded_by().line();
+        let half = [0, 1].map(|axis| if line == Some(axis) { points[axis] } else { points[axis] / 2 });
+        let is_fine = (0..2).all(|axis| line == Some(axis) || half[axis] >= COARSEST);
+        let coarser = if is_fine { Some(track(half)?) } else { None };
+        let (whole, halved) = (track(points)?, track(points)?);
+        Ok(Self { problem, whole, halved, coarser, parts: PARTS, last: None, is_divided: false })
+    }
+
+    /// The solver with another even number of parts for a step in which the pressure changes.
+    #[must_use]
+    pub fn with_parts(self, parts: usize) -> Self {
+        Self { parts: parts.next_multiple_of(2).max(2), ..self }
+    }
+
+    /// The problem.
+    pub fn problem(&self) -> &Arc<Problem> {
+        &self.problem
+    }
+
+    /// The solver of the normal contact.
+    pub fn normal(&self) -> &Solver {
+        self.whole.solver()
+    }
+
+    /// One step to a load, and a tangential force or shift at its end.
+    ///
+    /// # Errors
+    /// [`Slides`] for a force that friction does not bear.
+    pub fn advance(&mut self, load: Load, drive: Drive) -> Result<SlipStep, Slides> {
+        if let Drive::Part(part) = drive
+            && length(part) >= 1.0
+        {
+            return Err(Slides(length(part)));
+        }
+        let ways = self.ways(load, drive);
+        let (couples, parts) = (self.whole.couples(), self.parts);
+        let of_way = move |way: &Way| match (way.is_at_one_load(), couples) {
+            (false, _) => parts,
+            (true, true) => PARTS_AT_ONE_LOAD,
+            (true, false) => 1,
+        };
+        let step = follow(&mut self.whole, &ways, of_way);
+        self.is_divided |= ways.iter().any(|way| of_way(way) > 1);
+        let halved = if self.is_divided {
+            Some(follow(&mut self.halved, &ways, |way| of_way(way).div_ceil(2)).numbers)
+        } else {
+            // The steps are the same.
+            self.halved.copy(&self.whole);
+            None
+        };
+        let coarser = self.coarser.as_mut().map(|track| follow(track, &ways, of_way));
+        let of_grid = coarser.as_ref().map(|coarse| step.numbers.minus(&coarse.numbers));
+        self.last = Some((load, drive));
+        Ok(result(step, coarser.map(|coarse| coarse.contact), halved, of_grid))
+    }
+
+    /// Rolls at a load under a tangential force or a creepage until some contact lengths are passed, by steps, then by half as long ones.
+    ///
+    /// Slip and energy of the result are those of one contact length.
+    ///
+    /// # Errors
+    /// [`RollError`].
+    pub fn roll(&mut self, load: Load, drive: RollingDrive, rolling: Rolling) -> Result<SlipStep, RollError> {
+        let aim = match drive {
+            RollingDrive::Part(part) if length(part) >= 1.0 => return Err(Slides(length(part)).into()),
+            RollingDrive::Part(part) => Aim::Part(part),
+            RollingDrive::Creepage(creepage) => Aim::Creepage(creepage),
+        };
+        let pressed = self.halved.press(load);
+        let grid = Arc::clone(pressed.grid());
+        let whole = contact_length(&grid, pressed.finest().pressures(), rolling.direction);
+        let strides = Stride::pair(&grid, rolling.direction, rolling.step * whole)?;
+        let distance = rolling.distance * whole;
+        let halved = roll(&mut self.halved, load, aim, (&strides[0], distance), whole);
+        self.whole.copy(&self.halved);
+        let step = roll(&mut self.whole, load, aim, (&strides[1], 0.5 * distance), whole);
+        let coarser = match &mut self.coarser {
+            None => None,
+            Some(track) => {
+                let grid = Arc::clone(track.press(load).grid());
+                let [stride, _] = Stride::pair(&grid, rolling.direction, strides[0].length())?;
+                Some(roll(track, load, aim, (&stride, distance), whole))
+            }
+        };
+        (self.last, self.is_divided) = (Some((load, Drive::Part([0.0; 2]))), true);
+        // Both grids in steps of one length.
+        let of_grid = coarser.as_ref().map(|coarse| halved.numbers.minus(&coarse.numbers));
+        Ok(result(step, coarser.map(|coarse| coarse.contact), Some(halved.numbers), of_grid))
+    }
+
+    /// The ways of load and drive in a step.
+    fn ways(&self, load: Load, drive: Drive) -> Vec<Way> {
+        let cell = self.problem.cell();
+        let friction = self.problem.friction().map_or(0.0, |friction| friction.coefficient());
+        let end = |load: Load, drive: Drive| match (drive, load.on(cell)) {
+            (Drive::Part(part), Control::MeanPressure(mean)) => Aim::Force(scale(friction * mean * cell.area(), part)),
+            (Drive::Part(part), Control::Penetration(_)) => Aim::Part(part),
+            (Drive::Shift(shift), _) => Aim::Shift(shift),
+        };
+        let to = end(load, drive);
+        match self.last {
+            Some((before, driven)) => vec![Way { loads: [before, load], aims: [end(before, driven).or_zero(to), to] }],
+            None => {
+                let nothing = Load::with_value(load, 0.0);
+                let pressed = Way { loads: [nothing, load], aims: [to.zero(); 2] };
+                let sheared = Way { loads: [load; 2], aims: [to.zero(), to] };
+                if self.whole.couples() { vec![pressed, sheared] } else { vec![sheared] }
+            }
+        }
+    }
+}
+
+/// What drives a contact that rolls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RollingDrive {
+    /// Tangential force on the body over μP, below 1 in size.
+    Part(Vector),
+    /// Creepage: rise of the shift over the distance rolled.
+    Creepage(Vector),
+}
+
+/// Why a contact does not roll.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum RollError {
+    /// The force is beyond friction.
+    #[error(transparent)]
+    Slides(#[from] Slides),
+    /// The direction is not one of the grid.
+    #[error(transparent)]
+    NotAlongGrid(#[from] NotAlongGrid),
+}
+
+/// What the tangential force or the shift comes to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Aim {
+    /// A force.
+    Force(Vector),
+    /// A force over μP.
+    Part(Vector),
+    /// A shift since the first contact.
+    Shift(Vector),
+    /// A rise of the shift over the distance rolled.
+    Creepage(Vector),
+}
+
+impl Aim {
+    /// The same kind of aim at nothing.
+    fn zero(self) -> Self {
+        self.with([0.0; 2])
+    }
+
+    /// This aim where it is of the kind of another, else nothing of that kind.
+    fn or_zero(self, other: Self) -> Self {
+        if std::mem::discriminant(&self) == std::mem::discriminant(&other) { self } else { other.zero() }
+    }
+
+    fn vector(self) -> Vector {
+        match self {
+            Self::Force(vector) | Self::Part(vector) | Self::Shift(vector) | Self::Creepage(vector) => vector,
+        }
+    }
+
+    fn with(self, vector: Vector) -> Self {
+        match self {
+            Self::Force(_) => Self::Force(vector),
+            Self::Part(_) => Self::Part(vector),
+            Self::Shift(_) => Self::Shift(vector),
+            Self::Creepage(_) => Self::Creepage(vector),
+        }
+    }
+}
+
+/// A way on which load and aim change in proportion.
+#[derive(Debug)]
+struct Way {
+    loads: [Load; 2],
+    aims: [Aim; 2],
+}
+
+impl Way {
+    fn is_at_one_load(&self) -> bool {
+        self.loads[0] == self.loads[1]
+    }
+
+    /// Load and aim at the end of a part of the way: equal parts of the radius at which a paraboloid touches, a force like its cube and a
+    /// penetration like its square.
+    fn at(&self, part: usize, parts: usize) -> (Load, Aim) {
+        let ([from, to], [start, end]) = (self.loads, self.aims);
+        let t = part as f64 / parts as f64;
+        if part == parts {
+            return (to, end);
+        }
+        let power = if to.is_load_control() { 3 } else { 2 };
+        let [before, after] = [from, to].map(|load| load.value().max(0.0).powf(1.0 / f64::from(power)));
+        let load = (before + t * (after - before)).powi(power);
+        let change = to.value() - from.value();
+        let t = if change == 0.0 { t } else { (load - from.value()) / change };
+        let between = |a: f64, b: f64| a + t * (b - a);
+        let [[x0, y0], [x1, y1]] = [start.vector(), end.vector()];
+        (to.with_value(between(from.value(), to.value())), end.with([between(x0, x1), between(y0, y1)]))
+    }
+}
+
+/// Follows all ways of a step, each in its number of parts.
+fn follow(track: &mut Track, ways: &[Way], parts: impl Fn(&Way) -> usize) -> Followed {
+    let len = track.solver().grid().len();
+    let (mut slip, mut density) = (vec![[0.0; 2]; len], vec![0.0; len]);
+    let (mut work, mut converged, mut last) = (0.0, true, None::<TrackStep>);
+    let all = ways.iter().map(|way| (way, parts(way)));
+    for (way, parts, part) in all.flat_map(|(way, parts)| (1..=parts).map(move |part| (way, parts, part))) {
+        // The memory of a part is freed before the next one needs as much.
+        drop(last.take());
+        let (load, aim) = way.at(part, parts);
+        let step = track.advance(load, aim);
+        work += step.work;
+        converged &= step.report.converged && step.contact.report.stop.solved();
+        sums::update(&mut slip, |i, slip| add(slip, step.slip[i]));
+        sums::update(&mut density, |i, density| density + dot(step.traction[i], step.slip[i]));
+        last = Some(step);
+    }
+    let step = last.expect("a step has a way, and a way a part");
+    let numbers =
+        Numbers { force: step.force, shift: step.shift, work, stick_fraction: step.stick_fraction, creepage: None };
+    followed(track, step, numbers, (&slip, density), converged)
+}
+
+/// Rolls a distance in equal strides; the `length` of the contact is what slip and work are for.
+fn roll(track: &mut Track, load: Load, aim: Aim, (stride, distance): (&Stride, f64), length: f64) -> Followed {
+    let grid = Arc::clone(track.solver().grid());
+    let strides = (distance / stride.length()).ceil().max(1.0) as usize;
+    let (mut converged, mut last) = (true, None::<(TrackStep, Vector)>);
+    for _ in 0..strides {
+        drop(last.take());
+        let before = track.shift();
+        let moved = stride.moved(&grid, track.displacement());
+        let aim = match aim {
+            Aim::Creepage(creepage) => Aim::Shift(add(before, scale(stride.length(), creepage))),
+            other => other,
+        };
+        let step = track.advance_from(load, aim, &moved);
+        converged = step.report.converged && step.contact.report.stop.solved();
+        let rise = sub(step.shift, before);
+        last = Some((step, rise));
+    }
+    let (step, rise) = last.expect("a way has strides");
+    let whole = length / stride.length();
+    let slip: Vec<Vector> = step.slip.iter().map(|s| scale(whole, *s)).collect();
+    let density = step.traction.iter().zip(&slip).map(|(q, s)| dot(*q, *s)).collect();
+    let numbers = Numbers {
+        force: step.force,
+        shift: step.shift,
+        work: whole * step.work,
+        stick_fraction: step.stick_fraction,
+        creepage: Some(scale(1.0 / stride.length(), rise)),
+    };
+    followed(track, step, numbers, (&slip, density), converged)
+}
+
+/// What a track has come to, with slip and energy per area.
+fn followed(
+    track: &Track,
+    step: TrackStep,
+    numbers: Numbers,
+    (slip, work): (&[Vector], Vec<f64>),
+    converged: bool,
+) -> Followed {
+    let TrackStep { contact, traction, limit, report, turns, .. } = step;
+    let components = |field: &[Vector]| [0, 1].map(|component| field.iter().map(|v| v[component]).collect());
+    let friction = track.friction();
+    let shear = Shear { traction: components(&traction), slip: components(slip), work, friction };
+    Followed { contact: contact.with_shear(shear), numbers, limit, report, turns, converged }
+}

@@ -1,0 +1,215 @@
+//! One history of partial slip on one grid: normal contact and tractions, step after step.
+//!
+//! Each step is solved by the implicit problem of [`StickSlip`] under its pressure. Where pressure and tractions couple, the normal contact is
+//! solved with the gap opened by the tractions, then the tractions under the new pressure, in turn, until the normal problem needs no
+//! iteration more for the newest tractions: then both certificates hold for the same pair.
+
+use super::disc::{Vector, add, dot, scale, sticks, sub};
+use super::operator::TangentialOperator;
+use super::preconditioner::Preconditioner;
+use super::solver::Aim;
+use super::stick_slip::{ShearControl, SlipReport, SlipSettings, Slipped, StickSlip};
+use crate::lattice::LatticeError;
+use crate::load::Load;
+use crate::numeric::sums;
+use crate::problem::Problem;
+use crate::spectral::{Settings, Solver, Step};
+use std::sync::Arc;
+
+/// Most turns between the normal and the tangential problem.
+const MOST_TURNS: usize = 60;
+
+/// Contact, tractions and their history on one grid.
+#[derive(Debug)]
+pub(in crate::spectral) struct Track {
+    solver: Solver,
+    operator: TangentialOperator,
+    preconditioner: Preconditioner,
+    /// Coefficient of friction μ.
+    friction: f64,
+    settings: SlipSettings,
+    state: SlipState,
+}
+
+/// What the next step needs of those before.
+#[derive(Debug, Clone)]
+pub(in crate::spectral) struct SlipState {
+    /// Traction **q** on the body, a pressure.
+    pub traction: Arc<Vec<Vector>>,
+    /// Tangential displacement A**q** + Bp on all samples, a length.
+    pub displacement: Arc<Vec<Vector>>,
+    /// Shift of the counterbody against the body since the first contact, a length.
+    pub shift: Vector,
+}
+
+/// A step of a track.
+#[derive(Debug)]
+pub(in crate::spectral) struct TrackStep {
+    /// The normal contact.
+    pub contact: Step,
+    /// **q**, a pressure.
+    pub traction: Arc<Vec<Vector>>,
+    /// **s** where there is pressure, a length.
+    pub slip: Vec<Vector>,
+    /// Tangential force on the body, a pressure times an area.
+    pub force: Vector,
+    /// Work that slip dissipates in the step, an energy: Σ**q**·**s** ΔA.
+    pub work: f64,
+    /// Largest friction μP that the pressure allows.
+    pub limit: f64,
+    pub report: SlipReport,
+    /// Turns between normal and tangential problem; 1 where they do not couple.
+    pub turns: usize,
+    /// Shift since the first contact.
+    pub shift: Vector,
+    /// Part of the samples in contact that stick.
+    pub stick_fraction: f64,
+}
+
+impl Track {
+    /// The history before any contact, with `points` samples; the friction of the problem sticks or slips.
+    pub fn new(
+        problem: &Problem,
+        points: [usize; 2],
+        settings: Settings,
+        slip: SlipSettings,
+    ) -> Result<Self, LatticeError> {
+        let (friction, coupled) =
+            problem.friction().map_or((0.0, false), |friction| (friction.coefficient(), friction.is_coupled()));
+        let solver = Solver::new(problem.at_rest().without_hardness(), points, settings)?;
+        let operator = TangentialOperator::new(solver.grid(), problem.bodies(), coupled);
+        let preconditioner = Preconditioner::new(&operator);
+        let still = Arc::new(vec![[0.0; 2]; solver.grid().len()]);
+        let state = SlipState { traction: Arc::clone(&still), displacement: still, shift: [0.0; 2] };
+        Ok(Self { solver, operator, preconditioner, friction, settings: slip, state })
+    }
+
+    /// Whether pressure and tractions displace for one another.
+    pub fn couples(&self) -> bool {
+        self.operator.couples()
+    }
+
+    /// Coefficient of friction μ.
+    pub fn friction(&self) -> f64 {
+        self.friction
+    }
+
+    /// The solver of the normal contact.
+    pub fn solver(&self) -> &Solver {
+        &self.solver
+    }
+
+    /// Takes over what another track of the same grid has come to.
+    pub fn copy(&mut self, other: &Self) {
+        self.state = other.state.clone();
+        self.solver.set_unknowns(other.solver.unknowns().cloned().collect());
+    }
+
+    /// Shift of the counterbody against the body since the first contact.
+    pub fn shift(&self) -> Vector {
+        self.state.shift
+    }
+
+    /// Tangential displacement on all samples.
+    pub fn displacement(&self) -> &[Vector] {
+        &self.state.displacement
+    }
+
+    /// The contact pressed to a load without tractions.
+    pub fn press(&mut self, load: Load) -> Step {
+        self.solver.solve(load)
+    }
+
+    /// One step to a load and a tangential force or shift.
+    pub fn advance(&mut self, load: Load, aim: Aim) -> TrackStep {
+        let before = Arc::clone(&self.state.displacement);
+        self.advance_from(load, aim, &before)
+    }
+
+    /// One step whose samples had the tangential displacement `before`.
+    pub fn advance_from(&mut self, load: Load, aim: Aim, before: &[Vector]) -> TrackStep {
+        let mut contact = self.solver.solve(load);
+        let (mut slipped, mut dragged, mut turns) = (None::<Slipped>, None, 0);
+        while contact.report.stop.solved() && turns < MOST_TURNS {
+            turns += 1;
+            dragged = self.operator.dragged(contact.finest().pressures());
+            let traction = slipped
+                .as_ref()
+                .map_or_else(|| Arc::clone(&self.state.traction), |last| Arc::new(last.traction.clone()));
+            let next = self.slip(&contact, dragged.as_deref(), before, aim, &traction);
+            let lift = self.operator.lifted(&next.traction);
+            slipped = Some(next);
+            let Some(lift) = lift else { break };
+            contact = self.solver.solve_lifted(load, &lift);
+            if contact.report.iterations == 0 {
+                break;
+            }
+        }
+        let slipped = slipped.unwrap_or_else(|| self.slip(&contact, None, before, aim, &self.state.traction.clone()));
+        self.finish(contact, slipped, dragged, turns)
+    }
+
+    /// The tractions under the pressure of a contact.
+    fn slip(
+        &mut self,
+        contact: &Step,
+        dragged: Option<&[Vector]>,
+        displaced: &[Vector],
+        aim: Aim,
+        start: &[Vector],
+    ) -> Slipped {
+        let bound: Vec<f64> = contact.finest().pressures().iter().map(|p| self.friction * p).collect();
+        let area = contact.grid().sample_area();
+        let control = match aim {
+            Aim::Force(force) => ShearControl::Force(force),
+            Aim::Part(part) => ShearControl::Force(scale(area * sums::of(bound.len(), |i| [bound[i]])[0], part)),
+            Aim::Shift(shift) => ShearControl::Shift(sub(shift, self.state.shift)),
+            // Of one length of rolling.
+            Aim::Creepage(rise) => ShearControl::Shift(rise),
+        };
+        let mut before = displaced.to_vec();
+        if let Some(dragged) = dragged {
+            sums::update(&mut before, |i, u| sub(u, dragged[i]));
+        }
+        let step = StickSlip {
+            operator: &mut self.operator,
+            preconditioner: &self.preconditioner,
+            bound: &bound,
+            before: &before,
+            control,
+            area,
+            settings: self.settings,
+        };
+        rayon::scope(|_| step.solve(start))
+    }
+
+    /// The step, and its state for the next one.
+    fn finish(&mut self, contact: Step, slipped: Slipped, dragged: Option<Vec<Vector>>, turns: usize) -> TrackStep {
+        let Slipped { traction, mut displacement, slip, rise, report } = slipped;
+        if let Some(dragged) = dragged {
+            sums::update(&mut displacement, |i, u| add(u, dragged[i]));
+        }
+        let area = contact.grid().sample_area();
+        let pressures = contact.finest().pressures();
+        let [x, y, work, pressure, touching, sticking] = sums::of(traction.len(), |i| {
+            let (q, p) = (traction[i], pressures[i]);
+            let [touches, sticks] = [p > 0.0, sticks(q, self.friction * p)].map(|is| f64::from(u8::from(is)));
+            [q[0], q[1], dot(q, slip[i]), p, touches, sticks]
+        });
+        let shift = add(self.state.shift, rise);
+        let traction = Arc::new(traction);
+        self.state = SlipState { traction: Arc::clone(&traction), displacement: Arc::new(displacement), shift };
+        TrackStep {
+            contact,
+            traction,
+            slip,
+            force: scale(area, [x, y]),
+            work: area * work,
+            limit: self.friction * area * pressure,
+            report,
+            turns,
+            shift,
+            stick_fraction: if touching > 0.0 { sticking / touching } else { 0.0 },
+        }
+    }
+}
