@@ -29,8 +29,8 @@ pub(super) fn of_solving(
     let bodies = case.problem().bodies();
     let (stress, written, volume) = case.stress.as_ref().map_or((0, 0, 0), |stress| {
         let each = bodies.each().map(|half_space| {
-            let (_, written, volume) = of_stress(stress, half_space, samples);
-            (of_stress(stress, half_space, series).0, written, volume)
+            let (_, written, volume) = of_stress((stress, case.has_cut()), half_space, samples);
+            (of_stress((stress, case.has_cut()), half_space, series).0, written, volume)
         });
         each.fold((0, 0, 0), |(a, b, c), (x, y, z)| (a + x, b + y, c + z))
     });
@@ -49,7 +49,7 @@ pub(super) fn of_solving(
     let depths = if yields(case) { DEPTHS } else { 0 };
     let (fields, written, volume) =
         if fields { (steps * (24 + depths) * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
-    let pages = if pictures { PICTURE * (3 + 2 * u64::from(has_cut(case)) + u64::from(steps > 1)) } else { 0 };
+    let pages = if pictures { PICTURE * (3 + 2 * u64::from(case.has_cut()) + u64::from(steps > 1)) } else { 0 };
     let disk = fields + steps * (written + volume) + summary + pages;
     // A refinement keeps the steps of the last grid, a quarter, until those of the next are complete.
     let coarser = if matches!(case.grid, Sampling::Accuracy(_)) { disk / 4 } else { 0 };
@@ -119,9 +119,5 @@ pub(super) fn of_identifying(solving: u64, pictures: bool) -> Needs {
 
 fn of_pictures(case: &Case) -> u64 {
     let curves = if case.load.values().len() > 1 { CURVES } else { 0 };
-    MAPS + curves + if has_cut(case) { CUTS } else { 0 }
-}
-
-fn has_cut(case: &Case) -> bool {
-    case.stress.as_ref().is_some_and(|stress| stress.section.is_some())
+    MAPS + curves + if case.has_cut() { CUTS } else { 0 }
 }
