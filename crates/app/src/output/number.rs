@@ -4,8 +4,8 @@ use percoat_case::units::{Prefixed, Unit, Units};
 use percoat_core::measured::Measured;
 use percoat_core::quantity::{Kind, Named};
 
-use percoat_core::notation::WIDE;
 pub use percoat_core::notation::number;
+use percoat_core::notation::{WIDE, power_error};
 
 /// Relative errors below this are rounding.
 pub(super) const ROUNDING: f64 = 1e-12;
@@ -65,6 +65,15 @@ pub fn in_unit(unit: &Prefixed, measured: Measured) -> String {
     with_error(unit.shown(measured.value), measured.error.map(|error| unit.shown(error)))
 }
 
+/// Passes with their error, which are a power of what was computed: of a wide error the number and the factor to which it is known, as
+/// sentences have it.
+pub fn passes_with_error(measured: Measured) -> String {
+    match measured.relative().filter(|relative| *relative > WIDE) {
+        Some(relative) => format!("{}{}", number(measured.value), power_error(Some(relative))),
+        None => with_error(measured.value, measured.error),
+    }
+}
+
 /// A value with its error and its unit, "0.5 ± 0.1 µm"; "singular" for an infinite one.
 pub fn with_unit(unit: &Unit, measured: Measured) -> String {
     if measured.value.is_infinite() {
@@ -78,6 +87,7 @@ pub fn with_unit(unit: &Unit, measured: Measured) -> String {
 pub fn shown(named: &Named, measured: Measured, units: &Units) -> String {
     match named.kind {
         Kind::Fraction => percent_with_error(measured),
+        Kind::Passes if measured.value.is_finite() => passes_with_error(measured),
         kind => with_unit(&units.unit(kind), measured),
     }
 }
@@ -156,5 +166,6 @@ mod tests {
         assert_eq!(text(Kind::Fraction, 0.25, Some(0.002)), "25.0 ± 0.2 %");
         assert_eq!(text(Kind::Stiffness, 2.0, None), "2.0000 mN/µm");
         assert_eq!(text(Kind::Passes, 2e6, Some(1e5)), "2.0e6 ± 0.1e6");
+        assert_eq!(text(Kind::Passes, 2e6, Some(2e6)), "2.0000e6, known to a factor of 2.8");
     }
 }
