@@ -107,6 +107,7 @@ pub use limit::{FirstLimit, LimitFile};
 pub(crate) use log::LineLog;
 pub use log::whole_lines;
 pub use manifest::{damaged_results, is_beside};
+pub(crate) use number::is_interval;
 pub use number::{in_unit, number, passes_with_error, percent_with_error, shown, with_error, with_unit};
 pub use plan::Plan;
 pub use recording::Recording;

@@ -74,6 +74,13 @@ pub fn passes_with_error(measured: Measured) -> String {
     }
 }
 
+/// Whether a text is a number whose wide error is shown by its interval, with a unit or without.
+pub(crate) fn is_interval(text: &str) -> bool {
+    let is_number = |text: Option<&str>| text.is_some_and(|text| text.parse::<f64>().is_ok());
+    text.split_once(" to ")
+        .is_some_and(|(low, high)| is_number(Some(low)) && is_number(high.split([' ', '\u{a0}']).next()))
+}
+
 /// A value with its error and its unit, "0.5 ± 0.1 µm"; "singular" for an infinite one.
 pub fn with_unit(unit: &Unit, measured: Measured) -> String {
     if measured.value.is_infinite() {
@@ -152,6 +159,17 @@ mod tests {
                 "12.000"
             ]
         );
+    }
+
+    #[test]
+    fn intervals_of_wide_errors_are_told_from_other_words() {
+        let wide = with_unit(&Unit::Named("µm".to_owned()), Measured::new(0.055, Some(0.02)));
+        for text in [&wide[..], "0.06 to 0.16 %", "-157 to -37", "3.1e6 to 13.1e6"] {
+            assert!(is_interval(text), "{text}");
+        }
+        for text in ["0.42 ± 0.01", "ring 1.0 to 2.0", "1 to TiN", "singular"] {
+            assert!(!is_interval(text), "{text}");
+        }
     }
 
     #[test]
