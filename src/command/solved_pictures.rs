@@ -45,7 +45,7 @@ impl Pictured {
 
 /// The pictures of a case with so many load steps.
 pub fn of_case(case: &Case, steps: usize) -> Vec<Declared<Pictured>> {
-    let is_cut = case.stress.as_ref().is_some_and(|stress| stress.section.is_some());
+    let is_cut = case.has_cut();
     let is_indented = case.problem().bodies().hardness().is_some();
     let sticks = case.tangential.is_some();
     let pictures: [(bool, Declared<Pictured>); 9] = [

@@ -161,6 +161,15 @@ fn limits_are_uncertain_and_draws_without_a_limit_are_counted() {
     let limit = number(&desk.json("median/limit.json"), "/first/mean_pressure");
     assert!((found.number("median") / limit - 1.0).abs() < 0.15, "{} {limit}", found.number("median"));
     assert_eq!(found.number("known"), 16.0);
+    // What is printed with --json has the same numbers.
+    let told = sweep(&desk, "json", &[&["--vary", "substrate.yield_strength=0.1:0.2", "--json"], &task[..]].concat());
+    let told: Value = serde_json::from_str(&told.succeeds().out).unwrap();
+    let rows = told["uncertainty"].as_array().unwrap();
+    let row = rows.iter().find(|row| row["result"] == "first_mean_pressure").unwrap();
+    for name in ["q05", "median_low", "q95", "total_substrate_yield_strength"] {
+        assert_eq!(row[name].as_f64(), Some(found.number(name)), "{name}: {row}");
+    }
+    assert_eq!(desk.json("json/sweep.json"), told);
     let answer = sweep(&desk, "far", &[&["--vary", "substrate.yield_strength=0.1:1"], &task[..]].concat()).succeeds();
     let found = Found::of(&desk, "far", "first_mean_pressure");
     let [known, above, below, unknown] = ["known", "above", "below", "unknown"].map(|name| found.number(name));

@@ -3,15 +3,18 @@
 use crate::common::Random;
 use ndarray::Array2;
 use percoat::body::{Durability, InterfaceStrength, Strength};
+use percoat::life::{First, LifeEnd, LifeTask};
 use percoat::localized::{disc, point::PointKernel};
 use percoat::reading::Criterion;
 use percoat::run::{At, SearchEnd, StressRequest};
 use percoat::stress::Compliance;
 use percoat::{
     Cell, Depth, Friction, GivenPressure, Grid, HalfSpace, Interface, Layer, Load, LoadedDisc, Material, MeanStress,
-    Problem, Route, Run, Sampling, Settings, Solver, Step, StressField, StressFields, StressReading, StressState,
+    Problem, Route, Run, Sampling, Settings, Solver, Step, StrainDirection, StrainLife, StressField, StressFields,
+    StressReading, StressState,
 };
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 fn young(young: f64, poisson: f64) -> Material {
     Material::from_young(young, poisson).unwrap()
@@ -61,6 +64,58 @@ fn a_disc_on_a_half_space_has_its_closed_forms() {
         for (found, known) in [(state.zz, axial), (state.xx, radial), (state.yy, radial)] {
             assert!((found - known).abs() < 5e-4 * p, "{z}: {found}, {known}");
         }
+    }
+}
+
+/// On the axis of a disc, with c = z/√(a² + z²), Hooke's law of the stresses above gives −ε_zz = (1 + ν)p/E [1 − 2ν + 2νc − c³], largest
+/// at c² = 2ν/3, and ε_r = (1 + ν)p/E [(1 − ν)c − ½c³ − ½(1 − 2ν)], largest at c² = ⅔(1 − ν); at ν = 0.45 nothing off the axis is larger.
+/// Passes are N₀(ε₀/ε)^n, and the load at which they are N₀ is in proportion.
+#[test]
+fn passes_by_strain_under_a_disc_are_those_of_its_closed_forms() {
+    let (a, p, nu, modulus) = (1.0, 0.1, 0.45, 50.0);
+    let scale = (1.0 + nu) * p / modulus;
+    let [down, out] = [2.0 * nu / 3.0, 2.0 * (1.0 - nu) / 3.0].map(f64::sqrt);
+    let compression = scale * (1.0 - 2.0 * nu + 2.0 * nu * down - down.powi(3));
+    let tension = scale * ((1.0 - nu) * out - 0.5 * out.powi(3) - 0.5 * (1.0 - 2.0 * nu));
+    for (direction, strain, c) in
+        [(StrainDirection::Compression, compression, down), (StrainDirection::Tension, tension, out)]
+    {
+        let law = StrainLife::new(1e-3, 1e6, 4.0, direction).unwrap();
+        let durability = Durability { strain_life: Some(law), ..Durability::default() };
+        let body = HalfSpace::new(vec![], young(modulus, nu)).with_substrate_durability(durability).unwrap();
+        let given = window([4.0, 4.0], &[disc([0.0, 0.0], a, p)]);
+        let force = given.force();
+        let run = Run::new(Problem::new(given, body), vec![Load::Force(force)], Sampling::Points([160; 2]));
+        let record = &run.solve(&mut ()).unwrap().steps[0];
+        let known = 1e6 * (1e-3 / strain).powi(4);
+        let life = record.fatigue.as_ref().unwrap().first;
+        let error = life.error.unwrap();
+        assert!((life.passes / known - 1.0).abs() < error && error < 0.02, "{life:?}, {known}");
+        let depth = a * c / (1.0 - c * c).sqrt();
+        assert!((life.position[2] / depth - 1.0).abs() < 0.02, "{life:?}, {depth}");
+        let [taken] = record.strength[..] else { panic!("{:?}", record.strength) };
+        assert!((taken.value / (strain / 1e-3) - 1.0).abs() < 0.005 && taken.value * 1e-3 == life.range, "{taken:?}");
+        assert!((life.error.unwrap() / (4.0 * taken.error.unwrap() / taken.value) - 1.0).abs() < 1e-12);
+        let limits = run.limits(&mut ()).unwrap();
+        let At::Load { load, .. } = limits.limits[0].at else { panic!("{limits}") };
+        assert!((load * taken.value / force - 1.0).abs() < 2e-3, "{load}");
+        // Nothing comes off: a life ends with the first failure.
+        let task = LifeTask {
+            problem: Arc::clone(&run.problem),
+            load: Load::Force(force),
+            sampling: run.sampling,
+            settings: run.settings,
+            mean: MeanStress::default(),
+            passes: None,
+            distance: None,
+            stroke: None,
+            tolerance: 1e-2,
+        };
+        task.check().unwrap();
+        let begun = task.beginning(&|_| true, &|| true).unwrap();
+        let state = task.advance(task.unworn(&begun), &begun, &|| true).unwrap();
+        assert_eq!((state.passes, state.end, state.events.len()), (life.passes, Some(LifeEnd::Passes), 0));
+        assert_eq!(First::of(&task, &begun, &state).map(|first| first.passes), Some(life.passes));
     }
 }
 

@@ -76,7 +76,7 @@ pub mod stress;
 
 pub use body::{
     Bodies, Depth, Durability, Endurance, Fatigue, HalfSpace, Interface, InterfaceStrength, Layer, Material,
-    MaterialError, MeanStress, Strength, Substrate,
+    MaterialError, MeanStress, StrainDirection, StrainLife, Strength, Substrate,
 };
 pub use counterbody::{
     Counterbody, CounterbodyError, GivenPressure, IndenterError, Indenters, Level, LoadedBy, LoadedDisc, MeasuredTip,

@@ -198,8 +198,10 @@ impl Panel for Plot<'_> {
             }
         }
         for curve in self.chart.curves.iter().filter(|curve| !curve.has_band()) {
-            for ends in bars(curve, &frame) {
-                curve.draw_bar(canvas, ends.map(on_sheet), bounds);
+            for (index, &point) in curve.points.iter().enumerate() {
+                if let Some((place, ends)) = frame.place(point).zip(bar(curve, &frame, index)) {
+                    curve.draw_bar(canvas, on_sheet(place), ends.map(on_sheet), bounds);
+                }
             }
         }
         for curve in &self.chart.curves {

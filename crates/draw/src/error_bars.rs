@@ -5,6 +5,8 @@
 //!   largest error on that stretch: a zigzag within the errors is points with their bars, or the band with its points, without a line.
 //! - A constant is no zigzag, and errors no larger than half a marker cannot be seen: neither interrupts a line.
 //! - A marker of a point whose error exceeds half of its value is open.
+//! - An error bar that goes on beyond the frame ends there with an arrow head. One that would cross the whole plot is two short arrows from
+//!   its point: the error is larger than the axis, and how much says nothing.
 //!
 //! Python's `percoat.plot.curve` interrupts its lines by the same rule.
 
@@ -17,6 +19,10 @@ pub const MOST_MARKERS: usize = 25;
 
 /// Half the length of the ends of an error bar, points.
 const CAP: f64 = 1.6;
+/// Length of the arrow head of a bar that goes on, points.
+const HEAD: f64 = 3.0;
+/// Length of the arrows of a bar that is larger than the axis, points.
+const ARROW: f64 = 5.0 * MARKER;
 /// Width of an error bar and of the edges of a band, points.
 const BAR: f64 = 0.6;
 /// Part of white in the colour of a band.
@@ -75,16 +81,26 @@ impl Curve {
         leads
     }
 
-    /// Draws a bar given by its ends on the sheet, the upper one first, within a rectangle. An end beyond it has no cap.
-    pub fn draw_bar(&self, canvas: &mut Canvas, [top, end]: [[f64; 2]; 2], bounds: [[f64; 2]; 2]) {
+    /// Draws the bar of a point given by its ends on the sheet, the upper one first, within a rectangle. An end beyond it is an arrow head.
+    pub fn draw_bar(&self, canvas: &mut Canvas, [x, y]: [f64; 2], ends: [[f64; 2]; 2], [low, high]: [[f64; 2]; 2]) {
         let colour = self.colour.colour();
-        for piece in clipped(&[top, end], bounds) {
-            canvas.line(&piece, BAR, colour);
+        let [top, end] = ends.map(|[_, y]| y);
+        let is_larger_than_the_axis = top < low[1] && end > high[1];
+        if x < low[0] || x > high[0] || is_larger_than_the_axis && !(low[1]..=high[1]).contains(&y) {
+            return;
         }
-        let [low, high] = bounds;
-        for [x, y] in [top, end] {
-            if y > low[1] && y < high[1] && x >= low[0] && x <= high[0] {
-                canvas.line(&[[x - CAP, y], [x + CAP, y]], BAR, colour);
+        let [from, to] = if is_larger_than_the_axis { [y - ARROW, y + ARROW] } else { [top, end] };
+        let shown = [from.max(low[1]), to.min(high[1])];
+        if shown[0] > shown[1] {
+            return;
+        }
+        canvas.line(&[[x, shown[0]], [x, shown[1]]], BAR, colour);
+        for (shown, goes_on, inward) in [(shown[0], top < low[1], 1.0), (shown[1], end > high[1], -1.0)] {
+            if goes_on {
+                let back = shown + inward * HEAD;
+                canvas.area(&[[x, shown], [x - CAP, back], [x + CAP, back]], colour);
+            } else {
+                canvas.line(&[[x - CAP, shown], [x + CAP, shown]], BAR, colour);
             }
         }
     }
@@ -130,6 +146,7 @@ impl Curve {
 
 #[cfg(test)]
 mod tests {
+    use super::super::canvas::{Mark, Stroke};
     use super::*;
 
     fn curve(values: &[f64], errors: &[f64]) -> Curve {
@@ -151,6 +168,28 @@ mod tests {
         );
         let asymmetry = curve(&[0.010, 0.012, 0.009, 0.011], &[0.004; 4]);
         assert_eq!(asymmetry.leads(|_| true), [false; 3]);
+    }
+
+    /// Lengths of the vertical lines and number of the arrow heads of a bar about y = 50 in a frame from 0 to 100.
+    fn drawn(top: f64, end: f64) -> (Vec<f64>, usize) {
+        let mut canvas = Canvas::new([100.0; 2]);
+        curve(&[1.0], &[1.0]).draw_bar(&mut canvas, [50.0; 2], [[50.0, top], [50.0, end]], [[0.0; 2], [100.0; 2]]);
+        let upright = |mark: &Mark| match mark {
+            Mark::Line(Stroke { points, .. }) if points[0][0] == points[1][0] => Some(points[1][1] - points[0][1]),
+            _ => None,
+        };
+        let heads = canvas.marks.iter().filter(|mark| matches!(mark, Mark::Area { .. })).count();
+        (canvas.marks.iter().filter_map(upright).collect(), heads)
+    }
+
+    #[test]
+    fn a_bar_larger_than_the_axis_does_not_cross_the_plot() {
+        assert_eq!(drawn(30.0, 70.0), (vec![40.0], 0));
+        // One end goes on.
+        assert_eq!(drawn(-20.0, 70.0), (vec![70.0], 1));
+        assert_eq!(drawn(-20.0, 120.0), (vec![2.0 * ARROW], 2));
+        // Nothing of it lies in the frame.
+        assert_eq!(drawn(-20.0, -10.0), (vec![], 0));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::number::{number, with_error};
 use percoat_case::units::{Unit, Units};
-use percoat_core::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Side};
+use percoat_core::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Side, StrainDirection};
 use percoat_core::counterbody::{
     Counterbody, GivenPressure, Indenters, LoadedBy, LoadedDisc, Shape, Topography, half_angle,
 };
@@ -169,6 +169,14 @@ fn durability(units: &Units, durability: Durability, interface: Option<Fatigue>)
         durability.endurance.map(|endurance| {
             let [torsion, bending] = [endurance.torsion(), endurance.bending()].map(|limit| pressure(units, limit));
             format!("endurance {torsion} in torsion, {bending} in bending")
+        }),
+        durability.strain_life.map(|law| {
+            let [passes, strain, exponent] = [law.passes(), 1e6 * law.strain(), law.exponent()].map(number);
+            let counted = match law.direction() {
+                StrainDirection::Tension => "horizontal strain",
+                StrainDirection::Compression => "vertical compression",
+            };
+            format!("lasts {passes} passes of the {counted} {strain} µε, exponent {exponent}")
         }),
         interface.map(|fatigue| format!("lower face: fatigue after {}", law(fatigue, "its shear"))),
     ];

@@ -4,8 +4,8 @@ use percoat_case::units::{Prefixed, Unit, Units};
 use percoat_core::measured::Measured;
 use percoat_core::quantity::{Kind, Named};
 
-use percoat_core::notation::WIDE;
 pub use percoat_core::notation::number;
+use percoat_core::notation::{WIDE, power_error};
 
 /// Relative errors below this are rounding.
 pub(super) const ROUNDING: f64 = 1e-12;
@@ -65,6 +65,22 @@ pub fn in_unit(unit: &Prefixed, measured: Measured) -> String {
     with_error(unit.shown(measured.value), measured.error.map(|error| unit.shown(error)))
 }
 
+/// Passes with their error, which are a power of what was computed: of a wide error the number and the factor to which it is known, as
+/// sentences have it.
+pub fn passes_with_error(measured: Measured) -> String {
+    match measured.relative().filter(|relative| *relative > WIDE) {
+        Some(relative) => format!("{}{}", number(measured.value), power_error(Some(relative))),
+        None => with_error(measured.value, measured.error),
+    }
+}
+
+/// Whether a text is a number whose wide error is shown by its interval, with a unit or without.
+pub(crate) fn is_interval(text: &str) -> bool {
+    let is_number = |text: Option<&str>| text.is_some_and(|text| text.parse::<f64>().is_ok());
+    text.split_once(" to ")
+        .is_some_and(|(low, high)| is_number(Some(low)) && is_number(high.split([' ', '\u{a0}']).next()))
+}
+
 /// A value with its error and its unit, "0.5 ± 0.1 µm"; "singular" for an infinite one.
 pub fn with_unit(unit: &Unit, measured: Measured) -> String {
     if measured.value.is_infinite() {
@@ -78,6 +94,7 @@ pub fn with_unit(unit: &Unit, measured: Measured) -> String {
 pub fn shown(named: &Named, measured: Measured, units: &Units) -> String {
     match named.kind {
         Kind::Fraction => percent_with_error(measured),
+        Kind::Passes if measured.value.is_finite() => passes_with_error(measured),
         kind => with_unit(&units.unit(kind), measured),
     }
 }
@@ -145,6 +162,17 @@ mod tests {
     }
 
     #[test]
+    fn intervals_of_wide_errors_are_told_from_other_words() {
+        let wide = with_unit(&Unit::Named("µm".to_owned()), Measured::new(0.055, Some(0.02)));
+        for text in [&wide[..], "0.06 to 0.16 %", "-157 to -37", "3.1e6 to 13.1e6"] {
+            assert!(is_interval(text), "{text}");
+        }
+        for text in ["0.42 ± 0.01", "ring 1.0 to 2.0", "1 to TiN", "singular"] {
+            assert!(!is_interval(text), "{text}");
+        }
+    }
+
+    #[test]
     fn what_is_infinite_has_no_number_and_a_part_is_in_per_cent() {
         let units = Units::unknown().named(Some("µm"), Some("GPa"));
         let named = |kind: Kind| Named::new("", "", "", kind, percoat_core::quantity::ErrorAt::Nowhere);
@@ -156,5 +184,6 @@ mod tests {
         assert_eq!(text(Kind::Fraction, 0.25, Some(0.002)), "25.0 ± 0.2 %");
         assert_eq!(text(Kind::Stiffness, 2.0, None), "2.0000 mN/µm");
         assert_eq!(text(Kind::Passes, 2e6, Some(1e5)), "2.0e6 ± 0.1e6");
+        assert_eq!(text(Kind::Passes, 2e6, Some(2e6)), "2.0000e6, known to a factor of 2.8");
     }
 }

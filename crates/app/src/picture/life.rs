@@ -71,7 +71,7 @@ pub fn damage(snapshot: &Snapshot, fatigue: &FatigueReading, planes: &[RangePlan
         })
     };
     let mut over: Vec<Over> = half_space.interface_depths().iter().filter_map(interface).collect();
-    if worst.position[2] <= depth && !worst.part.is_counterbody() {
+    if worst.position[2] <= depth && worst.part.is_followed() {
         over.push(Over::Mark { at: [across.clamp(first, last), worst.position[2]], colour: Colour::WHITE });
     }
     let map = Map {

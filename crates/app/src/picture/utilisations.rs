@@ -103,6 +103,7 @@ fn drawn(criterion: Criterion, index: usize, all: &[Criterion]) -> (Style, Ink) 
     let place = |criterion: &Criterion| match *criterion {
         Criterion::Yield(material)
         | Criterion::Cracking(material)
+        | Criterion::StrainLife(material)
         | Criterion::Crossland(material)
         | Criterion::DangVan(material) => (material.is_counterbody(), material.number),
         Criterion::Delamination(interface) => (interface.is_counterbody(), interface.number),
@@ -116,7 +117,7 @@ fn drawn(criterion: Criterion, index: usize, all: &[Criterion]) -> (Style, Ink) 
         return (Style::Line, Ink::Number(index + 1));
     }
     let style = match criterion {
-        Criterion::Yield(_) => Style::Line,
+        Criterion::Yield(_) | Criterion::StrainLife(_) => Style::Line,
         Criterion::Cracking(_) | Criterion::Crossland(_) => Style::Thin,
         Criterion::Delamination(_) | Criterion::DangVan(_) => Style::Dotted,
     };

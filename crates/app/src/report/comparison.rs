@@ -45,5 +45,5 @@ pub(super) fn part(results: &Results, file: &ComparisonFile) -> Result<Part, Rep
         section("time", "Version", vec![by(&file.percoat)]),
         section("case", "Case", vec![case_to_copy(&text, "compare")]),
     ];
-    Ok(Part { name: "comparison", kind: "Comparison", title: file.title.clone(), sections })
+    Ok(Part { name: "comparison", kind: "Comparison", title: file.title.clone(), sections, warnings: Vec::new() })
 }

@@ -31,9 +31,15 @@ pub(super) fn part(results: &Results, file: &IdentificationFile) -> Result<Part,
         section("fit", "Fit", vec![lines(file.fit(&units)), known.unwrap_or_default()]),
         section("pictures", "Pictures", vec![figures(results, "identification.json", &PICTURES)?]),
         section("problem", "Problem with what was found", vec![problem(case), tag("p", measured_in(&units))]),
-        section("warnings", "Warnings", vec![warnings(&file.warnings)]),
+        warnings(),
         section("time", "Version", vec![by(&file.percoat)]),
         section("case", "Case with what was found", vec![case_to_copy(&text, "solve")]),
     ];
-    Ok(Part { name: "identification", kind: "Identification", title: file.title.clone(), sections })
+    Ok(Part {
+        name: "identification",
+        kind: "Identification",
+        title: file.title.clone(),
+        sections,
+        warnings: file.warnings.clone(),
+    })
 }

@@ -52,11 +52,11 @@ pub(super) fn part(results: &Results, file: &LifeFile) -> Result<Part, ReportErr
     }
     let first = "The contact before the first pass";
     sections.push(section("contact", "Contact", vec![table(first, &tables::steps(&file.steps, &units))]));
-    sections.push(section("warnings", "Warnings", vec![warnings(&file.warnings)]));
+    sections.push(warnings());
     sections.push(section("resolution", "Resolution", vec![resolution(&file.steps, None)]));
     let tolerance = case["solver"]["tolerance"].as_f64();
     sections.push(section("certificate", "Certificate", vec![certificate(&file.steps, tolerance)]));
     sections.push(section("time", "Version", vec![by(&file.percoat)]));
     sections.push(section("case", "Case", vec![case_to_copy(&text, "life")]));
-    Ok(Part { name: "life", kind: "Life", title: file.title.clone(), sections })
+    Ok(Part { name: "life", kind: "Life", title: file.title.clone(), sections, warnings: file.warnings.clone() })
 }

@@ -70,7 +70,7 @@ pub(super) fn part(results: &Results, file: &LimitFile) -> Result<Part, ReportEr
         let caption = "Loads that were solved in the search, by ascending load";
         sections.push(section("loads", "Loads solved", vec![table(caption, &tables::steps(&limits.steps, &units))]));
     }
-    sections.push(section("warnings", "Warnings", vec![warnings(&file.warnings)]));
+    sections.push(warnings());
     if !limits.steps.is_empty() {
         sections.push(section("resolution", "Resolution", vec![resolution(&limits.steps, limits.change)]));
         let tolerance = case["solver"]["tolerance"].as_f64();
@@ -78,7 +78,13 @@ pub(super) fn part(results: &Results, file: &LimitFile) -> Result<Part, ReportEr
     }
     sections.push(section("time", "Version", vec![by(&file.percoat)]));
     sections.push(section("case", "Case", vec![case_to_copy(&text, "limit")]));
-    Ok(Part { name: "limit", kind: "Limit loads", title: file.title.clone(), sections })
+    Ok(Part {
+        name: "limit",
+        kind: "Limit loads",
+        title: file.title.clone(),
+        sections,
+        warnings: file.warnings.clone(),
+    })
 }
 
 /// The criterion that fails first with its load, where no other one may be first within the errors.

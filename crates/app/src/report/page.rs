@@ -1,7 +1,7 @@
 //! The page: its head, and its parts one after the other.
 
 use super::markup::{Markup, tag, void, with};
-use super::part::Part;
+use super::part::{Part, with_warnings};
 use super::results::Results;
 use super::trailer::with_trailer;
 use super::{ReportError, comparison, identification, life, limit, run, sweep};
@@ -41,6 +41,7 @@ pub fn page(folder: &Path) -> Result<Page, ReportError> {
     if let Some(file) = &results.run {
         parts.push(run::part(&results, file)?);
     }
+    let parts = with_warnings(parts);
     results.whole()?;
     let missing = results.doubts();
     Ok(Page { html: with_trailer(&written(&parts, &missing)), missing })

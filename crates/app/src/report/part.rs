@@ -18,7 +18,12 @@ pub(super) struct Part {
     /// Title of its case.
     pub title: String,
     pub sections: Vec<Section>,
+    /// Warnings, which the page lists in the section [`WARNINGS`].
+    pub warnings: Vec<String>,
 }
+
+/// Name of the section of the warnings.
+const WARNINGS: &str = "warnings";
 
 /// A section of a part.
 #[derive(Debug)]
@@ -34,13 +39,40 @@ pub(super) fn section(name: &'static str, heading: &'static str, content: Vec<Ma
     Section { name, heading, content: content.into() }
 }
 
-/// The warnings of a result, or that there are none.
-pub(super) fn warnings(list: &[String]) -> Markup {
-    if list.is_empty() {
-        return tag("p", "None.");
+/// The place of the warnings of a part among its sections.
+pub(super) fn warnings() -> Section {
+    section(WARNINGS, "Warnings", Vec::new())
+}
+
+/// The parts with their warnings, each once on the page.
+pub(super) fn with_warnings(mut parts: Vec<Part>) -> Vec<Part> {
+    let mut told: Vec<String> = Vec::new();
+    for Part { sections, warnings, .. } in &mut parts {
+        for section in sections.iter_mut().filter(|section| section.name == WARNINGS) {
+            section.content = untold(warnings, &mut told);
+        }
     }
-    let items = list.iter().map(|warning| tag("li", warning.as_str())).collect::<Markup>();
-    with("ul", &[("class", "doubt")], items)
+    parts
+}
+
+/// The warnings of a result without those that were told above, or that there are none.
+fn untold(warnings: &[String], told: &mut Vec<String>) -> Markup {
+    let is_told_above = warnings.iter().any(|warning| told.contains(warning));
+    let mut items = Vec::new();
+    for warning in warnings {
+        if !told.contains(warning) {
+            items.push(tag("li", warning.as_str()));
+            told.push(warning.clone());
+        }
+    }
+    let list = if items.is_empty() { Markup::default() } else { with("ul", &[("class", "doubt")], items) };
+    let rest = match (is_told_above, list.is_empty()) {
+        (true, true) => tag("p", "None but those above."),
+        (true, false) => tag("p", "Beside them some of those above."),
+        (false, true) => tag("p", "None."),
+        (false, false) => Markup::default(),
+    };
+    vec![list, rest].into()
 }
 
 /// The case of a result as TOML.
@@ -93,7 +125,9 @@ fn assumptions(case: &Value) -> Assumptions {
 /// Names of the materials without a strength, an endurance limit or a law of fatigue, as the case names them.
 fn untested(case: &Value) -> Vec<String> {
     let has_strength = |part: &Value| {
-        ["yield_strength", "tensile_strength", "endurance", "fatigue"].iter().any(|key| !part[key].is_null())
+        ["yield_strength", "tensile_strength", "endurance", "fatigue", "strain_life"]
+            .iter()
+            .any(|key| !part[key].is_null())
     };
     let is_rigid = |part: &Value| part.is_null() || part["rigid"] == true;
     let name = |part: &Value, number: usize| part["name"].as_str().map_or(format!("material {number}"), str::to_owned);
@@ -111,4 +145,27 @@ fn untested(case: &Value) -> Vec<String> {
 /// Assumptions of the largest stresses of a case, `with_strength` those of its strengths too, a paragraph each.
 pub(super) fn assumed(case: &Value, with_strength: bool) -> Markup {
     assumptions(case).sentences(with_strength).into_iter().map(|sentence| tag("p", upper(&sentence))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_warning_stands_once_on_a_page() {
+        let part = |warnings: &[&str]| Part {
+            name: "run",
+            kind: "Run",
+            title: String::new(),
+            sections: vec![super::warnings()],
+            warnings: warnings.iter().map(|text| (*text).to_owned()).collect(),
+        };
+        let parts = [&["thin", "coarse", "thin"][..], &["coarse"], &["thin", "steep"], &[]].map(part);
+        let pages = with_warnings(parts.into()).into_iter().map(|part| part.sections[0].content.as_str().to_owned());
+        let pages: Vec<String> = pages.collect();
+        for word in ["thin", "coarse", "steep"] {
+            assert_eq!(pages.concat().matches(word).count(), 1, "{pages:?}");
+        }
+        assert!(pages[1].contains("None but those above") && pages[3].contains("None.") && !pages[0].contains("above"));
+    }
 }

@@ -191,7 +191,11 @@ fn lone_shape(case: &Value) -> Option<&str> {
     if is_sharp { Some("cone") } else { level["shape"].as_str() }
 }
 
-/// A list of the case as one table: a row an item, a column for every key of any item.
+/// Most items that stand side by side.
+const ABREAST: usize = 5;
+
+/// A list of the case as one table: a row an item and a column for every key of any item, or of few items with many keys the other way
+/// round.
 fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> String) -> Markup {
     let known = |key: &str| FRONT.iter().position(|front| *front == key).unwrap_or(FRONT.len());
     let mut keys: Vec<&String> = Vec::new();
@@ -201,9 +205,14 @@ fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> Str
         }
     }
     keys.sort_by_key(|key| known(key));
+    let cell = |item: &Value, key: &String| item.get(key).map_or("–".to_owned(), text);
+    if items.len() <= ABREAST && items.len() < keys.len() {
+        let head: Vec<String> = [lead.to_owned()].into_iter().chain((1..=items.len()).map(&name)).collect();
+        let row = |key: &&String| [named(key)].into_iter().chain(items.iter().map(|item| cell(item, key))).collect();
+        return table(caption, &Table::new(&head, keys.iter().map(row).collect(), head.len()));
+    }
     let row = |(number, item): (usize, &Value)| {
-        let cells = keys.iter().map(|key| item.get(key).map_or("–".to_owned(), text));
-        [name(number)].into_iter().chain(cells).collect()
+        [name(number)].into_iter().chain(keys.iter().map(|key| cell(item, key))).collect()
     };
     let head: Vec<String> = [lead.to_owned()].into_iter().chain(keys.iter().map(|key| named(key))).collect();
     table(caption, &Table::new(&head, (1..).zip(items).map(row).collect(), 1))
@@ -326,6 +335,21 @@ mod tests {
         assert_eq!(named(json!({ "shape": "berkovich" })).as_deref(), Some("cone"));
         assert_eq!(named(json!({ "shape": "berkovich", "tip_radius": 0.1 })).as_deref(), Some("tip"));
         assert_eq!(named(json!({ "shape": "sphere", "radius": 1.0 })).as_deref(), Some("ball"));
+    }
+
+    #[test]
+    fn few_materials_with_many_keys_stand_side_by_side() {
+        let body = json!([{ "thickness": 2.0, "young": 300.0, "poisson": 0.2, "hardness": 24.0 }]);
+        let table = |layers: &Value| materials("The body", layers.as_array().unwrap(), &json!({ "young": 210.0 }));
+        let head = |table: Markup| {
+            let (head, _) = table.as_str().split_once("</thead>").expect("a head");
+            head.replace('\u{a0}', " ")
+        };
+        let few = head(table(&body));
+        assert!(few.contains("1 (layer 1)") && few.contains("2 (substrate)") && !few.contains("hardness"), "{few}");
+        let many = json!(vec![body[0].clone(); 9]);
+        let many = head(table(&many));
+        assert!(many.contains("hardness") && !many.contains("layer 1"), "{many}");
     }
 
     #[test]

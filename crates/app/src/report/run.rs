@@ -100,7 +100,7 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         let caption = "Utilisations: 1 is where the material or interface fails";
         sections.push(section("strengths", "Strengths", vec![table(caption, &taken.table), assumed(case, true)]));
     }
-    sections.push(section("warnings", "Warnings", vec![warnings(&summary.warnings)]));
+    sections.push(warnings());
     sections.push(section("resolution", "Resolution", vec![resolution(steps, summary.accuracy)]));
     sections.push(section(
         "certificate",
@@ -110,5 +110,5 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
     let timing = summary.timing.as_ref().map(|timing| tag("p", format!("Seconds: {}.", tables::timing(timing))));
     sections.push(section("time", "Time and version", timing.into_iter().chain([by(&summary.percoat)]).collect()));
     sections.push(section("case", "Case", vec![case_to_copy(&text, "solve")]));
-    Ok(Part { name: "run", kind: "Run", title: summary.title.clone(), sections })
+    Ok(Part { name: "run", kind: "Run", title: summary.title.clone(), sections, warnings: summary.warnings.clone() })
 }

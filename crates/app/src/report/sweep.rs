@@ -62,7 +62,7 @@ pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError
         section("answer", "Answer", answer),
         section("pictures", "Pictures", vec![figures(results, "sweep.json", &PICTURES)?]),
         section("rows", "Combinations", vec![shown(rows, keys, units.quantity())]),
-        section("warnings", "Warnings", vec![warnings(&description.warnings)]),
+        warnings(),
     ];
     if !keys_of_case.is_null() {
         let words = tag("p", "The case of which the sweep changes the keys above:");
@@ -72,7 +72,7 @@ pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError
     let time = tag("p", format!("{:.2} s.", description.timing.wall));
     sections.push(section("time", "Time and version", vec![time, by(&description.percoat)]));
     sections.push(section("case", "Case", vec![case_to_copy(text, "sweep")]));
-    Ok(Part { name: "sweep", kind: "Sweep", title: title.clone(), sections })
+    Ok(Part { name: "sweep", kind: "Sweep", title: title.clone(), sections, warnings: description.warnings.clone() })
 }
 
 /// The table of the values that were given.

@@ -7,7 +7,7 @@
 use super::result::{LimitValue, SweepResult, stated};
 use super::row::{Row, Status};
 use crate::output::table::{Table, Worded};
-use crate::output::{in_unit, number};
+use crate::output::{in_unit, number, passes_with_error};
 use percoat_case::units::Units;
 use percoat_core::load::LoadQuantity;
 use percoat_core::measured::Measured;
@@ -152,6 +152,7 @@ fn text(units: &Units, merit: &Merit, value: LimitValue) -> String {
     let unit = units.unit(merit.kind).prefixed(load(value).unwrap_or_default());
     let bound = |sign: &str, load: f64| unit.behind(&format!("{sign} {}", number(unit.shown(load))));
     match value {
+        LimitValue::At(passes, error) if merit.kind == Kind::Passes => passes_with_error(Measured::new(passes, error)),
         LimitValue::At(load, error) => unit.behind(&in_unit(&unit, Measured::new(load, error))),
         LimitValue::Below(load) => bound("<", load),
         LimitValue::Above(load) => bound(">", load),

@@ -31,7 +31,8 @@ pub(super) fn of_results(case: &Case, task: Task) -> u64 {
         Task::Solve => {
             // τ₁, tension and von Mises of each material and face, normal and shear of each interface; three strains beside the former.
             let has_stress = case.stress.is_some() || criteria > 0;
-            let measures = if case.stress.as_ref().is_some_and(|stress| stress.strain) { 6 } else { 3 };
+            let has_strains = case.stress.as_ref().is_some_and(|stress| stress.strain) || bodies.last_by_strain();
+            let measures = if has_strains { 6 } else { 3 };
             let stress = if has_stress {
                 PEAK * (measures * (3 * layers + 2 * bodies.each().count()) + 2 * layers + criteria)
             } else {

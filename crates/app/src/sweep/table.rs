@@ -10,7 +10,7 @@ use crate::output::columns::{Cells, csv, names};
 use crate::output::{OutputError, SWEEP_LOG, checksum, digest, write_text};
 use percoat_case::case::{Case, NamedKey, Source};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
@@ -181,8 +181,26 @@ impl Description {
 
     /// The content of `sweep.json`.
     pub fn to_json(&self) -> String {
-        serde_json::to_string_pretty(self).expect("a description is numbers and texts under names") + "\n"
+        self.json_with(None)
     }
+
+    /// The content of `sweep.json` with an uncertainty: a list of results with the columns of `uncertainty.csv`, null where one is infinite
+    /// or not known.
+    fn json_with(&self, uncertainty: Option<&Uncertainty>) -> String {
+        let uncertainty = uncertainty
+            .map(|found| found.cells().into_iter().map(|cells| cells.into_iter().collect::<Map<_, _>>()).collect());
+        let whole = Whole { description: self, uncertainty };
+        serde_json::to_string_pretty(&whole).expect("a description is numbers and texts under names") + "\n"
+    }
+}
+
+/// A description with the uncertainty of its results.
+#[derive(Serialize)]
+struct Whole<'a> {
+    #[serde(flatten)]
+    description: &'a Description,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    uncertainty: Option<Vec<Map<String, Value>>>,
 }
 
 /// Content of a file of a sweep, by the rows and their description; `None` where there is no such file.
@@ -192,7 +210,7 @@ type Content = fn(&[Row], &Description, Option<&Uncertainty>) -> Option<String>;
 const FILES: [(&str, Content); 4] = [
     (SWEEP_LOG, |rows, description, _| (!rows.is_empty()).then(|| lines(&description.identity(), rows))),
     ("sweep.csv", |rows, _, _| Some(table(rows))),
-    ("sweep.json", |_, description, _| Some(description.to_json())),
+    ("sweep.json", |_, description, uncertainty| Some(description.json_with(uncertainty))),
     ("uncertainty.csv", |_, _, uncertainty| uncertainty.map(|found| csv(|| found.cells().into_iter()))),
 ];
 

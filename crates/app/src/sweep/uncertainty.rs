@@ -238,10 +238,12 @@ impl Uncertainty {
             lines.iter_mut().for_each(|line| drop(line.pop()));
         }
         let steps = self.results.iter().map(|spread| spread.step).max().unwrap_or(0);
+        let is_wide = lines.iter().flat_map(|line| [&line[1], &line[3]]).any(|cell| cell.contains(" to "));
         let words = format!(
-            "uncertainty by {draws} draws of {}{}; ± is the 95 % interval of the sampling",
+            "uncertainty by {draws} draws of {}{}; ± is the 95 % interval of the sampling{}",
             self.keys(),
-            if steps > 1 { ", last load step" } else { "" }
+            if steps > 1 { ", last load step" } else { "" },
+            if is_wide { ", a to b where it is beyond 30 %" } else { "" }
         );
         (!lines.is_empty()).then(|| Worded { words, table: Table::new(&head, lines, 5) })
     }

@@ -1,10 +1,10 @@
-//! `hardness`, `wear`, `fatigue` and `endurance` of a material, and `interface_fatigue` of the lower face of a layer.
+//! `hardness`, `wear`, `fatigue`, `endurance` and `strain_life` of a material, and `interface_fatigue` of the lower face of a layer.
 
 use super::error::Refusal;
 use super::keys::{Form, Key, Range, Unit};
 use super::reader::TableAt;
-use super::section::section;
-use percoat_core::body::{Durability, Endurance, Fatigue, MaterialError};
+use super::section::{Words, section, words};
+use percoat_core::body::{Durability, Endurance, Fatigue, MaterialError, StrainDirection, StrainLife};
 use serde_json::Value;
 use std::ops::Bound;
 
@@ -15,6 +15,7 @@ const PART: Form = Form::Number(Range::Within(Bound::Excluded(0.0), Bound::Exclu
 const FAILURES: f64 = 0.1;
 static LAW: [Form; 1] = [Form::Table(&FATIGUE)];
 static LIMITS: [Form; 1] = [Form::Table(&ENDURANCE)];
+static LIFE_BY_STRAIN: [Form; 1] = [Form::Table(&STRAIN_LIFE)];
 
 // Keys of layers, of the substrate and of the counterbody.
 pub(super) const HARDNESS: Key =
@@ -25,6 +26,9 @@ pub(super) const FATIGUE_LAW: Key =
     Key::new(&LAW, "{ amplitude = 0.4, passes = 1e6, exponent = 8 }").otherwise("no fatigue");
 pub(super) const ENDURANCE_LIMITS: Key =
     Key::new(&LIMITS, "{ torsion = 0.3, bending = 0.5 }").otherwise("never reached");
+pub(super) const STRAIN_LAW: Key =
+    Key::new(&LIFE_BY_STRAIN, "{ strain = 2e-4, passes = 1e6, exponent = 3.291, direction = \"tension\" }")
+        .otherwise("no life by strain");
 
 section! {
     /// Damage by the range of the shear stress, (range/amplitude)^exponent/passes in a pass.
@@ -55,6 +59,41 @@ section! {
         pub torsion: f64 = Key::new(&[SIZE], "0.3").unit(Unit::Pressure),
         /// limit of the stress in alternating bending
         pub bending: f64 = Key::new(&[SIZE], "0.5").unit(Unit::Pressure).rule("at most √3 `torsion`"),
+    }
+}
+
+words! {
+    /// The strain that counts in a life.
+    pub enum DirectionWord {
+        /// Largest extension of the horizontal directions.
+        Tension = "tension",
+        /// Largest compression along z.
+        Compression = "compression",
+    }
+}
+
+section! {
+    /// Passes to failure by the largest strain ε of the material, passes (strain/ε)^exponent.
+    #[derive(Copy)]
+    pub struct StrainLifeSection = STRAIN_LIFE {
+        /// strain under which the material lasts `passes`, not in microstrain: 2e-4 is 200 µε
+        pub strain: f64 = Key::new(&[PART], "2e-4"),
+        /// passes to failure under `strain`
+        pub passes: f64 = Key::new(&[SIZE], "1e6"),
+        /// power of the strain with which the passes fall
+        pub exponent: f64 = Key::new(&[SIZE], "3.291"),
+        /// the strain that counts: the largest horizontal tension, or the largest vertical compression
+        pub direction: DirectionWord = Key::new(&[Form::Word(DirectionWord::WORDS)], "\"tension\""),
+    }
+}
+
+impl StrainLifeSection {
+    fn strain_life(&self) -> Result<StrainLife, MaterialError> {
+        let direction = match self.direction {
+            DirectionWord::Tension => StrainDirection::Tension,
+            DirectionWord::Compression => StrainDirection::Compression,
+        };
+        StrainLife::new(self.strain, self.passes, self.exponent, direction)
     }
 }
 
@@ -123,10 +162,12 @@ pub(super) fn durability(
     wear: Option<f64>,
     fatigue: Option<FatigueSection>,
     endurance: Option<EnduranceSection>,
+    strain_life: Option<StrainLifeSection>,
 ) -> Result<Durability, MaterialError> {
     let fatigue = fatigue.map(|section| section.fatigue()).transpose()?;
     let endurance = endurance.map(|section| section.endurance()).transpose()?;
-    Ok(Durability { hardness, wear, fatigue, endurance })
+    let strain_life = strain_life.map(|section| section.strain_life()).transpose()?;
+    Ok(Durability { hardness, wear, fatigue, endurance, strain_life })
 }
 
 #[cfg(test)]
@@ -147,7 +188,9 @@ mod tests {
     #[test]
     fn every_sublayer_has_the_durability_of_its_layer_and_the_last_one_the_fatigue_of_the_lower_face() {
         let graded = "graded = { young = [3, 2], poisson = [0.2, 0.3], sublayers = 3 }";
-        let keys = "hardness = 0.3, wear = 1e-6, endurance = { torsion = 0.03, bending = 0.05 }";
+        let by_strain = "strain_life = { strain = 2e-4, passes = 1e6, exponent = 4, direction = \"compression\" }";
+        let keys =
+            format!("hardness = 0.3, wear = 1e-6, endurance = {{ torsion = 0.03, bending = 0.05 }}, {by_strain}");
         let case = read(&format!(
             "layers = [{{ thickness = 1, {graded}, {keys}, fatigue = {LAW}, interface_fatigue = {LAW} }}]\n\
              substrate = {{ young = 1, poisson = 0.3, fatigue = {LAW} }}\n"
@@ -158,6 +201,7 @@ mod tests {
             wear: Some(1e-6),
             fatigue: Some(law),
             endurance: Some(Endurance::new(0.03, 0.05).unwrap()),
+            strain_life: Some(StrainLife::new(2e-4, 1e6, 4.0, StrainDirection::Compression).unwrap()),
         };
         let base = Durability { fatigue: Some(law), ..Durability::default() };
         let found: Vec<Durability> = case.half_space().durabilities().collect();

@@ -87,6 +87,7 @@ impl CounterbodySection {
             wear: self.wear,
             fatigue: self.fatigue,
             endurance: self.endurance,
+            strain_life: self.strain_life,
             rigid: self.rigid,
         }
     }

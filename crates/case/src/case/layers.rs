@@ -17,8 +17,18 @@ pub(super) const SIZE: Form = Form::Number(Range::Size);
 pub(super) const POISSON: Form = Form::Number(Range::between(0.0, 0.5));
 
 /// Keys that a rigid base does not have, beside `young`; the last two are those of a surface.
-const BELOW: &[&str] =
-    &["poisson", "material", "name", "yield_strength", "tensile_strength", "fatigue", "endurance", "hardness", "wear"];
+const BELOW: &[&str] = &[
+    "poisson",
+    "material",
+    "name",
+    "yield_strength",
+    "tensile_strength",
+    "fatigue",
+    "endurance",
+    "strain_life",
+    "hardness",
+    "wear",
+];
 /// Keys that a rigid counterbody does not have, beside `young`.
 pub(super) const ELASTIC: &[&str] = BELOW.split_at(BELOW.len() - 2).0;
 pub(super) const RIGID: Key =
@@ -150,7 +160,7 @@ impl SubstrateSection {
     /// The half-space of these layers on its material.
     fn under(&self, layers: Vec<Layer>, material: Material) -> Result<HalfSpace, MaterialError> {
         let strength = Strength { yielding: self.yield_strength, tensile: self.tensile_strength };
-        let durability = durability(self.hardness, self.wear, self.fatigue, self.endurance)?;
+        let durability = durability(self.hardness, self.wear, self.fatigue, self.endurance, self.strain_life)?;
         HalfSpace::new(layers, material).with_substrate_strength(strength)?.with_substrate_durability(durability)
     }
 }
@@ -190,7 +200,7 @@ impl LayerSection {
         let layer_strength = Strength { yielding: self.yield_strength, tensile: self.tensile_strength };
         let lower =
             self.interface_strength.as_ref().map_or(InterfaceStrength::default(), InterfaceStrengthSection::strength);
-        let durability = durability(self.hardness, self.wear, self.fatigue, self.endurance)?;
+        let durability = durability(self.hardness, self.wear, self.fatigue, self.endurance, self.strain_life)?;
         let fatigue = self.interface_fatigue.map(|section| section.fatigue()).transpose()?;
         let layer = |(index, material): (usize, Material)| {
             let (interface, strength, fatigue) = if index + 1 == count {

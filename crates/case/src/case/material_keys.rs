@@ -46,6 +46,9 @@ macro_rules! material_section {
                 /// endurance limits, below which any number of passes is borne, for the criteria of Crossland and Dang Van
                 pub endurance: Option<$crate::case::durability::EnduranceSection> =
                     $crate::case::durability::ENDURANCE_LIMITS,
+                /// passes to failure by the largest strain, as layers of pavements are designed
+                pub strain_life: Option<$crate::case::durability::StrainLifeSection> =
+                    $crate::case::durability::STRAIN_LAW,
                 $($last)*
             }
         }

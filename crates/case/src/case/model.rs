@@ -243,6 +243,11 @@ impl Case {
         })
     }
 
+    /// Whether a run has stresses on a vertical cut.
+    pub fn has_cut(&self) -> bool {
+        self.stress.as_ref().is_some_and(|stress| stress.cut(&self.problem).is_some())
+    }
+
     /// The run of `percoat solve`.
     pub fn run(&self) -> Run {
         let friction = self.problem.friction();

@@ -144,9 +144,7 @@ impl StressSection {
         if stress.section.is_some_and(|cut| cut.toward.is_none()) && sliding.is_none() {
             return Err(section.value("section")?.table()?.missing("toward"));
         }
-        let is_free = stress.planes.is_empty() && stress.points.is_empty() && stress.volume.is_none();
-        let unasked = || if is_free { CutSection::across_window(problem, sliding) } else { None };
-        let stress = Self { section: stress.section.map(|cut| cut.completed(sliding)).or_else(unasked), ..stress };
+        let stress = Self { section: stress.section.map(|cut| cut.completed(sliding)), ..stress };
         stress.within(problem, section)?;
         if stress.mean == MeanStress::Line && problem.loaded_by().line().is_none() {
             return Err(no_line(section)?);
@@ -175,6 +173,12 @@ impl StressSection {
         end.map_or(Ok(()), |end| refuse("section", String::new(), "ends", end))
     }
 
+    /// The vertical cut of a run of `problem`: that of the key, or of an isolated contact without any place the one across its window.
+    pub(super) fn cut(&self, problem: &Problem) -> Option<CutSection> {
+        let is_free = self.planes.is_empty() && self.points.is_empty() && self.volume.is_none();
+        self.section.or_else(|| if is_free { CutSection::across_window(problem) } else { None })
+    }
+
     /// The request for a run of `problem`.
     pub(super) fn request(&self, problem: &Problem) -> StressRequest {
         let lattice = problem.indenters().map(Indenters::lattice);
@@ -182,7 +186,7 @@ impl StressSection {
         StressRequest {
             mean: self.mean,
             planes: self.planes.clone(),
-            cut: self.section.and_then(cut),
+            cut: self.cut(problem).and_then(cut),
             points: self.points.clone(),
             volume: self.volume,
             strain: self.strain,
@@ -223,10 +227,9 @@ fn check_levels(cut: &ValueAt<'_>, levels: usize) -> Result<(), Refusal> {
 impl CutSection {
     /// The cut through the first indenter, or the middle, from border to border of the window along x or the direction of sliding, half of the
     /// window's shorter side deep; `None` in a periodic cell.
-    fn across_window(problem: &Problem, sliding: Option<[f64; 2]>) -> Option<Self> {
+    fn across_window(problem: &Problem) -> Option<Self> {
         let cell = problem.cell();
-        let sides = cell.window_sides()?;
-        let direction = sliding.unwrap_or([1.0, 0.0]);
+        let (sides, direction) = (cell.window_sides()?, problem.direction());
         let from = if problem.levels().is_empty() { Origin::Place([0.0; 2]) } else { Origin::Level(1) };
         let cut = Self { from, toward: Some(Toward::Direction(direction)), length: 0.0, behind: None, depth: 0.0 };
         let line = cut.line(problem.indenters().map(Indenters::lattice))?;

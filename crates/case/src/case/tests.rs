@@ -284,6 +284,11 @@ fn an_isolated_contact_is_cut_across_its_window_unless_other_places_are_named() 
         assert!(found.into_iter().chain(turned).all(|x| x.abs() < 1e-12), "{cut:?}");
         assert_eq!(cut.line.origin, [0.0; 2]);
     }
+    // The cut of a copied case is that of the window which it is given.
+    let text = read(ball, &[]).unwrap().to_toml();
+    assert!(!text.contains("section"), "{text}");
+    let smaller = read(&text, &["lattice.size=[2.0,1.0]"]).unwrap();
+    assert!(smaller.has_cut() && (smaller.run().stress.unwrap().cut.unwrap().depth - 0.5).abs() < 1e-12);
     assert!(cut("planes = [0.1]\n", &[]).is_none() && cut("points = [[0.0, 0.0, 0.1]]\n", &[]).is_none());
     assert!(read(&fig2(), &["stress={}"]).unwrap().run().stress.unwrap().cut.is_none());
 }

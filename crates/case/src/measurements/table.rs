@@ -2,6 +2,7 @@
 //!
 //! Lines that begin with `#`, and empty ones, are comments. Lines before the one that names the columns are a preamble.
 
+use percoat_common::encoding::utf8_or_latin1;
 use std::borrow::Cow;
 
 /// A table: the names of its columns, a unit for each where a line of units follows them, and its lines.
@@ -35,10 +36,11 @@ pub fn text(bytes: &[u8]) -> Cow<'_, str> {
     let text: Cow<'_, str> = match bytes {
         [0xff, 0xfe, ..] => wide(&mut pairs(u16::from_le_bytes)).into(),
         [0xfe, 0xff, ..] => wide(&mut pairs(u16::from_be_bytes)).into(),
-        _ => match std::str::from_utf8(bytes) {
-            Ok(text) => text.strip_prefix('\u{feff}').unwrap_or(text).into(),
-            Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect::<String>().into(),
-        },
+        _ => utf8_or_latin1(bytes),
+    };
+    let text = match text {
+        Cow::Borrowed(text) => Cow::Borrowed(text.strip_prefix('\u{feff}').unwrap_or(text)),
+        decoded => decoded,
     };
     // Old ends of lines: a return alone.
     if text.contains('\r') { text.replace("\r\n", "\n").replace('\r', "\n").into() } else { text }

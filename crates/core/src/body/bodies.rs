@@ -101,13 +101,18 @@ impl Bodies {
         Self { body, ..self.clone() }
     }
 
-    /// Whether a material or an interface has a law of fatigue.
+    /// Whether a material or an interface has a law of fatigue, a life by strain among them.
     pub fn tire(&self) -> bool {
         let tires = |body: &HalfSpace| {
             body.durabilities().any(|durability| durability.fatigue.is_some())
                 || body.layers().iter().any(|layer| layer.interface_fatigue().is_some())
         };
-        self.each().any(tires)
+        self.each().any(tires) || self.last_by_strain()
+    }
+
+    /// Whether a material has a life by strain.
+    pub fn last_by_strain(&self) -> bool {
+        self.each().flat_map(HalfSpace::durabilities).any(|durability| durability.strain_life.is_some())
     }
 
     /// The body.

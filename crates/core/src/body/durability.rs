@@ -7,7 +7,7 @@
 //! - **Endurance** limits τ₋₁ in alternating torsion and σ₋₁ in alternating bending, below which it bears any number of passes: those of
 //!   the criteria of Crossland and of Dang Van.
 
-use super::MaterialError;
+use super::{MaterialError, StrainLife};
 
 /// Damage of a material or an interface by a range of the shear stress, pass by pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,6 +107,8 @@ pub struct Durability {
     pub fatigue: Option<Fatigue>,
     /// Endurance limits.
     pub endurance: Option<Endurance>,
+    /// Passes to failure by the largest strain.
+    pub strain_life: Option<StrainLife>,
 }
 
 impl Durability {

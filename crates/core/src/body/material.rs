@@ -33,6 +33,9 @@ pub enum MaterialError {
     /// Number of a law of fatigue not positive and finite.
     #[error("amplitude, passes and exponent of fatigue must be positive and finite, not {0}")]
     Fatigue(f64),
+    /// Number of a law of life by strain not positive and finite.
+    #[error("strain, passes and exponent of a life by strain must be positive and finite, not {0}")]
+    StrainLife(f64),
     /// Endurance limit of bending too far above that of torsion.
     #[error(
         "an endurance limit of bending must be at most √3 = 1.73 times that of torsion, not {0:.3}: tension would do good"

@@ -46,6 +46,7 @@ mod minors;
 mod moduli;
 mod names;
 mod response;
+mod strain_life;
 mod strata;
 mod strength;
 mod stress_function;
@@ -66,6 +67,7 @@ pub use mean::MeanStress;
 pub use moduli::Moduli;
 pub use names::{InterfaceId, MaterialId, Name, Side};
 pub use response::{LayeredResponse, SurfaceResponse};
+pub use strain_life::{StrainDirection, StrainLife};
 pub use strength::{InterfaceStrength, Strength};
 pub use substrate::Substrate;
 

@@ -171,7 +171,9 @@ impl LifeTask {
                     state.damage.add(rates, passes, removed);
                     state.passes = until;
                 } else if next.is_none() && until.is_infinite() {
-                    state.end = Some(LifeEnd::Endless);
+                    let by_strain = self.first_by_strain(contact);
+                    state.passes = by_strain.unwrap_or(state.passes);
+                    state.end = Some(by_strain.map_or(LifeEnd::Endless, |_| LifeEnd::Passes));
                 }
                 return;
             };
@@ -188,11 +190,20 @@ impl LifeTask {
         }
     }
 
+    /// Passes until a material of the unworn body first fails by its strain; `None` where none ever does.
+    fn first_by_strain(&self, contact: &Beginning) -> Option<f64> {
+        let lives = contact.record.fatigue.iter().flat_map(|fatigue| &fatigue.lives);
+        let by_strain =
+            lives.filter(|life| !life.part.is_counterbody() && matches!(life.part, FatiguePart::Strained(_)));
+        by_strain.map(|life| life.passes).filter(|passes| passes.is_finite()).reduce(f64::min)
+    }
+
     /// The first failure of the unworn body as its reading has it, refined between the planes.
     fn exact_first(&self, state: &LifeState, contact: &Beginning) -> Option<Failure> {
-        let life = contact.record.fatigue.as_ref()?.lives.iter().filter(|life| !life.part.is_counterbody());
+        let life = contact.record.fatigue.as_ref()?.lives.iter().filter(|life| life.part.is_followed());
         let first = life.min_by(|a, b| a.passes.total_cmp(&b.passes))?;
         let place = match first.part {
+            FatiguePart::Strained(_) => return None,
             FatiguePart::Material(id) => FailurePlace::Material(id.number),
             FatiguePart::Interface(id) => FailurePlace::Interface(id.number),
         };

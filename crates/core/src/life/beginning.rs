@@ -1,7 +1,7 @@
 //! The body before its first pass: the contact, with what it does in each pass.
 
 use super::task::{LifeError, LifeTask};
-use crate::reading::{Pass, PathReading};
+use crate::reading::{FatigueReading, Pass, PathReading, largest_while};
 use crate::run::{Refinement, RefinementEnd, Sampling, StepRecord, change};
 use crate::spectral::{Solver, Step};
 use crate::stress::{PathSought, RangePlane, StressFields};
@@ -87,8 +87,14 @@ impl LifeTask {
         } else {
             PathReading::default()
         };
+        let by_strain = self.problem.bodies().last_by_strain() && reading.touches();
+        let strains = match by_strain {
+            true => largest_while(&step, &reading, &fields, goes_on).ok_or(LifeError::Interrupted)?,
+            false => Vec::new(),
+        };
         drop(fields);
-        let record = StepRecord { fatigue: found.fatigue, ..StepRecord::new(&step, reading) };
+        let fatigue = FatigueReading::with_strains(found.fatigue, &self.problem, &strains);
+        let record = StepRecord { fatigue, ..StepRecord::new(&step, reading) };
         Ok(Beginning { step, back, record, planes: found.planes, change: None, end: None })
     }
 }

@@ -35,7 +35,7 @@ pub struct First {
     pub distance: Option<f64>,
     /// Estimated relative error of the passes by the grid; `None` where it is not known.
     pub error: Option<f64>,
-    /// Range of the shear stress that does the damage, a pressure, as of [`Life::range`]; `None` of wear.
+    /// Range of the shear stress that does the damage, a pressure, or the strain, as of [`Life::range`]; `None` of wear.
     pub range: Option<f64>,
     /// Damage in one pass of the unworn surfaces; `None` of wear.
     pub damage: Option<f64>,
@@ -85,15 +85,14 @@ impl First {
             true => foreseen(life),
             false => Self { error: life.error, ..followed },
         });
-        // An elastic counterbody is not followed.
-        let others = lives().filter(|life| life.part.is_counterbody()).map(foreseen);
+        let others = lives().filter(|life| !life.part.is_followed()).map(foreseen);
         Some(others.fold(followed, shorter))
     }
 }
 
 fn kind_of(part: FatiguePart) -> FirstKind {
     match part {
-        FatiguePart::Material(_) => FirstKind::Fatigue,
+        FatiguePart::Material(_) | FatiguePart::Strained(_) => FirstKind::Fatigue,
         FatiguePart::Interface(_) => FirstKind::Delamination,
     }
 }

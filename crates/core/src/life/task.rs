@@ -38,7 +38,8 @@ pub struct LifeTask {
 pub enum LifeError {
     /// Nothing tires, and nothing wears over a number of passes.
     #[error(
-        "neither a fatigue law nor wear is given: give a material `fatigue` or a layer `interface_fatigue`, or `wear` of a surface and `life.passes`"
+        "neither a fatigue law nor wear is given: give a material `fatigue` or `strain_life`, or a layer `interface_fatigue`, or `wear` of a \
+         surface and `life.passes`"
     )]
     NothingTires,
     /// The grid is refused.

@@ -20,8 +20,8 @@ impl LifeTask {
             begun.record.fatigue.as_ref().and_then(|fatigue| fatigue.first.error).filter(|error| *error > UNKNOWN)
         {
             warnings.push(format!(
-                "the passes to the first failure are uncertain{}: a relative error of the range of the shear stress is \
-                 multiplied by the exponent; raise grid.points, or prescribe grid.accuracy",
+                "the passes to the first failure are uncertain{}: a relative error of the range of the shear stress, or of the strain, \
+                 is multiplied by the exponent; raise grid.points, or prescribe grid.accuracy",
                 power_error(Some(error))
             ));
         }

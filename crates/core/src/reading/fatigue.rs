@@ -14,10 +14,11 @@
 use super::strength::Criterion;
 use super::stress::{Tip, beside_site, contact_radii};
 use super::{Reading, Utilisation};
-use crate::body::{Fatigue, HalfSpace, InterfaceId, MaterialId, Side};
+use crate::body::{Bodies, Fatigue, HalfSpace, InterfaceId, MaterialId, Side, StrainDirection};
 use crate::measured::Measured;
 use crate::notation::power_error;
 use crate::numeric::serialised;
+use crate::problem::Problem;
 use crate::quantity::quantities;
 use crate::spectral::Step;
 use crate::stress::{
@@ -30,16 +31,34 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum FatiguePart {
+    /// A material with a life by strain.
+    Strained(StrainedMaterial),
     /// A material.
     Material(MaterialId),
     /// An interface.
     Interface(InterfaceId),
 }
 
+/// A material and the strain by which its life is counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct StrainedMaterial {
+    /// The material.
+    #[serde(flatten)]
+    pub material: MaterialId,
+    /// Horizontal tension or vertical compression.
+    pub strain: StrainDirection,
+}
+
 impl FatiguePart {
+    /// Whether a life goes on without the part: one of an elastic counterbody, and a material that fails by strain, are not followed.
+    pub fn is_followed(self) -> bool {
+        !self.is_counterbody() && !matches!(self, Self::Strained(_))
+    }
+
     /// Whether it is one of an elastic counterbody.
     pub fn is_counterbody(self) -> bool {
         match self {
+            Self::Strained(strained) => strained.material.is_counterbody(),
             Self::Material(material) => material.side == Some(Side::Counterbody),
             Self::Interface(interface) => interface.is_counterbody(),
         }
@@ -49,6 +68,12 @@ impl FatiguePart {
 impl fmt::Display for FatiguePart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Strained(StrainedMaterial { material, strain: StrainDirection::Tension }) => {
+                write!(f, "{material} by horizontal strain")
+            }
+            Self::Strained(StrainedMaterial { material, strain: StrainDirection::Compression }) => {
+                write!(f, "{material} by vertical compression")
+            }
             Self::Material(material) => material.fmt(f),
             Self::Interface(interface) => interface.fmt(f),
         }
@@ -63,7 +88,7 @@ quantities! {
         #[serde(flatten)]
         pub part: FatiguePart,
         /// Largest range of τ₁ along the path, or of the shear traction of an interface, a pressure: that of one cycle that does the damage
-        /// of all cycles of a pass; infinite under a tip.
+        /// of all cycles of a pass; by strain the largest strain. Infinite under a tip.
         #[serde(deserialize_with = "serialised::infinite")]
         pub range: f64,
         /// Damage in one pass by that range; infinite under a tip.
@@ -91,16 +116,28 @@ pub struct FatigueReading {
     /// The shortest life.
     pub first: Life,
     /// Lives of the materials with a law of fatigue, from the surface down, then of such interfaces; an elastic counterbody follows
-    /// the body.
+    /// the body; lives by strain follow both.
     pub lives: Vec<Life>,
 }
 
 impl Life {
     /// The life of a part by a law, under a range with its error, pressures, at a place.
     pub fn new(part: FatiguePart, law: Fatigue, range: f64, error: Option<f64>, position: [f64; 3]) -> Self {
-        let damage = law.damage(range);
-        let passes = 1.0 / damage;
         let relative = error.map(|error| law.exponent() * error / range);
+        Self::of_damage(part, range, law.damage(range), relative, position)
+    }
+
+    /// The life by strain of a material whose strain has a utilisation; `None` of other criteria.
+    fn by_strain(bodies: &Bodies, utilisation: &Utilisation) -> Option<Self> {
+        let Utilisation { criterion, value, error, position, .. } = *utilisation;
+        let (Criterion::StrainLife(material), law) = (criterion, criterion.strain_life(bodies)?) else { return None };
+        let part = FatiguePart::Strained(StrainedMaterial { material, strain: law.direction() });
+        let (strain, relative) = (value * law.strain(), error.map(|error| law.exponent() * error / value));
+        Some(Self::of_damage(part, strain, law.damage(strain), relative, position))
+    }
+
+    fn of_damage(part: FatiguePart, range: f64, damage: f64, relative: Option<f64>, position: [f64; 3]) -> Self {
+        let passes = 1.0 / damage;
         let is_known = passes > 0.0 && passes.is_finite();
         Self { part, range, damage, passes, error: relative.filter(|_| is_known), position }
     }
@@ -130,6 +167,20 @@ impl FatigueReading {
     pub fn of(step: &Step, reading: &Reading, fields: &StressFields) -> Option<Self> {
         let sought = PathSought { fatigue: true, endurance: false, map: false };
         PathReading::of_while(step, reading, fields, sought, &|| true).and_then(|path| path.fatigue)
+    }
+
+    /// A reading, or none, with the lives by strain of the `utilisations` of a problem.
+    pub(crate) fn with_strains(of: Option<Self>, problem: &Problem, utilisations: &[Utilisation]) -> Option<Self> {
+        let lives: Vec<Life> =
+            utilisations.iter().filter_map(|utilisation| Life::by_strain(problem.bodies(), utilisation)).collect();
+        if lives.is_empty() {
+            return of;
+        }
+        let (path, all) = match of {
+            Some(Self { path, lives, .. }) => (path, lives),
+            None => (SlidingPath::of(problem.cell(), problem.direction()), Vec::new()),
+        };
+        Self::new(path, [all, lives].concat())
     }
 
     /// The life of a part.
@@ -283,9 +334,15 @@ mod tests {
     fn a_reading_is_read_back_from_its_json() {
         let [one, two] =
             [FatiguePart::Material(MaterialId::numbered(1)), FatiguePart::Interface(InterfaceId::numbered(2))];
+        let strained = StrainedMaterial { material: MaterialId::numbered(3), strain: StrainDirection::Compression };
+        assert_eq!(
+            strained.material.to_string() + " by vertical compression",
+            FatiguePart::Strained(strained).to_string()
+        );
+        let strained = FatiguePart::Strained(strained);
         let life = |part: FatiguePart, range: f64| Life::new(part, law(6.0), range, Some(1e-3), [0.5, 1.0, 2.0]);
         for path in [SlidingPath::LatticeVector([1, -2]), SlidingPath::WholePlane, SlidingPath::FromFarAway] {
-            let lives = vec![life(one, 0.3), life(two, 0.0), life(two, f64::INFINITY)];
+            let lives = vec![life(one, 0.3), life(two, 0.0), life(two, f64::INFINITY), life(strained, 2e-4)];
             let reading = FatigueReading::new(path, lives).unwrap();
             let text = serde_json::to_string(&reading).unwrap();
             let back: FatigueReading = serde_json::from_str(&text).unwrap();

@@ -1,7 +1,7 @@
 //! The reading of a vertical section: its stresses measure by measure, the largest of each, and the measure that governs failure.
 
 use super::Criterion;
-use crate::body::{Depth, HalfSpace, InterfaceStrength};
+use crate::body::{Depth, HalfSpace, InterfaceStrength, StrainDirection};
 use crate::stress::{StressState, VerticalSection};
 use ndarray::Array2;
 
@@ -41,6 +41,11 @@ impl VerticalSection {
             Criterion::Yield(_) | Criterion::Crossland(_) => return SectionMeasure::Mises,
             Criterion::DangVan(_) => return SectionMeasure::Tau1,
             Criterion::Cracking(_) => return SectionMeasure::Tension,
+            Criterion::StrainLife(material) => {
+                let law = half_space.durabilities().nth(material.number - 1).and_then(|last| last.strain_life);
+                let is_pressed = law.is_some_and(|law| law.direction() == StrainDirection::Compression);
+                return if is_pressed { SectionMeasure::Opening } else { SectionMeasure::Along };
+            }
             Criterion::Delamination(interface) => interface.number,
         };
         let strength = half_space.layers()[interface - 1].interface_strength();

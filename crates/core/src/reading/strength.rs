@@ -1,16 +1,17 @@
 //! Failure criteria and their utilisations in a load step.
 //!
 //! The **utilisation** of a criterion is 1 where it fails: von Mises over the yield strength, σ₁ over the tensile strength,
-//! √((⟨σ_zz⟩/σ_c)² + (τ/(τ_c + f⟨−σ_zz⟩))²) of an interface; of endurance limits, under any number of passes of the counterbody, [√J₂,a +
+//! √((⟨σ_zz⟩/σ_c)² + (τ/(τ_c + f⟨−σ_zz⟩))²) of an interface; the largest strain over that of a law of life, N₀ passes at 1 and N₀ u⁻ⁿ at u;
+//! of endurance limits, under any number of passes of the counterbody, [√J₂,a +
 //! (3τ₋₁/σ₋₁ − √3) σ_H]/τ₋₁ (Crossland) and [τ_a + 3(τ₋₁/σ₋₁ − ½) σ_H]/τ₋₁ (Dang Van) along the path of sliding. It is no safety factor: contact is not linear, and the load at which it
 //! reaches 1 is found by solving ([`crate::Run::limits`]).
 
 use super::StressReading;
 use super::verdict::Verdict;
-use crate::body::{Bodies, Endurance, HalfSpace, InterfaceId, MaterialId, Name, Side};
+use crate::body::{Bodies, Endurance, HalfSpace, InterfaceId, MaterialId, Name, Side, StrainDirection, StrainLife};
 use crate::numeric::serialised;
 use crate::quantity::quantities;
-use crate::stress::{PathPeak, Peak};
+use crate::stress::{Compliance, PathPeak, Peak, StressState};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -25,6 +26,8 @@ pub enum Criterion {
     Cracking(MaterialId),
     /// An interface comes off.
     Delamination(InterfaceId),
+    /// A material lasts the passes of its law of life by strain, no more.
+    StrainLife(MaterialId),
     /// A material tires under many passes, by the criterion of Crossland.
     Crossland(MaterialId),
     /// A material tires under many passes, by the criterion of Dang Van.
@@ -33,7 +36,7 @@ pub enum Criterion {
 
 impl Criterion {
     /// All that the bodies have strengths for, those of the body first: yield and cracking from the surface down, then the
-    /// interfaces, then the endurance of materials.
+    /// interfaces, then lives by strain and the endurance of materials.
     pub fn all(bodies: &Bodies) -> Vec<Self> {
         bodies.each().flat_map(Self::of).collect()
     }
@@ -44,11 +47,13 @@ impl Criterion {
         let yields = strengths().filter(|(_, strength)| strength.yielding.is_some());
         let cracks = strengths().filter(|(_, strength)| strength.tensile.is_some());
         let interfaces = (1..).zip(half_space.layers()).filter(|(_, layer)| !layer.interface_strength().is_empty());
+        let lasts = (1..).zip(half_space.durabilities()).filter(|(_, durability)| durability.strain_life.is_some());
         let endures = (1..).zip(half_space.durabilities()).filter(|(_, durability)| durability.endurance.is_some());
         yields
             .map(|(number, _)| Self::Yield(half_space.material_id(number)))
             .chain(cracks.map(|(number, _)| Self::Cracking(half_space.material_id(number))))
             .chain(interfaces.map(|(number, _)| Self::Delamination(half_space.interface_id(number))))
+            .chain(lasts.map(|(number, _)| Self::StrainLife(half_space.material_id(number))))
             .chain(endures.flat_map(|(number, _)| {
                 let material = half_space.material_id(number);
                 [Self::Crossland(material), Self::DangVan(material)]
@@ -77,6 +82,7 @@ impl Criterion {
             Self::Yield(_) => "yield",
             Self::Cracking(_) => "cracking",
             Self::Delamination(_) => "delamination",
+            Self::StrainLife(_) => "strain_life",
             Self::Crossland(_) => "crossland",
             Self::DangVan(_) => "dang_van",
         }
@@ -85,7 +91,11 @@ impl Criterion {
     /// Code of the criterion by number, as in files: "yield of material 2".
     pub fn code(self) -> String {
         match self {
-            Self::Yield(material) | Self::Cracking(material) | Self::Crossland(material) | Self::DangVan(material) => {
+            Self::Yield(material)
+            | Self::Cracking(material)
+            | Self::StrainLife(material)
+            | Self::Crossland(material)
+            | Self::DangVan(material) => {
                 format!("{} of {}", self.name(), material.code())
             }
             Self::Delamination(interface) => format!("{} of {}", self.name(), interface.code()),
@@ -100,9 +110,11 @@ impl Criterion {
     /// Name of the material or interface of the criterion; `None` where it was given none.
     pub fn subject(self) -> Option<Name> {
         match self {
-            Self::Yield(material) | Self::Cracking(material) | Self::Crossland(material) | Self::DangVan(material) => {
-                material.name
-            }
+            Self::Yield(material)
+            | Self::Cracking(material)
+            | Self::StrainLife(material)
+            | Self::Crossland(material)
+            | Self::DangVan(material) => material.name,
             Self::Delamination(interface) => interface.name,
         }
     }
@@ -125,6 +137,7 @@ impl Criterion {
             Self::Yield(material) => Self::Yield(material.without_name()),
             Self::Cracking(material) => Self::Cracking(material.without_name()),
             Self::Delamination(interface) => Self::Delamination(interface.without_name()),
+            Self::StrainLife(material) => Self::StrainLife(material.without_name()),
             Self::Crossland(material) => Self::Crossland(material.without_name()),
             Self::DangVan(material) => Self::DangVan(material.without_name()),
         }
@@ -133,25 +146,34 @@ impl Criterion {
     /// The body whose material or interface fails; `None` where only one is elastic.
     pub fn side(self) -> Option<Side> {
         match self {
-            Self::Yield(material) | Self::Cracking(material) | Self::Crossland(material) | Self::DangVan(material) => {
-                material.side
-            }
+            Self::Yield(material)
+            | Self::Cracking(material)
+            | Self::StrainLife(material)
+            | Self::Crossland(material)
+            | Self::DangVan(material) => material.side,
             Self::Delamination(interface) => interface.side,
         }
     }
 
-    /// Strength of the criterion, a pressure; 1 for interfaces and endurance limits, whose utilisations are searched themselves.
+    /// The law of a life by strain; `None` of other criteria.
+    pub(super) fn strain_life(self, bodies: &Bodies) -> Option<StrainLife> {
+        let Self::StrainLife(material) = self else { return None };
+        bodies.on(material.side).durabilities().nth(material.number - 1)?.strain_life
+    }
+
+    /// Strength of the criterion, a pressure; the strain of a law of life; 1 for interfaces and endurance limits, whose utilisations are searched themselves.
     fn strength(self, bodies: &Bodies) -> Option<f64> {
         let half_space = bodies.on(self.side());
         match self {
             Self::Yield(material) => half_space.strengths().nth(material.number - 1)?.yielding,
             Self::Cracking(material) => half_space.strengths().nth(material.number - 1)?.tensile,
+            Self::StrainLife(_) => self.strain_life(bodies).map(|life| life.strain()),
             Self::Delamination(_) | Self::Crossland(_) | Self::DangVan(_) => Some(1.0),
         }
     }
 
     /// Utilisation by residual stress alone: in a layer under σ_r in both directions, von Mises is |σ_r|; in a cycle without an amplitude
-    /// the hydrostatic stress is ⅔σ_r.
+    /// the hydrostatic stress is ⅔σ_r; strains are those of Hooke's law.
     pub fn at_rest(self, bodies: &Bodies) -> f64 {
         let half_space = bodies.on(self.side());
         let residual = |material: MaterialId| half_space.residual_stresses().nth(material.number - 1).unwrap_or(0.0);
@@ -164,6 +186,16 @@ impl Criterion {
             Self::Yield(material) => residual(material).abs(),
             Self::Cracking(material) => residual(material).max(0.0),
             Self::Delamination(_) => 0.0,
+            Self::StrainLife(material) => {
+                let of = half_space.materials().nth(material.number - 1).map(Compliance::from);
+                let residual = residual(material);
+                let state = StressState { xx: residual, yy: residual, ..StressState::default() };
+                let strain = of.map(|compliance| compliance.strain(&state)).unwrap_or_default();
+                match self.strain_life(bodies).map(|life| life.direction()) {
+                    Some(StrainDirection::Compression) => (-strain.zz).max(0.0),
+                    _ => strain.horizontal().max(0.0),
+                }
+            }
             Self::Crossland(material) => {
                 endured(material, |endurance, hydrostatic| endurance.crossland(0.0, hydrostatic))
             }
@@ -179,6 +211,7 @@ impl fmt::Display for Criterion {
             Self::Yield(material) => write!(f, "yield of {material}"),
             Self::Cracking(material) => write!(f, "cracking of {material}"),
             Self::Delamination(interface) => write!(f, "delamination of {interface}"),
+            Self::StrainLife(material) => write!(f, "strain life of {material}"),
             Self::Crossland(material) => write!(f, "fatigue of {material} by Crossland"),
             Self::DangVan(material) => write!(f, "fatigue of {material} by Dang Van"),
         }
@@ -200,9 +233,15 @@ impl FromStr for Criterion {
         let yields = material("yield of ").map(Self::Yield);
         let cracks = || material("cracking of ").map(Self::Cracking);
         let parts = || interface("delamination of ").map(Self::Delamination);
+        let lasts = || material("strain_life of ").map(Self::StrainLife);
         let tires =
             || material("crossland of ").map(Self::Crossland).or_else(|| material("dang_van of ").map(Self::DangVan));
-        yields.or_else(cracks).or_else(parts).or_else(tires).ok_or_else(|| format!("criterion {text:?} is not known"))
+        yields
+            .or_else(cracks)
+            .or_else(parts)
+            .or_else(lasts)
+            .or_else(tires)
+            .ok_or_else(|| format!("criterion {text:?} is not known"))
     }
 }
 
@@ -257,6 +296,13 @@ impl Utilisation {
                 Criterion::Yield(material) => stress.in_material(material)?.mises,
                 Criterion::Cracking(material) => stress.in_material(material)?.tension,
                 Criterion::Delamination(interface) => stress.on_interface(interface)?.delamination?,
+                Criterion::StrainLife(material) => {
+                    let extremes = stress.in_material(material)?;
+                    match criterion.strain_life(bodies)?.direction() {
+                        StrainDirection::Tension => extremes.horizontal_strain?,
+                        StrainDirection::Compression => extremes.compression?,
+                    }
+                }
                 Criterion::Crossland(_) | Criterion::DangVan(_) => return None,
             };
             Self::by_peak(bodies, criterion, peak)
@@ -301,6 +347,7 @@ mod tests {
         let tires = [
             Criterion::DangVan(MaterialId::numbered(2)),
             Criterion::Crossland(MaterialId { name, ..MaterialId::numbered(1) }),
+            Criterion::StrainLife(MaterialId { name, ..MaterialId::numbered(3) }),
         ];
         for criterion in named.into_iter().chain([Criterion::cracking_of(3)]).chain(tires) {
             let read: Criterion = criterion.code_with_name().parse().unwrap();

@@ -3,12 +3,26 @@
 use super::fatigue::PathReading;
 use super::stress::{Tip, contact_radii, move_beside_site};
 use super::{Criterion, Reading, Utilisation};
+use crate::body::StrainDirection;
 use crate::spectral::Step;
 use crate::stress::{PathSought, StrengthPeaks, StressFields};
 
-/// The utilisations of a step that has contact, by a search for the stresses of the criteria alone; they are those by
-/// [`StressReading::of`](super::StressReading::of). `None` when `goes_on`, called many times a second during the search, returns false.
+/// The utilisations of a step that has contact, by a search for the stresses of the criteria alone and along the path of sliding; they are
+/// those by [`StressReading::of`](super::StressReading::of). `None` when `goes_on`, called many times a second during the search, returns false.
 pub(crate) fn utilisations_while(
+    step: &Step,
+    reading: &Reading,
+    fields: &StressFields,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<Utilisation>> {
+    let mut all = largest_while(step, reading, fields, goes_on)?;
+    let sought = PathSought { fatigue: false, endurance: true, map: false };
+    all.extend(PathReading::of_while(step, reading, fields, sought, goes_on)?.utilisations);
+    Some(all)
+}
+
+/// The utilisations by the largest stresses and strains alone, as [`utilisations_while`].
+pub(crate) fn largest_while(
     step: &Step,
     reading: &Reading,
     fields: &StressFields,
@@ -27,22 +41,24 @@ pub(crate) fn utilisations_while(
         let mut peaks = field.strength_peaks_while(radii, coarser.as_ref().map(|coarser| coarser.on(side)), goes_on)?;
         peaks.each().for_each(|peak| move_beside_site(step, peak));
         if let Some(tip) = Tip::of(step, reading, field.half_space()) {
-            let StrengthPeaks { tension, mises, .. } = &mut peaks;
+            let life = field.half_space().durabilities().next().and_then(|durability| durability.strain_life);
+            let is_pressed = life.is_some_and(|life| life.direction() == StrainDirection::Compression);
+            let StrengthPeaks { tension, mises, strain, .. } = &mut peaks;
             mises[0].iter_mut().for_each(|peak| tip.press(peak));
+            strain[0].iter_mut().filter(|_| is_pressed && tip.compresses).for_each(|peak| tip.press(peak));
             tension[0].iter_mut().filter(|_| tip.tears).for_each(|peak| tip.press(peak));
         }
         let peak = |criterion: Criterion| match criterion {
             Criterion::Yield(material) => peaks.mises[material.number - 1],
             Criterion::Cracking(material) => peaks.tension[material.number - 1],
             Criterion::Delamination(interface) => peaks.delamination[interface.number - 1],
+            Criterion::StrainLife(material) => peaks.strain[material.number - 1],
             Criterion::Crossland(_) | Criterion::DangVan(_) => None,
         };
         let judged =
             criteria.into_iter().filter_map(|criterion| Utilisation::by_peak(bodies, criterion, peak(criterion)?));
         all.extend(judged);
     }
-    let sought = PathSought { fatigue: false, endurance: true, map: false };
-    all.extend(PathReading::of_while(step, reading, fields, sought, goes_on)?.utilisations);
     Some(all)
 }
 
@@ -50,7 +66,9 @@ pub(crate) fn utilisations_while(
 mod tests {
     use super::super::StressReading;
     use super::*;
-    use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MeanStress, Strength};
+    use crate::body::{
+        Durability, HalfSpace, Interface, InterfaceStrength, Layer, Material, MeanStress, StrainLife, Strength,
+    };
     use crate::counterbody::{Indenters, Level, Shape};
     use crate::friction::Friction;
     use crate::lattice::{Cell, Lattice};
@@ -60,6 +78,11 @@ mod tests {
 
     fn material(young: f64) -> Material {
         Material::from_young(young, 0.3).unwrap()
+    }
+
+    fn lasts(direction: StrainDirection) -> Durability {
+        let life = StrainLife::new(1e-2, 1e6, 4.0, direction).unwrap();
+        Durability { strain_life: Some(life), ..Durability::default() }
     }
 
     fn layer(strength: Strength, interface: InterfaceStrength) -> Layer {
@@ -74,8 +97,10 @@ mod tests {
         let strength = |yielding: Option<f64>, tensile: Option<f64>| Strength { yielding, tensile };
         let bond = InterfaceStrength { normal: Some(0.02), shear: Some(0.05), friction: 0.0 };
         let all = layer(strength(Some(0.3), Some(0.1)), InterfaceStrength { friction: 0.3, ..bond });
+        let [pressed, pulled] = [StrainDirection::Compression, StrainDirection::Tension].map(lasts);
+        let on_top = layer(strength(None, None), InterfaceStrength::default()).with_durability(pressed, None).unwrap();
         let bodies = [
-            HalfSpace::new(vec![layer(strength(None, None), InterfaceStrength::default()), all], material(1.0)),
+            HalfSpace::new(vec![on_top, all], material(1.0)).with_substrate_durability(pulled).unwrap(),
             HalfSpace::new(vec![layer(strength(None, Some(0.1)), InterfaceStrength::default())], material(1.0))
                 .with_substrate_strength(strength(Some(0.2), None))
                 .unwrap(),

@@ -106,7 +106,7 @@ pub(super) struct Tip {
     /// Whether the largest principal strain is.
     stretches: bool,
     /// Whether the compression along z is.
-    compresses: bool,
+    pub compresses: bool,
 }
 
 impl Tip {

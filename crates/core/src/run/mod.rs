@@ -330,7 +330,9 @@ impl Run {
                         StressReading::of_while(step, &record.reading, fields, &goes_on),
                         PathReading::of_while(step, &record.reading, fields, PathSought::ALL, &goes_on),
                     );
-                    stress.zip(path).map(|(stress, path)| record.clone().with_stress(stress, bodies).with_path(path))
+                    stress
+                        .zip(path)
+                        .map(|(stress, path)| record.clone().with_stress(stress, bodies).with_path(path, &self.problem))
                 }
             };
             if let Some(error) = ended.into_inner() {

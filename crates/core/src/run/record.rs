@@ -4,6 +4,7 @@ use super::Tapered;
 use crate::body::Bodies;
 use crate::kind::ContactKind;
 use crate::numeric::serialised;
+use crate::problem::Problem;
 use crate::quantity::quantities;
 use crate::reading::{
     Beneath, Criterion, FatigueReading, Governing, PathReading, PlasticReading, Reading, RoughReading, SlipReading,
@@ -193,10 +194,11 @@ impl StepRecord {
         Self { governing: Governing::of(&strength), strength, ..self }.judged()
     }
 
-    /// The record with what the stresses along the path of sliding say: lives, and utilisations of endurance limits behind those of the
-    /// strengths.
+    /// The record with what the stresses along the path of sliding of a problem say: lives, those by strain among them, and utilisations of
+    /// endurance limits behind those of the strengths.
     #[must_use]
-    pub(super) fn with_path(self, PathReading { fatigue, utilisations, .. }: PathReading) -> Self {
+    pub(super) fn with_path(self, PathReading { fatigue, utilisations, .. }: PathReading, problem: &Problem) -> Self {
+        let fatigue = FatigueReading::with_strains(fatigue, problem, &self.strength);
         let strength = [&self.strength[..], &utilisations].concat();
         Self { fatigue, ..self }.with_utilisations(strength)
     }

@@ -6,7 +6,7 @@ use super::field::StressField;
 use super::measure::StressMeasure;
 use super::peak::Peak;
 use super::tensor::StressState;
-use crate::body::{HalfSpace, InterfaceId, Strength};
+use crate::body::{HalfSpace, InterfaceId, StrainLife, Strength};
 
 /// Contenders for the maxima, in the order of the maxima.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -49,6 +49,8 @@ impl ContenderLists {
 pub(super) struct Following {
     /// Strengths of the materials, from the surface down.
     pub strengths: Vec<Strength>,
+    /// Lives by strain of the materials, from the surface down.
+    pub lives: Vec<Option<StrainLife>>,
     /// The largest stress that is faint, a pressure.
     pub faint: f64,
     /// Depth below which stresses lie deep, a length.
@@ -63,8 +65,11 @@ impl Following {
             StressMeasure::Delamination(_) => true,
             StressMeasure::Tension => strength.is_some_and(|strength| strength.tensile.is_some()),
             StressMeasure::Mises => strength.is_some_and(|strength| strength.yielding.is_some()),
-            StressMeasure::Tau1 | StressMeasure::Opening | StressMeasure::Shear => false,
-            StressMeasure::Strain(_) | StressMeasure::HorizontalStrain(_) | StressMeasure::Compression(_) => false,
+            StressMeasure::HorizontalStrain(_) | StressMeasure::Compression(_) => {
+                let life = self.lives.get(peak.material.number - 1).copied().flatten();
+                life.is_some_and(|life| measure.is_of_life(life))
+            }
+            StressMeasure::Tau1 | StressMeasure::Opening | StressMeasure::Shear | StressMeasure::Strain(_) => false,
         }
     }
 

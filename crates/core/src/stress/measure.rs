@@ -2,7 +2,7 @@
 
 use super::strain::Compliance;
 use super::tensor::StressState;
-use crate::body::{InterfaceStrength, Strength};
+use crate::body::{InterfaceStrength, StrainDirection, StrainLife, Strength};
 use crate::numeric::search::first_largest;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -46,16 +46,23 @@ pub(super) enum Sought {
 }
 
 impl Sought {
-    /// Measures of a material of this strength and compliance.
-    pub fn in_material(self, strength: Strength, compliance: Compliance) -> Vec<StressMeasure> {
+    /// Measures of a material of this strength and life by strain, and of this compliance.
+    pub fn in_material(
+        self,
+        (strength, life): (Strength, Option<StrainLife>),
+        compliance: Compliance,
+    ) -> Vec<StressMeasure> {
         let is_sought = |measure: &StressMeasure| match (self, measure) {
             (Self::All { .. }, _) => true,
             (Self::Strengths, StressMeasure::Tension) => strength.tensile.is_some(),
             (Self::Strengths, StressMeasure::Mises) => strength.yielding.is_some(),
             (Self::Strengths, _) => false,
         };
-        let of_strain =
-            if self == (Self::All { strains: true }) { &StressMeasure::of_strain(compliance)[..] } else { &[] };
+        let of_strain = StressMeasure::of_strain(compliance);
+        let of_strain = of_strain.iter().filter(|measure| match self {
+            Self::All { strains } => strains,
+            Self::Strengths => life.is_some_and(|life| measure.is_of_life(life)),
+        });
         MATERIAL_MEASURES.iter().filter(|measure| is_sought(measure)).chain(of_strain).copied().collect()
     }
 
@@ -86,6 +93,19 @@ impl StressMeasure {
     /// Whether the measure is a tension or an extension, which is small where a material is incompressible.
     pub fn is_tensile(&self) -> bool {
         matches!(self, Self::Tension | Self::Strain(_) | Self::HorizontalStrain(_))
+    }
+
+    /// Whether the measure is the strain of a law of life.
+    pub fn is_of_life(&self, life: StrainLife) -> bool {
+        match life.direction() {
+            StrainDirection::Tension => matches!(self, Self::HorizontalStrain(_)),
+            StrainDirection::Compression => matches!(self, Self::Compression(_)),
+        }
+    }
+
+    /// Whether the measure is one by which laws of life count strains.
+    pub fn is_counted_strain(&self) -> bool {
+        matches!(self, Self::HorizontalStrain(_) | Self::Compression(_))
     }
 
     /// Whether the measure is the utilisation of an interface.

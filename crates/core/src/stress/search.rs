@@ -62,7 +62,9 @@ impl StressField {
     /// Maxima over all materials, faces and interfaces; `None` when `goes_on`, called between planes and between searches,
     /// returns false. `radii` as in [`Self::maxima`].
     pub fn maxima_while(&self, radii: [f64; 2], goes_on: &dyn Fn() -> bool) -> Option<Maxima> {
-        self.found_everywhere(radii, Sought::All { strains: self.strains }, goes_on).map(Maxima::new)
+        let strains =
+            self.strains || self.half_space().durabilities().any(|durability| durability.strain_life.is_some());
+        self.found_everywhere(radii, Sought::All { strains }, goes_on).map(Maxima::new)
     }
 
     /// The contenders for what is `sought` in the cell or the window, in those materials, and on those interfaces below them, that are `wanted`;
@@ -75,9 +77,10 @@ impl StressField {
         goes_on: &dyn Fn() -> bool,
     ) -> Option<FoundStresses> {
         let compliances = self.half_space().materials().map(Compliance::from);
-        let measures = self.half_space().strengths().zip(compliances);
+        let lives = self.half_space().durabilities().map(|durability| durability.strain_life);
+        let measures = self.half_space().strengths().zip(lives).zip(compliances);
         let measures: Vec<Vec<StressMeasure>> =
-            measures.map(|(strength, compliance)| sought.in_material(strength, compliance)).collect();
+            measures.map(|(judged, compliance)| sought.in_material(judged, compliance)).collect();
         let of_surface = &measures[0];
         let crests = if of_surface.is_empty() || self.has_hole() { Vec::new() } else { self.crests_of(of_surface) };
         let (search, mut contenders) = (Search { radii, sought, crests: &crests, goes_on }, ContenderLists::default());

@@ -33,6 +33,13 @@ pub enum SlidingPath {
     FromFarAway,
 }
 
+impl SlidingPath {
+    /// The path along a `direction`, a unit vector, on a `cell`.
+    pub(crate) fn of(cell: Cell, direction: [f64; 2]) -> Self {
+        SlidingLines::new(cell, direction).path
+    }
+}
+
 /// Sampling of the lines of a path on planes of constant depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SlidingLines {

@@ -13,6 +13,8 @@ pub(crate) struct StrengthPeaks {
     pub tension: Vec<Option<Peak>>,
     /// Von Mises in each material with a yield strength, from the surface down.
     pub mises: Vec<Option<Peak>>,
+    /// The strain that counts in each material with a life by strain, from the surface down.
+    pub strain: Vec<Option<Peak>>,
     /// Utilisation of each interface with a strength, from the surface down.
     pub delamination: Vec<Option<Peak>>,
 }
@@ -25,15 +27,18 @@ impl StrengthPeaks {
             contenders.materials.iter().map(stated).collect()
         };
         let [tension, mises] = [StressMeasure::Tension, StressMeasure::Mises].map(of);
+        let materials = contenders.materials.iter();
+        let strain = materials.map(|all| found.stated_of(all, StressMeasure::is_counted_strain)).collect();
         let interfaces = contenders.interfaces.iter();
         let delamination =
             interfaces.map(|(_, contenders)| found.stated_of(contenders, StressMeasure::is_delamination)).collect();
-        Self { tension, mises, delamination }
+        Self { tension, mises, strain, delamination }
     }
 
     /// Every peak.
     pub fn each(&mut self) -> impl Iterator<Item = &mut Peak> {
-        self.tension.iter_mut().chain(&mut self.mises).chain(&mut self.delamination).flatten()
+        let Self { tension, mises, strain, delamination } = self;
+        tension.iter_mut().chain(mises).chain(strain).chain(delamination).flatten()
     }
 }
 

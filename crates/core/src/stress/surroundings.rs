@@ -71,7 +71,8 @@ impl StressField {
         found.at_rest = (1..=self.materials()).map(|material| self.at_rest(material)).collect();
         let (extent, reach) = (&loaded.extent, loaded.reach);
         let (strengths, faint) = (self.half_space().strengths().collect(), FAINT * loaded.traction.largest());
-        found.following = Some(Following { strengths, faint, depth: extent.deep() });
+        let lives = self.half_space().durabilities().map(|durability| durability.strain_life).collect();
+        found.following = Some(Following { strengths, lives, faint, depth: extent.deep() });
         for number in 1..=MOST_WINDOWS {
             let wanted = match extent.margin(number - 1) < reach {
                 true => all.clone(),

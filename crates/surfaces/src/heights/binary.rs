@@ -5,6 +5,7 @@
 
 use super::fault::{Fault, Heights, MOST, PROFILE, fits};
 use super::suspicious_values;
+use percoat_common::encoding::utf8_or_latin1;
 use std::borrow::Cow;
 use std::io::Read;
 
@@ -65,7 +66,7 @@ impl<'a> Bytes<'a> {
     /// The next text, which ends with a NUL.
     pub fn text(&mut self) -> Result<Cow<'a, str>, Fault> {
         let end = self.rest.iter().position(|byte| *byte == 0).ok_or_else(ended)?;
-        let decoded = text(self.take(end)?);
+        let decoded = utf8_or_latin1(self.take(end)?);
         self.take(1)?;
         Ok(decoded)
     }
@@ -74,15 +75,7 @@ impl<'a> Bytes<'a> {
     pub fn field(&mut self, count: usize) -> Result<String, Fault> {
         let bytes = self.take(count)?;
         let end = bytes.iter().position(|byte| *byte == 0).unwrap_or(count);
-        Ok(text(&bytes[..end]).trim().to_owned())
-    }
-}
-
-/// A text in UTF-8, or else in Latin-1.
-pub fn text(bytes: &[u8]) -> Cow<'_, str> {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => Cow::Borrowed(text),
-        Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
+        Ok(utf8_or_latin1(&bytes[..end]).trim().to_owned())
     }
 }
 
@@ -91,7 +84,7 @@ pub fn whole_text(content: &[u8]) -> Result<Cow<'_, str>, Fault> {
     if std::str::from_utf8(content).is_err() {
         fits(4 * content.len() as u64)?;
     }
-    Ok(text(content))
+    Ok(utf8_or_latin1(content))
 }
 
 /// Type of a number in a file, little-endian.

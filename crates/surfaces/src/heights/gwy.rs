@@ -15,11 +15,12 @@
 //!
 //! The first line is the top one. A unit that is missing or empty is none, as in images of cameras: the case must say it. Samples where the mask is at least ½ have no measurement.
 
-use super::binary::{Bytes, Image, Number, broken, text, twice};
+use super::binary::{Bytes, Image, Number, broken, twice};
 use super::channel::{Channel, WantedChannel, choose};
 use super::fault::Fault;
 use super::header::{HeightsUnit, Length};
 use super::measured::Measured;
+use percoat_common::encoding::utf8_or_latin1;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -62,7 +63,7 @@ pub fn read(content: &[u8], wanted: Option<&WantedChannel>) -> Result<Measured, 
         }
     }
     let described = |(field, channel): &(DataField<'_>, &Parts<'_>)| Channel {
-        name: channel.title.map(text).unwrap_or_default().into_owned(),
+        name: channel.title.map(utf8_or_latin1).unwrap_or_default().into_owned(),
         unit: field.heights_unit(),
     };
     let all: Vec<Channel> = fields.iter().map(described).collect();
@@ -212,7 +213,7 @@ fn unit_of(bytes: &[u8]) -> Result<Option<String>, Fault> {
         if let (name, (b's', value)) = component(&mut components)?
             && name == "unitstr"
         {
-            return Ok(Some(text(value).into_owned()).filter(|unit| !unit.trim().is_empty()));
+            return Ok(Some(utf8_or_latin1(value).into_owned()).filter(|unit| !unit.trim().is_empty()));
         }
     }
     Ok(None)

@@ -14,7 +14,7 @@ pub(super) fn sentences(case: &Value) -> Vec<String> {
     let is_given = |section: &Value| {
         STRENGTHS
             .iter()
-            .chain(&["interface_strength", "residual_stress", "endurance", "fatigue"])
+            .chain(&["interface_strength", "residual_stress", "endurance", "fatigue", "strain_life"])
             .any(|key| !section[*key].is_null())
     };
     if !parts(case).iter().any(|(_, section)| is_given(section)) {
@@ -67,7 +67,10 @@ fn told(section: &Value, unit: Option<&str>) -> String {
     };
     let mut told: Vec<String> = STRENGTHS.iter().filter_map(strength).collect();
     told.extend(
-        ["endurance", "fatigue"].into_iter().filter(|key| !section[*key].is_null()).map(|key| format!("{key} given")),
+        ["endurance", "fatigue", "strain_life"]
+            .into_iter()
+            .filter(|key| !section[*key].is_null())
+            .map(|key| format!("{} given", key.replace('_', " "))),
     );
     if told.is_empty() {
         told.push("no strength given: failure there is not checked".to_owned());

@@ -124,7 +124,8 @@ fn untested(bodies: &Bodies) -> Vec<String> {
         let materials = (1..).zip(body.strengths().zip(body.durabilities()));
         let is_tested = |strength: &Strength, durability: &Durability| {
             let by_stress = strength.yielding.is_some() || strength.tensile.is_some();
-            by_stress || durability.endurance.is_some() || durability.fatigue.is_some()
+            let lasts = durability.fatigue.is_some() || durability.strain_life.is_some();
+            by_stress || lasts || durability.endurance.is_some()
         };
         let without = materials.filter(|(_, (strength, durability))| !is_tested(strength, durability));
         without.map(|(number, _)| body.material_id(number).to_string()).collect()

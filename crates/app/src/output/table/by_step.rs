@@ -1,7 +1,7 @@
 //! Tables of quantities and their places over the load steps, a row each.
 
 use super::{DETAILED, Table};
-use crate::output::number::{in_unit, number};
+use crate::output::number::number;
 use percoat_case::units::{Prefixed, Unit, Units};
 use percoat_core::measured::Measured;
 use percoat_core::reading::StressReading;
@@ -37,11 +37,11 @@ impl Quantity {
     }
 }
 
-/// Table of quantities of one unit: a few steps side by side, or the last of many; places are those in the last step. `None` where
+/// Table of quantities of one unit, `told` in it: a few steps side by side, or the last of many; places are those in the last step. `None` where
 /// no step has any.
 pub(super) fn by_step(
     head: &str,
-    unit: &Unit,
+    (unit, told): (&Unit, fn(&Prefixed, Measured) -> String),
     units: &Units,
     steps: &[StepRecord],
     rows: &[Quantity],
@@ -57,8 +57,7 @@ pub(super) fn by_step(
     let length = units.length().suited(rows.iter().filter_map(|row| row.found[last]).flat_map(|found| found.position));
     let header: Vec<String> = [unit.headed(head)].into_iter().chain(loads).chain([length.headed(place_of)]).collect();
     let line = |row: &Quantity| {
-        let of =
-            |found: &Option<QuantityInStep>| found.map_or("–".to_owned(), |found| in_unit(&unit, found.measured));
+        let of = |found: &Option<QuantityInStep>| found.map_or("–".to_owned(), |found| told(&unit, found.measured));
         let values = row.found[shown.clone()].iter().map(of);
         let place = row.found[last].map_or("–".to_owned(), |found| places(&length, found));
         [row.name.clone()].into_iter().chain(values).chain([place]).collect()

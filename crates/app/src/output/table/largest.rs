@@ -2,6 +2,7 @@
 
 use super::Table;
 use super::by_step::{Quantity, by_step};
+use crate::output::number::in_unit;
 use percoat_case::units::Units;
 use percoat_core::quantity::Kind;
 use percoat_core::reading::StressReading;
@@ -32,5 +33,5 @@ pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<Table> {
     };
     let materials = (0..any.materials.len()).flat_map(material);
     let rows: Vec<Quantity> = materials.chain((0..any.interfaces.len()).flat_map(interface)).collect();
-    by_step("largest stress", units.pressure(), units, steps, &rows)
+    by_step("largest stress", (units.pressure(), in_unit), units, steps, &rows)
 }

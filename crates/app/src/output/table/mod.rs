@@ -28,7 +28,7 @@ pub use plastic::plastic;
 pub use slip::slip;
 pub use strains::largest_strains;
 pub use strength::{limits, utilisations};
-pub use text::{Table, Worded};
+pub use text::{INTERVALS, Table, Worded};
 pub(super) use text::{indented, lines};
 
 use super::number::{number, percent, with_unit};
@@ -50,12 +50,17 @@ const NOTHING: f64 = 1e-12;
 pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: usize) -> String {
     let units = case.units();
     let mut text = heading(case);
-    text += &format!("\n{}\n\n{}\n", self::steps(steps, &units).fitted(width), solved(steps));
+    let mut has_intervals = false;
+    let mut fitted = |table: &Table| {
+        has_intervals |= table.has_intervals();
+        table.fitted(width)
+    };
+    text += &format!("\n{}\n\n{}\n", fitted(&self::steps(steps, &units)), solved(steps));
     text += &spots(steps).map_or(String::new(), |spots| format!("{spots}\n"));
     text += &contact_stiffness(steps, &units).unwrap_or_default();
     if let Some((words, table)) = plastic(steps, &units) {
         text += &lines(&words, width);
-        text += &table.map_or(String::new(), |table| format!("{}\n\n", table.fitted(width)));
+        text += &table.map_or(String::new(), |table| format!("{}\n\n", fitted(&table)));
     }
     if let Some((words, table)) = slip(steps, &units) {
         text += &format!("{}{}\n\n", lines(&words, width), table.fitted(width));
@@ -63,19 +68,22 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     text += &hertz(case, steps, &units).map_or(String::new(), |lines| format!("{}\n", lines.join(";\n")));
     let largest = largest_stresses(steps, &units);
     if let Some(largest) = &largest {
-        text += &format!("\n{}\n", largest.fitted(width));
+        text += &format!("\n{}\n", fitted(largest));
     }
-    text += &largest_strains(steps, &units).map_or(String::new(), |strains| format!("\n{}\n", strains.fitted(width)));
+    text += &largest_strains(steps, &units).map_or(String::new(), |strains| format!("\n{}\n", fitted(&strains)));
     let strength = utilisations(steps, Some(case.problem().bodies()), &units);
     if let Some(strength) = &strength {
-        text += &format!("\n{}\n", strength.fitted(width));
+        text += &format!("\n{}\n{}\n", lines(&strength.words, width), fitted(&strength.table));
     }
     let lives = lives(steps, &units);
     if let Some(lives) = &lives {
-        text += &format!("\n{}\n", lives.fitted(width));
+        text += &format!("\n{}\n{}\n", lines(&lives.words, width), fitted(&lives.table));
     }
     if largest.is_some() || strength.is_some() || lives.is_some() {
         text.push('\n');
+    }
+    if has_intervals {
+        text += &format!("{INTERVALS}\n");
     }
     if let Some(errors) = largest_errors(steps) {
         text += &format!("{errors}\n");
@@ -156,8 +164,11 @@ pub fn compared(case: &Case, comparison: &ComparisonFile, width: usize) -> Strin
     if steps > 1 {
         text += &format!("the last of {steps} load steps\n");
     }
-    let readings = readings(comparison, &units).fitted(width);
-    text += &format!("\n{readings}\n\n{}\n\n", differences(comparison).fitted(width));
+    let readings = readings(comparison, &units);
+    text += &format!("\n{}\n\n{}\n\n", readings.fitted(width), differences(comparison).fitted(width));
+    if readings.has_intervals() {
+        text += &format!("{INTERVALS}\n");
+    }
     let mean = Assumptions::of(case).lines(false, width);
     text + &stresses(comparison, case).map_or(String::new(), |stresses| format!("{stresses}\n{mean}"))
 }

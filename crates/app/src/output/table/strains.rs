@@ -2,6 +2,7 @@
 
 use super::Table;
 use super::by_step::{Quantity, by_step};
+use crate::output::number::in_unit;
 use percoat_case::units::{Unit, Units};
 use percoat_core::body::MaterialId;
 use percoat_core::reading::StressReading;
@@ -30,7 +31,7 @@ pub fn largest_strains(steps: &[StepRecord], units: &Units) -> Option<Table> {
         [Some(inside), on_top, below].into_iter().flatten()
     };
     let rows: Vec<Quantity> = any.materials.iter().flat_map(of_material).collect();
-    by_step("largest strain", &Unit::Strain, units, steps, &rows)
+    by_step("largest strain", (&Unit::Strain, in_unit), units, steps, &rows)
 }
 
 /// The largest values on a face of a material: the upper one is number 0, the lower one, of a layer, number 1.

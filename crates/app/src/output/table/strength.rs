@@ -27,7 +27,7 @@ pub fn utilisations(steps: &[StepRecord], bodies: Option<&Bodies>, units: &Units
         Quantity { name: criterion.to_string(), found: steps.iter().map(of).collect() }
     };
     let rows: Vec<Quantity> = governing.into_iter().map(row).collect();
-    let table = by_step(UTILISATION.value.named.name, &Unit::None, units, steps, &rows)?;
+    let table = by_step(UTILISATION.value.named.name, (&Unit::None, in_unit), units, steps, &rows)?;
     Some(Worded { words: in_words(steps, bodies, units)?, table })
 }
 

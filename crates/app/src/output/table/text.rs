@@ -1,5 +1,6 @@
 //! A table as a person reads it in a terminal.
 
+use crate::output::number::is_interval;
 use comfy_table::{CellAlignment, ContentArrangement, presets};
 use std::fmt;
 
@@ -18,6 +19,9 @@ pub struct Table {
     /// Columns that name a row: repeated in every part of a table that is split because of its width.
     pub keys: Vec<usize>,
 }
+
+/// Note on the numbers of a table that [has intervals](Table::has_intervals).
+pub const INTERVALS: &str = "an error beyond 30 % is given as an interval, a to b";
 
 /// A table, and its result in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,6 +58,11 @@ impl Table {
     /// A table of `rows` under `head`, the first `words` columns aligned left.
     pub fn new(head: &[impl ToString], rows: Vec<Vec<String>>, words: usize) -> Self {
         Self { head: head.iter().map(ToString::to_string).collect(), rows, words, keys: vec![0] }
+    }
+
+    /// Whether the error of any number is shown by an interval.
+    pub fn has_intervals(&self) -> bool {
+        self.rows.iter().flat_map(|row| row.iter().skip(self.words)).any(|cell| is_interval(cell))
     }
 
     /// The table with other columns that name a row.
@@ -182,6 +191,13 @@ mod tests {
         }
         assert_eq!(table().fitted(20).matches("name").count(), 2);
         assert_eq!(table().keyed(&[0, 2]).fitted(20).matches("22222").count(), 2);
+    }
+
+    #[test]
+    fn a_table_with_a_wide_error_has_an_interval() {
+        let with = |cell: &str| Table::new(&["1 to 2", "value"], vec![vec!["3 to 4".into(), cell.into()]], 1);
+        assert!(with("0.06 to 0.16 %").has_intervals());
+        assert!(!with("0.06 ± 0.01").has_intervals());
     }
 
     #[test]

@@ -29,8 +29,8 @@ pub(super) fn of_solving(
     let bodies = case.problem().bodies();
     let (stress, written, volume) = case.stress.as_ref().map_or((0, 0, 0), |stress| {
         let each = bodies.each().map(|half_space| {
-            let (_, written, volume) = of_stress(stress, half_space, samples);
-            (of_stress(stress, half_space, series).0, written, volume)
+            let (_, written, volume) = of_stress((stress, case.has_cut()), half_space, samples);
+            (of_stress((stress, case.has_cut()), half_space, series).0, written, volume)
         });
         each.fold((0, 0, 0), |(a, b, c), (x, y, z)| (a + x, b + y, c + z))
     });
@@ -43,19 +43,16 @@ pub(super) fn of_solving(
     };
     let again = if stress > 0 && steps > 1 { elastic * AGAIN * series } else { 0 };
     let stress = if stress > 0 { STRESSES + stress + again + of_shells(case, series) } else { 0 };
-    let drawn = if pictures { of_pictures(case) } else { 0 };
-    let drawing = PROGRAM + KEPT * samples + heights + drawn;
+    let sheets = if pictures { of_pictures(case) } else { 0 };
+    let drawing = PROGRAM + KEPT * samples + heights + sheets;
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
     let sticks = case.tangential.is_some();
     let depths = if yields(case) { DEPTHS } else { 0 } + if sticks { SLIP_FIELDS } else { 0 };
     let slip = if sticks { SLIP * samples } else { 0 };
     let (fields, written, volume) =
         if fields { (steps * (24 + depths) * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
-    let pages = if pictures {
-        PICTURE * (3 + 2 * u64::from(has_cut(case)) + u64::from(steps > 1) + u64::from(sticks))
-    } else {
-        0
-    };
+    let drawn = 3 + 2 * u64::from(case.has_cut()) + u64::from(steps > 1) + u64::from(sticks);
+    let pages = if pictures { PICTURE * drawn } else { 0 };
     let disk = fields + steps * (written + volume) + summary + pages;
     // A refinement keeps the steps of the last grid, a quarter, until those of the next are complete.
     let coarser = if matches!(case.grid, Sampling::Accuracy(_)) { disk / 4 } else { 0 };
@@ -125,9 +122,5 @@ pub(super) fn of_identifying(solving: u64, pictures: bool) -> Needs {
 
 fn of_pictures(case: &Case) -> u64 {
     let curves = if case.step_count() > 1 { CURVES } else { 0 };
-    MAPS + curves + if has_cut(case) { CUTS } else { 0 }
-}
-
-fn has_cut(case: &Case) -> bool {
-    case.stress.as_ref().is_some_and(|stress| stress.section.is_some())
+    MAPS + curves + if case.has_cut() { CUTS } else { 0 }
 }

@@ -18,10 +18,14 @@ pub(super) fn of_series(case: &Case, samples: u64) -> u64 {
 }
 
 /// Memory of a stress field, and bytes written a step: those that are gathered at the end, and a volume.
-pub(super) fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u64, u64, u64) {
+pub(super) fn of_stress(
+    (stress, has_cut): (&StressSection, bool),
+    half_space: &HalfSpace,
+    samples: u64,
+) -> (u64, u64, u64) {
     let sides = |z: &f64| half_space.depths(*z).len() as u64;
     let planes: u64 = stress.planes.iter().map(sides).sum();
-    let section = if stress.section.is_some() { (MOST_ROWS * SECTION[1]) as u64 } else { 0 };
+    let section = if has_cut { (MOST_ROWS * SECTION[1]) as u64 } else { 0 };
     let volume = stress.volume.map_or(0, |volume| {
         let layer = (volume.points as u64 + 1) * (volume.points as u64 + 1);
         (volume.rows as u64 + 1 + half_space.layers().len() as u64) * layer
