@@ -74,9 +74,8 @@ fn carry_out(command: &Command) -> Result<Ending, Failure> {
         Command::Life { case, changes, options, common } => {
             life::run(case.as_deref(), changes.once()?, options, common)
         }
-        Command::Identify { data, case, free, known, segment, changes, common } => {
-            // The command line admits no other name.
-            let segment = Segment::of(segment.as_deref()).unwrap_or_default();
+        Command::Identify { data, case, free, known, segment, part, changes, common } => {
+            let segment = Segment::of(segment.as_deref(), part.as_deref()).map_err(Failure::refused)?;
             identify::run((data, case), (free, known), segment, (changes.once()?, common))
         }
         Command::Sweep { case, set, options, common } => sweep::run(case, set, options, common),
