@@ -92,7 +92,7 @@ impl Unloading {
             penetrations: of(penetrations),
             deviations: deviations.map(of),
         };
-        let [_, rise] = points.line(1.0);
+        let [_, rise] = points.line(&points.penetrations, 1.0);
         if rise.is_nan() || rise <= 0.0 {
             return Err(UnloadingError::Rises { from, to, slope: rise / force });
         }
@@ -177,47 +177,55 @@ impl Points {
         self.deviations.as_ref().map_or_else(largest, |all| all[i])
     }
 
-    /// h_f and c of h_f + c (P/P_max)ⁿ with a given n, by least squares.
-    fn line(&self, n: f64) -> [f64; 2] {
+    /// a and b of a + b (P/P_max)ⁿ with a given n, by least squares of values at the points.
+    fn line(&self, values: &[f64], n: f64) -> [f64; 2] {
         let mut sums = [0.0; 5];
-        for (i, (part, h)) in self.parts.iter().zip(&self.penetrations).enumerate() {
+        for (i, (part, value)) in self.parts.iter().zip(values).enumerate() {
             let (x, w) = (part.powf(n), self.deviation(i).powi(-2));
-            [w, w * x, w * x * x, w * h, w * h * x].iter().zip(&mut sums).for_each(|(term, sum)| *sum += term);
+            [w, w * x, w * x * x, w * value, w * value * x].iter().zip(&mut sums).for_each(|(term, sum)| *sum += term);
         }
-        let [w, x, xx, h, hx] = sums;
-        let c = (w * hx - x * h) / (w * xx - x * x);
-        [(h - c * x) / w, c]
+        let [w, x, xx, value, product] = sums;
+        let b = (w * product - x * value) / (w * xx - x * x);
+        [(value - b * x) / w, b]
     }
 
-    /// The power law; `None` where its fit does not converge.
+    /// The power law; `None` where its fit does not converge. The search is for n alone: h_f and c are the best ones at each n (Golub & Pereyra,
+    /// SIAM J. Numer. Anal. 10 (1973) 413).
     fn law(&self) -> Option<Law> {
-        let [residual, unit] = self.line(START);
         let at = |t: &[f64]| {
-            let [h, c, n] = [residual + unit * t[0], unit * t[1].exp(), START * t[2].exp()];
+            let n = START * t[0].exp();
             if !(EXPONENTS[0]..EXPONENTS[1]).contains(&n) {
                 return Err(());
             }
+            let [h, c] = self.line(&self.penetrations, n);
+            let slopes: Vec<f64> = self.parts.iter().map(|part| c * n * part.ln() * part.powf(n)).collect();
+            let taken_up = self.line(&slopes, n);
             let row = |i: usize| {
-                let (part, deviation) = (self.parts[i], self.deviation(i));
-                let recovered = c * part.powf(n);
-                let slopes = [unit, recovered, recovered * n * part.ln()];
-                let residual = (h + recovered - self.penetrations[i]) / deviation;
-                (residual, slopes.iter().map(|slope| slope / deviation).collect())
+                let (power, deviation) = (self.parts[i].powf(n), self.deviation(i));
+                let slope = slopes[i] - taken_up[0] - taken_up[1] * power;
+                ((h + c * power - self.penetrations[i]) / deviation, vec![slope / deviation])
             };
             let (residuals, jacobian) = (0..self.parts.len()).map(row).unzip();
             Ok(Linearised { residuals, jacobian, model: [h, c, n] })
         };
-        let found = least_squares::minimise(vec![0.0; LAW], at).ok().filter(|found| found.end == End::Converged)?;
-        let Linearised { residuals, jacobian, model: place } = found.linearised;
+        let found = least_squares::minimise(vec![0.0], at).ok().filter(|found| found.end == End::Converged)?;
+        let Linearised { residuals, model: place, .. } = found.linearised;
+        let [_, c, n] = place;
+        let row = |(i, part): (usize, &f64)| {
+            let power = part.powf(n);
+            // By h_f, ln c and ln n, in lengths of c.
+            [1.0, power, n * part.ln() * power].map(|slope| c * slope / self.deviation(i)).to_vec()
+        };
+        let jacobian: Vec<Vec<f64>> = self.parts.iter().enumerate().map(row).collect();
+        let inverse = least_squares::inverse(&least_squares::normal(&jacobian))?;
         let reduced = least_squares::sum(&residuals) / (residuals.len() - LAW) as f64;
         let variance = if self.deviations.is_some() { reduced.max(1.0) } else { reduced };
-        let inverse = least_squares::inverse(&least_squares::normal(&jacobian))?;
         // ln(c n) is the sum of the logarithms of both.
         let square = inverse[1][1] + 2.0 * inverse[1][2] + inverse[2][2];
         Some(Law {
             place,
             scatter: self.deviation(0) * reduced.sqrt(),
-            recovery_error: place[1] * place[2] * (variance * square).sqrt(),
+            recovery_error: c * n * (variance * square).sqrt(),
             lengths: residuals.iter().enumerate().map(|(i, r)| r * self.deviation(i)).collect(),
         })
     }
@@ -267,7 +275,7 @@ mod tests {
             for _ in 0..400 {
                 let noisy: Vec<f64> = exact.iter().map(|h| h + 0.3 * normal()).collect();
                 let found = Unloading::new(&forces, &noisy, known.as_deref(), Unloading::PART).unwrap();
-                inside += i32::from((found.stiffness - 2.5).abs() < 1.98 * found.stiffness_error);
+                inside += i32::from((found.stiffness - 0.25).abs() < 1.98 * found.stiffness_error);
                 assert!((found.scatter / 0.3 - 1.0).abs() < 0.35, "{found:?}");
             }
             assert!((f64::from(inside) / 400.0 - 0.95).abs() < 0.046, "{inside} of 400");
