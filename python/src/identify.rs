@@ -7,10 +7,10 @@ use crate::record::to_python;
 use crate::work;
 use numpy::{PyArray1, PyReadonlyArray1, ToPyArray};
 use percoat::case::{Document, Found as FoundNumbers, IdentificationTask, Known};
+use percoat::identification::Unloading;
 use percoat::measurements::{self, Curves, Segment, Source, Taken};
 use percoat::output::{self, identified};
 use percoat::plain;
-use percoat::identification::Unloading;
 use percoat::task::Identify;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -86,7 +86,14 @@ fn columns(measured: &Curves, found: &FoundNumbers) -> Columns {
             let curve = curves.flat_map(|(curve, unloading)| vec![curve as f64; unloading.forces.len()]).collect();
             let unknown = Some(vec![f64::NAN; unloadings.iter().map(|unloading| unloading.forces.len()).sum()]);
             let penetration = joined(&|unloading| &unloading.penetrations);
-            [joined(&|unloading| &unloading.forces), penetration, None, joined(&|unloading| &unloading.fitted), unknown, Some(curve)]
+            [
+                joined(&|unloading| &unloading.forces),
+                penetration,
+                None,
+                joined(&|unloading| &unloading.fitted),
+                unknown,
+                Some(curve),
+            ]
         }
         _ => [const { None }; 6],
     };

@@ -83,13 +83,11 @@ pub enum Command {
         common: Common,
     },
     /// Find moduli, thicknesses or other keys of a case from measured indentation curves
-    #[command(after_help = help::IDENTIFY)]
+    #[command(after_help = help::IDENTIFY, override_usage = "percoat identify [OPTIONS] --free <KEY,…> <DATA>... <CASE>")]
     Identify {
-        /// Tables of one or more curves, as instruments export them: columns `force` and `penetration`, with units as in `force_mN` or `Depth [nm]`
-        #[arg(required = true)]
-        data: Vec<PathBuf>,
-        /// Case file of one indenter alone, or the name of an embedded case
-        case: PathBuf,
+        /// Tables of one or more curves, as instruments export them: columns `force` and `penetration`, with units as in `force_mN` or `Depth [nm]`; behind them the case file of one indenter alone, or the name of an embedded case
+        #[arg(required = true, value_name = "DATA… CASE")]
+        files: Vec<PathBuf>,
         /// Keys to be found, as layers.0.young,substrate.young; `offset`: the error of the zero of penetration, of each loading curve; `frame_compliance`: that of the instrument's frame
         #[arg(long, required = true, value_name = "KEY,…", value_delimiter = ',')]
         free: Vec<String>,

@@ -18,16 +18,21 @@ use percoat_common::machine::Capacity;
 use percoat_common::plain;
 use percoat_core::identification::IdentificationError;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 pub fn run(
-    (data, case): (&[PathBuf], &Path),
+    files: &[PathBuf],
     (free, stated): (&[String], &[String]),
     segment: Segment,
     (set, common): (&[String], &Common),
 ) -> Result<Ending, Failure> {
     let (started, pictures) = (Instant::now(), &common.pictures);
+    let Some((case, data)) = files.split_last().filter(|(_, data)| !data.is_empty()) else {
+        return Err(Failure::refused(
+            "identify takes tables of curves and behind them a case: percoat identify data.csv mine.toml --free …",
+        ));
+    };
     let (source, name) = read_source(Some(case))?;
     let document = Document::new(&source, set)?;
     let case = document.case()?;
@@ -39,7 +44,7 @@ pub fn run(
     let folder = output_folder(common, &name)?;
     let room = Capacity::on_this_machine(&folder);
     let task = Identify::new(task.with_known(known), room, pictures.wanted())?;
-    let results = Results::claim(folder, plan(Writer::Identify, &files(), pictures), common.saying())?;
+    let results = Results::claim(folder, plan(Writer::Identify, &written(), pictures), common.saying())?;
     let progress = Progress::new("", 0, 0, common);
     let result = task.find(&measured, &mut |trial| {
         let words = output::trial(&case, trial);
@@ -52,7 +57,7 @@ pub fn run(
         IdentificationError::Model(error) => Failure::Case(error),
         error => Failure::refused(error),
     })?;
-    results.write_all(&files(), &result, pictures)?;
+    results.write_all(&written(), &result, pictures)?;
     let (file, Identified { found, best, warnings, .. }) = (result.file(), &result);
     let line = || format!("{} steps of the search; {:.2} s", found.steps(), started.elapsed().as_secs_f64());
     results.finish("identification.json", || identified(&file, &best.units(), terminal::width()), line, warnings)?;
@@ -72,7 +77,7 @@ fn measured(data: &[PathBuf], segment: Segment, units: &Units) -> Result<Taken, 
 }
 
 /// The files of an identification.
-fn files<'a>() -> [Declared<Identified<'a>>; 3] {
+fn written<'a>() -> [Declared<Identified<'a>>; 3] {
     [
         Text("identification.json", |result| Some(result.file().to_json())),
         Text("identification.csv", |result| Some(fitted(result.measured, &result.found))),

@@ -200,7 +200,8 @@ fn whole_test(radius: f64) -> String {
     let unloading = (1..=80).map(|k| 1.0 - f64::from(k) / 80.0);
     let unloading = unloading.map(|x| [x * force, most + elastic * (x.powf(1.0 / 1.5) - 1.0)]);
     let points = loading.chain(hold).chain(unloading).enumerate();
-    let row = |(time, [force, depth]): (usize, [f64; 2])| format!("{time};{force};{}\r\n", 1e3 * depth).replace('.', ",");
+    let row =
+        |(time, [force, depth]): (usize, [f64; 2])| format!("{time};{force};{}\r\n", 1e3 * depth).replace('.', ",");
     format!("Sample;Film 3\r\n\r\nTime [s];Load (mN);Depth [nm];\r\n{}", points.map(row).collect::<String>())
 }
 
@@ -216,7 +217,10 @@ fn the_modulus_of_a_coating_follows_from_the_unloading_of_exported_tests() {
     let one = run(&["small.txt", "case.toml", "--no-pictures", "-o", "one"]);
     assert_eq!(one.code, 0, "{}", one.err);
     let both = run(&["small.txt", "large.txt", "case.toml", "-o", "out"]);
-    assert_says(&both.out, &["small.txt", "large.txt", "hardness", "bare E_r", "2 unloadings", "taken for granted", "β = 1"]);
+    assert_says(
+        &both.out,
+        &["small.txt", "large.txt", "hardness", "bare E_r", "2 unloadings", "taken for granted", "β = 1"],
+    );
     for folder in ["one", "out"] {
         let found = desk.json(&format!("{folder}/identification.json"));
         let value = number(&found, "/parameters/0/value");
@@ -253,14 +257,21 @@ fn tests_without_an_unloading_to_fit_are_refused_with_what_to_do() {
     let refused = |words: &[&str], told: &[&str]| {
         let all = [&["identify"], words, &["--free", "layers.0.young", "-o", "none"]].concat();
         desk.percoat(&all).complains(2, told);
-        assert!(!desk.path("none").exists());
+        assert!(!desk.path("none/identification.json").exists());
     };
+    refused(&["case.toml"], &["tables of curves and behind them a case"]);
     let unloading = |file: &'static str| [file, "case.toml", "--segment", "unloading"];
     refused(&unloading("loading.txt"), &["loading.txt: there is no unloading", "give the whole test"]);
     refused(&unloading("short.txt"), &["short.txt: ", "points of the unloading lie between", "5 are needed"]);
-    refused(&unloading("rises.txt"), &["rises.txt: line", "the penetration does not fall with the force", "hold longer"]);
+    refused(
+        &unloading("rises.txt"),
+        &["rises.txt: line", "the penetration does not fall with the force", "hold longer"],
+    );
     refused(&["whole.txt", "whole.txt", "case.toml"], &["whole.txt: line", "--segment loading"]);
-    refused(&["whole.txt", "case.toml", "--segment", "loading", "--part", "0.3,0.9"], &["a fitted part is that of unloading"]);
+    refused(
+        &["whole.txt", "case.toml", "--segment", "loading", "--part", "0.3,0.9"],
+        &["a fitted part is that of unloading"],
+    );
     let parts = [("0.9,0.3", "0 < low < high < 1"), ("0.5", "two bounds")];
     for (part, told) in parts {
         refused(&[&unloading("whole.txt")[..], &["--part", part]].concat(), &[told]);

@@ -61,7 +61,9 @@ fn modulus(
     thickness: f64,
     start: f64,
 ) -> Result<FromUnloading, IdentificationError<MaterialError>> {
-    let problem = |values: &[f64]| Ok(under(Shape::Cone { slope: SLOPE }, coated(values[0], *values.get(1).unwrap_or(&thickness))));
+    let problem = |values: &[f64]| {
+        Ok(under(Shape::Cone { slope: SLOPE }, coated(values[0], *values.get(1).unwrap_or(&thickness))))
+    };
     let model = UnloadingModel { problem: &problem, instrument: Instrument::default(), beta: 1.0 };
     let free = [parameter("coating", Quantity::Positive, start)];
     let fixed = [parameter("thickness", Quantity::Positive, thickness)];
@@ -131,7 +133,8 @@ fn a_bare_body_has_the_modulus_of_oliver_and_pharr() {
     let part = 1.0 - 0.75 * force / (alone * depth);
     let expected = 0.01 * alone / stiffness * part;
     assert!((contact.bare.error / reduced / expected - 1.0).abs() < 1e-3, "{contact:?}, {expected}");
-    let soft = UnloadingModel { problem: &problem, instrument: Instrument { frame_compliance: 1.0, offset: 0.0 }, beta };
+    let soft =
+        UnloadingModel { problem: &problem, instrument: Instrument { frame_compliance: 1.0, offset: 0.0 }, beta };
     let refused = FromUnloading::new(&soft, (&free, &[]), &measured, &mut |_| ControlFlow::Continue(())).unwrap_err();
     assert!(matches!(refused, IdentificationError::Contact(NoContact::Frame { curve: 0, .. })), "{refused}");
 }
@@ -167,7 +170,7 @@ fn spectral_test(radius: f64, force: f64) -> [Vec<f64>; 2] {
 }
 
 /// E of the coating from unloadings that the spectral solver has computed, at contacts of half to all of the thickness. Its radius is off by 1e-3 at most and
-/// the slope of its penetrations by 2e-3; the layered unloading is no power law, by some 5e-3 of S. With ∂ln S/∂ln E_c ≥ 0.35 that is 2 % of E_c.
+/// the slope of its penetrations by 2e-3; the layered unloading is no power law, by some 5e-4 of S. With ∂ln S/∂ln E_c ≥ 0.35 that is 1 % of E_c.
 /// The formula for bare bodies is off by far more.
 #[test]
 fn the_modulus_of_a_coating_is_found_from_spectral_unloadings() {
@@ -180,7 +183,7 @@ fn the_modulus_of_a_coating_is_found_from_spectral_unloadings() {
         let found = modulus(some, 1.0, 150.0).unwrap();
         let off = found.estimates[0].value / COATING[0] - 1.0;
         let bare = found.contacts[0].bare.young.unwrap() / COATING[0] - 1.0;
-        assert!(off.abs() < 0.02 && bare < -0.1, "{off} {bare} {found:?}");
+        assert!(off.abs() < 0.01 && bare < -0.1, "{off} {bare} {found:?}");
         assert!((found.contacts[0].epsilon - 0.75).abs() > 0.005, "{found:?}");
     }
 }
@@ -252,7 +255,8 @@ fn what_unloading_does_not_tell_is_said() {
     let refused = modulus(&[at(1.0, 0.01, 1.0)], 0.01, 300.0).unwrap_err();
     let IdentificationError::Undetermined(undetermined) = &refused else { panic!("{refused}") };
     assert!(undetermined.name == "coating" && refused.to_string().contains("contact radii"), "{refused}");
-    let problem = |values: &[f64]| Ok::<_, MaterialError>(under(Shape::Cone { slope: SLOPE }, coated(values[0], values[1])));
+    let problem =
+        |values: &[f64]| Ok::<_, MaterialError>(under(Shape::Cone { slope: SLOPE }, coated(values[0], values[1])));
     let model = UnloadingModel { problem: &problem, instrument: Instrument::default(), beta: 1.0 };
     let free = [parameter("coating", Quantity::Positive, 300.0), parameter("thickness", Quantity::Positive, 1.0)];
     let one = [at(0.7, 1.0, 1.0)];

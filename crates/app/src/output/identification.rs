@@ -272,7 +272,8 @@ impl IdentificationFile {
         let length = units.length();
         let [least, most] = self.contact_radii.map(|radius| length.with_unit(radius, number));
         let [low, high] = unloading.epsilons().map(number);
-        let many = if unloading.len() == 1 { "1 unloading".to_owned() } else { format!("{} unloadings", unloading.len()) };
+        let many =
+            if unloading.len() == 1 { "1 unloading".to_owned() } else { format!("{} unloadings", unloading.len()) };
         let mut lines = vec![format!(
             "{many}, residual {} of P/S (root mean square); contact radii {least} to {most}, ε {low} to {high}",
             length.with_unit(self.rms_residual, number)

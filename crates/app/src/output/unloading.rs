@@ -76,7 +76,8 @@ impl UnloadingRecord {
         let most = |of: &dyn Fn(&TestRecord) -> f64| self.tests.iter().map(of).fold(0.0, |most, x| x.abs().max(most));
         let unit = |kind: Kind, of: &dyn Fn(&TestRecord) -> f64| units.unit(kind).prefixed(most(of));
         let force = unit(Kind::Force, &|test| test.force);
-        let [depth, stiffness] = [unit(Kind::Length, &|test| test.penetration), units.unit(Kind::Stiffness).prefixed(1.0)];
+        let [depth, stiffness] =
+            [unit(Kind::Length, &|test| test.penetration), units.unit(Kind::Stiffness).prefixed(1.0)];
         let radius = unit(Kind::Length, &|test| test.contact_radius);
         let [hardness, modulus] =
             [unit(Kind::Pressure, &|test| test.hardness), unit(Kind::Pressure, &|test| test.bare_modulus)];
@@ -127,10 +128,7 @@ impl UnloadingRecord {
         ];
         let rows = || names.iter().zip(&self.tests);
         let [first, second] = heads;
-        [
-            Table::new(&first, rows().map(measured).collect(), 1),
-            Table::new(&second, rows().map(contact).collect(), 1),
-        ]
+        [Table::new(&first, rows().map(measured).collect(), 1), Table::new(&second, rows().map(contact).collect(), 1)]
     }
 
     /// What the formula for bare bodies gives beside the moduli found, what the solver leaves, and what is taken for granted, in lines.
@@ -139,9 +137,9 @@ impl UnloadingRecord {
         let bare = || self.tests.iter().map(|test| test.bare_modulus);
         let [least, most] = [bare().fold(f64::INFINITY, f64::min), bare().fold(0.0, f64::max)].map(modulus);
         let range = if self.tests.len() == 1 { least } else { format!("{least} to {most}") };
-        let substrate = self.substrate_modulus.map_or(String::new(), |substrate| {
-            format!(", of the substrate with it {}", modulus(substrate))
-        });
+        let substrate = self
+            .substrate_modulus
+            .map_or(String::new(), |substrate| format!(", of the substrate with it {}", modulus(substrate)));
         vec![
             format!(
                 "reduced modulus: the formula for bare bodies, E_r = √π S/(2β√A) with ε = 3/4, gives {range}; of the surface with the indenter the \

@@ -56,7 +56,12 @@ pub fn unloading(best: &Case, unloadings: &[Unloading], found: &FromUnloading, b
         curves,
     };
     let value = |estimate: &percoat_core::identification::Estimate| {
-        format!("{}\u{a0}=\u{a0}{}\u{a0}±\u{a0}{}", estimate.parameter.name, short(estimate.value), short(estimate.error))
+        format!(
+            "{}\u{a0}=\u{a0}{}\u{a0}±\u{a0}{}",
+            estimate.parameter.name,
+            short(estimate.value),
+            short(estimate.error)
+        )
     };
     let values: Vec<String> = found.estimates.iter().map(value).collect();
     let title = if best.title.is_empty() { String::new() } else { format!("{}. ", best.title) };

@@ -66,7 +66,9 @@ pub enum NotKnown {
     #[error("`{}` is there twice", plain::line(.0))]
     Twice(String),
     /// A factor of the stiffness where no stiffness is measured.
-    #[error("`{BETA}` is the factor of the stiffness of unloading, which loading does not have: leave it out, or take the segment of unloading")]
+    #[error(
+        "`{BETA}` is the factor of the stiffness of unloading, which loading does not have: leave it out, or take the segment of unloading"
+    )]
     Beta,
     /// A factor of the stiffness that is none.
     #[error("`{BETA}` must be above 0, not {0}: 1 for round tips, 1.034 for a triangle (King)")]

@@ -36,7 +36,8 @@ pub use pattern::{LEVEL, Pattern};
 pub use search::{Listener, Model, Trial};
 pub use sensitivity::{NoDerivative, Sensitivity};
 pub use unloading::{
-    BareModulus, FromUnloading, NoContact, Punch, Unloading, UnloadingContact, UnloadingDoubt, UnloadingError, UnloadingModel,
+    BareModulus, FromUnloading, NoContact, Punch, Unloading, UnloadingContact, UnloadingDoubt, UnloadingError,
+    UnloadingModel,
 };
 
 /// A measured indentation curve, or several that are fitted together.

@@ -137,12 +137,7 @@ impl Measured<'_> {
     }
 
     /// The contact for h and S as measured, or beside what was measured; the search begins with an ε.
-    pub fn contact(
-        &self,
-        problem: &Problem,
-        [h, stiffness]: [f64; 2],
-        mut epsilon: f64,
-    ) -> Result<Contact, NoContact> {
+    pub fn contact(&self, problem: &Problem, [h, stiffness]: [f64; 2], mut epsilon: f64) -> Result<Contact, NoContact> {
         let of_contact = self.without_frame(stiffness)?;
         let shape = problem.levels().first().map(|level| level.shape());
         let shape = shape.expect("a problem of one indenter alone");
@@ -190,7 +185,8 @@ impl Measured<'_> {
             Ok(stiffness / (2.0 * self.beta * radius))
         };
         let reduced = at(self.values())?;
-        let indenter = problem.bodies().counterbody().map_or(0.0, |body| 1.0 / body.surface_material().contact_modulus());
+        let indenter =
+            problem.bodies().counterbody().map_or(0.0, |body| 1.0 / body.surface_material().contact_modulus());
         let poisson = problem.bodies().body().surface_material().poisson();
         let young = Some((1.0 - poisson * poisson) / (1.0 / reduced - indenter)).filter(|young| *young > 0.0);
         Ok(BareModulus { reduced, error: self.error_of(at)?, young })

@@ -199,9 +199,7 @@ impl Scatter {
         let part = 2.0 / (9.0 * freedom.max(1) as f64);
         let most = (1.0 - part + 1.645 * part.sqrt()).powi(3);
         match reduced.filter(|reduced| *reduced > most) {
-            Some(variance) => {
-                Self { reduced, variance, freedom, doubt: Some(UnloadingDoubt::Scatter(variance)) }
-            }
+            Some(variance) => Self { reduced, variance, freedom, doubt: Some(UnloadingDoubt::Scatter(variance)) },
             None => {
                 let freedom = unloadings.iter().map(Unloading::freedom).sum();
                 Self { reduced, variance: 1.0, freedom, doubt: None }
@@ -243,13 +241,15 @@ fn sensitivities<E: Send + fmt::Display>(
             (search.model.problem)(&[&values[..], &all].concat())
         };
         // What of the instrument is free has its value.
-        let instrument = search.measured(&found.place).first().map_or(search.model.instrument, |first| first.instrument);
+        let instrument =
+            search.measured(&found.place).first().map_or(search.model.instrument, |first| first.instrument);
         let model = UnloadingModel { problem: &problem, instrument, beta: search.model.beta };
         let beside = Search::new(&model, &fixed[index..=index], search.unloadings);
         match beside.slopes(&[0.0], 0, &found.linearised.model.contacts) {
             Ok(slopes) => {
                 let deviations = &found.linearised.model.deviations;
-                let column: Vec<f64> = slopes.iter().zip(deviations).map(|(slope, deviation)| slope / deviation).collect();
+                let column: Vec<f64> =
+                    slopes.iter().zip(deviations).map(|(slope, deviation)| slope / deviation).collect();
                 let taken = covariance.taken_up(&found.linearised.jacobian, &column);
                 let per = beside.free.slope(0, 0.0);
                 let derivative = |(k, t): (usize, &f64)| -t * search.free.slope(k, found.place[k]) / per;

@@ -5,11 +5,11 @@
 
 use super::contact::{Contact, Measured, UnloadingModel};
 use super::record::Unloading;
+use crate::identification::Instrument;
 use crate::identification::error::NoValue;
 use crate::identification::least_squares::{self, Linearised};
 use crate::identification::parameter::{FreeParameters, Parameter, Quantity};
 use crate::identification::search::{Listener, Trial};
-use crate::identification::Instrument;
 use crate::problem::Problem;
 use rayon::prelude::*;
 use std::ops::ControlFlow;
@@ -100,7 +100,8 @@ impl<'a, E: Send> Search<'a, E> {
         let (contacts, deviations): (Vec<Contact>, Vec<f64>) =
             measured.par_iter().map(varied).collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
         let columns: Vec<Vec<f64>> = (0..t.len()).map(|k| self.slopes(t, k, &contacts)).collect::<Result<_, _>>()?;
-        let residual = |(i, contact): (usize, &Contact)| (contact.stiffness - self.unloadings[i].stiffness) / deviations[i];
+        let residual =
+            |(i, contact): (usize, &Contact)| (contact.stiffness - self.unloadings[i].stiffness) / deviations[i];
         let residuals = contacts.iter().enumerate().map(residual).collect();
         let row = |i: usize| columns.iter().map(|column| column[i] / deviations[i]).collect();
         let jacobian = (0..contacts.len()).map(row).collect();
