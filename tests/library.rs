@@ -78,6 +78,8 @@ mod tangent;
 mod topographies;
 #[path = "library/two_bodies.rs"]
 mod two_bodies;
+#[path = "library/unloading.rs"]
+mod unloading;
 #[path = "library/volume.rs"]
 mod volume;
 #[path = "library/wear.rs"]

@@ -148,8 +148,8 @@ def limit(
 def limit_text(case: Case, limits: _Keys, width: int) -> str: ...
 def identify(
     case: Case,
-    data: Union[str, PathLike[str], List[Tuple[str, _Array]]],
-    asked: Tuple[List[str], List[str], Optional[str]],
+    data: List[Union[str, PathLike[str], List[Tuple[str, _Array]]]],
+    asked: Tuple[List[str], List[str], Optional[str], Optional[List[float]]],
     width: int,
     threads: Optional[int] = None,
     progress: _Listener = None,

@@ -1,4 +1,4 @@
-"""Numbers of a case from a measured indentation curve."""
+"""Numbers of a case from measured indentation curves."""
 
 from __future__ import annotations
 
@@ -30,12 +30,15 @@ class Table(Protocol):
 Curve = Union[str, "PathLike[str]", Table, NDArray[Any], Sequence[ArrayLike]]
 """The path of a table, named columns, or forces and penetrations, with their standard deviations where they are known."""
 
+Curves = Union[Curve, Sequence[Curve]]
+"""A curve, or several."""
+
 NAMES = ("force", "penetration", "penetration_error")
 """How the columns of a curve begin; a unit may follow, ``force_mN``."""
 
 
 class Identification:
-    """Numbers of a case found from a measured curve, and the fit. It prints the table of the command line.
+    """Numbers of a case found from measured curves, and the fit. It prints the table of the command line.
 
     Attributes
     ----------
@@ -48,10 +51,16 @@ class Identification:
         By the names of what was taken as known, its derivatives: ``sensitivities["substrate.poisson"]["substrate.young"]`` is the
         change of the modulus found over that of Poisson's ratio. A number that cannot be varied is missing, and a warning says why.
     force, penetration, penetration_error
-        The measured curve (n,) in the units of the case; ``penetration_error`` is ``None`` where deviations are unknown.
+        The measured points (n,) in the units of the case; ``penetration_error`` is ``None`` where deviations are unknown. Of unloading
+        those that were fitted by a power law.
+    curve
+        Index of the curve of each point (n,).
     fitted, fitted_error
         Penetrations of the fit (n,), and their standard errors by those of the parameters alone: a measured point scatters by
-        its own deviation besides.
+        its own deviation besides. Of unloading those of the power laws, with errors of NaN.
+    unloading
+        ``None`` of loading. Of unloading ``unloading.tests``, each with ``force``, ``penetration``, ``stiffness``,
+        ``contact_radius``, ``epsilon``, ``hardness``, ``bare_modulus`` and their errors, as ``identification.json`` has them.
     case
         The case with the values found, to be looked at and solved.
     summary
@@ -69,6 +78,8 @@ class Identification:
     reduced_chi_square: Optional[float]
     model_error: Optional[float]
     contact_radii: List[float]
+    curves: List[Record]
+    unloading: Optional[Record]
     steps: int
     units: Record
 
@@ -90,6 +101,7 @@ class Identification:
         self.force, self.penetration = _known(arrays["force"]), _known(arrays["penetration"])
         self.penetration_error = arrays["penetration_error"]
         self.fitted, self.fitted_error = _known(arrays["fitted"]), _known(arrays["fitted_error"])
+        self.curve: NDArray[np.int64] = _known(arrays["curve"]).astype(np.int64)
         self.warnings = warnings
         self._arrays, self._text = arrays, text
 
@@ -125,6 +137,20 @@ class Identification:
 def _known(array: Optional[Array]) -> Array:
     assert array is not None, "every curve has it"
     return array
+
+
+def _curves(data: Any) -> list[Any]:
+    """Each of the curves: a list of what is a curve by itself, a path, named columns or arrays, is several."""
+
+    def is_curve(one: Any) -> bool:
+        if isinstance(one, (str, os.PathLike)) or hasattr(one, "keys"):
+            return True
+        if isinstance(one, np.ndarray):
+            return one.dtype.names is not None or one.ndim == 2
+        return isinstance(one, (tuple, list)) and len(one) > 0 and np.ndim(one[0]) > 0
+
+    several = isinstance(data, (tuple, list)) and len(data) > 0 and all(is_curve(one) for one in data)
+    return [_columns(one) for one in data] if several else [_columns(data)]
 
 
 def _columns(data: Any) -> Any:
@@ -163,16 +189,17 @@ def _columns(data: Any) -> Any:
 
 def identify(
     case: CaseLike,
-    data: Curve,
+    data: Curves,
     free: Union[str, Sequence[str]],
     *,
     known: Optional[Mapping[str, float]] = None,
     segment: Optional[str] = None,
+    part: Optional[Tuple[float, float]] = None,
     set: Settings = None,
     threads: Optional[int] = None,
     progress: Listener = None,
 ) -> Identification:
-    """Find numbers of a case of one isolated indenter that fit a measured indentation curve best.
+    """Find numbers of a case of one isolated indenter that fit measured indentation curves best.
 
     Parameters
     ----------
@@ -182,17 +209,21 @@ def identify(
         The curve: the path of a table; a dict, a :class:`pandas.DataFrame` or a structured array with the columns ``force``
         and ``penetration``, in the units of the case or with their own as in ``force_mN``, and ``penetration_error`` where
         the standard deviations of the points are known; ``(force, penetration)`` or ``(force, penetration,
-        penetration_error)``; or an array with these columns. Tables are read as instruments export them. Elastic contact:
-        loading without plastic depth.
+        penetration_error)``; or an array with these columns. Tables are read as instruments export them. A list of such curves
+        is fitted together. Elastic contact: loading without plastic depth, or ``segment="unloading"``.
     free
         What is to be found: keys of the case, ``["layers.0.young", "substrate.young"]``; ``"offset"``, a zero of the
-        penetration that was missed; ``"frame_compliance"``, that of the frame, a length per force.
+        penetration that was missed, of each loading curve; ``"frame_compliance"``, that of the frame, a length per force.
     known
         What the instrument is known to add to the penetration, in the units of the case: ``{"offset": 0.002}``, a zero that was
-        missed, and ``"frame_compliance"``, that of the frame. What is free as well begins from there.
+        missed, and ``"frame_compliance"``, that of the frame. What is free as well begins from there. ``"beta"``: the factor of the
+        stiffness of unloading of tips that are not round, 1 where it is not said, 1.034 of a triangle by King.
     segment
-        ``"loading"`` takes the points up to nearly the largest force, without hold and unloading; ``None`` all of them. Points
-        before contact are left out.
+        ``"loading"`` takes the points up to nearly the largest force, without hold and unloading; ``None`` all of them, which
+        have to be loading. Points before contact are left out. ``"unloading"`` takes the stiffness at the largest force, by Oliver and Pharr's method on
+        the layered body.
+    part
+        Parts of the largest force between which unloading is fitted, (0.25, 0.95) where it is not said.
     set, threads, progress
         As for :func:`percoat.solve`.
 
@@ -224,8 +255,8 @@ def identify(
     names = [free] if isinstance(free, str) else list(free)
     width = shutil.get_terminal_size().columns
     stated = [f"{name}={float(value)!r}" for name, value in (known or {}).items()]
-    asked = (names, stated, segment)
-    found = _core.identify(_core.Case(case, set), _columns(data), asked, width, threads, listener(progress))
+    asked = (names, stated, segment, None if part is None else [float(bound) for bound in part])
+    found = _core.identify(_core.Case(case, set), _curves(data), asked, width, threads, listener(progress))
     identification = Identification(*found)
     warn(identification.warnings)
     return identification

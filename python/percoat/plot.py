@@ -266,7 +266,7 @@ def curve(
 def fit(
     found: Identification, *, difference: bool = False, ax: Optional[Axes] = None, **artist: Any
 ) -> Axes:
-    """Draw a measured indentation curve with its fit.
+    """Draw measured indentation curves with their fit; of unloading the fitted points with their power laws.
 
     The band is that of two standard errors of the fit, by those of the parameters alone: measured points scatter by their
     own deviations besides, which are their bars where they are known.
@@ -292,14 +292,17 @@ def fit(
     'penetration (µm)'
     """
     ax = _axes(ax)
-    order = np.argsort(found.force)
-    force, below = found.force[order], found.fitted[order] if difference else 0.0
-    fitted, band = found.fitted[order] - below, 2.0 * found.fitted_error[order]
-    bars = None if found.penetration_error is None else found.penetration_error[order]
-    points = {"fmt": ".", "color": "C0", "label": "measured", **artist}
-    ax.errorbar(force, found.penetration[order] - below, bars, **points)
-    (line,) = ax.plot(force, fitted, color="C1", label="fit")
-    ax.fill_between(force, fitted - band, fitted + band, color=line.get_color(), alpha=0.3, linewidth=0.0)
+    for curve in np.unique(found.curve):
+        of_curve = np.flatnonzero(found.curve == curve)
+        order = of_curve[np.argsort(found.force[of_curve])]
+        force, below = found.force[order], found.fitted[order] if difference else 0.0
+        fitted, band = found.fitted[order] - below, 2.0 * found.fitted_error[order]
+        bars = None if found.penetration_error is None else found.penetration_error[order]
+        first = curve == found.curve[0]
+        points = {"fmt": ".", "color": "C0", "label": "measured" if first else None, **artist}
+        ax.errorbar(force, found.penetration[order] - below, bars, **points)
+        (line,) = ax.plot(force, fitted, color="C1", label="fit" if first else None)
+        ax.fill_between(force, fitted - band, fitted + band, color=line.get_color(), alpha=0.3, linewidth=0.0)
     ax.legend()
     name = "measured − fit" if difference else "penetration"
     ax.set(xlabel=_label("force", "force", found.units), ylabel=_label(name, "length", found.units))

@@ -251,4 +251,49 @@ def test_columns_of_an_instrument_are_taken() -> None:
         found = percoat.identify(case, table, ["substrate.young"], segment="loading")
     assert round(found.values["substrate.young"]) == 70 and found.fitted.shape == (10,)
     with pytest.raises(percoat.CaseError, match="segment must be"):
-        percoat.identify(case, table, ["substrate.young"], segment="unloading")
+        percoat.identify(case, table, ["substrate.young"], segment="creep")
+
+
+def unloading(force: float, depth: float, stiffness: float) -> dict[str, Any]:
+    """Loading, and an unloading by a power law of m = 1.5; mN and µm."""
+    part = np.linspace(1.0, 0.0, 81)
+    loose = depth + 1.5 * force / stiffness * (part ** (1.0 / 1.5) - 1.0)
+    up = np.linspace(0.05, 0.95, 19)
+    return {"force": force * np.concatenate([up, part]), "depth": np.concatenate([depth * np.sqrt(up), loose])}
+
+
+def test_unloading_of_a_bare_body_has_the_modulus_of_oliver_and_pharr() -> None:
+    # E_r = S/(2βa) with a² = 2R h_c and h_c = h − 3P/(4S), R = 10 µm.
+    force, depth, beta = 40.0, 0.3, 1.02
+    young, tests = [], []
+    for stiffness in (300.0, 330.0):
+        radius = np.sqrt(2.0 * 10.0 * (depth - 0.75 * force / stiffness))
+        young.append(0.91 * stiffness / (2.0 * beta * radius))
+        tests.append(unloading(force, depth, stiffness))
+    settings: dict[str, Any] = {"segment": "unloading", "known": {"beta": beta}}
+    one = percoat.identify(CASE, tests[0], "substrate.young", **settings)
+    assert one.values["substrate.young"] == pytest.approx(young[0], rel=1e-5)
+    assert one.unloading is not None
+    test = one.unloading.tests[0]
+    assert (test.bare_young, test.epsilon) == (pytest.approx(young[0], rel=1e-5), 0.75)
+    assert test.stiffness == pytest.approx(300.0, rel=1e-5) and one.unloading.beta == beta
+    assert test.hardness == pytest.approx(force / (np.pi * test.contact_radius**2), rel=1e-12)
+    assert one.fitted == pytest.approx(one.penetration, rel=1e-6) and 0.25 * force <= one.force.min()
+    with pytest.warns(Warning, match="differ by more than their errors"):
+        both = percoat.identify(CASE, tests, "substrate.young", part=(0.4, 0.9), **settings)
+    assert young[0] < both.values["substrate.young"] < young[1] and len(both.unloading.tests) == 2
+    assert sorted(set(both.curve)) == [0, 1] and both.force.min() >= 0.4 * force
+    with pytest.raises(percoat.CaseError, match="curve 2: there is no unloading"):
+        percoat.identify(CASE, [tests[0], {key: column[:19] for key, column in tests[1].items()}], "offset", segment="unloading")
+    with pytest.raises(percoat.CaseError, match="fitted part is that of unloading"):
+        percoat.identify(CASE, tests[0], "substrate.young", segment="loading", part=(0.4, 0.9))
+
+
+def test_curves_of_loading_have_a_zero_each(curve: tuple[Any, Any]) -> None:
+    force, penetration = curve
+    free = ["substrate.young", "offset"]
+    both = percoat.identify(CASE, [(force, penetration + 0.01), (force, penetration - 0.01)], free)
+    alone = percoat.identify(CASE, curve, free)
+    assert both.values["substrate.young"] == pytest.approx(alone.values["substrate.young"], rel=1e-4)
+    assert both.values["offset.0"] - both.values["offset.1"] == pytest.approx(0.02, rel=1e-4)
+    assert [record.points for record in both.curves] == [12, 12] and both.unloading is None

@@ -82,22 +82,24 @@ pub enum Command {
         #[command(flatten)]
         common: Common,
     },
-    /// Find moduli, thicknesses or other keys of a case from a measured indentation curve
-    #[command(after_help = help::IDENTIFY)]
+    /// Find moduli, thicknesses or other keys of a case from measured indentation curves
+    #[command(after_help = help::IDENTIFY, override_usage = "percoat identify [OPTIONS] --free <KEY,…> <DATA>... <CASE>")]
     Identify {
-        /// Table of the curve, as instruments export it: columns `force` and `penetration`, with units as in `force_mN` or `Depth [nm]`
-        data: PathBuf,
-        /// Case file of one indenter alone, or the name of an embedded case
-        case: PathBuf,
-        /// Keys to be found, as layers.0.young,substrate.young; `offset`: the error of the zero of penetration; `frame_compliance`: that of the instrument's frame
+        /// Tables of one or more curves, as instruments export them: columns `force` and `penetration`, with units as in `force_mN` or `Depth [nm]`; behind them the case file of one indenter alone, or the name of an embedded case
+        #[arg(required = true, value_name = "DATA… CASE")]
+        files: Vec<PathBuf>,
+        /// Keys to be found, as layers.0.young,substrate.young; `offset`: the error of the zero of penetration, of each loading curve; `frame_compliance`: that of the instrument's frame
         #[arg(long, required = true, value_name = "KEY,…", value_delimiter = ',')]
         free: Vec<String>,
-        /// Known additions of the instrument, in the units of the case: offset=LENGTH,frame_compliance=LENGTH PER FORCE
+        /// Known additions of the instrument, in the units of the case, and the factor of the stiffness of unloading of tips that are not round [default: 1]: offset=LENGTH,frame_compliance=LENGTH PER FORCE,beta=FACTOR
         #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',')]
         known: Vec<String>,
-        /// Part of the test that is fitted; `loading`: up to nearly the largest force, without hold and unloading [default: all of it]
-        #[arg(long, value_name = "SEGMENT", value_parser = ["loading"])]
+        /// Part of the test that is fitted; `loading`: up to nearly the largest force, without hold and unloading; `unloading`: the stiffness at the largest force, by Oliver and Pharr's method on the layered body [default: all of it, which has to be loading]
+        #[arg(long, value_name = "SEGMENT", value_parser = ["loading", "unloading"])]
         segment: Option<String>,
+        /// Parts of the largest force between which unloading is fitted [default: 0.25,0.95]
+        #[arg(long, value_name = "LOW,HIGH", value_delimiter = ',')]
+        part: Option<Vec<f64>>,
         #[command(flatten)]
         changes: Changes,
         #[command(flatten)]

@@ -74,10 +74,9 @@ fn carry_out(command: &Command) -> Result<Ending, Failure> {
         Command::Life { case, changes, options, common } => {
             life::run(case.as_deref(), changes.once()?, options, common)
         }
-        Command::Identify { data, case, free, known, segment, changes, common } => {
-            // The command line admits no other name.
-            let segment = Segment::of(segment.as_deref()).unwrap_or_default();
-            identify::run((data, case), (free, known), segment, (changes.once()?, common))
+        Command::Identify { files, free, known, segment, part, changes, common } => {
+            let segment = Segment::of(segment.as_deref(), part.as_deref()).map_err(Failure::refused)?;
+            identify::run(files, (free, known), segment, (changes.once()?, common))
         }
         Command::Sweep { case, set, options, common } => sweep::run(case, set, options, common),
         Command::Merge { folders, output, pictures, saying } => {

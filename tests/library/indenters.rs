@@ -7,6 +7,7 @@
 
 use percoat::case::{Case, Document, IdentificationTask, Source, foreseen, plausibility};
 use percoat::identification::Measurement;
+use percoat::measurements::Curves;
 use percoat::{Load, Settings, Solver};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
@@ -116,7 +117,7 @@ fn a_curve_of_a_sphero_cone_contains_modulus_and_tip_radius() {
     let modulus = 100.0 / (1.0 - 0.09);
     let points = (0..16).map(|k| sneddon(30.0 * 1.2f64.powi(k), sphero_cone(200.0, 60.0)));
     let (penetrations, forces): (Vec<f64>, Vec<f64>) = points.map(|[depth, force]| (depth, force * modulus)).unzip();
-    let measured = Measurement::new(forces, penetrations, None).unwrap();
+    let measured = Curves::Loading(Measurement::new(forces, penetrations, None).unwrap());
     for (level, free, start, known) in [
         ("shape = \"rockwell\"", "substrate.young", "substrate.young=60", 100.0),
         ("shape = \"rockwell\"", "levels.0.tip_radius", "levels.0.tip_radius=150", 200.0),
@@ -133,7 +134,7 @@ fn a_curve_of_a_sphero_cone_contains_modulus_and_tip_radius() {
         let case = document.case().unwrap();
         let task = IdentificationTask::new(&document, &case, &[free.to_owned()]).unwrap();
         let (found, best) = task.find(&measured, &mut |_| ControlFlow::Continue(())).unwrap();
-        let value = found.estimates[0].value;
+        let value = found.estimates()[0].value;
         assert!((value / known - 1.0).abs() < 2e-3, "{free}: {value}, {known}");
         assert!(best.to_toml().contains("half_angle") == (free == "levels.0.half_angle"));
     }

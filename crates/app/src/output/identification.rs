@@ -1,12 +1,16 @@
-//! `identification.json` and `identification.csv`: parameters found from a measured indentation curve, and the fit.
+//! `identification.json` and `identification.csv`: parameters found from measured indentation curves, and the fit.
 
 use super::head::{Head, with_head};
 use super::json::{Unreadable, indented, read_back};
 use super::number::{number, with_error};
 use super::table::Table;
-use percoat_case::case::Case;
+use super::unloading::{UnloadingRecord, unloaded};
+use percoat_case::case::{Case, Found};
+use percoat_case::measurements::{Curves, Taken};
 use percoat_case::units::Units;
-use percoat_core::identification::{Doubt, Estimate, Identification, LEVEL, Measurement, Missing, Sensitivity, Trial};
+use percoat_core::identification::{
+    Doubt, Estimate, FromUnloading, Identification, LEVEL, Measurement, Missing, Sensitivity, Trial,
+};
 use percoat_core::notation::WIDE;
 use percoat_core::run::tip::outside;
 use serde::{Deserialize, Serialize};
@@ -25,11 +29,21 @@ with_head! {
         reduced_chi_square: Option<f64>,
         model_error: Option<f64>,
         contact_radii: [f64; 2],
+        curves: Vec<CurveRecord>,
+        unloading: Option<UnloadingRecord>,
         sensitivities: Vec<KnownNumber>,
         /// Warnings about the fit, a sentence each.
         pub warnings: Vec<String>,
         steps: usize,
     }
+}
+
+/// A measured curve: its points that were fitted, and the root mean square of measured minus fitted penetrations.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct CurveRecord {
+    name: String,
+    points: usize,
+    rms_residual: f64,
 }
 
 /// A number that was taken as known, and the derivatives of the parameters by it.
@@ -51,8 +65,8 @@ struct FoundParameter {
 }
 
 impl IdentificationFile {
-    /// The record of what was found; `case` has the values found.
-    pub fn new(found: &Identification, case: &Case, warnings: &[String]) -> Self {
+    /// The record of what was found with a factor β by measured curves; `case` has the values found.
+    pub fn new(measured: &Taken, (found, beta): (&Found, f64), case: &Case, warnings: &[String]) -> Self {
         let parameter = |estimate: &Estimate| FoundParameter {
             name: estimate.parameter.name.clone(),
             start: estimate.parameter.start,
@@ -65,23 +79,45 @@ impl IdentificationFile {
             value: sensitivity.fixed.start,
             derivatives: sensitivity.derivatives.clone(),
         };
+        let unloading = match (&measured.curves, found) {
+            (Curves::Unloading(unloadings), Found::Unloading(found)) => {
+                Some(UnloadingRecord::new(unloadings, (found, beta), case.problem().bodies()))
+            }
+            _ => None,
+        };
+        let (correlation, sensitivities, contact_radii) = match found {
+            Found::Loading(found) => (&found.correlation, &found.sensitivities, found.radii),
+            Found::Unloading(found) => (&found.correlation, &found.sensitivities, found.radii),
+        };
+        let (points, degrees_of_freedom, rms_residual, reduced_chi_square, model_error, steps) = match found {
+            Found::Loading(found) => {
+                let Identification { fitted, freedom, rms, reduced_chi_square, model_error, steps, .. } = found;
+                (fitted.len(), *freedom, *rms, *reduced_chi_square, *model_error, *steps)
+            }
+            Found::Unloading(found) => {
+                let FromUnloading { contacts, freedom, rms, reduced_chi_square, model_error, steps, .. } = found;
+                (contacts.len(), *freedom, *rms, *reduced_chi_square, Some(*model_error), *steps)
+            }
+        };
         let Head { percoat, title, case: keys, units } = Head::of(case);
         Self {
             percoat,
             title,
             case: keys,
             units,
-            parameters: found.estimates.iter().map(parameter).collect(),
-            correlation: found.correlation.clone(),
-            points: found.fitted.len(),
-            degrees_of_freedom: found.freedom,
-            rms_residual: found.rms,
-            reduced_chi_square: found.reduced_chi_square,
-            model_error: found.model_error,
-            contact_radii: found.radii,
-            sensitivities: found.sensitivities.iter().map(known).collect(),
+            parameters: found.estimates().iter().map(parameter).collect(),
+            correlation: correlation.clone(),
+            points,
+            degrees_of_freedom,
+            rms_residual,
+            reduced_chi_square,
+            model_error,
+            contact_radii,
+            curves: curves(measured, found),
+            unloading,
+            sensitivities: sensitivities.iter().map(known).collect(),
             warnings: warnings.to_vec(),
-            steps: found.steps,
+            steps,
         }
     }
 
@@ -91,12 +127,34 @@ impl IdentificationFile {
     }
 }
 
-/// The content of `identification.csv`: a line for each measured point, the fit and its standard error by that of the parameters.
-pub fn fitted(measured: &Measurement, found: &Identification) -> String {
-    let mut text = "force,penetration,fitted,fitted_error\n".to_owned();
+/// The records of measured curves.
+fn curves(measured: &Taken, found: &Found) -> Vec<CurveRecord> {
+    let names = measured.names.iter().cloned();
+    let sizes: Vec<(usize, f64)> = match (&measured.curves, found) {
+        (Curves::Loading(curve), Found::Loading(found)) => {
+            curve.lengths().iter().copied().zip(found.rms_of_curves.iter().copied()).collect()
+        }
+        (Curves::Unloading(unloadings), _) => {
+            unloadings.iter().map(|unloading| (unloading.forces.len(), unloading.rms)).collect()
+        }
+        (Curves::Loading(_), Found::Unloading(_)) => Vec::new(),
+    };
+    names.zip(sizes).map(|(name, (points, rms_residual))| CurveRecord { name, points, rms_residual }).collect()
+}
+
+/// The content of `identification.csv`: a line for each measured point, the fit and its standard error by that of the parameters, and the index of
+/// its curve; of unloadings the fitted points with their power law.
+pub fn fitted(measured: &Taken, found: &Found) -> String {
+    let (measured, found) = match (&measured.curves, found) {
+        (Curves::Loading(measured), Found::Loading(found)) => (measured, found),
+        (Curves::Unloading(unloadings), _) => return unloaded(unloadings),
+        (Curves::Loading(_), Found::Unloading(_)) => return String::new(),
+    };
+    let mut text = "force,penetration,fitted,fitted_error,curve\n".to_owned();
     let points = measured.forces().iter().zip(measured.penetrations()).zip(&found.fitted).zip(&found.band);
-    for (((force, penetration), fitted), band) in points {
-        writeln!(text, "{force},{penetration},{fitted},{band}").expect("a String takes any text");
+    for (index, (((force, penetration), fitted), band)) in points.enumerate() {
+        let curve = measured.curve_of(index);
+        writeln!(text, "{force},{penetration},{fitted},{band},{curve}").expect("a String takes any text");
     }
     text
 }
@@ -113,6 +171,9 @@ pub fn identified(file: &IdentificationFile, units: &Units, width: usize) -> Str
     text += &file.correlations().into_iter().map(|line| line + "\n").collect::<String>();
     if let Some(table) = file.by_known() {
         text += &format!("\n{}\n\n", table.fitted(width));
+    }
+    for table in file.of_curves(units) {
+        text += &format!("{}\n\n", table.fitted(width));
     }
     text + &file.fit(units).into_iter().map(|line| line + "\n").collect::<String>()
 }
@@ -162,9 +223,35 @@ impl IdentificationFile {
         (!rows.is_empty()).then(|| Table::new(&head, rows, 1))
     }
 
+    /// Whether it is of unloading.
+    pub fn is_of_unloading(&self) -> bool {
+        self.unloading.is_some()
+    }
+
+    /// Tables of the curves: of several loadings their residuals, of unloadings what was measured and the contacts.
+    pub fn of_curves(&self, units: &Units) -> Vec<Table> {
+        let names: Vec<&str> = self.curves.iter().map(|curve| curve.name.as_str()).collect();
+        if let Some(unloading) = &self.unloading {
+            return unloading.tables(&names, units).into();
+        }
+        if names.len() < 2 {
+            return Vec::new();
+        }
+        let largest = self.curves.iter().map(|curve| curve.rms_residual).fold(0.0, f64::max);
+        let unit = units.length().prefixed(largest);
+        let head = ["curve".to_owned(), "points".to_owned(), unit.headed("residual")];
+        let row = |curve: &CurveRecord| {
+            vec![curve.name.clone(), curve.points.to_string(), number(unit.shown(curve.rms_residual))]
+        };
+        vec![Table::new(&head, self.curves.iter().map(row).collect(), 1)]
+    }
+
     /// How well the model fits, in lines.
     pub fn fit(&self, units: &Units) -> Vec<String> {
         let length = units.length();
+        if let Some(unloading) = &self.unloading {
+            return self.fit_of_unloading(unloading, units);
+        }
         let [least, most] = self.contact_radii.map(|radius| length.with_unit(radius, number));
         let mut lines = vec![format!(
             "{} points, residual {} (root mean square); contact radii {least} to {most}",
@@ -177,6 +264,24 @@ impl IdentificationFile {
         if let Some(error) = self.model_error {
             lines.push(format!("error of the computed penetrations by the grid: {error:.1e} at most"));
         }
+        lines
+    }
+
+    /// How well the model fits the stiffness of unloadings, in lines.
+    fn fit_of_unloading(&self, unloading: &UnloadingRecord, units: &Units) -> Vec<String> {
+        let length = units.length();
+        let [least, most] = self.contact_radii.map(|radius| length.with_unit(radius, number));
+        let [low, high] = unloading.epsilons().map(number);
+        let many =
+            if unloading.len() == 1 { "1 unloading".to_owned() } else { format!("{} unloadings", unloading.len()) };
+        let mut lines = vec![format!(
+            "{many}, residual {} of P/S (root mean square); contact radii {least} to {most}, ε {low} to {high}",
+            length.with_unit(self.rms_residual, number)
+        )];
+        if let Some(chi) = self.reduced_chi_square {
+            lines.push(format!("reduced chi-square {chi:.2}, about 1 where model and errors hold"));
+        }
+        lines.extend(unloading.notes(units));
         lines
     }
 

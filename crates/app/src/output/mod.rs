@@ -79,6 +79,7 @@ pub mod summary;
 mod system;
 pub mod table;
 mod trailer;
+mod unloading;
 mod unpack;
 mod volume;
 mod writer;
@@ -116,6 +117,7 @@ pub use solved::{solved_plan, write_scalars};
 pub use summary::Summary;
 pub(crate) use trailer::Trailer;
 pub use trailer::{TrailerError, digest, with_checksum, without_checksum};
+pub use unloading::doubts_of_unloading;
 pub use volume::write_volume;
 pub use writer::Writer;
 

@@ -22,6 +22,7 @@
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
 //! - Damage below the surface: [`damage`](damage()); what is left of a body pass after pass: [`course`](course()).
 //! - The rows of a sweep: [`sweep`](sweep()): curves over a key, maps over two; of uncertain keys: [`uncertainty`](uncertainty()).
+//! - Measured curves and what was found by them: [`identification`](identification()), [`unloading`](unloading()).
 //! - Localized against spectral: [`comparison`](comparison()).
 //! - A topography before anything is solved: [`spectrum`](spectrum()).
 
@@ -47,6 +48,7 @@ mod spectrum;
 mod sweep;
 mod tiling;
 mod uncertainty;
+mod unloading;
 mod utilisations;
 mod window;
 mod zoom;
@@ -69,6 +71,7 @@ pub use snapshot::Snapshot;
 pub use spectrum::spectrum;
 pub use sweep::sweep;
 pub use uncertainty::uncertainty;
+pub use unloading::unloading;
 pub use utilisations::utilisations;
 pub use window::{View, Window};
 pub use zoom::view;

@@ -1,27 +1,29 @@
-//! Numbers of a case from a measured indentation curve.
+//! Numbers of a case from measured indentation curves.
 
 use super::refused::Refused;
-use crate::output::{IdentificationFile, doubts};
+use crate::output::{IdentificationFile, doubts, doubts_of_unloading};
 use percoat_case::case::feasibility::Allowed;
 use percoat_case::case::resources::Job;
-use percoat_case::case::{Case, CaseError, IdentificationTask, plausibility};
+use percoat_case::case::{Case, CaseError, Found, IdentificationTask, plausibility};
+use percoat_case::measurements::{Curves, Taken};
 use percoat_common::machine::Capacity;
-use percoat_core::identification::{Identification, IdentificationError, Listener, Measurement};
+use percoat_core::identification::{IdentificationError, Listener};
 
 /// Numbers of a case, to be found.
 #[derive(Debug)]
 pub struct Identify<'a> {
     task: IdentificationTask<'a>,
-    notes: Vec<String>,
 }
 
 /// The numbers that were found.
 #[derive(Debug)]
 pub struct Identified<'a> {
-    /// The measured curve.
-    pub measured: &'a Measurement,
+    /// The measured curves.
+    pub measured: &'a Taken,
     /// The numbers with their errors, and the fit.
-    pub found: Identification,
+    pub found: Found,
+    /// Factor β of the stiffness of unloading.
+    pub beta: f64,
     /// The case with the numbers.
     pub best: Case,
     /// Warnings about the numbers and the case, a sentence each.
@@ -35,13 +37,7 @@ impl<'a> Identify<'a> {
     /// [`Refused`] where they do not suffice.
     pub fn new(task: IdentificationTask<'a>, room: Capacity, pictures: bool) -> Result<Self, Refused> {
         Allowed::within(task.case(), room, Job::Identify { pictures }).map_err(Refused::new)?;
-        Ok(Self { task, notes: Vec::new() })
-    }
-
-    /// The task with notes on what of the test was left out, which stand among its warnings.
-    #[must_use]
-    pub fn with_notes(self, notes: Vec<String>) -> Self {
-        Self { notes, ..self }
+        Ok(Self { task })
     }
 
     /// Searches for the numbers; `each` receives every trial, and may end the search.
@@ -50,18 +46,23 @@ impl<'a> Identify<'a> {
     /// [`IdentificationError`].
     pub fn find<'m>(
         &self,
-        measured: &'m Measurement,
+        measured: &'m Taken,
         each: &mut Listener<'_>,
     ) -> Result<Identified<'m>, IdentificationError<CaseError>> {
-        let (found, best) = self.task.find(measured, each)?;
-        let warnings = [self.notes.clone(), doubts(measured, &found, &best), plausibility::of_case(&best)].concat();
-        Ok(Identified { measured, found, best, warnings })
+        let (found, best) = self.task.find(&measured.curves, each)?;
+        let doubts = match (&measured.curves, &found) {
+            (Curves::Loading(curve), Found::Loading(found)) => doubts(curve, found, &best),
+            (_, Found::Unloading(found)) => doubts_of_unloading(&measured.names, found, &best),
+            (Curves::Unloading(_), Found::Loading(_)) => Vec::new(),
+        };
+        let warnings = [measured.notes.clone(), doubts, plausibility::of_case(&best)].concat();
+        Ok(Identified { measured, found, beta: self.task.beta(), best, warnings })
     }
 }
 
 impl Identified<'_> {
     /// The content of `identification.json`.
     pub fn file(&self) -> IdentificationFile {
-        IdentificationFile::new(&self.found, &self.best, &self.warnings)
+        IdentificationFile::new(self.measured, (&self.found, self.beta), &self.best, &self.warnings)
     }
 }

@@ -2,9 +2,11 @@
 
 use super::model::CASE;
 use super::{Case, CaseError, Document};
+use crate::measurements::{Curves, Segment};
 use percoat_common::plain;
 use percoat_core::identification::{
-    Identification, IdentificationError, Instrument, Listener, Measurement, Model, Parameter, Quantity,
+    Estimate, FromUnloading, Identification, IdentificationError, Instrument, Listener, Model, Parameter, Quantity,
+    UnloadingModel,
 };
 use percoat_core::problem::Problem;
 use percoat_core::run::Sampling;
@@ -13,6 +15,8 @@ use serde_json::{Value, json};
 /// Names of a zero that was missed, and of the compliance of the frame, among the parameters.
 const OFFSET: &str = "offset";
 const FRAME: &str = "frame_compliance";
+/// Name of the factor of the stiffness among what is known.
+const BETA: &str = "beta";
 /// Keys of numbers by which what is found is differentiated where they are taken as known.
 const KNOWN: [&str; 12] = [
     "radius",
@@ -49,37 +53,102 @@ pub enum NotFree {
     NoNumber(String),
 }
 
-/// Why a number of the instrument is not known.
+/// Why what is known beside the case is not.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NotKnown {
     /// A text that is none of a name and a number.
-    #[error("`{}` is no `{OFFSET}=LENGTH` or `{FRAME}=LENGTH PER FORCE`, a number in the units of the case", plain::line(.0))]
+    #[error(
+        "`{}` is no `{OFFSET}=LENGTH`, `{FRAME}=LENGTH PER FORCE` or `{BETA}=FACTOR`, a number in the units of the case",
+        plain::line(.0)
+    )]
     NoValue(String),
     /// A name that is there twice.
     #[error("`{}` is there twice", plain::line(.0))]
     Twice(String),
+    /// A factor of the stiffness where no stiffness is measured.
+    #[error(
+        "`{BETA}` is the factor of the stiffness of unloading, which loading does not have: leave it out, or take the segment of unloading"
+    )]
+    Beta,
+    /// A factor of the stiffness that is none.
+    #[error("`{BETA}` must be above 0, not {0}: 1 for round tips, 1.034 for a triangle (King)")]
+    Factor(f64),
 }
 
-/// Known additions of an instrument, by texts `offset=0.0025` and `frame_compliance=1e-4` in the units of the case.
-///
-/// # Errors
-/// [`NotKnown`] for other texts, and for a name that is there twice.
-pub fn known_instrument(texts: &[String]) -> Result<Instrument, NotKnown> {
-    let [mut offset, mut frame] = [None; 2];
-    for text in texts {
-        let none = || NotKnown::NoValue(text.clone());
-        let (name, value) = text.split_once('=').ok_or_else(none)?;
-        let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(none)?;
-        let number = match name.trim() {
-            OFFSET => &mut offset,
-            FRAME => &mut frame,
-            _ => return Err(none()),
-        };
-        if number.replace(value).is_some() {
-            return Err(NotKnown::Twice(name.trim().to_owned()));
+/// What is known beside the case: additions of the instrument, and the factor β of the stiffness of unloading.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Known {
+    /// Known additions of the instrument.
+    pub instrument: Instrument,
+    /// β of the tip; `None` where it is not given: 1.
+    pub beta: Option<f64>,
+}
+
+impl Known {
+    /// What is known by texts `offset=0.0025`, `frame_compliance=1e-4` and `beta=1.034`, in the units of the case.
+    ///
+    /// # Errors
+    /// [`NotKnown`] for other texts, and for a name that is there twice.
+    pub fn of(texts: &[String]) -> Result<Self, NotKnown> {
+        let [mut offset, mut frame, mut beta] = [None; 3];
+        for text in texts {
+            let none = || NotKnown::NoValue(text.clone());
+            let (name, value) = text.split_once('=').ok_or_else(none)?;
+            let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(none)?;
+            let number = match name.trim() {
+                OFFSET => &mut offset,
+                FRAME => &mut frame,
+                BETA => &mut beta,
+                _ => return Err(none()),
+            };
+            if number.replace(value).is_some() {
+                return Err(NotKnown::Twice(name.trim().to_owned()));
+            }
+        }
+        if let Some(beta) = beta.filter(|beta| *beta <= 0.0) {
+            return Err(NotKnown::Factor(beta));
+        }
+        let instrument = Instrument { offset: offset.unwrap_or(0.0), frame_compliance: frame.unwrap_or(0.0) };
+        Ok(Self { instrument, beta })
+    }
+
+    /// What is known, for curves of a segment.
+    ///
+    /// # Errors
+    /// [`NotKnown::Beta`] for a factor of the stiffness where the segment is none of unloading.
+    pub fn for_segment(self, segment: Segment) -> Result<Self, NotKnown> {
+        match (self.beta, segment) {
+            (Some(_), Segment::Whole | Segment::Loading) => Err(NotKnown::Beta),
+            _ => Ok(self),
         }
     }
-    Ok(Instrument { offset: offset.unwrap_or(0.0), frame_compliance: frame.unwrap_or(0.0) })
+}
+
+/// What was found by measured curves.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Found {
+    /// By the points of loading.
+    Loading(Identification),
+    /// By the stiffness of unloading.
+    Unloading(FromUnloading),
+}
+
+impl Found {
+    /// The parameters.
+    pub fn estimates(&self) -> &[Estimate] {
+        match self {
+            Self::Loading(found) => &found.estimates,
+            Self::Unloading(found) => &found.estimates,
+        }
+    }
+
+    /// Steps of the search.
+    pub fn steps(&self) -> usize {
+        match self {
+            Self::Loading(found) => found.steps,
+            Self::Unloading(found) => found.steps,
+        }
+    }
 }
 
 /// The task of `percoat identify`: free numbers of a case, from a measured curve.
@@ -90,8 +159,8 @@ pub struct IdentificationTask<'a> {
     parameters: Vec<Parameter>,
     /// Numbers that are taken as known, and by which what is found is differentiated.
     fixed: Vec<Parameter>,
-    /// Known additions of the instrument; 0 of what is free.
-    instrument: Instrument,
+    /// What is known beside the case; 0 of what is free.
+    known: Known,
 }
 
 impl<'a> IdentificationTask<'a> {
@@ -132,12 +201,12 @@ impl<'a> IdentificationTask<'a> {
             fixed.push(Parameter { name: name.to_owned(), quantity, start: 0.0 });
         }
         fixed.retain(|parameter| parameters.iter().all(|free| free.name != parameter.name));
-        Ok(Self { document, case, parameters, fixed, instrument: Instrument::default() })
+        Ok(Self { document, case, parameters, fixed, known: Known::default() })
     }
 
-    /// The task for an instrument that is known to add this; where it is free as well, the search starts from it.
+    /// The task with what is known; where it is free as well, the search starts from it.
     #[must_use]
-    pub fn with_instrument(mut self, instrument: Instrument) -> Self {
+    pub fn with_known(mut self, Known { instrument, beta }: Known) -> Self {
         for parameter in self.parameters.iter_mut().chain(&mut self.fixed) {
             match parameter.quantity {
                 Quantity::Offset => parameter.start = instrument.offset,
@@ -148,10 +217,11 @@ impl<'a> IdentificationTask<'a> {
         let known = |quantity: Quantity, of: f64| {
             if self.parameters.iter().any(|parameter| parameter.quantity == quantity) { 0.0 } else { of }
         };
-        self.instrument = Instrument {
+        let instrument = Instrument {
             offset: known(Quantity::Offset, instrument.offset),
             frame_compliance: known(Quantity::FrameCompliance, instrument.frame_compliance),
         };
+        self.known = Known { instrument, beta };
         self
     }
 
@@ -160,31 +230,68 @@ impl<'a> IdentificationTask<'a> {
         self.case
     }
 
-    /// Finds the values by the elastic curve, and the case with them. `progress` is called with each trial; `Break` ends the search.
+    /// Finds the values by measured curves, and the case with them. `progress` is called with each trial; `Break` ends the search.
     ///
     /// # Errors
     /// [`IdentificationError`].
     pub fn find(
         &self,
-        measured: &Measurement,
+        measured: &Curves,
         progress: &mut Listener<'_>,
-    ) -> Result<(Identification, Case), IdentificationError<CaseError>> {
-        let problem =
-            |values: &[f64]| -> Result<Problem, CaseError> { Ok(self.with(values)?.problem().without_hardness()) };
-        let model = Model { problem: &problem, points: points(self.case), settings: self.case.solver };
-        let measured = measured.clone().with_instrument(self.instrument);
-        let found = Identification::with_fixed(&model, (&self.parameters, &self.fixed), &measured, progress)?;
-        let values: Vec<f64> = found.estimates.iter().map(|estimate| estimate.value).collect();
-        let best = self.with(&values).map_err(IdentificationError::Model)?;
+    ) -> Result<(Found, Case), IdentificationError<CaseError>> {
+        let parameters = self.parameters_of(measured);
+        let problem = |values: &[f64]| -> Result<Problem, CaseError> {
+            Ok(self.with(&parameters, values)?.problem().without_hardness())
+        };
+        let asked = (&parameters[..], &self.fixed[..]);
+        let instrument = self.known.instrument;
+        let found = match measured {
+            Curves::Loading(curve) => {
+                let model = Model { problem: &problem, points: points(self.case), settings: self.case.solver };
+                let curve = curve.clone().with_instrument(instrument);
+                Found::Loading(Identification::with_fixed(&model, asked, &curve, progress)?)
+            }
+            Curves::Unloading(unloadings) => {
+                let model = UnloadingModel { problem: &problem, instrument, beta: self.beta() };
+                Found::Unloading(FromUnloading::new(&model, asked, unloadings, progress)?)
+            }
+        };
+        let values: Vec<f64> = found.estimates().iter().map(|estimate| estimate.value).collect();
+        let best = self.with(&parameters, &values).map_err(IdentificationError::Model)?;
         Ok((found, best))
     }
 
-    /// The case with these values of the parameters, and of the fixed numbers where there are more values.
-    fn with(&self, values: &[f64]) -> Result<Case, CaseError> {
+    /// Factor β of the stiffness.
+    pub fn beta(&self) -> f64 {
+        self.known.beta.unwrap_or(1.0)
+    }
+
+    /// The parameters for measured curves: each of several has a zero of its own, `offset.0`, `offset.1`, ….
+    fn parameters_of(&self, measured: &Curves) -> Vec<Parameter> {
+        let curves = match measured {
+            Curves::Loading(curve) if curve.lengths().len() > 1 => curve.lengths().len(),
+            _ => return self.parameters.clone(),
+        };
+        let each = |parameter: &Parameter| match parameter.quantity {
+            Quantity::Offset => {
+                let of = |curve: usize| Parameter {
+                    name: format!("{OFFSET}.{curve}"),
+                    quantity: Quantity::OffsetOf(curve),
+                    start: parameter.start,
+                };
+                (0..curves).map(of).collect()
+            }
+            _ => vec![parameter.clone()],
+        };
+        self.parameters.iter().flat_map(each).collect()
+    }
+
+    /// The case with these values of parameters, and of the fixed numbers where there are more values.
+    fn with(&self, parameters: &[Parameter], values: &[f64]) -> Result<Case, CaseError> {
         let of_case = |(parameter, _): &(&Parameter, &f64)| {
             matches!(parameter.quantity, Quantity::Positive | Quantity::Bounded(_))
         };
-        let free = self.parameters.iter().chain(&self.fixed).zip(values).filter(of_case);
+        let free = parameters.iter().chain(&self.fixed).zip(values).filter(of_case);
         let settings: Vec<String> = free.map(|(parameter, value)| format!("{}={value:e}", parameter.name)).collect();
         self.document.changed(&settings)
     }

@@ -79,7 +79,7 @@ pub use given::{DiscsSection, GivenSection, Pressures};
 pub use grading::{Grading, Law};
 pub use grid::Points;
 pub use half_space::half_space;
-pub use identification::{IdentificationTask, NotFree, NotKnown, known_instrument};
+pub use identification::{Found, IdentificationTask, Known, NotFree, NotKnown};
 pub use interface::{InterfaceSection, InterfaceStrengthSection, InterfaceWord, SpringSection};
 pub use keys::{Explanation, NamedKey, UnknownKey, explain, overview, schema, table as key_table};
 pub use kind::kind_of;

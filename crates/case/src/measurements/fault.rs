@@ -1,7 +1,7 @@
 //! Why a table is no measured curve, or no area function.
 
 use percoat_core::counterbody::TipError;
-use percoat_core::identification::MeasurementError;
+use percoat_core::identification::{MeasurementError, UnloadingError};
 
 /// Why a table is no measured curve, or no area function.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -73,9 +73,22 @@ pub enum Fault {
     /// Values that are no curve.
     #[error("{}{}{}", .1.map_or(String::new(), |line| format!("line {line}, ")), .0, .2)]
     Values(MeasurementError, Option<usize>, &'static str),
+    /// A test that has no stiffness of unloading.
+    #[error("{}{}", .1.map_or(String::new(), |line| format!("line {line}, ")), .0)]
+    Unloading(UnloadingError, Option<usize>),
     /// Depths and areas that are none of a tip.
     #[error("{}{}", at(*.1), .0)]
     Tip(TipError, Option<usize>),
+}
+
+/// Why a table is no measured curve, with the name of the curve.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{}{fault}", if .name.is_empty() { String::new() } else { format!("{name}: ") })]
+pub struct CurveFault {
+    /// Name of its file, or its number; empty of columns in memory that stand alone.
+    pub name: String,
+    /// The fault.
+    pub fault: Fault,
 }
 
 fn at(line: Option<usize>) -> String {

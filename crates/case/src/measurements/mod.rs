@@ -6,57 +6,26 @@
 //! columns are left out. Columns that stand in no table but in memory are read alike. Area functions of tips stand in such tables too ([`tip`](tip())).
 //!
 //! Points without a force before the largest one are those before contact, and left out. Of a test with hold and unloading the
-//! [segment](Segment) of loading can be taken.
+//! [segment](Segment) of loading or of unloading can be taken. Several curves are taken together ([`Taken`]).
 
 mod fault;
+mod points;
+mod segment;
 mod table;
+mod taken;
 mod tip;
 
 use crate::units::Units;
 use percoat_common::measure::Measure;
 use percoat_common::plain;
-use percoat_core::identification::{Measurement, MeasurementError};
+use points::Points;
 use table::{Table, bare};
 
-pub use fault::Fault;
+pub use fault::{CurveFault, Fault};
+pub use segment::{NoSegment, Segment};
 pub use table::text;
+pub use taken::{Curves, Source, Taken};
 pub use tip::tip;
-
-/// Part of the largest force up to which a test is loaded: creep and the noise of a hold begin above it.
-const LOADED: f64 = 0.995;
-
-/// Part of the largest force that noise before contact has at most.
-const BEFORE_CONTACT: f64 = 0.02;
-
-/// Part of a test that is read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Segment {
-    /// All of its points: a curve of loading alone.
-    #[default]
-    Whole,
-    /// Loading: the points up to the first one under nearly the largest force.
-    Loading,
-}
-
-impl Segment {
-    /// The segment of a name, all of the test without one; `None` of another name than "loading".
-    pub fn of(name: Option<&str>) -> Option<Self> {
-        match name {
-            None => Some(Self::Whole),
-            Some("loading") => Some(Self::Loading),
-            Some(_) => None,
-        }
-    }
-}
-
-/// A measured curve, with what was left out.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
-    /// The points.
-    pub measurement: Measurement,
-    /// Points that were left out, a sentence each.
-    pub notes: Vec<String>,
-}
 
 /// A column that is read: its place in a line, and the conversion to the unit of the case.
 #[derive(Debug, Clone, Copy)]
@@ -119,121 +88,35 @@ const DEVIATION: Kind = Kind {
     example: "nm",
 };
 
-/// The curve of a `segment` of the test in a table, in the `units` of the case.
-///
-/// # Errors
-/// [`Fault`] with the line.
-pub fn read(text: &str, segment: Segment, units: &Units) -> Result<Curve, Fault> {
+/// The points in a table, in the `units` of the case.
+fn points_of_text(text: &str, units: &Units) -> Result<Points, Fault> {
     let table = Table::of(text, |names| FORCE.is_in(names) && PENETRATION.is_in(names)).ok_or(Fault::Empty(EXAMPLE))?;
     let columns = Columns::find(&table.names, &table.units, Some(table.line), units)?;
     let Columns { force, penetration, deviation } = columns;
-    let mut points = Points::default();
+    let mut points = Points { deviations: deviation.map(|_| Vec::new()), ..Points::default() };
     for (line, row) in &table.rows {
         let number = |column: Column| column.of(&table, *line, row);
         points.forces.push(number(force)?);
         points.penetrations.push(number(penetration)?);
-        deviation.map_or(Ok(()), |column| number(column).map(|x| points.deviations.push(x)))?;
+        if let (Some(column), Some(deviations)) = (deviation, &mut points.deviations) {
+            deviations.push(number(column)?);
+        }
         points.lines.push(*line);
     }
-    points.curve(segment, deviation.is_some())
+    Ok(points)
 }
 
-/// The curve of a `segment` of the test in columns in memory with these names, in the `units` of the case.
-///
-/// # Errors
-/// [`Fault`] without a line.
-pub fn of_columns(columns: &[(String, Vec<f64>)], segment: Segment, units: &Units) -> Result<Curve, Fault> {
+/// The points in columns in memory with these names, in the `units` of the case.
+fn points_of_columns(columns: &[(String, Vec<f64>)], units: &Units) -> Result<Points, Fault> {
     let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
     let Columns { force, penetration, deviation } = Columns::find(&names, &[], None, units)?;
     let converted = |column: Column| columns[column.place].1.iter().map(|&x| column.converted(x)).collect::<Vec<f64>>();
-    let points = Points {
+    Ok(Points {
         forces: converted(force),
         penetrations: converted(penetration),
-        deviations: deviation.map(converted).unwrap_or_default(),
+        deviations: deviation.map(converted),
         lines: Vec::new(),
-    };
-    points.curve(segment, deviation.is_some())
-}
-
-/// Points of a test, each with its line where they stand in a table.
-#[derive(Debug, Default)]
-struct Points {
-    forces: Vec<f64>,
-    penetrations: Vec<f64>,
-    deviations: Vec<f64>,
-    lines: Vec<usize>,
-}
-
-impl Points {
-    fn curve(mut self, segment: Segment, has_deviations: bool) -> Result<Curve, Fault> {
-        let mut notes = Vec::new();
-        let others = [Some(self.penetrations.len()), has_deviations.then_some(self.deviations.len())];
-        if let Some(other) = others.into_iter().flatten().find(|&other| other != self.forces.len()) {
-            return Err(Fault::Values(MeasurementError::Unequal(self.forces.len(), other), None, ""));
-        }
-        let largest = self.forces.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let count = self.forces.len();
-        let top = self.forces.iter().position(|&force| force == largest).unwrap_or(0);
-        if segment == Segment::Loading {
-            let end = self.forces.iter().position(|&force| force >= LOADED * largest).map_or(count, |last| last + 1);
-            self.keep(0..end);
-            notes.extend((end < count).then(|| {
-                format!(
-                    "{} of {count} points are left out, those behind the first one under {LOADED} of the largest force",
-                    count - end
-                )
-            }));
-        }
-        // Before contact forces are zero but for noise.
-        let before = self.forces.iter().take(top).rposition(|&force| force <= 0.0).map_or(0, |last| last + 1);
-        let is_noise = self.forces[..before].iter().all(|&force| force <= BEFORE_CONTACT * largest);
-        let before = if is_noise { before } else { 0 };
-        self.keep(before..self.forces.len());
-        notes.extend((before > 0).then(|| {
-            format!("{before} of {count} points before contact, up to the last without a force, are left out")
-        }));
-        let Self { forces, penetrations, deviations, lines } = self;
-        let advice = match segment {
-            Segment::Whole => "; or take the segment of loading alone (--segment loading)",
-            Segment::Loading => "",
-        };
-        let measurement = Measurement::new(forces, penetrations, has_deviations.then_some(deviations));
-        measurement.map(|measurement| Curve { measurement, notes }).map_err(|error| {
-            // Points are numbered as in the table.
-            let (error, first, advice) = match error {
-                MeasurementError::Unequal(..) => (error, None, ""),
-                MeasurementError::Unloading { from, to, forces } => {
-                    (MeasurementError::Unloading { from: from + before, to: to + before, forces }, Some(from), advice)
-                }
-                MeasurementError::Hold { from, to, force, by } => {
-                    (MeasurementError::Hold { from: from + before, to: to + before, force, by }, Some(from), advice)
-                }
-                MeasurementError::Force(index, value) => {
-                    (MeasurementError::Force(index + before, value), Some(index), advice)
-                }
-                MeasurementError::Penetration(index, value) => {
-                    (MeasurementError::Penetration(index + before, value), Some(index), "")
-                }
-                MeasurementError::Deviation(index, value) => {
-                    (MeasurementError::Deviation(index + before, value), Some(index), "")
-                }
-            };
-            Fault::Values(error, first.and_then(|index| lines.get(index).copied()), advice)
-        })
-    }
-
-    fn keep(&mut self, range: std::ops::Range<usize>) {
-        for column in [&mut self.forces, &mut self.penetrations, &mut self.deviations] {
-            if !column.is_empty() {
-                column.truncate(range.end);
-                column.drain(..range.start.min(column.len()));
-            }
-        }
-        if !self.lines.is_empty() {
-            self.lines.truncate(range.end);
-            self.lines.drain(..range.start);
-        }
-    }
+    })
 }
 
 /// The columns of a curve.
@@ -347,9 +230,23 @@ impl Kind {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use percoat_core::identification::Measurement;
+
+    /// The curve of loading in a table, with the notes.
+    fn curve(source: Source<'_>, segment: Segment, units: &Units) -> Result<(Measurement, Vec<String>), Fault> {
+        let taken = Taken::new(&[("", source)], segment, units).map_err(|fault| fault.fault)?;
+        match taken.curves {
+            Curves::Loading(measurement) => Ok((measurement, taken.notes)),
+            Curves::Unloading(_) => unreachable!("loading is taken"),
+        }
+    }
 
     fn read(text: &str, units: &Units) -> Result<Measurement, Fault> {
-        super::read(text, Segment::Whole, units).map(|curve| curve.measurement)
+        curve(Source::Text(text), Segment::Whole, units).map(|(measurement, _)| measurement)
+    }
+
+    fn of_columns(columns: &[(String, Vec<f64>)], segment: Segment) -> Result<(Measurement, Vec<String>), Fault> {
+        curve(Source::Columns(columns), segment, &units())
     }
 
     fn units() -> Units {
@@ -403,11 +300,10 @@ mod tests {
     #[test]
     fn columns_in_memory_are_those_of_a_table() {
         let columns = |names: [&str; 2]| names.map(|name| (name.to_owned(), vec![2000.0, 4e3]));
-        let measurement =
-            of_columns(&columns(["penetration_nm", "force_µN"]), Segment::Whole, &units()).unwrap().measurement;
+        let (measurement, _) = of_columns(&columns(["penetration_nm", "force_µN"]), Segment::Whole).unwrap();
         let table = read("force_µN,penetration_nm\n2000,2000\n4000,4000\n", &units()).unwrap();
         assert_eq!(measurement, table);
-        let fault = |names| of_columns(&columns(names), Segment::Whole, &units()).unwrap_err().to_string();
+        let fault = |names| of_columns(&columns(names), Segment::Whole).unwrap_err().to_string();
         assert!(fault(["force", "deep"]).starts_with("no column `penetration` among force, deep"));
         assert!(fault(["force", "force_N"]).starts_with("`force_N` is there twice"));
     }
@@ -448,22 +344,23 @@ mod tests {
             refused.contains("point 14: the force must be above 0") && refused.ends_with("(--segment loading)"),
             "{refused}"
         );
-        let Curve { measurement, notes } = super::read(&table, Segment::Loading, &units()).unwrap();
+        let (measurement, notes) = curve(Source::Text(&table), Segment::Loading, &units()).unwrap();
         assert_eq!(measurement.forces(), [1.0, 2.0, 4.0, 7.98]);
         assert!(
             notes[0].starts_with("7 of 14 points") && notes[1].starts_with("3 of 14 points before contact"),
             "{notes:?}"
         );
         let columns = [("force".to_owned(), forces.to_vec()), ("h".to_owned(), (0..14).map(f64::from).collect())];
-        let found = of_columns(&columns, Segment::Loading, &units()).unwrap();
-        assert_eq!((found.measurement.forces(), &found.notes), (measurement.forces(), &notes));
+        let found = of_columns(&columns, Segment::Loading).unwrap();
+        assert_eq!((found.0.forces(), &found.1), (measurement.forces(), &notes));
         // Points of an earlier cycle are no noise, and columns have one length.
         let cycles = "force,penetration\n1,10\n2,20\n0,15\n3,30\n";
         assert!(read(cycles, &units()).unwrap_err().to_string().contains("line 4, point 3: the force must be above 0"));
         let uneven = [("force".to_owned(), forces.to_vec()), ("h".to_owned(), vec![1.0; 12])];
-        assert!(of_columns(&uneven, Segment::Loading, &units()).unwrap_err().to_string().contains("14 forces, but 12"));
+        assert!(of_columns(&uneven, Segment::Loading).unwrap_err().to_string().contains("14 forces, but 12"));
         // A zero point alone is one before contact.
-        let zero = super::read("force,penetration\n0,0\n1,0.1\n2,0.2\n", Segment::Whole, &units()).unwrap();
-        assert_eq!((zero.measurement.forces(), zero.notes.len()), (&[1.0, 2.0][..], 1));
+        let zero = Source::Text("force,penetration\n0,0\n1,0.1\n2,0.2\n");
+        let (zero, notes) = curve(zero, Segment::Whole, &units()).unwrap();
+        assert_eq!((zero.forces(), notes.len()), (&[1.0, 2.0][..], 1));
     }
 }

@@ -116,6 +116,24 @@ impl Shape {
         }
     }
 
+    /// Radius of the cross-section at a distance `depth` ≥ 0 from the apex, f(r) = depth; lengths. `None` at and beyond the equator of a
+    /// sphere.
+    pub fn section_radius(&self, depth: f64) -> Option<f64> {
+        let ball = |radius: f64| (depth * (2.0 * radius - depth)).sqrt();
+        match *self {
+            Self::Paraboloid { radius } => Some((2.0 * radius * depth).sqrt()),
+            Self::Sphere { radius } => (depth < radius).then(|| ball(radius)),
+            Self::Cone { slope } => Some(depth / slope),
+            Self::Power { coefficient, exponent } => Some((depth / coefficient).powf(1.0 / exponent)),
+            Self::SpheroCone { radius, slope } => {
+                let rim = radius * slope / slope.hypot(1.0);
+                let beyond = depth - cap(radius, rim);
+                Some(if beyond < 0.0 { ball(radius) } else { rim + beyond / slope })
+            }
+            Self::Measured(ref tip) => Some(tip.section_radius(depth)),
+        }
+    }
+
     /// Whether the pressure is infinite on the axis once the apex is in contact.
     ///
     /// Under f = c rⁿ it varies as r^{n−1}: infinite for n < 1, as ln 1/r for n = 1, a finite cusp for 1 < n < 2.
@@ -248,6 +266,26 @@ mod tests {
         assert_eq!(tip.profile(40.0), Shape::Sphere { radius }.profile(40.0));
         assert!((tip.profile(300.0) - (height + 200.0 * slope)).abs() < 1e-12 && !tip.singular_peak());
         assert!(Level::new(Shape::SpheroCone { radius: 0.0, slope }, 0.0).is_err());
+    }
+
+    /// The radius of a section is that at which the profile has its depth; a sphere has none beyond its equator.
+    #[test]
+    fn sections_have_the_radius_of_the_profile() {
+        let tip = MeasuredTip::from_areas(&[[0.05, 0.4], [0.2, 1.9], [0.7, 14.0]]).unwrap();
+        for shape in [
+            Shape::Paraboloid { radius: 0.8 },
+            Shape::Sphere { radius: 0.8 },
+            Shape::Cone { slope: 0.3 },
+            Shape::Power { coefficient: 2.0, exponent: 3.5 },
+            Shape::SpheroCone { radius: 0.8, slope: 0.3 },
+            Shape::Measured(Arc::new(tip)),
+        ] {
+            for depth in [1e-6, 0.01, 0.05, 0.3, 0.75] {
+                let radius = shape.section_radius(depth).unwrap();
+                assert!((shape.profile(radius) / depth - 1.0).abs() < 1e-9, "{shape}, {depth}: {radius}");
+            }
+        }
+        assert_eq!(Shape::Sphere { radius: 0.8 }.section_radius(0.9), None);
     }
 
     #[test]

@@ -9,6 +9,8 @@ use std::f64::consts::PI;
 
 /// Depths at which the profile of coefficients is taken; between them it is a cubic.
 const NODES: u32 = 400;
+/// Halvings of an interval in which a radius is searched for.
+const HALVINGS: usize = 52;
 /// Most slope over the flatter secant beside it with which a cubic rises everywhere (Fritsch & Carlson, SIAM J. Numer. Anal. 17 (1980) 238).
 const STEEPEST: f64 = 3.0;
 
@@ -123,6 +125,21 @@ impl MeasuredTip {
         let t = (r - radii[k]) / apart;
         let secant = (depths[k + 1] - depths[k]) / apart;
         6.0 * t * (1.0 - t) * secant + (1.0 - t) * (1.0 - 3.0 * t) * slopes[k] + t * (3.0 * t - 2.0) * slopes[k + 1]
+    }
+
+    /// Radius at which the profile has a depth ≥ 0; lengths.
+    pub fn section_radius(&self, depth: f64) -> f64 {
+        let Self { radii, depths, slopes } = self;
+        let behind = depths.partition_point(|node| *node <= depth);
+        if behind == depths.len() {
+            return radii[behind - 1] + (depth - depths[behind - 1]) / slopes[behind - 1];
+        }
+        let mut ends = [radii[behind - 1], radii[behind]];
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (ends[0] + ends[1]);
+            ends[usize::from(self.profile(middle) > depth)] = middle;
+        }
+        0.5 * (ends[0] + ends[1])
     }
 
     /// Index of the node before a radius; `None` from the last one on.

@@ -59,11 +59,11 @@ impl EarlyCheck {
 }
 
 /// Variance of residuals in the largest penetration, by the scatter of ln δ about a cubic in ln P; `None` of few points, and of
-/// penetrations not above 0.
+/// penetrations not above 0; nor of several curves, whose zeros differ.
 fn scatter(measured: &Measurement) -> Option<f64> {
     let (forces, penetrations) = (measured.forces(), measured.penetrations());
     let (largest, freedom) = (penetrations.iter().copied().fold(0.0, f64::max), forces.len().checked_sub(TERMS)?);
-    if freedom < 3 || penetrations.iter().any(|penetration| *penetration <= 0.0) {
+    if freedom < 3 || measured.lengths().len() > 1 || penetrations.iter().any(|penetration| *penetration <= 0.0) {
         return None;
     }
     let logarithm = |x: &f64| x.ln();

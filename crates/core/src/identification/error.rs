@@ -1,6 +1,7 @@
 //! Why parameters are not found.
 
 use super::curve::CurveError;
+use super::unloading::NoContact;
 use crate::notation::number;
 use std::fmt;
 
@@ -13,6 +14,20 @@ pub enum IdentificationError<E> {
     /// The model has no indentation curve.
     #[error(transparent)]
     Curve(#[from] CurveError),
+    /// An unloading has no contact at the values of the start.
+    #[error(transparent)]
+    Contact(NoContact),
+    /// Fewer unloadings than parameters.
+    #[error(
+        "{curves} {} not determine {parameters} parameters: as many unloadings as parameters are needed, from different largest forces",
+        if *.curves == 1 { "unloading does" } else { "unloadings do" }
+    )]
+    TooFewUnloadings {
+        /// Unloadings there are.
+        curves: usize,
+        /// Parameters to be found.
+        parameters: usize,
+    },
     /// Too few points: no more than parameters.
     #[error("{points} points do not determine {parameters} parameters: more points than parameters are needed")]
     TooFew {
@@ -22,7 +37,7 @@ pub enum IdentificationError<E> {
         parameters: usize,
     },
     /// A parameter on which penetrations do not depend.
-    #[error("{0} has no influence on the penetrations: it cannot be found from them")]
+    #[error("{0} has no influence on what was measured: it cannot be found from that")]
     NoInfluence(String),
     /// The search ends where the model has no values beside those of the last step.
     #[error(
@@ -49,6 +64,9 @@ pub enum NoValue<E> {
     /// The model has no indentation curve, or a load of it is not solved.
     #[error(transparent)]
     Curve(#[from] CurveError),
+    /// An unloading has no contact.
+    #[error(transparent)]
+    Contact(#[from] NoContact),
     /// A trial value of a parameter lies outside of its bounds, or a thousand times from its start; a sentence.
     #[error("{0}")]
     Outside(String),
@@ -63,6 +81,7 @@ impl<E> NoValue<E> {
         match self {
             Self::Model(error) => IdentificationError::Model(error),
             Self::Curve(error) => IdentificationError::Curve(error),
+            Self::Contact(error) => IdentificationError::Contact(error),
             Self::Stopped => IdentificationError::Stopped,
             Self::Outside(_) => IdentificationError::Refused(self),
         }

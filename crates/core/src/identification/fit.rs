@@ -43,6 +43,8 @@ pub struct Identification {
     pub band: Vec<f64>,
     /// Root mean square of measured minus fitted penetrations, a length.
     pub rms: f64,
+    /// Root mean square of measured minus fitted penetrations of each curve, lengths.
+    pub rms_of_curves: Vec<f64>,
     /// Points less parameters.
     pub freedom: usize,
     /// Σ(residual/deviation)² over the degrees of freedom, where deviations are known: about 1 for a model that holds.
@@ -174,6 +176,7 @@ impl Identification {
             fitted: lengths.iter().zip(measured.penetrations()).map(|(r, measured)| measured + r).collect(),
             band: jacobian.iter().enumerate().map(|(i, row)| search.deviation(i) * covariance.along(row)).collect(),
             rms: search.rms(residuals),
+            rms_of_curves: rms_of_curves(measured.lengths(), &lengths),
             freedom,
             reduced_chi_square: measured.deviations().map(|_| reduced),
             model_error: curve.error(),
@@ -184,6 +187,17 @@ impl Identification {
             steps: found.steps,
         })
     }
+}
+
+/// Root mean squares of the residuals of curves of these numbers of points, one curve after the other.
+fn rms_of_curves(curves: &[usize], mut residuals: &[f64]) -> Vec<f64> {
+    let mut all = Vec::with_capacity(curves.len());
+    for &length in curves {
+        let (curve, rest) = residuals.split_at(length);
+        all.push((least_squares::sum(curve) / length as f64).sqrt());
+        residuals = rest;
+    }
+    all
 }
 
 /// Signs at a minimum that its standard errors do not hold: beyond chance, and beyond the error of the fitted penetrations, `lengths`
@@ -205,7 +219,11 @@ fn doubts<E: Send>(
     let is_beyond = root(lengths) > grid * root(&fitted);
     let systematic = (pattern.is_systematic() && is_beyond).then_some(Doubt::Systematic(pattern));
     let missing = |quantity: Quantity, per: &dyn Fn(usize) -> f64, most: f64| {
-        if search.free.all.iter().any(|parameter| parameter.quantity == quantity) {
+        let is_it = |parameter: &Parameter| match parameter.quantity {
+            Quantity::OffsetOf(_) => quantity == Quantity::Offset,
+            other => other == quantity,
+        };
+        if search.free.all.iter().any(is_it) {
             return None;
         }
         let column: Vec<f64> = (0..forces.len()).map(|i| per(i) / search.deviation(i)).collect();

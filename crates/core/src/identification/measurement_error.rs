@@ -8,6 +8,12 @@ pub enum MeasurementError {
     /// Another number of penetrations, or of deviations, than of forces.
     #[error("{0} forces, but {1} penetrations or deviations: give one of each for every point")]
     Unequal(usize, usize),
+    /// No curve.
+    #[error("there is no curve: give one at least")]
+    NoCurve,
+    /// A curve whose deviations are known or unknown, unlike those of the first one.
+    #[error("curve {}: standard deviations are there for some curves only: give those of all, or of none", .0 + 1)]
+    SomeDeviations(usize),
     /// A force that is not above 0.
     #[error("point {}: the force must be above 0 and finite, not {}", .0 + 1, number(*.1))]
     Force(usize, f64),

@@ -5,6 +5,8 @@
 //! compliance C_f add δ₀ + C_f P. Least squares of the measured penetrations give the parameters, and their
 //! covariance s²(JᵀJ)⁻¹ with s² the sum of squares over the degrees of freedom.
 //!
+//! From unloading the parameters follow by Oliver and Pharr's method with the layered body in place of the bare one (`unloading`).
+//!
 //! A parameter whose standard error exceeds [`MOST_UNCERTAIN`] of it, or of half the way between its bounds, is not stated: the curve does not contain it.
 
 mod branches;
@@ -21,6 +23,7 @@ mod pattern;
 mod search;
 mod sensitivity;
 mod student;
+mod unloading;
 
 pub use covariance::MOST_UNCERTAIN;
 pub use curve::{CurveError, MOST_NODES};
@@ -32,14 +35,20 @@ pub use parameter::{Parameter, Quantity};
 pub use pattern::{LEVEL, Pattern};
 pub use search::{Listener, Model, Trial};
 pub use sensitivity::{NoDerivative, Sensitivity};
+pub use unloading::{
+    BareModulus, FromUnloading, NoContact, Punch, Unloading, UnloadingContact, UnloadingDoubt, UnloadingError,
+    UnloadingModel,
+};
 
-/// A measured indentation curve.
+/// A measured indentation curve, or several that are fitted together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
     forces: Vec<f64>,
     penetrations: Vec<f64>,
     /// Standard deviation of each penetration; `None`: all alike, and unknown.
     deviations: Option<Vec<f64>>,
+    /// Number of the points of each curve.
+    lengths: Vec<usize>,
     instrument: Instrument,
 }
 
@@ -86,7 +95,43 @@ impl Measurement {
             return Err(MeasurementError::Deviation(index, deviations[index]));
         }
         branches::check(&forces, &penetrations)?;
-        Ok(Self { forces, penetrations, deviations, instrument: Instrument::default() })
+        let lengths = vec![forces.len()];
+        Ok(Self { forces, penetrations, deviations, lengths, instrument: Instrument::default() })
+    }
+
+    /// Several curves, by the instrument of the first one.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] without any curve, and where the deviations of some are known and those of others are not.
+    pub fn joined(curves: Vec<Self>) -> Result<Self, MeasurementError> {
+        let mut curves = curves.into_iter();
+        let mut joined = curves.next().ok_or(MeasurementError::NoCurve)?;
+        for (number, curve) in (1..).zip(curves) {
+            match (&mut joined.deviations, curve.deviations) {
+                (Some(all), Some(more)) => all.extend(more),
+                (None, None) => {}
+                _ => return Err(MeasurementError::SomeDeviations(number)),
+            }
+            joined.forces.extend(curve.forces);
+            joined.penetrations.extend(curve.penetrations);
+            joined.lengths.extend(curve.lengths);
+        }
+        Ok(joined)
+    }
+
+    /// Number of the points of each curve, one curve after the other.
+    pub fn lengths(&self) -> &[usize] {
+        &self.lengths
+    }
+
+    /// Index of the curve of a point.
+    pub fn curve_of(&self, point: usize) -> usize {
+        let mut end = 0;
+        let is_before = |length: &&usize| {
+            end += **length;
+            end <= point
+        };
+        self.lengths.iter().take_while(is_before).count()
     }
 
     /// The curve measured by an instrument whose zero and frame are known.

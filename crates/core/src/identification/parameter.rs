@@ -11,6 +11,8 @@ pub enum Quantity {
     Bounded([f64; 2]),
     /// δ₀, which is added to all penetrations: a zero that was missed: start + a length · t.
     Offset,
+    /// δ₀ of the curve of this index, of several that are fitted together.
+    OffsetOf(usize),
     /// C_f of the frame, by which C_f P is added to penetrations, a length per force: start + a length per force · t.
     FrameCompliance,
 }
@@ -55,7 +57,7 @@ impl FreeParameters<'_> {
         match quantity {
             Quantity::Positive => start * t.exp(),
             Quantity::Bounded([low, high]) => start + (high - low) * t,
-            Quantity::Offset => start + self.units[0] * t,
+            Quantity::Offset | Quantity::OffsetOf(_) => start + self.units[0] * t,
             Quantity::FrameCompliance => start + self.units[1] * t,
         }
     }
@@ -65,7 +67,7 @@ impl FreeParameters<'_> {
         match self.all[k].quantity {
             Quantity::Positive => self.value(k, t),
             Quantity::Bounded([low, high]) => high - low,
-            Quantity::Offset => self.units[0],
+            Quantity::Offset | Quantity::OffsetOf(_) => self.units[0],
             Quantity::FrameCompliance => self.units[1],
         }
     }
@@ -83,7 +85,7 @@ impl FreeParameters<'_> {
         match self.all[k].quantity {
             Quantity::Positive => deviation,
             Quantity::Bounded(_) => 2.0 * deviation,
-            Quantity::Offset | Quantity::FrameCompliance => 0.0,
+            Quantity::Offset | Quantity::OffsetOf(_) | Quantity::FrameCompliance => 0.0,
         }
     }
 

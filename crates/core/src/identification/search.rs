@@ -130,7 +130,7 @@ impl<'a, E: Send> Search<'a, E> {
         let model = IndentationCurve::new(&perturbed, range, points, settings, &mut windows)?;
         self.windows = windows;
         let rows = (0..forces.len()).map(|i| {
-            let (fitted, derivatives) = self.fitted(&model, t, forces[i]);
+            let (fitted, derivatives) = self.fitted(&model, t, i);
             let deviation = self.deviation(i);
             let added = self.measured.instrument().adds(forces[i]);
             let residual = (fitted + added - self.measured.penetrations()[i]) / deviation;
@@ -140,14 +140,16 @@ impl<'a, E: Send> Search<'a, E> {
         Ok(Linearised { residuals, jacobian, model })
     }
 
-    /// Penetration of the fit under a force, and its derivatives by t.
-    fn fitted(&self, curve: &IndentationCurve, t: &[f64], force: f64) -> (f64, Vec<f64>) {
+    /// Penetration of the fit at a point, and its derivatives by t.
+    fn fitted(&self, curve: &IndentationCurve, t: &[f64], point: usize) -> (f64, Vec<f64>) {
+        let force = self.measured.forces()[point];
         let (mut penetration, of_model) = curve.at(force);
         let mut of_model = of_model.into_iter();
         let mut derivative = |k: usize| {
             let part = match self.free.all[k].quantity {
                 Quantity::Positive | Quantity::Bounded(_) => return of_model.next().unwrap_or(0.0),
                 Quantity::Offset => 1.0,
+                Quantity::OffsetOf(curve) => f64::from(u8::from(curve == self.measured.curve_of(point))),
                 Quantity::FrameCompliance => force,
             };
             penetration += self.free.value(k, t[k]) * part;
