@@ -5,7 +5,7 @@ use super::Source;
 /// Name of the case that runs when none is given.
 pub const DEFAULT: &str = "fig2";
 
-const CASES: [(&str, &str); 19] = [
+const CASES: [(&str, &str); 21] = [
     ("ball-on-disc", include_str!("../../../../cases/ball-on-disc.toml")),
     ("dlc-on-steel", include_str!("../../../../cases/dlc-on-steel.toml")),
     ("fig2", include_str!("../../../../cases/fig2.toml")),
@@ -16,9 +16,11 @@ const CASES: [(&str, &str); 19] = [
     ("fig6a", include_str!("../../../../cases/fig6a.toml")),
     ("fig6b", include_str!("../../../../cases/fig6b.toml")),
     ("fig7", include_str!("../../../../cases/fig7.toml")),
+    ("fretting", include_str!("../../../../cases/fretting.toml")),
     ("pavement", include_str!("../../../../cases/pavement.toml")),
     ("polymer-on-steel", include_str!("../../../../cases/polymer-on-steel.toml")),
     ("ring", include_str!("../../../../cases/ring.toml")),
+    ("rolling", include_str!("../../../../cases/rolling.toml")),
     ("rough", include_str!("../../../../cases/rough.toml")),
     ("rough-metal", include_str!("../../../../cases/rough-metal.toml")),
     ("running-in", include_str!("../../../../cases/running-in.toml")),

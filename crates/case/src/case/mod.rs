@@ -101,6 +101,6 @@ pub use overrides::{given_twice, parts};
 pub use source::{PhysicalSizes, Source};
 pub use stress::{CutSection, Origin, StressSection, Toward};
 pub use surface::{ORIENTATION, RandomSection, Sides, Stage, SurfaceSection, Taper, Treated, WantedChannel};
-pub use tangential::{Component, History, PathSection, TangentialSection};
+pub use tangential::{Component, History, PathSection, RollingSection, TangentialSection};
 pub use units::UnitsSection;
 pub use writer::written;

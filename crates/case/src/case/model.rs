@@ -160,7 +160,7 @@ impl Case {
     /// Number of load steps.
     pub fn step_count(&self) -> usize {
         let loads = self.load.values().len();
-        self.tangential.as_ref().map_or(loads, TangentialSection::step_count)
+        self.tangential.as_ref().map_or(loads, |tangential| tangential.step_count(loads))
     }
 
     /// Warnings about its surface, a sentence each.
@@ -251,17 +251,17 @@ impl Case {
     /// The run of `percoat solve`.
     pub fn run(&self) -> Run {
         let friction = self.problem.friction();
-        let (loads, drives) = match &self.tangential {
+        let (loads, motions) = match &self.tangential {
             None => (self.load.loads(), None),
             Some(tangential) => {
-                let (loads, drives) = tangential.steps(self.load.loads(), friction);
-                (loads, Some(drives))
+                let (loads, motions) = tangential.steps(self.load.loads(), friction);
+                (loads, Some(motions))
             }
         };
         Run {
             problem: Arc::clone(&self.problem),
             loads,
-            drives,
+            motions,
             sampling: self.grid,
             settings: self.solver,
             stress: self.stress.as_ref().map(|stress| stress.request(&self.problem)),

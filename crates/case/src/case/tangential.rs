@@ -9,9 +9,11 @@ use super::reader::TableAt;
 use super::section::{KeyValue, ReadTable, section};
 use super::value::ValueAt;
 use percoat_core::friction::Friction;
+use percoat_core::lattice::Surroundings;
 use percoat_core::load::Load;
 use percoat_core::problem::Problem;
-use percoat_core::spectral::Drive;
+use percoat_core::run::Motion;
+use percoat_core::spectral::{Drive, Rolling, RollingDrive};
 use serde::{Serialize, Serializer};
 use std::f64::consts::TAU;
 use std::ops::Bound;
@@ -25,6 +27,7 @@ const PART: Form = Form::Number(Range::Within(Bound::Excluded(-1.0), Bound::Excl
 const PARTS: Form = Form::List { of: &PART, count: [1, STEPS] };
 const PAIR: Form = Form::Tuple("a pair [x, y]", &[PART; 2]);
 const PAIRS: Form = Form::List { of: &PAIR, count: [1, STEPS] };
+const CREEPAGE: Form = Form::Number(Range::Within(Bound::Excluded(-0.1), Bound::Excluded(0.1)));
 const LENGTH: Form = Form::Number(Range::Coordinate);
 const LENGTHS: Form = Form::List { of: &LENGTH, count: [1, STEPS] };
 const LENGTH_PAIR: Form = Form::Tuple("a pair [x, y]", &[LENGTH; 2]);
@@ -43,6 +46,25 @@ section! {
         pub path: Option<PathSection> = Key::new(&[Form::Table(&PATH)], "{ amplitude = 0.6, cycles = 1, steps = 8 }")
             .instead_of("shift")
             .and_of(&["force"]),
+        /// steady rolling along `friction.direction`, at each load
+        pub rolling: Option<RollingSection> = Key::new(&[Form::Table(&ROLLING)], "{ force = 0.3, distance = 4.0 }")
+            .instead_of("path")
+            .and_of(&["force", "shift"]),
+    }
+}
+
+section! {
+    /// Steady rolling.
+    #[derive(Copy)]
+    pub struct RollingSection = ROLLING, rules one_drive {
+        /// tangential force over the largest friction μP
+        pub force: Option<f64> = Key::new(&[PART], "0.3"),
+        /// creepage along the direction of friction: by how much the counterbody gets ahead of the body, over the distance rolled
+        pub creepage: Option<f64> = Key::new(&[CREEPAGE], "0.001").instead_of("force"),
+        /// distance, in lengths of the contact along its way
+        pub distance: f64 = Key::new(&[Form::Number(Range::between(0.5, 100.0))], "4.0").default("4.0"),
+        /// step, in lengths of the contact; half as long ones are taken too
+        pub step: f64 = Key::new(&[Form::Number(Range::between(0.01, 0.5))], "0.0625").default("0.125"),
     }
 }
 
@@ -97,7 +119,11 @@ impl KeyValue for History {
 }
 
 fn one(_: &TangentialSection, section: &TableAt<'_>) -> Result<(), Refusal> {
-    section.one_of(["force", "shift", "path"]).map(drop)
+    section.one_of(["force", "shift", "path", "rolling"]).map(drop)
+}
+
+fn one_drive(_: &RollingSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    section.one_of(["force", "creepage"]).map(drop)
 }
 
 fn whole_quarters(path: &PathSection, section: &TableAt<'_>) -> Result<(), Refusal> {
@@ -133,6 +159,16 @@ impl TangentialSection {
         if problem.kind().is_given {
             return Err(refuse("needs a counterbody", "a given pressure has none that sticks"));
         }
+        if keys.rolling.is_some() {
+            let cell = problem.cell();
+            let direction = problem.friction().map_or([1.0, 0.0], Friction::direction);
+            let is_along = |[x, y]: [f64; 2]| (x * direction[1] - y * direction[0]).abs() < 1e-9 * x.hypot(y);
+            if cell.surroundings() == Surroundings::FreeSpace && !cell.vectors().into_iter().any(is_along) {
+                return Err(refuse("rolls along a side of the window", "not along `friction.direction`")
+                    .help("set friction.direction to [1, 0] or [0, 1]"));
+            }
+            return Ok(keys);
+        }
         let drives = keys.drives([1.0, 0.0]);
         for drive in &drives {
             if let Drive::Part([x, y]) = drive
@@ -163,18 +199,34 @@ impl TangentialSection {
         }
     }
 
-    /// Number of steps.
-    pub(super) fn step_count(&self) -> usize {
-        self.drives([1.0, 0.0]).len()
+    /// Number of steps of a case with so many loads.
+    pub(super) fn step_count(&self, loads: usize) -> usize {
+        if self.rolling.is_some() { loads } else { self.drives([1.0, 0.0]).len() }
     }
 
-    /// The load and the drive of each step.
-    pub(super) fn steps(&self, loads: Vec<Load>, friction: Option<&Friction>) -> (Vec<Load>, Vec<Drive>) {
-        let drives = self.drives(friction.map_or([1.0, 0.0], Friction::direction));
-        match loads[..] {
-            [load] => (vec![load; drives.len()], drives),
-            _ => (loads, drives),
+    /// The load and the motion of each step.
+    pub(super) fn steps(&self, loads: Vec<Load>, friction: Option<&Friction>) -> (Vec<Load>, Vec<Motion>) {
+        let direction = friction.map_or([1.0, 0.0], Friction::direction);
+        if let Some(rolling) = self.rolling {
+            let motion = rolling.motion(direction);
+            let motions = vec![motion; loads.len()];
+            return (loads, motions);
         }
+        let motions: Vec<Motion> = self.drives(direction).into_iter().map(Motion::Shear).collect();
+        match loads[..] {
+            [load] => (vec![load; motions.len()], motions),
+            _ => (loads, motions),
+        }
+    }
+}
+
+impl RollingSection {
+    fn motion(&self, direction: [f64; 2]) -> Motion {
+        let drive = match (self.force, self.creepage) {
+            (Some(part), _) => RollingDrive::Part(direction.map(|e| part * e)),
+            (None, creepage) => RollingDrive::Creepage(direction.map(|e| creepage.unwrap_or(0.0) * e)),
+        };
+        Motion::Roll(drive, Rolling { direction, distance: self.distance, step: self.step })
     }
 }
 
@@ -193,7 +245,8 @@ impl PathSection {
 #[cfg(test)]
 mod tests {
     use crate::case::{Case, Source, embedded};
-    use percoat_core::spectral::Drive;
+    use percoat_core::run::Motion;
+    use percoat_core::spectral::{Drive, RollingDrive};
 
     fn read(set: &[&str]) -> Result<Case, String> {
         let set: Vec<String> = set.iter().map(|&text| text.to_owned()).collect();
@@ -207,7 +260,8 @@ mod tests {
         let case = read(&[FRICTION, "tangential={ force = [0.3, [0.1, -0.2]] }", "load.mean_pressure=0.01"]).unwrap();
         let run = case.run();
         assert_eq!(run.loads.len(), 2);
-        assert_eq!(run.drives, Some(vec![Drive::Part([0.0, 0.3]), Drive::Part([0.1, -0.2])]));
+        let motions = [[0.0, 0.3], [0.1, -0.2]].map(|part| Motion::Shear(Drive::Part(part)));
+        assert_eq!(run.motions, Some(motions.to_vec()));
         let again = Source { text: case.to_toml(), ..Source::default() };
         assert!(Case::read(&again, &[]).unwrap() == case);
     }
@@ -216,13 +270,25 @@ mod tests {
     fn a_path_rises_and_goes_to_and_fro_by_equal_steps() {
         let set =
             [FRICTION, "tangential={ path = { amplitude = 0.6, cycles = 2, steps = 8 } }", "load.mean_pressure=0.01"];
-        let drives = read(&set).unwrap().run().drives.unwrap();
+        let motions = read(&set).unwrap().run().motions.unwrap();
         let expected = [3, 6, 3, 0, -3, -6, -3, 0, 3, 6, 3, 0, -3, -6, -3, 0, 3, 6];
-        assert_eq!(drives.len(), expected.len());
-        for (drive, tenths) in drives.iter().zip(expected) {
-            let Drive::Part([x, y]) = drive else { panic!("{drive:?}") };
-            assert!(*x == 0.0 && (y - 0.1 * f64::from(tenths)).abs() < 1e-14, "{drive:?} {tenths}");
+        assert_eq!(motions.len(), expected.len());
+        for (motion, tenths) in motions.iter().zip(expected) {
+            let Motion::Shear(Drive::Part([x, y])) = motion else { panic!("{motion:?}") };
+            assert!(*x == 0.0 && (y - 0.1 * f64::from(tenths)).abs() < 1e-14, "{motion:?} {tenths}");
         }
+    }
+
+    #[test]
+    fn rolling_is_at_each_load_along_the_direction_of_friction() {
+        let set = [FRICTION, "tangential={ rolling = { creepage = 0.001 } }", "load.mean_pressure=[0.01, 0.02]"];
+        let run = read(&set).unwrap().run();
+        let [first, second] = &run.motions.unwrap()[..] else { panic!("a motion a load") };
+        let Motion::Roll(drive, rolling) = first else { panic!("{first:?}") };
+        assert_eq!((first, *drive), (second, RollingDrive::Creepage([0.0, 0.001])));
+        assert_eq!((rolling.direction, rolling.distance, rolling.step), ([0.0, 1.0], 4.0, 0.125));
+        let both = "tangential={ rolling = { force = 0.1, creepage = 0.001 } }";
+        assert!(read(&[FRICTION, both]).is_err());
     }
 
     #[test]

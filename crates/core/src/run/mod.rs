@@ -47,6 +47,7 @@ pub use quantities::{OfStep, Part, declared, of_step};
 pub use record::{STEP, Sliding, StepQuantities, StepRecord};
 pub use recorder::Recorder;
 pub use sampling::Sampling;
+pub use slipping::Motion;
 pub use tapered::Tapered;
 pub use wear::{PathEnd, WearPath, WornPath, WornStep, WornSurface};
 
@@ -55,7 +56,7 @@ use crate::lattice::Grid;
 use crate::load::{Control, Load, LoadQuantity};
 use crate::problem::Problem;
 use crate::reading::{self, Criterion, PathReading, StressReading};
-use crate::spectral::{Drive, OtherGrids, Settings, Solver, Step};
+use crate::spectral::{OtherGrids, Settings, Solver, Step};
 use crate::stress::{PathSought, StressFields, Tables};
 use std::cell::Cell;
 use std::convert::Infallible;
@@ -91,8 +92,8 @@ pub struct Run {
     pub settings: Settings,
     /// The stresses to be computed, if any.
     pub stress: Option<StressRequest>,
-    /// Tangential force or shift at the end of each load, where friction sticks and slips; `None` where the counterbody slides or is still.
-    pub drives: Option<Vec<Drive>>,
+    /// Motion at each load, where friction sticks and slips; `None` where the counterbody slides or is still.
+    pub motions: Option<Vec<Motion>>,
 }
 
 /// Records of all loads on one grid, and the last step.
@@ -101,7 +102,7 @@ type Solved = (Vec<StepRecord>, Option<Step>);
 impl Run {
     /// A run without stresses, with the solver's defaults.
     pub fn new(problem: impl Into<Arc<Problem>>, loads: Vec<Load>, sampling: Sampling) -> Self {
-        Self { problem: problem.into(), loads, sampling, settings: Settings::default(), stress: None, drives: None }
+        Self { problem: problem.into(), loads, sampling, settings: Settings::default(), stress: None, motions: None }
     }
 
     /// The quantity in which its loads are stated: forces where one is prescribed, and for an isolated contact.
@@ -232,8 +233,8 @@ impl Run {
         finished: Option<EarlierRun>,
         recorder: &mut R,
     ) -> Result<Solved, RunError<R::Error>> {
-        match &self.drives {
-            Some(drives) => self.slip_on_grid(drives, points, finished, recorder),
+        match &self.motions {
+            Some(motions) => self.slip_on_grid(motions, points, finished, recorder),
             None => self.on_grid(points, finished, recorder),
         }
     }
@@ -321,7 +322,7 @@ impl Run {
                 Loading::Search => reading::utilisations_while(step, &record.reading, fields, &goes_on)
                     .map(|utilisations| record.clone().with_utilisations(utilisations)),
                 // What stays in place meets no range of stresses along a path of sliding.
-                Loading::Path if self.drives.is_some() => {
+                Loading::Path if self.motions.is_some() => {
                     StressReading::of_while(step, &record.reading, fields, &goes_on)
                         .map(|stress| record.clone().with_stress(stress, bodies))
                 }

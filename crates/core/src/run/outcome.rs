@@ -5,7 +5,7 @@ use super::accuracy::{RefinementEnd, TooOblong};
 use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::notation::number;
-use crate::spectral::{OtherGrids, Slides, SlipError, Step};
+use crate::spectral::{OtherGrids, RollError, SlipError, Step};
 use std::error::Error;
 
 /// The result of a run.
@@ -128,9 +128,9 @@ pub enum RunError<E: Error + 'static> {
     /// Partial slip cannot be set up.
     #[error(transparent)]
     Slip(#[from] SlipError),
-    /// A tangential force is beyond friction.
+    /// The contact does not stick or roll so.
     #[error(transparent)]
-    Slides(#[from] Slides),
+    Roll(#[from] RollError),
     /// The earlier run has other grids than this one.
     #[error(transparent)]
     OtherGrids(#[from] OtherGrids),

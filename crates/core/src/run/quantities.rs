@@ -143,10 +143,12 @@ mod tests {
     use super::*;
     use crate::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Strength};
     use crate::counterbody::{Indenters, Level, Shape, Topography};
+    use crate::friction::Friction;
     use crate::lattice::{Cell, Lattice};
     use crate::load::Load;
     use crate::problem::Problem;
-    use crate::run::{Run, Sampling, StressRequest};
+    use crate::run::{Motion, Run, Sampling, StressRequest};
+    use crate::spectral::{Rolling, RollingDrive};
     use serde::Serialize;
     use serde_json::{Value, json};
     use std::collections::BTreeSet;
@@ -161,8 +163,8 @@ mod tests {
         HalfSpace::new(vec![coating], substrate).with_substrate_strength(strength).unwrap()
     }
 
-    /// The last of two steps that press a ball into a window, and of two that press waves.
-    fn steps() -> [StepRecord; 2] {
+    /// The last of two steps that press a ball into a window, of two that press waves, and of one that rolls.
+    fn steps() -> [StepRecord; 3] {
         let last = |problem: Problem, loads: [f64; 2]| {
             let mut run = Run::new(problem, loads.map(Load::Force).to_vec(), Sampling::Points([32; 2]));
             run.stress = Some(StressRequest { strain: true, ..StressRequest::default() });
@@ -174,7 +176,18 @@ mod tests {
         let height = |i: usize| 0.02 * (std::f64::consts::TAU * i as f64 / 32.0).cos();
         let heights = ndarray::Array2::from_shape_fn((32, 32), |(i, j)| height(i) + height(j));
         let waves = Topography::new(Cell::square(1.0).unwrap(), heights).unwrap();
-        [last(Problem::new(ball, body()), [0.005, 0.01]), last(Problem::new(waves, body()), [0.01, 0.02])]
+        let pressed = last(Problem::new(ball.clone(), body()), [0.005, 0.01]);
+        [pressed, last(Problem::new(waves, body()), [0.01, 0.02]), rolled(ball)]
+    }
+
+    /// A step that rolls.
+    fn rolled(ball: Indenters) -> StepRecord {
+        let problem = Problem::new(ball, HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap()));
+        let problem = problem.sliding(Friction::new(0.3, [1.0, 0.0]).unwrap().uncoupled()).unwrap();
+        let mut run = Run::new(problem, vec![Load::Force(0.01)], Sampling::Points([48; 2]));
+        let rolling = Rolling { direction: [1.0, 0.0], distance: 1.0, step: 0.5 };
+        run.motions = Some(vec![Motion::Roll(RollingDrive::Part([0.3, 0.0]), rolling)]);
+        run.solve(&mut ()).unwrap().steps.pop().unwrap()
     }
 
     /// The value under keys with a dot between them.

@@ -1,16 +1,35 @@
-//! A run whose contact sticks and slips: loads, with a tangential force or shift at the end of each.
+//! A run whose contact sticks and slips: loads, with a tangential force or shift at the end of each, or rolled at each.
 
 use super::{EarlierRun, Loading, Recorder, Run, RunError, Solved, StepRecord};
+use crate::load::Load;
 use crate::reading::SlipReading;
-use crate::spectral::{Drive, OtherGrids, SlipSettings, SlipSolver};
+use crate::spectral::{Drive, OtherGrids, RollError, Rolling, RollingDrive, SlipSettings, SlipSolver, SlipStep};
 use std::sync::Arc;
+
+/// Motion of the counterbody along the surface at a load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Motion {
+    /// A tangential force or shift at the end of the step.
+    Shear(Drive),
+    /// Rolling under a tangential force or a creepage.
+    Roll(RollingDrive, Rolling),
+}
+
+impl Motion {
+    fn step(self, solver: &mut SlipSolver, load: Load) -> Result<SlipStep, RollError> {
+        match self {
+            Self::Shear(drive) => Ok(solver.advance(load, drive)?),
+            Self::Roll(drive, rolling) => solver.roll(load, drive, rolling),
+        }
+    }
+}
 
 impl Run {
     /// Solves all loads on one grid with partial slip. The steps of the earlier run `finished` are solved once more, since those after them
     /// follow from their tractions; they are not recorded again.
     pub(super) fn slip_on_grid<R: Recorder>(
         &self,
-        drives: &[Drive],
+        motions: &[Motion],
         points: [usize; 2],
         finished: Option<EarlierRun>,
         recorder: &mut R,
@@ -24,13 +43,13 @@ impl Run {
             return Err(OtherGrids.into());
         }
         let (mut last, tables) = (None, Arc::default());
-        for (number, (&load, &drive)) in self.loads.iter().zip(drives).enumerate() {
+        for (number, (&load, &motion)) in self.loads.iter().zip(motions).enumerate() {
             drop(last.take());
             if number >= known {
                 recorder.load(load);
             }
             let began = recorder.clock();
-            let step = solver.advance(load, drive)?;
+            let step = motion.step(&mut solver, load)?;
             if number < known {
                 continue;
             }

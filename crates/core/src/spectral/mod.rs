@@ -48,7 +48,10 @@ pub(crate) use solver::MIN_POINTS;
 pub use solver::{Memory, Solver};
 pub use step::Step;
 pub use tangent::Tangent;
-pub use tangential::{Drive, MeasuredVector, Slides, SlipError, SlipReport, SlipSettings, SlipSolver, SlipStep};
+pub use tangential::{
+    Drive, MeasuredVector, NotAlongGrid, RollError, Rolling, RollingDrive, Slides, SlipError, SlipReport, SlipSettings,
+    SlipSolver, SlipStep,
+};
 pub use wear::Wear;
 pub use wear_error::WearError;
 pub use wear_state::WearState;

@@ -53,7 +53,7 @@ impl Run {
     }
 
     fn checked_for_limits<E: Error + 'static>(&self) -> Result<(), RunError<E>> {
-        if self.drives.is_some() {
+        if self.motions.is_some() {
             return Err(RunError::Sticks);
         }
         if Criterion::all(self.problem.bodies()).is_empty() {

@@ -17,5 +17,6 @@ mod tests;
 mod track;
 
 pub(crate) use disc::sticks;
-pub use solver::{Drive, MeasuredVector, Slides, SlipError, SlipSolver, SlipStep};
+pub use rolling::{NotAlongGrid, Rolling};
+pub use solver::{Drive, MeasuredVector, RollError, RollingDrive, Slides, SlipError, SlipSolver, SlipStep};
 pub use stick_slip::{SlipReport, SlipSettings};

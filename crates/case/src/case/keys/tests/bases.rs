@@ -54,7 +54,8 @@ fn folder() -> tempfile::TempDir {
 fn below_layers(case: &Table, layers: Value) -> String {
     let mut counterbody: Table =
         "young = 2e11\npoisson = 0.3\nyield_strength = 1e9\ntensile_strength = 2e9\nname = \"ball\"\n\
-         fatigue = { amplitude = 4e8, passes = 1e6, exponent = 8, weibull_slope = 2.0 }\nendurance = { torsion = 4e8, bending = 6e8 }\n"
+         fatigue = { amplitude = 4e8, passes = 1e6, exponent = 8, weibull_slope = 2.0 }\nendurance = { torsion = 4e8, bending = 6e8 }\n\
+         strain_life = { strain = 1e-3, passes = 1e6, exponent = 5, direction = \"compression\" }\n"
             .parse()
             .unwrap();
     counterbody.insert("layers".to_owned(), layers);
