@@ -78,10 +78,18 @@ impl Bases {
         let rich: Table = linear.parse().unwrap();
         let elastic = below_layers(&rich, rich["layers"].clone());
         let graded_above = below_layers(&rich, graded.parse::<Table>().unwrap()["layers"].clone());
+        let slipping = |keys: &str| {
+            format!("{plain}{BODY}{uniform}friction = {{ coefficient = 0.1 }}\ntangential = {{ {keys} }}\n")
+        };
         let limits = "endurance = { torsion = 0.4, bending = 0.5 }";
         let spectrum = "hurst = 0.5, shortest = 0.3, longest = 1.0, rolloff = 0.6, rms_slope = 0.2";
         let texts = [
             format!("{plain}{BODY}{uniform}friction = {{ coefficient = 0.1 }}\nlife = {{ passes = 10 }}\n"),
+            slipping("force = [0.3]"),
+            slipping("shift = [0.1]"),
+            slipping("path = { amplitude = 0.5 }"),
+            slipping("rolling = { force = 0.1 }"),
+            slipping("rolling = { creepage = 0.01 }"),
             linear.clone(),
             linear.replace("mean_pressure =", "penetration ="),
             linear.replace("mean_pressure =", "force ="),
