@@ -200,8 +200,8 @@ fn derivatives_by_what_is_known_are_those_of_other_known_values() {
     assert!((found.sensitivities[0].derivatives[0] / quotient - 1.0).abs() < 2e-3, "{found:?}, {quotient}");
 }
 
-/// Noise of 0.4 nm in the penetrations of three tests, 200 draws: the intervals of 95 % hold the modulus that is found without noise in 95 % of them, within
-/// 3 √(0.95·0.05/200) = 4.6 %, and are not wider by half than the scatter.
+/// Noise of 0.4 nm in the penetrations of three tests, 100 draws: the intervals of 95 % hold the modulus that is found without noise in 95 % of them, within
+/// 3 √(0.95·0.05/100) = 6.5 %, and are not wider by half than the scatter.
 #[test]
 fn intervals_hold_the_modulus_under_noise() {
     let mut random = Random(7);
@@ -230,15 +230,15 @@ fn intervals_hold_the_modulus_under_noise() {
     let exact = draw(0.0).estimates[0].value;
     assert!((exact / 300.0 - 1.0).abs() < 1e-5, "{exact}");
     let (mut inside, mut squares, mut errors) = (0, 0.0, 0.0);
-    for _ in 0..200 {
+    for _ in 0..100 {
         let found = draw(4e-4);
         let estimate = &found.estimates[0];
         inside += i32::from(estimate.interval[0] < exact && exact < estimate.interval[1]);
         squares += (estimate.value - exact).powi(2);
         errors += estimate.error;
     }
-    let (scatter, error) = ((squares / 200.0_f64).sqrt(), errors / 200.0);
-    assert!((f64::from(inside) / 200.0 - 0.95).abs() < 0.046, "{inside} of 200; {scatter} {error}");
+    let (scatter, error) = ((squares / 100.0_f64).sqrt(), errors / 100.0);
+    assert!((f64::from(inside) / 100.0 - 0.95).abs() < 0.065, "{inside} of 100; {scatter} {error}");
     assert!((error / scatter - 1.0).abs() < 0.5, "{scatter} {error}");
 }
 
