@@ -119,11 +119,7 @@ fn taken(data: &[Bound<'_, PyAny>], segment: Segment, case: &percoat::case::Case
         Ok((String::new(), Read::Columns(columns)))
     };
     let all: Vec<(String, Read)> = data.iter().map(read).collect::<PyResult<_>>()?;
-    let source = |(name, read): &'_ (String, Read)| match read {
-        Read::Text(text) => (name.as_str(), Source::Text(text)),
-        Read::Columns(columns) => (name.as_str(), Source::Columns(columns)),
-    };
-    let sources: Vec<(&str, Source<'_>)> = all.iter().map(source).collect();
+    let sources: Vec<(&str, Source<'_>)> = all.iter().map(|(name, read)| (name.as_str(), read.source())).collect();
     Taken::new(&sources, segment, &case.units()).map_err(refused)
 }
 
@@ -131,4 +127,13 @@ fn taken(data: &[Bound<'_, PyAny>], segment: Segment, case: &percoat::case::Case
 enum Read {
     Text(String),
     Columns(Vec<(String, Vec<f64>)>),
+}
+
+impl Read {
+    fn source(&self) -> Source<'_> {
+        match self {
+            Self::Text(text) => Source::Text(text),
+            Self::Columns(columns) => Source::Columns(columns),
+        }
+    }
 }
