@@ -15,7 +15,6 @@ use percoat_core::problem::Problem;
 use percoat_core::run::Motion;
 use percoat_core::spectral::{Drive, Rolling, RollingDrive};
 use serde::{Serialize, Serializer};
-use std::f64::consts::TAU;
 use std::ops::Bound;
 
 /// Most steps of a history.
@@ -236,7 +235,10 @@ impl PathSection {
         let Self { amplitude, cycles, steps } = *self;
         let quarter = steps / QUARTERS;
         // From 1 to −1 and back in a cycle, by equal steps.
-        let wave = |k: usize| ((TAU * k as f64 / steps as f64).cos().acos() / (0.5 * TAU) * -2.0 + 1.0) * amplitude;
+        let wave = |k: usize| {
+            let quarters = (QUARTERS * (k % steps)) as f64 / steps as f64;
+            amplitude * ((quarters - 2.0).abs() - 1.0)
+        };
         let rise = (1..=quarter).map(|k| amplitude * k as f64 / quarter as f64);
         rise.chain((1..=cycles * steps).map(wave)).collect()
     }

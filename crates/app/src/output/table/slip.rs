@@ -44,8 +44,8 @@ pub fn slip(steps: &[StepRecord], units: &Units) -> Option<(String, Table)> {
     let cycle = closed_cycle(steps).map_or(String::new(), |energy| {
         format!("; the last closed cycle dissipates {}", with_unit(&units.unit(Kind::Energy), energy))
     });
-    let of = if rolls { " of one contact length rolled" } else { "" };
-    let words = format!("partial slip, energies{of}{cycle}; elastic surfaces, Coulomb's law with one coefficient");
+    let of = if rolls { "; energies are of one contact length rolled" } else { "" };
+    let words = format!("partial slip of elastic surfaces by Coulomb's law with one coefficient{of}{cycle}");
     Some((words, Table::new(&header, shown.iter().map(row).collect(), 1)))
 }
 

@@ -26,6 +26,8 @@ use std::sync::Arc;
 const PARTS: usize = 16;
 /// Parts of a step at one load in which the pressure follows the tractions a little.
 const PARTS_AT_ONE_LOAD: usize = 2;
+/// Part of μP that rounding makes of a force that is given.
+const ROUNDING: f64 = 1e-11;
 /// Fewest points of a coarser grid along a lattice vector.
 const COARSEST: usize = 24;
 
@@ -153,12 +155,15 @@ fn result(step: Followed, coarser: Option<Step>, halved: Option<Numbers>, of_gri
         let error = length(change) + of_grid.as_ref().map_or(0.0, |grid| length(of(grid)));
         MeasuredVector { value: add(of(&numbers), change), error }
     };
+    // A force that is given has no error but rounding.
+    let force = MeasuredVector { value: numbers.force, ..measured(|numbers| numbers.force) };
+    let force = if force.error < ROUNDING * limit { MeasuredVector { error: 0.0, ..force } } else { force };
     let number = |of: fn(&Numbers) -> Vector| {
         let MeasuredVector { value: [value, _], error } = measured(of);
         Measured::new(value, of_grid.map(|_| error))
     };
     SlipStep {
-        force: measured(|numbers| numbers.force),
+        force,
         shift: measured(|numbers| numbers.shift),
         creepage: numbers.creepage.map(|_| measured(|numbers| numbers.creepage.unwrap_or_default())),
         work: number(|numbers| [numbers.work, 0.0]),
@@ -441,12 +446,14 @@ fn roll(track: &mut Track, load: Load, aim: Aim, (stride, distance): (&Stride, f
     let whole = length / stride.length();
     let slip: Vec<Vector> = step.slip.iter().map(|s| scale(whole, *s)).collect();
     let density = step.traction.iter().zip(&slip).map(|(q, s)| dot(*q, *s)).collect();
+    let creepage = scale(1.0 / stride.length(), rise);
     let numbers = Numbers {
         force: step.force,
         shift: step.shift,
-        work: whole * step.work,
+        // In steady rolling slip dissipates what the force does.
+        work: length * dot(step.force, creepage),
         stick_fraction: step.stick_fraction,
-        creepage: Some(scale(1.0 / stride.length(), rise)),
+        creepage: Some(creepage),
     };
     followed(track, step, numbers, (&slip, density), converged)
 }

@@ -18,6 +18,11 @@ use std::sync::Arc;
 
 /// Most turns between the normal and the tangential problem.
 const MOST_TURNS: usize = 60;
+/// Part of μP below which a force is none.
+const NO_FORCE: f64 = 1e-12;
+/// Tolerance of the tractions in the first turn, and its ratio from turn to turn, down to that of the settings.
+const FIRST_TOLERANCE: f64 = 1e-4;
+const TIGHTER: f64 = 1e-2;
 
 /// Contact, tractions and their history on one grid.
 #[derive(Debug)]
@@ -130,22 +135,30 @@ impl Track {
     pub fn advance_from(&mut self, load: Load, aim: Aim, before: &[Vector]) -> TrackStep {
         let mut contact = self.solver.solve(load);
         let (mut slipped, mut dragged, mut turns) = (None::<Slipped>, None, 0);
+        let (mut iterations, mut convolutions) = (contact.report.iterations, contact.convolutions);
+        let mut tolerance = if self.couples() { FIRST_TOLERANCE } else { 0.0 };
         while contact.report.stop.solved() && turns < MOST_TURNS {
             turns += 1;
+            tolerance = self.settings.tolerance.max(tolerance);
             dragged = self.operator.dragged(contact.finest().pressures());
-            let traction = slipped
-                .as_ref()
-                .map_or_else(|| Arc::clone(&self.state.traction), |last| Arc::new(last.traction.clone()));
-            let next = self.slip(&contact, dragged.as_deref(), before, aim, &traction);
+            let start = slipped.map_or_else(|| Arc::clone(&self.state.traction), |last| Arc::new(last.traction));
+            let next = self.slip(&contact, dragged.as_deref(), before, (aim, tolerance), &start);
             let lift = self.operator.lifted(&next.traction);
             slipped = Some(next);
             let Some(lift) = lift else { break };
             contact = self.solver.solve_lifted(load, &lift);
-            if contact.report.iterations == 0 {
+            (iterations, convolutions) = (iterations + contact.report.iterations, convolutions + contact.convolutions);
+            // No pressure changes, under tractions that meet their tolerance.
+            if contact.report.iterations == 0 && tolerance == self.settings.tolerance {
                 break;
             }
+            tolerance *= TIGHTER;
         }
-        let slipped = slipped.unwrap_or_else(|| self.slip(&contact, None, before, aim, &self.state.traction.clone()));
+        (contact.report.iterations, contact.convolutions) = (iterations, convolutions);
+        let slipped = slipped.unwrap_or_else(|| {
+            let still = Arc::clone(&self.state.traction);
+            self.slip(&contact, None, before, (aim, self.settings.tolerance), &still)
+        });
         self.finish(contact, slipped, dragged, turns)
     }
 
@@ -155,7 +168,7 @@ impl Track {
         contact: &Step,
         dragged: Option<&[Vector]>,
         displaced: &[Vector],
-        aim: Aim,
+        (aim, tolerance): (Aim, f64),
         start: &[Vector],
     ) -> Slipped {
         let bound: Vec<f64> = contact.finest().pressures().iter().map(|p| self.friction * p).collect();
@@ -178,7 +191,7 @@ impl Track {
             before: &before,
             control,
             area,
-            settings: self.settings,
+            settings: SlipSettings { tolerance, ..self.settings },
         };
         rayon::scope(|_| step.solve(start))
     }
@@ -196,16 +209,18 @@ impl Track {
             let [touches, sticks] = [p > 0.0, sticks(q, self.friction * p)].map(|is| f64::from(u8::from(is)));
             [q[0], q[1], dot(q, slip[i]), p, touches, sticks]
         });
-        let shift = add(self.state.shift, rise);
+        let (shift, limit) = (add(self.state.shift, rise), self.friction * area * pressure);
+        // What rounding leaves of no force.
+        let force = scale(area, [x, y]).map(|force| if force.abs() < NO_FORCE * limit { 0.0 } else { force });
         let traction = Arc::new(traction);
         self.state = SlipState { traction: Arc::clone(&traction), displacement: Arc::new(displacement), shift };
         TrackStep {
             contact,
             traction,
             slip,
-            force: scale(area, [x, y]),
+            force,
             work: area * work,
-            limit: self.friction * area * pressure,
+            limit,
             report,
             turns,
             shift,

@@ -50,6 +50,18 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
+/// Cases that stick and slip, with each key of `[tangential]`.
+fn slipping(case: String) -> impl Iterator<Item = String> {
+    let keys = [
+        "force = [0.3]",
+        "shift = [0.1]",
+        "path = { amplitude = 0.5 }",
+        "rolling = { force = 0.1 }",
+        "rolling = { creepage = 0.01 }",
+    ];
+    keys.into_iter().map(move |keys| format!("{case}friction = {{ coefficient = 0.1 }}\ntangential = {{ {keys} }}\n"))
+}
+
 /// A case under a counterbody with layers.
 fn below_layers(case: &Table, layers: Value) -> String {
     let mut counterbody: Table =
@@ -78,18 +90,10 @@ impl Bases {
         let rich: Table = linear.parse().unwrap();
         let elastic = below_layers(&rich, rich["layers"].clone());
         let graded_above = below_layers(&rich, graded.parse::<Table>().unwrap()["layers"].clone());
-        let slipping = |keys: &str| {
-            format!("{plain}{BODY}{uniform}friction = {{ coefficient = 0.1 }}\ntangential = {{ {keys} }}\n")
-        };
         let limits = "endurance = { torsion = 0.4, bending = 0.5 }";
         let spectrum = "hurst = 0.5, shortest = 0.3, longest = 1.0, rolloff = 0.6, rms_slope = 0.2";
         let texts = [
             format!("{plain}{BODY}{uniform}friction = {{ coefficient = 0.1 }}\nlife = {{ passes = 10 }}\n"),
-            slipping("force = [0.3]"),
-            slipping("shift = [0.1]"),
-            slipping("path = { amplitude = 0.5 }"),
-            slipping("rolling = { force = 0.1 }"),
-            slipping("rolling = { creepage = 0.01 }"),
             linear.clone(),
             linear.replace("mean_pressure =", "penetration ="),
             linear.replace("mean_pressure =", "force ="),
@@ -133,7 +137,8 @@ impl Bases {
             ),
             BODY.to_owned(),
         ];
-        Self { folder: folder(), cases: texts.iter().map(|text| text.parse().unwrap()).collect() }
+        let texts = slipping(format!("{plain}{BODY}{uniform}")).chain(texts);
+        Self { folder: folder(), cases: texts.map(|text| text.parse().unwrap()).collect() }
     }
 
     /// Texts of all of them that are cases as they stand.

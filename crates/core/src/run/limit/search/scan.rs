@@ -27,7 +27,7 @@ const TOUCHING: f64 = 1e-3;
 
 impl<R: Recorder> LimitSearch<'_, R> {
     /// The first load: a part of that of complete contact, or the least strength where contact is complete under any
-    /// load and stresses are proportional to it.
+    /// load and stresses are proportional to it: an endurance limit, and Young's modulus times the strain of a life, among them.
     fn start(&self) -> f64 {
         if self.filling.is_finite() {
             return START * self.filling;
@@ -35,9 +35,14 @@ impl<R: Recorder> LimitSearch<'_, R> {
         let bodies = || self.run.problem.bodies().each();
         let of_materials = bodies().flat_map(HalfSpace::strengths);
         let of_materials = of_materials.flat_map(|strength| [strength.yielding, strength.tensile]);
+        let durable = bodies().flat_map(|body| body.materials().zip(body.durabilities()));
+        let of_passes = durable.flat_map(|(material, durability)| {
+            let by_strain = durability.strain_life.map(|life| material.young() * life.strain());
+            [durability.endurance.map(|endurance| endurance.torsion()), by_strain]
+        });
         let of_interfaces = bodies().flat_map(HalfSpace::layers).map(Layer::interface_strength);
         let of_interfaces = of_interfaces.flat_map(|strength| [strength.normal, strength.shear]);
-        let least = of_materials.chain(of_interfaces).flatten().fold(f64::INFINITY, f64::min);
+        let least = of_materials.chain(of_passes).chain(of_interfaces).flatten().fold(f64::INFINITY, f64::min);
         let least = match self.quantity {
             LoadQuantity::MeanPressure => least,
             LoadQuantity::Force => least * self.run.problem.cell().area(),
