@@ -274,6 +274,28 @@ class Step(Sampled):
         displacement.flags.writeable = False
         return displacement
 
+    @cached_property
+    def _shear(self) -> Optional[tuple[Array, Array, Array]]:
+        shear = self._core.shear()
+        for field in shear or ():
+            field.flags.writeable = False
+        return shear
+
+    @property
+    def traction(self) -> Optional[Array]:
+        """Tangential traction on the body, x and y (2, n₁, n₂), of a contact that sticks and slips; None of another."""
+        return self._shear[0] if self._shear else None
+
+    @property
+    def slip(self) -> Optional[Array]:
+        """Slip of the counterbody against the body in the step, x and y (2, n₁, n₂), a length; None where nothing sticks."""
+        return self._shear[1] if self._shear else None
+
+    @property
+    def slip_work(self) -> Optional[Array]:
+        """Energy per area (n₁, n₂) that slip has dissipated in the step; None where nothing sticks."""
+        return self._shear[2] if self._shear else None
+
     def stress(
         self, points: ArrayLike, *, material: Optional[int] = None, body: Body = "body"
     ) -> Array:

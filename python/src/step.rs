@@ -6,7 +6,7 @@ use crate::interior;
 use crate::record::to_python;
 use crate::value::value;
 use crate::work;
-use ndarray::ArrayView2;
+use ndarray::{Array2, Array3, ArrayView2};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use percoat::case::resources::Job;
 use percoat::output::{read_checkpoint, write_checkpoint};
@@ -65,6 +65,9 @@ type Plane<'py> = (Bound<'py, PyArray3<f64>>, usize, Option<&'static str>);
 /// with its strains.
 type Cross<'py> = ([Bound<'py, PyArray1<f64>>; 4], Bound<'py, PyArray1<i32>>, Bound<'py, PyArray3<f64>>);
 
+/// Traction, slip and energy per area.
+type Slipped<'py> = (Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>, Bound<'py, PyArray2<f64>>);
+
 #[pymethods]
 impl Step {
     /// Contact pressure (n₁, n₂), a view of the memory of the step.
@@ -83,6 +86,19 @@ impl Step {
     fn displacement<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let kept = Arc::clone(&self.0);
         Ok(work::run(py, None, None, move |_| kept.step.displacement())?.into_pyarray(py))
+    }
+
+    /// Tangential traction on the body and slip (2, n₁, n₂), and the energy per area that slip has dissipated (n₁, n₂), of a contact that
+    /// sticks and slips; `None` of another.
+    fn shear<'py>(&self, py: Python<'py>) -> Option<Slipped<'py>> {
+        let [n1, n2] = self.0.step.grid().points();
+        let shear = self.0.step.finest().shear()?;
+        let pair = |[x, y]: &[Vec<f64>; 2]| {
+            let values = [&x[..], &y[..]].concat();
+            Array3::from_shape_fn((2, n1, n2), |(k, i, j)| values[(k * n1 + i) * n2 + j]).into_pyarray(py)
+        };
+        let work = Array2::from_shape_fn((n1, n2), |(i, j)| shear.work[i * n2 + j]).into_pyarray(py);
+        Some((pair(&shear.traction), pair(&shear.slip), work))
     }
 
     /// Stresses (n, 6) at points (n, 3), or their strains; on an interface in the material of this number, from 1.

@@ -82,7 +82,9 @@ impl Snapshot {
             self.units.length_equals("δ", &[self.step.penetration()]),
         ];
         let samples = format!("{n1}\u{a0}×\u{a0}{n2} samples");
-        format!("{} {more}", caption(&self.title, self.step.problem(), &self.units, &[load.join(", "), samples]))
+        let friction = self.step.finest().shear().map(|shear| equals("μ", &[shear.friction]));
+        let parts: Vec<String> = friction.into_iter().chain([load.join(", "), samples]).collect();
+        format!("{} {more}", caption(&self.title, self.step.problem(), &self.units, &parts))
     }
 }
 

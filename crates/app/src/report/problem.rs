@@ -137,7 +137,15 @@ fn sentence(case: &Value) -> String {
     if kind_of(case).is_given {
         return format!("A given pressure acts on {body}.");
     }
-    let [pressed, slide] = if is_one { ["is pressed", "slides"] } else { ["are pressed", "slide"] };
+    let pressed = if is_one { "is pressed" } else { "are pressed" };
+    let slide = match (case["tangential"].as_object(), is_one) {
+        (Some(keys), true) if keys.contains_key("rolling") => "rolls",
+        (Some(keys), false) if keys.contains_key("rolling") => "roll",
+        (Some(_), true) => "sticks and slips",
+        (Some(_), false) => "stick and slip",
+        (None, true) => "slides",
+        (None, false) => "slide",
+    };
     let slides = case["friction"]["coefficient"].as_f64();
     let slides = slides.map_or(String::new(), |mu| format!(", and {slide} over it with friction μ = {}", plain(mu)));
     format!("{subject} {pressed} into {body}{slides}{above}.")
@@ -221,7 +229,11 @@ fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> Str
 /// The keys of a section with their values, without those of no effect on an isolated contact.
 fn entries(section: &str, value: &Value, words: &AroundWords) -> Vec<(String, String)> {
     let prefix = |key: &str| {
-        if matches!(section, "stress" | "friction" | "life") { format!("{section}: {key}") } else { key.to_owned() }
+        if matches!(section, "stress" | "friction" | "tangential" | "life") {
+            format!("{section}: {key}")
+        } else {
+            key.to_owned()
+        }
     };
     let has_effect = |key: &str| !words.without_effect.contains(&[section, key]);
     match value {
@@ -307,6 +319,13 @@ mod tests {
                 json!({ "lattice": { "kind": "oblique" }, "levels": levels(1), "friction": { "coefficient": 0.3 } }),
                 "Rigid indenters of one height on an oblique lattice are pressed into an uncoated elastic half-space, and slide over \
                  it with friction μ = 0.3.",
+            ),
+            (
+                json!({
+                    "lattice": isolated, "levels": levels(1), "friction": { "coefficient": 0.3 },
+                    "tangential": { "rolling": { "force": 0.1 } },
+                }),
+                "A rigid ball is pressed into an uncoated elastic half-space, and rolls over it with friction μ = 0.3.",
             ),
             (
                 json!({ "lattice": isolated, "levels": levels(1), "counterbody": steel, "friction": { "coefficient": 0.3 } }),
