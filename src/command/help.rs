@@ -41,7 +41,7 @@ help!(
     "0 done; 2 refused: the curve does not determine the keys, or is\nno curve; 4 input or output failed; 130 interrupted",
     "identify data.csv mine.toml --free layers.0.young",
     "identify data.csv mine.toml --free layers.0.young,offset",
-    "identify a.csv b.csv mine.toml --free layers.0.young --segment unloading"
+    "identify a.csv b.csv my.toml --free layers.0.young --segment unloading"
 );
 help!(
     SWEEP,
