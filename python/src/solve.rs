@@ -100,7 +100,8 @@ impl Recorder for Keeping<'_> {
         record: &StepRecord,
         _fields: Option<&StressFields>,
     ) -> Result<(), Stopped> {
-        if let Some(checkpoint) = self.checkpoint.take() {
+        if self.keeps {
+            let checkpoint = self.checkpoint.take();
             self.steps.push(Kept { case: Arc::clone(self.case), step: step.clone(), checkpoint });
         }
         self.done += 1;

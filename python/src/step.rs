@@ -19,12 +19,13 @@ use pyo3::types::PyBytes;
 use std::io::Cursor;
 use std::sync::Arc;
 
-/// A solved load step, its case, and the checkpoint from which it can be restored.
+/// A solved load step, its case, and the checkpoint from which it can be restored; `None` of a contact that sticks, whose steps follow from
+/// those before.
 #[derive(Debug)]
 pub struct Kept {
     pub case: Arc<case::Case>,
     pub step: percoat::Step,
-    pub checkpoint: Checkpoint,
+    pub checkpoint: Option<Checkpoint>,
 }
 
 /// A solved load step.
@@ -189,8 +190,11 @@ impl Step {
 
     /// The bytes from which [`step`] restores the step.
     fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let checkpoint = self.0.checkpoint.as_ref().ok_or_else(|| {
+            refused("a step of a contact that sticks cannot be pickled, since it follows from those before: solve its case again")
+        })?;
         let mut bytes = Cursor::new(Vec::new());
-        write_checkpoint(&mut bytes, &self.0.checkpoint).map_err(refused)?;
+        write_checkpoint(&mut bytes, checkpoint).map_err(refused)?;
         Ok(PyBytes::new(py, &bytes.into_inner()))
     }
 }
@@ -221,7 +225,7 @@ pub fn step(py: Python<'_>, case: &Bound<'_, Case>, index: usize, points: [usize
         let load = *case.load.loads().get(index).ok_or("the case has no such load")?;
         let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver)?;
         let step = solver.restore(load, checkpoint.clone())?;
-        Ok(Kept { case, step, checkpoint })
+        Ok(Kept { case, step, checkpoint: Some(checkpoint) })
     })?;
     Ok(kept.into())
 }

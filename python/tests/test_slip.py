@@ -1,7 +1,10 @@
 """Contacts that stick and slip."""
 
+import pickle
+
 import numpy as np
 import percoat
+import pytest
 
 SLIPS = {
     "lattice": {"kind": "isolated", "size": 2.6},
@@ -44,3 +47,9 @@ def test_tractions_keep_to_coulombs_law():
 def test_a_contact_that_slides_has_no_slip_of_its_own():
     step = percoat.solve("fig2", set={"grid.points": 32}).steps[-1]
     assert step.traction is None and step.slip is None and step.slip_work is None
+
+
+def test_a_step_that_follows_from_others_is_not_pickled():
+    step = percoat.solve(SLIPS, set={"grid.points": 48}).steps[-1]
+    with pytest.raises(Exception, match="cannot be pickled"):
+        pickle.dumps(step)

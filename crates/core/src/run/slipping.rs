@@ -48,6 +48,7 @@ impl Run {
             if number >= known {
                 recorder.load(load);
             }
+            recorder.searching().map_err(RunError::Recorder)?;
             let began = recorder.clock();
             let step = motion.step(&mut solver, load)?;
             if number < known {
