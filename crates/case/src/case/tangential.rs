@@ -198,6 +198,11 @@ impl TangentialSection {
         }
     }
 
+    /// Whether the contact rolls.
+    pub fn rolls(&self) -> bool {
+        self.rolling.is_some()
+    }
+
     /// Number of steps of a case with so many loads.
     pub(super) fn step_count(&self, loads: usize) -> usize {
         if self.rolling.is_some() { loads } else { self.drives([1.0, 0.0]).len() }

@@ -20,6 +20,7 @@ use percoat_case::units::{Unit, Units};
 use percoat_common::machine::{Capacity, bytes};
 use percoat_common::plain;
 use percoat_core::lattice::{Grid, LatticeError};
+use percoat_core::problem::Problem;
 use percoat_core::reading::FirstTouch;
 use percoat_core::run::{RunError, Sampling};
 use serde_json::{Value, json};
@@ -56,6 +57,8 @@ pub struct Check {
     pub quantity: &'static str,
     /// Loads in that quantity, one a load step.
     pub loads: Vec<f64>,
+    /// Partial slip or rolling; `None` where nothing sticks.
+    pub slip: Option<Slip>,
     /// First touches of the levels; `None` for a topography.
     pub touches: Option<Touches>,
     /// Roughness of a topography; `None` for indenters.
@@ -66,6 +69,15 @@ pub struct Check {
     pub strengths: Vec<String>,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
+}
+
+/// Motion of a contact that sticks and slips.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Slip {
+    /// Whether the contact rolls.
+    pub rolls: bool,
+    /// Number of its steps.
+    pub steps: usize,
 }
 
 /// Why a case cannot be solved.
@@ -102,10 +114,14 @@ impl Check {
         let pressures: Vec<Option<f64>> = found.iter().flatten().map(pressure).collect();
         let warnings = [plausibility::of_case(case), foreseen(case, &pressures)].concat();
         let touches = touches_on.zip(found).map(|(points, found)| Touches::new(points, &found, units.quantity(), cell));
+        // What sticks and slips is elastic.
+        let slip =
+            case.tangential.as_ref().map(|tangential| Slip { rolls: tangential.rolls(), steps: case.step_count() });
+        let problem = if slip.is_some() { case.problem().without_hardness() } else { Problem::clone(case.problem()) };
         let counts = || case.layers.iter().map(percoat_case::case::LayerSection::sublayers).collect();
         Ok(Self {
             title: if case.title.is_empty() { name.to_owned() } else { case.title.clone() },
-            problem: [described::loaded_by(&units, case.problem()), described::bodies(&units, case.problem())],
+            problem: [described::loaded_by(&units, case.problem()), described::bodies(&units, &problem)],
             units,
             sublayers: sublayer_error(case).map(|error| (counts(), error)),
             points,
@@ -116,6 +132,7 @@ impl Check {
             room,
             quantity: case.load.quantity(),
             loads: case.load.values().to_vec(),
+            slip,
             touches,
             surface: Roughness::of(case)?,
             library_strengths: LibraryStrength::of_case(&json!(case)),
@@ -189,6 +206,10 @@ impl fmt::Display for Check {
         match self.loads.len() {
             1 => writeln!(f, "load: {} {last}", self.quantity)?,
             count => writeln!(f, "load: {} {} … {last}, {count} steps", self.quantity, number(unit.shown(first)))?,
+        }
+        if let Some(Slip { rolls, steps }) = self.slip {
+            let how = if rolls { "rolls at each load" } else { "sticks and slips" };
+            writeln!(f, "tangential: the contact {how}, steps: {steps}; surfaces are elastic, a hardness is left out")?;
         }
         let none = if self.strengths.is_empty() { " none given, failure is not checked" } else { "" };
         writeln!(f, "strengths:{none}")?;

@@ -450,8 +450,8 @@ fn roll(track: &mut Track, load: Load, aim: Aim, (stride, distance): (&Stride, f
     let numbers = Numbers {
         force: step.force,
         shift: step.shift,
-        // In steady rolling slip dissipates what the force does.
-        work: length * dot(step.force, creepage),
+        // In steady rolling slip dissipates what the force does, unless the pressure does work too.
+        work: if track.couples() { whole * step.work } else { length * dot(step.force, creepage) },
         stick_fraction: step.stick_fraction,
         creepage: Some(creepage),
     };
