@@ -6,6 +6,7 @@
 //! - `rolling`: the history as it moves through a contact that rolls;
 //! - [`SlipSolver`]: steps on several tracks at once, with the errors of their results.
 
+mod aim;
 mod disc;
 mod operator;
 mod preconditioner;

@@ -9,6 +9,7 @@
 //! load; later steps change load and force, or shift, in proportion. The whole history is followed on the next coarser grid as well, and the
 //! difference is the error of the grid.
 
+use super::aim::Aim;
 use super::disc::{Vector, add, dot, length, scale, sub};
 use super::rolling::{NotAlongGrid, Rolling, Stride, contact_length};
 use super::stick_slip::{SlipReport, SlipSettings};
@@ -328,46 +329,6 @@ pub enum RollError {
     /// The direction is not one of the grid.
     #[error(transparent)]
     NotAlongGrid(#[from] NotAlongGrid),
-}
-
-/// What the tangential force or the shift comes to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Aim {
-    /// A force.
-    Force(Vector),
-    /// A force over μP.
-    Part(Vector),
-    /// A shift since the first contact.
-    Shift(Vector),
-    /// A rise of the shift over the distance rolled.
-    Creepage(Vector),
-}
-
-impl Aim {
-    /// The same kind of aim at nothing.
-    fn zero(self) -> Self {
-        self.with([0.0; 2])
-    }
-
-    /// This aim where it is of the kind of another, else nothing of that kind.
-    fn or_zero(self, other: Self) -> Self {
-        if std::mem::discriminant(&self) == std::mem::discriminant(&other) { self } else { other.zero() }
-    }
-
-    fn vector(self) -> Vector {
-        match self {
-            Self::Force(vector) | Self::Part(vector) | Self::Shift(vector) | Self::Creepage(vector) => vector,
-        }
-    }
-
-    fn with(self, vector: Vector) -> Self {
-        match self {
-            Self::Force(_) => Self::Force(vector),
-            Self::Part(_) => Self::Part(vector),
-            Self::Shift(_) => Self::Shift(vector),
-            Self::Creepage(_) => Self::Creepage(vector),
-        }
-    }
 }
 
 /// A way on which load and aim change in proportion.

@@ -1,7 +1,8 @@
 //! Against closed forms and converged numbers.
 
+use super::aim::Aim;
 use super::rolling::Rolling;
-use super::solver::{Aim, Drive, MeasuredVector, RollingDrive, SlipSolver};
+use super::solver::{Drive, MeasuredVector, RollingDrive, SlipSolver};
 use super::stick_slip::SlipSettings;
 use super::track::Track;
 use crate::body::{Bodies, HalfSpace, Interface, Layer, Material};

@@ -4,10 +4,10 @@
 //! solved with the gap opened by the tractions, then the tractions under the new pressure, in turn, until the normal problem needs no
 //! iteration more for the newest tractions: then both certificates hold for the same pair.
 
+use super::aim::Aim;
 use super::disc::{Vector, add, dot, scale, sticks, sub};
 use super::operator::TangentialOperator;
 use super::preconditioner::Preconditioner;
-use super::solver::Aim;
 use super::stick_slip::{ShearControl, SlipReport, SlipSettings, Slipped, StickSlip};
 use crate::lattice::LatticeError;
 use crate::load::Load;
