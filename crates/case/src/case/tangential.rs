@@ -61,7 +61,7 @@ section! {
         /// creepage along the direction of friction: by how much the counterbody gets ahead of the body, over the distance rolled
         pub creepage: Option<f64> = Key::new(&[CREEPAGE], "0.001").instead_of("force"),
         /// distance, in lengths of the contact along its way
-        pub distance: f64 = Key::new(&[Form::Number(Range::between(0.5, 100.0))], "4.0").default("4.0"),
+        pub distance: f64 = Key::new(&[Form::Number(Range::between(0.5, 100.0))], "6.0").default("4.0"),
         /// step, in lengths of the contact; half as long ones are taken too
         pub step: f64 = Key::new(&[Form::Number(Range::between(0.01, 0.5))], "0.0625").default("0.125"),
     }

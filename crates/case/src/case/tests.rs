@@ -83,7 +83,8 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
                      substrate = { young = 1, poisson = 0.3, hardness = 0.1 }\nload = { force = 1e-3 }\n\
                      composite_hardness = { law = \"korsunsky\", constant = 1 }\n";
     let texts = [RICH, &other, isolated, rigid, ball, to_and_fro, composite, TIPS];
-    let texts = texts.into_iter().chain(surfaces.iter().chain(&bodies).map(String::as_str));
+    let slips = slips();
+    let texts = texts.into_iter().chain(surfaces.iter().chain(&bodies).chain(&slips).map(String::as_str));
     for text in embedded::all().iter().map(|(_, text)| *text).chain(texts) {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };
         Case::read(&source, &[]).unwrap_or_else(|error| panic!("{error}"));
@@ -96,6 +97,17 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
         keys.all.iter().map(|key| join(path, key.name)).collect::<Vec<_>>()
     };
     assert_eq!(found, tables.iter().flat_map(named).collect());
+}
+
+/// Contacts that stick, slip and roll, with the keys of `[tangential]` that no embedded case has.
+fn slips() -> [String; 3] {
+    ["force = [0.3, [0.1, 0.2]]", "shift = [0.01]", "rolling = { creepage = 1e-3 }"].map(|keys| {
+        format!(
+            "lattice = {{ kind = \"isolated\", size = 2 }}\nlevels = [{{ shape = \"sphere\", radius = 1 }}]\n\
+             substrate = {{ young = 1, poisson = 0.3 }}\nload = {{ force = 1e-3 }}\nfriction = {{ coefficient = 0.1 }}\n\
+             tangential = {{ {keys} }}\n"
+        )
+    })
 }
 
 /// Paths of all keys inside a value, without the indices of lists.
