@@ -27,7 +27,7 @@ pub(super) const FATIGUE_LAW: Key =
 pub(super) const ENDURANCE_LIMITS: Key =
     Key::new(&LIMITS, "{ torsion = 0.3, bending = 0.5 }").otherwise("never reached");
 pub(super) const STRAIN_LAW: Key =
-    Key::new(&LIFE_BY_STRAIN, "{strain=0.01,passes=50,exponent=4,direction=\"tension\"}")
+    Key::new(&LIFE_BY_STRAIN, "{ strain = 2e-4, passes = 1e6, exponent = 4, direction = \"tension\" }")
         .otherwise("no life by strain");
 
 section! {

@@ -99,6 +99,9 @@ fn unknown(path: &str, parts: &[&str], all: &[PlacedKey]) -> UnknownKey {
     UnknownKey { path: path.to_owned(), near }
 }
 
+/// Most letters of a table of a list in one line.
+const LONGEST: usize = 68;
+
 /// A key with its path and table.
 struct PlacedKey {
     path: String,
@@ -158,9 +161,13 @@ impl PlacedKey {
             true => format!("[[{name}]]"),
             false => format!("[{name}]"),
         };
-        if let ([Form::Table(_)], false) = (self.key.forms, is_list(section)) {
+        let line = format!("{rest} = {}", self.key.example);
+        if let [Form::Table(_)] = self.key.forms
+            && (!is_list(section) || line.chars().count() > LONGEST)
+        {
             let lines = self.key.example_lines();
-            return lines.replacen(&format!("[{}]", self.key.name), &format!("[{}]", self.path), 1);
+            let table = lines.replacen(&format!("[{}]", self.key.name), &format!("[{}]", self.path), 1);
+            return if is_list(section) { format!("{}\n{table}", brackets(section)) } else { table };
         }
         if let [Form::Sections(..)] = self.key.forms {
             return self.key.example_lines().replacen(
@@ -170,7 +177,7 @@ impl PlacedKey {
             );
         }
         let kind = self.key.kinds.first().map(|kind| format!("{} = \"{kind}\"\n", self.table.all[0].name));
-        format!("{}\n{}{rest} = {}", brackets(section), kind.unwrap_or_default(), self.key.example)
+        format!("{}\n{}{line}", brackets(section), kind.unwrap_or_default())
     }
 
     /// The path of the innermost section around the key that can stand in brackets, a list if there is one, and the rest.
