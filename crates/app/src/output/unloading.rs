@@ -12,7 +12,7 @@ use percoat_core::run::tip::outside;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
-/// What was found by unloadings.
+/// Parameters found by unloadings, as a file of results.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct UnloadingRecord {
     beta: f64,
@@ -131,7 +131,7 @@ impl UnloadingRecord {
         [Table::new(&first, rows().map(measured).collect(), 1), Table::new(&second, rows().map(contact).collect(), 1)]
     }
 
-    /// What the formula for bare bodies gives beside the moduli found, what the solver leaves, and what is taken for granted, in lines.
+    /// Lines beside the moduli found: those by the formula for bare bodies, the error of the solver, and the assumptions.
     pub fn notes(&self, units: &Units) -> Vec<String> {
         let modulus = |x: f64| with_unit(&units.unit(Kind::Pressure), Measured { value: x, error: None });
         let bare = || self.tests.iter().map(|test| test.bare_modulus);

@@ -29,9 +29,7 @@ pub fn indentation(snapshot: &Snapshot) -> Option<Canvas> {
     let is_seen = |index: usize| samples(&depths)[index] > 0.0 || snapshot.pressures()[index] > 0.0;
     let view = zoom::view(grid, snapshot.levels() > 0, is_seen);
     let at = |place: [f64; 2]| {
-        let fractions = cell.fractions(place);
-        let outside = is_window && fractions.iter().any(|part| !(0.0..=1.0).contains(part));
-        if outside { 0.0 } else { snapshot.between_samples(samples(&depths), place) }
+        if snapshot.is_outside(place) { 0.0 } else { snapshot.between_samples(samples(&depths), place) }
     };
     let value = |place: [f64; 2]| Some(at(place)).filter(|depth| *depth > 0.0);
     let bar = Bar::sequential(snapshot.units.length_of("depth pressed in", "u"), deepest.1);

@@ -6,10 +6,9 @@ use super::window::View;
 use super::zoom;
 use crate::picture::labels::Labels;
 use percoat_case::units::Units;
-use percoat_core::lattice::Surroundings;
 use percoat_core::problem::Problem;
-use percoat_core::quantity::Kind;
-use percoat_core::reading::SLIP;
+use percoat_core::quantity::{Kind, Quantity};
+use percoat_core::reading::{SLIP, SlipReading};
 use percoat_core::run::StepRecord;
 use percoat_core::spectral::Shear;
 use percoat_draw::Label;
@@ -34,7 +33,7 @@ pub fn slip(snapshot: &Snapshot) -> Option<Canvas> {
     let shear = snapshot.step.finest().shear()?;
     let (grid, pressures) = (snapshot.step.grid(), snapshot.pressures());
     let view = zoom::view(grid, snapshot.levels() > 0, |index| pressures[index] > 0.0);
-    let nearest = |place: [f64; 2]| nearest(snapshot, place).filter(|&i| pressures[i] > 0.0);
+    let nearest = |place: [f64; 2]| snapshot.nearest(place).filter(|&i| pressures[i] > 0.0);
     let colour = |place: [f64; 2]| match nearest(place) {
         None => Colour::WHITE,
         Some(i) if shear.sticks(i, pressures[i]) => STICKS,
@@ -70,18 +69,6 @@ pub fn slip(snapshot: &Snapshot) -> Option<Canvas> {
     Some(sheet(&snapshot.caption(&words), &[&states, &energies]))
 }
 
-/// The sample nearest to a place; `None` outside the window of an isolated contact.
-fn nearest(snapshot: &Snapshot, place: [f64; 2]) -> Option<usize> {
-    let (grid, cell) = (snapshot.step.grid(), snapshot.step.grid().cell());
-    let ([n1, n2], fractions) = (grid.points(), cell.fractions(place));
-    let is_window = cell.surroundings() == Surroundings::FreeSpace;
-    if is_window && fractions.iter().any(|part| !(0.0..1.0).contains(part)) {
-        return None;
-    }
-    let index = |part: f64, n: usize| ((part - part.floor()) * n as f64).round() as usize % n;
-    Some(index(fractions[0], n1) * n2 + index(fractions[1], n2))
-}
-
 /// Arrows of the slip at equal distances, as long as the slip over its largest value.
 fn arrows(snapshot: &Snapshot, shear: &Shear, view: View) -> Vec<Over> {
     let [[x0, x1], [y0, y1]] = view.window;
@@ -94,7 +81,7 @@ fn arrows(snapshot: &Snapshot, shear: &Shear, view: View) -> Vec<Over> {
     };
     let mut over = Vec::new();
     for (x, y) in places(x0, x1).flat_map(|x| places(y0, y1).map(move |y| (x, y))) {
-        let Some(i) = nearest(snapshot, [x, y]) else { continue };
+        let Some(i) = snapshot.nearest([x, y]) else { continue };
         let slip = [sx[i], sy[i]];
         let size = slip[0].hypot(slip[1]);
         if most == 0.0 || size < LEAST * most {
@@ -120,7 +107,7 @@ pub fn slip_loop(title: &str, problem: &Problem, units: &Units, steps: &[StepRec
     if readings.len() < 2 {
         return None;
     }
-    let chart = |letter: char, quantity: &percoat_core::quantity::Quantity<percoat_core::reading::SlipReading>| {
+    let chart = |letter: char, quantity: &Quantity<SlipReading>| {
         let measured: Vec<_> = readings.iter().map(|reading| quantity.of(reading)).collect();
         let points = readings.iter().zip(&measured);
         let curve = Curve {

@@ -1,7 +1,7 @@
 //! The cell repeated over a window of the surface.
 
 use super::snapshot::Snapshot;
-use percoat_core::lattice::Grid;
+use percoat_core::lattice::{Grid, Surroundings};
 
 /// The four samples around a place and their bilinear weights.
 pub fn around(grid: &Grid, place: [f64; 2]) -> [(usize, f64); 4] {
@@ -20,6 +20,20 @@ pub fn around(grid: &Grid, place: [f64; 2]) -> [(usize, f64); 4] {
 }
 
 impl Snapshot {
+    /// Whether a place is outside the window of an isolated contact.
+    pub fn is_outside(&self, place: [f64; 2]) -> bool {
+        let cell = self.step.grid().cell();
+        cell.surroundings() == Surroundings::FreeSpace
+            && cell.fractions(place).iter().any(|part| !(0.0..=1.0).contains(part))
+    }
+
+    /// The sample nearest to a place; `None` outside the window of an isolated contact.
+    pub fn nearest(&self, place: [f64; 2]) -> Option<usize> {
+        let [first, rest @ ..] = around(self.step.grid(), place);
+        let heavier = |a: (usize, f64), b: (usize, f64)| if b.1 > a.1 { b } else { a };
+        (!self.is_outside(place)).then(|| rest.into_iter().fold(first, heavier).0)
+    }
+
     /// Stretches of a straight line with contact (`touching`) or without: their first and last point, as parts of the line.
     pub fn stretches(&self, [from, to]: [[f64; 2]; 2], touching: bool) -> Vec<[f64; 2]> {
         const STEPS: u32 = 800;

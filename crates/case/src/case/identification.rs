@@ -75,7 +75,7 @@ pub enum NotKnown {
     Factor(f64),
 }
 
-/// What is known beside the case: additions of the instrument, and the factor β of the stiffness of unloading.
+/// Numbers known beside the case: additions of the instrument, and the factor β of the stiffness of unloading.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Known {
     /// Known additions of the instrument.
@@ -85,7 +85,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// What is known by texts `offset=0.0025`, `frame_compliance=1e-4` and `beta=1.034`, in the units of the case.
+    /// Known numbers, from texts `offset=0.0025`, `frame_compliance=1e-4` and `beta=1.034`, in the units of the case.
     ///
     /// # Errors
     /// [`NotKnown`] for other texts, and for a name that is there twice.
@@ -112,7 +112,7 @@ impl Known {
         Ok(Self { instrument, beta })
     }
 
-    /// What is known, for curves of a segment.
+    /// Known numbers for curves of a segment.
     ///
     /// # Errors
     /// [`NotKnown::Beta`] for a factor of the stiffness where the segment is none of unloading.
@@ -124,7 +124,7 @@ impl Known {
     }
 }
 
-/// What was found by measured curves.
+/// Parameters found by measured curves.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Found {
     /// By the points of loading.
@@ -159,7 +159,7 @@ pub struct IdentificationTask<'a> {
     parameters: Vec<Parameter>,
     /// Numbers that are taken as known, and by which what is found is differentiated.
     fixed: Vec<Parameter>,
-    /// What is known beside the case; 0 of what is free.
+    /// Numbers known beside the case, 0 where free.
     known: Known,
 }
 

@@ -32,7 +32,7 @@ pub struct Taken {
     pub curves: Curves,
     /// Name of each: of its file, else its number from 1.
     pub names: Vec<String>,
-    /// What of the tests was taken or left out, a sentence each.
+    /// Parts of the tests that were taken or left out, a sentence each.
     pub notes: Vec<String>,
 }
 

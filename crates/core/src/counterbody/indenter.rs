@@ -226,6 +226,14 @@ impl Level {
 mod tests {
     use super::*;
 
+    const SHAPES: [Shape; 5] = [
+        Shape::Paraboloid { radius: 0.8 },
+        Shape::Sphere { radius: 0.8 },
+        Shape::Cone { slope: 0.3 },
+        Shape::Power { coefficient: 2.0, exponent: 3.5 },
+        Shape::SpheroCone { radius: 0.8, slope: 0.3 },
+    ];
+
     #[test]
     fn a_sphere_is_a_paraboloid_at_its_apex_and_flat_beyond_its_equator() {
         let (sphere, paraboloid) = (Shape::Sphere { radius: 2.0 }, Shape::Paraboloid { radius: 2.0 });
@@ -237,13 +245,7 @@ mod tests {
 
     #[test]
     fn profiles_of_squares_are_those_at_their_roots() {
-        for shape in [
-            Shape::Paraboloid { radius: 0.8 },
-            Shape::Sphere { radius: 0.8 },
-            Shape::Cone { slope: 0.3 },
-            Shape::Power { coefficient: 2.0, exponent: 3.5 },
-            Shape::SpheroCone { radius: 0.8, slope: 0.3 },
-        ] {
+        for shape in SHAPES {
             let mut squares = [0.0, 1e-8, 0.1, 0.64, 2.0];
             let expected = squares.map(|square: f64| shape.profile(square.sqrt()));
             shape.profiles(&mut squares);
@@ -272,14 +274,7 @@ mod tests {
     #[test]
     fn sections_have_the_radius_of_the_profile() {
         let tip = MeasuredTip::from_areas(&[[0.05, 0.4], [0.2, 1.9], [0.7, 14.0]]).unwrap();
-        for shape in [
-            Shape::Paraboloid { radius: 0.8 },
-            Shape::Sphere { radius: 0.8 },
-            Shape::Cone { slope: 0.3 },
-            Shape::Power { coefficient: 2.0, exponent: 3.5 },
-            Shape::SpheroCone { radius: 0.8, slope: 0.3 },
-            Shape::Measured(Arc::new(tip)),
-        ] {
+        for shape in SHAPES.into_iter().chain([Shape::Measured(Arc::new(tip))]) {
             for depth in [1e-6, 0.01, 0.05, 0.3, 0.75] {
                 let radius = shape.section_radius(depth).unwrap();
                 assert!((shape.profile(radius) / depth - 1.0).abs() < 1e-9, "{shape}, {depth}: {radius}");

@@ -59,6 +59,12 @@ impl Covariance {
         self.inverse[k][other] / (self.inverse[k][k] * self.inverse[other][other]).sqrt()
     }
 
+    /// Correlation of each two parameters.
+    pub(super) fn correlations(&self) -> Vec<Vec<f64>> {
+        let all = || 0..self.inverse.len();
+        all().map(|k| all().map(|other| self.correlation(k, other)).collect()).collect()
+    }
+
     /// (JᵀJ)⁻¹Jᵀc: the change of t that takes up a column c of the residuals.
     pub(super) fn taken_up(&self, jacobian: &[Vec<f64>], column: &[f64]) -> Vec<f64> {
         let count = self.inverse.len();

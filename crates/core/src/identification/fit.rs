@@ -6,28 +6,15 @@ use super::curve::{self, IndentationCurve};
 use super::doubt::{AtMinimum, Doubt, Missing};
 use super::early::EarlyCheck;
 use super::error::{IdentificationError, NoValue};
-use super::least_squares::{self, End, Linearised, Minimum};
+use super::estimate::{Estimate, at_minimum, estimates};
+use super::least_squares::{self, Linearised, Minimum};
 use super::parameter::{Parameter, Quantity};
 use super::pattern::Pattern;
 use super::search::{Listener, Model, Search};
 use super::sensitivity::{Differentiated, Sensitivity};
-use super::student::{self, Quantile};
 use crate::notation::number;
 use std::fmt;
 use std::ops::ControlFlow;
-
-/// A parameter found.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Estimate {
-    /// The parameter.
-    pub parameter: Parameter,
-    /// Value of the parameter.
-    pub value: f64,
-    /// Standard error, in the unit of the value.
-    pub error: f64,
-    /// Interval that holds the parameter with a probability of 95 %, as far as its bounds reach.
-    pub interval: [f64; 2],
-}
 
 /// Parameters found from a measured curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -122,16 +109,7 @@ impl Identification {
             return Err(IdentificationError::Undetermined(undetermined));
         }
         let found = found.map_err(NoValue::at_the_start)?;
-        if matches!(found.end, End::Refused(NoValue::Stopped)) {
-            return Err(IdentificationError::Stopped);
-        }
-        // A search along what the curve does not contain has no end: that is the reason to be given.
-        let estimated = Self::at(&search, fixed, &found)?;
-        match found.end {
-            End::Converged => Ok(estimated),
-            End::Refused(reason) => Err(IdentificationError::Refused(reason)),
-            End::Exhausted => Err(IdentificationError::NotConverged),
-        }
+        at_minimum(found, |found| Self::at(&search, fixed, found))
     }
 
     /// Values, standard errors and fitted curve at the minimum that a search has found.
@@ -149,18 +127,8 @@ impl Identification {
         let variance = if measured.deviations().is_some() { reduced.max(1.0) } else { reduced };
         let radii = curve.radii();
         let covariance = Covariance::new(search.free, (&found.place, jacobian), variance, radii, MOST_UNCERTAIN)?;
-        let estimate = |k: usize| {
-            let (t, deviation) = (found.place[k], covariance.deviation(k));
-            let reach = student::quantile(Quantile::TwoSided95, freedom) * deviation;
-            Estimate {
-                parameter: search.free.all[k].clone(),
-                value: search.free.value(k, t),
-                error: deviation * search.free.slope(k, t).abs(),
-                interval: [t - reach, t + reach].map(|t| search.free.bounded(k, t)),
-            }
-        };
         let lengths = search.lengths(residuals);
-        let estimates: Vec<Estimate> = (0..count).map(estimate).collect();
+        let estimates = estimates(search.free, &found.place, &covariance, freedom);
         let at = AtMinimum { residuals, jacobian, covariance: &covariance, are_known: measured.deviations().is_some() };
         let mut doubts = doubts(search, &at, (&found.place, curve), &lengths);
         let values: Vec<f64> = estimates.iter().map(|estimate| estimate.value).collect();
@@ -170,9 +138,7 @@ impl Identification {
         doubts.extend(missing.into_iter().map(Doubt::NoDerivative));
         Ok(Self {
             estimates,
-            correlation: (0..count)
-                .map(|k| (0..count).map(|other| covariance.correlation(k, other)).collect())
-                .collect(),
+            correlation: covariance.correlations(),
             fitted: lengths.iter().zip(measured.penetrations()).map(|(r, measured)| measured + r).collect(),
             band: jacobian.iter().enumerate().map(|(i, row)| search.deviation(i) * covariance.along(row)).collect(),
             rms: search.rms(residuals),

@@ -114,7 +114,7 @@ impl Check {
         let pressures: Vec<Option<f64>> = found.iter().flatten().map(pressure).collect();
         let warnings = [plausibility::of_case(case), foreseen(case, &pressures)].concat();
         let touches = touches_on.zip(found).map(|(points, found)| Touches::new(points, &found, units.quantity(), cell));
-        // What sticks and slips is elastic.
+        // Surfaces with partial slip are elastic.
         let slip =
             case.tangential.as_ref().map(|tangential| Slip { rolls: tangential.rolls(), steps: case.step_count() });
         let problem = if slip.is_some() { case.problem().without_hardness() } else { Problem::clone(case.problem()) };

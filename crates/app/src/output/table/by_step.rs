@@ -51,6 +51,7 @@ pub(super) fn by_step(
     let loads = steps[shown.clone()].iter().map(|step| step.reading.load(units.quantity()));
     let load_unit = units.load().suited(loads.clone());
     let loads = loads.map(|load| format!("{} = {}", units.quantity().symbol(), load_unit.with_unit(load, number)));
+    let loads = told_apart(loads.collect(), shown.start + 1);
     let place_of = if shown.len() > 1 { "place (x, y, z) in the last" } else { "place (x, y, z)" };
     let unit =
         unit.suited(rows.iter().flat_map(|row| &row.found[shown.clone()]).flatten().map(|found| found.measured.value));
@@ -65,6 +66,15 @@ pub(super) fn by_step(
     Some(Table::new(&header, rows.iter().map(line).collect(), 1))
 }
 
+/// Headings of steps from a number on by their loads, with the numbers where loads are alike.
+fn told_apart(loads: Vec<String>, first: usize) -> Vec<String> {
+    let alike = (1..loads.len()).any(|step| loads[..step].contains(&loads[step]));
+    if !alike {
+        return loads;
+    }
+    (first..).zip(loads).map(|(step, load)| format!("step {step}, {load}")).collect()
+}
+
 /// The place, and where it is undecided within the errors the other one.
 fn places(length: &Prefixed, found: QuantityInStep) -> String {
     let first = place(length, found.position);
@@ -76,4 +86,16 @@ pub(super) fn place(length: &Prefixed, [x, y, z]: [f64; 3]) -> String {
     let size = x.abs().max(y.abs()).max(z.abs());
     let plain = |v: f64| if v.abs() <= 1e-6 * size { "0".to_owned() } else { number(length.shown(v)) };
     format!("({}, {}, {})", plain(x), plain(y), plain(z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::told_apart;
+
+    #[test]
+    fn steps_of_equal_loads_are_told_apart_by_their_numbers() {
+        let headings = |loads: [&str; 2]| told_apart(loads.map(str::to_owned).to_vec(), 3);
+        assert_eq!(headings(["P = 1 N", "P = 2 N"]), ["P = 1 N", "P = 2 N"]);
+        assert_eq!(headings(["P = 1 N", "P = 1 N"]), ["step 3, P = 1 N", "step 4, P = 1 N"]);
+    }
 }

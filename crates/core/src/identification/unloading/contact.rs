@@ -93,7 +93,7 @@ pub struct BareModulus {
     pub young: Option<f64>,
 }
 
-/// An unloading in a model: what is measured, beside what the model gives.
+/// Measured unloading beside a model of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measured<'a> {
     pub curve: usize,
@@ -156,7 +156,7 @@ impl Measured<'_> {
         }
     }
 
-    /// What was measured, h and S.
+    /// Measured penetration h and stiffness S.
     pub fn values(&self) -> [f64; 2] {
         [self.unloading.penetration, self.unloading.stiffness]
     }

@@ -6,12 +6,11 @@ use super::search::{Contacts, Search};
 use crate::identification::covariance::{Covariance, MOST_UNCERTAIN};
 use crate::identification::curve;
 use crate::identification::error::{IdentificationError, NoValue};
-use crate::identification::fit::Estimate;
-use crate::identification::least_squares::{self, End, Linearised, Minimum};
+use crate::identification::estimate::{Estimate, at_minimum, estimates};
+use crate::identification::least_squares::{self, Linearised, Minimum};
 use crate::identification::parameter::Parameter;
 use crate::identification::search::Listener;
 use crate::identification::sensitivity::{NoDerivative, Sensitivity};
-use crate::identification::student::{self, Quantile};
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -19,7 +18,7 @@ use std::fmt;
 const PILES_UP: f64 = 0.7;
 /// Exponents m of elastic unloading, from that of a flat punch to that of a cone, and a twentieth beyond for the scatter.
 const EXPONENTS: [f64; 2] = [0.95, 2.1];
-/// Residuals of the power law over h − h_f from which on a pattern in them is told.
+/// Root mean square of the residuals of the power law over h − h_f, from which on a pattern in them is told.
 const LARGE: f64 = 2e-3;
 
 /// The contact of an unloading in the model that was found.
@@ -106,16 +105,7 @@ impl FromUnloading {
         let start = vec![0.0; count];
         curve::check(&search.problem(&start).map_err(IdentificationError::Model)?)?;
         let found = least_squares::minimise(start, |t| search.trial(t, progress)).map_err(NoValue::at_the_start)?;
-        if matches!(found.end, End::Refused(NoValue::Stopped)) {
-            return Err(IdentificationError::Stopped);
-        }
-        // A search along what the unloadings do not contain has no end: that is the reason to be given.
-        let estimated = Self::at(&search, fixed, &found)?;
-        match found.end {
-            End::Converged => Ok(estimated),
-            End::Refused(reason) => Err(IdentificationError::Refused(reason)),
-            End::Exhausted => Err(IdentificationError::NotConverged),
-        }
+        at_minimum(found, |found| Self::at(&search, fixed, found))
     }
 
     /// Values, standard errors and contacts at the minimum that a search has found.
@@ -130,17 +120,7 @@ impl FromUnloading {
         let all = || contacts.iter().map(|contact| contact.radius);
         let radii = [all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max)];
         let covariance = Covariance::new(search.free, (place, jacobian), scatter.variance, radii, MOST_UNCERTAIN)?;
-        let estimate = |k: usize| {
-            let (t, deviation) = (place[k], covariance.deviation(k));
-            let reach = student::quantile(Quantile::TwoSided95, scatter.freedom) * deviation;
-            Estimate {
-                parameter: search.free.all[k].clone(),
-                value: search.free.value(k, t),
-                error: deviation * search.free.slope(k, t).abs(),
-                interval: [t - reach, t + reach].map(|t| search.free.bounded(k, t)),
-            }
-        };
-        let estimates: Vec<Estimate> = (0..count).map(estimate).collect();
+        let estimates = estimates(search.free, place, &covariance, scatter.freedom);
         let measured = search.measured(place);
         let read = |(measured, contact): (&Measured<'_>, &Contact)| -> Result<_, NoContact> {
             let hardness = |values| {
@@ -165,7 +145,7 @@ impl FromUnloading {
         doubts.extend(missing.into_iter().map(UnloadingDoubt::NoDerivative));
         Ok(Self {
             estimates,
-            correlation: (0..count).map(|k| (0..count).map(|l| covariance.correlation(k, l)).collect()).collect(),
+            correlation: covariance.correlations(),
             contacts: read.map_err(IdentificationError::Contact)?,
             freedom: residuals.len() - count,
             reduced_chi_square: scatter.reduced,
@@ -179,7 +159,7 @@ impl FromUnloading {
     }
 }
 
-/// How far residuals scatter.
+/// Scatter of the residuals.
 struct Scatter {
     /// Σ residuals² over the degrees of freedom; `None` without any.
     reduced: Option<f64>,
@@ -224,7 +204,7 @@ fn doubts(unloadings: &[Unloading]) -> Vec<UnloadingDoubt> {
     each.flatten().collect()
 }
 
-/// How the parameters follow from the numbers `fixed`, one by one, and which of these the model does not allow to vary.
+/// Derivatives of the parameters by the numbers `fixed`, one by one, and those of them that the model does not allow to vary.
 fn sensitivities<E: Send + fmt::Display>(
     search: &Search<'_, E>,
     fixed: &[Parameter],
@@ -240,7 +220,7 @@ fn sensitivities<E: Send + fmt::Display>(
             all[index] = moved[0];
             (search.model.problem)(&[&values[..], &all].concat())
         };
-        // What of the instrument is free has its value.
+        // Free numbers of the instrument have their values.
         let instrument =
             search.measured(&found.place).first().map_or(search.model.instrument, |first| first.instrument);
         let model = UnloadingModel { problem: &problem, instrument, beta: search.model.beta };
