@@ -81,7 +81,7 @@ section! {
     }
 }
 
-/// What one step comes to: along the direction of friction, or a vector.
+/// Force or shift at the end of a step: along the direction of friction, or a vector.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Component {
@@ -91,7 +91,7 @@ pub enum Component {
     Vector([f64; 2]),
 }
 
-/// What each step comes to.
+/// Forces or shifts at the ends of the steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History(Vec<Component>);
 
@@ -184,7 +184,7 @@ impl TangentialSection {
         Ok(keys)
     }
 
-    /// What each step comes to, with numbers along a direction.
+    /// Force or shift at the end of each step, with numbers along a direction.
     fn drives(&self, direction: [f64; 2]) -> Vec<Drive> {
         let vector = |component: &Component| match *component {
             Component::Along(size) => direction.map(|e| size * e),

@@ -8,7 +8,7 @@ use crate::quantity::quantities;
 use crate::spectral::SlipStep;
 use serde::{Deserialize, Serialize};
 
-/// Relative difference of loads and forces that are the same.
+/// Largest difference of loads over the load, and of forces over μP, that ends a cycle.
 const SAME: f64 = 1e-6;
 
 quantities! {
@@ -17,7 +17,8 @@ quantities! {
     pub struct SlipReading {
         /// Tangential force on the body, [x, y], on one cell or on the isolated contact.
         pub force: [f64; 2],
-        /// Shift of the counterbody against the body since the first contact, [x, y], a length; in a periodic system between the mean planes.
+        /// Shift of the counterbody against the body since the first contact, [x, y], a length; in a periodic system between the mean planes, and
+        /// of a contact that rolls over one contact length.
         pub shift: [f64; 2],
         /// Tangential force along the direction of friction.
         #[serde(deserialize_with = "serialised::number")]
@@ -29,6 +30,8 @@ quantities! {
         pub tangential_shift: f64 = Length "tangential shift" "d" error tangential_shift_error,
         /// Error of the shift.
         pub tangential_shift_error: Option<f64>,
+        /// Largest friction μP, a force.
+        pub limit: f64,
         /// Tangential force over the largest friction μP.
         #[serde(deserialize_with = "serialised::number")]
         pub mobilised: f64 = Fraction "mobilised friction" "Q/μP",
@@ -103,6 +106,7 @@ impl SlipReading {
             tangential_force_error: stick.error.map(|_| force.error),
             tangential_shift: along(shift.value),
             tangential_shift_error: stick.error.map(|_| shift.error),
+            limit: step.limit,
             mobilised: if step.limit > 0.0 { force.value[0].hypot(force.value[1]) / step.limit } else { 0.0 },
             stick_fraction: stick.value.clamp(0.0, 1.0),
             stick_fraction_error: fraction_error,
@@ -122,24 +126,24 @@ impl SlipReading {
     }
 }
 
-/// Energy that slip dissipates in the last closed cycle of a path: in the steps since load and tangential force were what they are at the end;
-/// `None` where they never were.
-pub fn cycle<'a>(steps: impl DoubleEndedIterator<Item = (&'a Reading, &'a SlipReading)>) -> Option<Measured> {
+/// Number of the steps of the last closed cycle of a path: those since load and tangential force were what they are at the end; `None` where
+/// they never were.
+pub fn cycle_length<'a>(steps: impl DoubleEndedIterator<Item = (&'a Reading, &'a SlipReading)>) -> Option<usize> {
     let mut back = steps.rev();
     let (reading, last) = back.next()?;
-    let limit = last.force[0].hypot(last.force[1]) / last.mobilised;
     let same = |a: f64, b: f64, scale: f64| (a - b).abs() <= SAME * scale;
-    let mut energy = Measured::new(last.work, last.work_error);
-    for (before, slip) in back {
-        let is_closed = same(before.force, reading.force, reading.force)
-            && (0..2).all(|axis| same(slip.force[axis], last.force[axis], limit));
-        if is_closed {
-            return Some(energy);
-        }
-        energy.value += slip.work;
-        energy.error = energy.error.zip(slip.work_error).map(|(a, b)| a + b);
-    }
-    None
+    let is_closed = |(before, slip): (&Reading, &SlipReading)| {
+        same(before.force, reading.force, reading.force)
+            && (0..2).all(|axis| same(slip.force[axis], last.force[axis], last.limit))
+    };
+    back.position(is_closed).map(|between| between + 1)
+}
+
+/// Energy that slip dissipates in the last closed cycle of a path; `None` without one.
+pub fn cycle<'a>(steps: impl DoubleEndedIterator<Item = (&'a Reading, &'a SlipReading)> + Clone) -> Option<Measured> {
+    let works =
+        steps.clone().rev().take(cycle_length(steps)?).map(|(_, slip)| Measured::new(slip.work, slip.work_error));
+    works.reduce(|a, b| Measured::new(a.value + b.value, a.error.zip(b.error).map(|(a, b)| a + b)))
 }
 
 /// Forces and stick fractions level by level; none under a topography.

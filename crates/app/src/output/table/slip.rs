@@ -1,4 +1,4 @@
-//! Partial slip step by step: force, shift, what sticks and what is dissipated.
+//! Table of partial slip, a row a step: tangential force, shift, stick fraction and dissipated energy.
 
 use super::{DETAILED, Table};
 use crate::output::number::{in_unit, number, with_unit};

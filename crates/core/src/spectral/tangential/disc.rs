@@ -54,7 +54,7 @@ pub(crate) fn sticks(q: Vector, m: f64) -> bool {
     m > 0.0 && length(q) < m * (1.0 - STICKING)
 }
 
-/// What a sample may do when the slip −(**g** − **d**) would be that of its traction.
+/// State of a sample: apart, sticking, or slipping.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum State {
     /// No pressure, no traction.

@@ -1,7 +1,8 @@
 //! Partial slip: the contact sticks where Coulomb's law bears it, and slips elsewhere.
 //!
 //! - `operator`: tangential displacements under tractions and pressure; `disc`: the tractions that Coulomb's law admits;
-//! - `stick_slip`: one step as a convex problem, with its certificate; `preconditioner`: by levels of slip;
+//! - `stick_slip`: one step as a convex problem, with its certificate; `preconditioner`: by levels of slip; `plain`: the same step in plain lines, for
+//!   its tests;
 //! - `track`: steps one after another on one grid, together with the normal contact;
 //! - `rolling`: the history as it moves through a contact that rolls;
 //! - [`SlipSolver`]: steps on several tracks at once, with the errors of their results.
@@ -9,6 +10,8 @@
 mod aim;
 mod disc;
 mod operator;
+#[cfg(test)]
+mod plain;
 mod preconditioner;
 mod rolling;
 mod solver;

@@ -35,6 +35,12 @@ impl Preconditioner {
         Self { levels, first }
     }
 
+    /// Weight of a sample in sums over all that may change, 1 where it sticks and λ₁/(λ₁ + λ) where it slips: near the edge of contact a
+    /// traction changes far less than its slip, and would shift all others.
+    pub fn share(&self, state: State) -> f64 {
+        self.first / (self.first + state.curvature())
+    }
+
     /// M **r**, projected onto what the tractions may change by.
     pub fn apply(
         &self,

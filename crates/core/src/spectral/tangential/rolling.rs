@@ -90,15 +90,16 @@ fn moved_by_samples(grid: &Grid, vectors: &[Vector], shift: [isize; 2]) -> Vec<V
     (0..vectors.len()).map(|index| from(index).unwrap_or_default()).collect()
 }
 
-/// The way of one step on a grid.
+/// One step of rolling on a grid.
 #[derive(Debug, Clone)]
 pub(super) struct Stride {
     length: f64,
-    way: Way,
+    motion: FieldMotion,
 }
 
+/// How a field moves by a step.
 #[derive(Debug, Clone)]
-enum Way {
+enum FieldMotion {
     /// Factors of the waves of a periodic field.
     Waves(Array2<Complex<f64>>),
     /// Samples along a₁ and a₂ in a window.
@@ -109,14 +110,14 @@ impl Stride {
     /// A step of about a length, and of the half of it.
     pub fn pair(grid: &Grid, direction: Vector, length: f64) -> Result<[Self; 2], NotAlongGrid> {
         if grid.cell().surroundings() == Surroundings::Periodic {
-            let of = |length: f64| Self { length, way: Way::Waves(phases(grid, scale(length, direction))) };
+            let of = |length: f64| Self { length, motion: FieldMotion::Waves(phases(grid, scale(length, direction))) };
             return Ok([of(length), of(0.5 * length)]);
         }
         let shift = whole_samples(grid, direction, length)?;
         let of = |shift: [isize; 2]| {
             let [e1, e2] = grid.steps();
             let by = [0, 1].map(|k| shift[0] as f64 * e1[k] + shift[1] as f64 * e2[k]);
-            Self { length: dot(by, by).sqrt(), way: Way::Samples(shift) }
+            Self { length: dot(by, by).sqrt(), motion: FieldMotion::Samples(shift) }
         };
         Ok([of(shift), of(shift.map(|count| count / 2))])
     }
@@ -128,9 +129,9 @@ impl Stride {
 
     /// The field as it comes to the contact in a step.
     pub fn moved(&self, grid: &Grid, vectors: &[Vector]) -> Vec<Vector> {
-        match &self.way {
-            Way::Samples(shift) => moved_by_samples(grid, vectors, *shift),
-            Way::Waves(phases) => moved(grid, vectors, phases),
+        match &self.motion {
+            FieldMotion::Samples(shift) => moved_by_samples(grid, vectors, *shift),
+            FieldMotion::Waves(phases) => moved(grid, vectors, phases),
         }
     }
 }

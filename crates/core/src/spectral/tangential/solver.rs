@@ -9,11 +9,11 @@
 //! load; later steps change load and force, or shift, in proportion. The whole history is followed on the next coarser grid as well, and the
 //! difference is the error of the grid.
 
-use super::aim::Aim;
+use super::aim::{Aim, Ramp};
 use super::disc::{Vector, add, dot, length, scale, sub};
 use super::rolling::{NotAlongGrid, Rolling, Stride, contact_length};
 use super::stick_slip::{SlipReport, SlipSettings};
-use super::track::{Track, TrackStep};
+use super::track::{History, Track, TrackStep};
 use crate::lattice::LatticeError;
 use crate::load::{Control, Load};
 use crate::measured::Measured;
@@ -67,16 +67,12 @@ pub enum SlipError {
 #[derive(Debug)]
 pub struct SlipSolver {
     problem: Arc<Problem>,
-    whole: Track,
-    /// The same steps in half as many parts.
-    halved: Track,
+    track: Track,
+    /// History of the same steps in half as many parts; `None` as long as no step was divided.
+    halved: Option<History>,
     /// The same steps on the next coarser grid; `None` where that has too few points.
     coarser: Option<Track>,
     parts: usize,
-    /// Load and drive of the step before.
-    last: Option<(Load, Drive)>,
-    /// Whether a step has been divided so far, so that `whole` and `halved` differ.
-    is_divided: bool,
 }
 
 /// A vector, and the length of its error.
@@ -95,7 +91,7 @@ pub struct SlipStep {
     pub contact: Step,
     /// Tangential force on the body, a pressure times an area, on the cell or the isolated contact.
     pub force: MeasuredVector,
-    /// Shift of the counterbody against the body since the first contact, a length.
+    /// Shift of the counterbody against the body since the first contact, of a contact that rolls over one contact length, a length.
     pub shift: MeasuredVector,
     /// Creepage: rise of the shift over the distance rolled; `None` unless the contact rolls.
     pub creepage: Option<MeasuredVector>,
@@ -156,9 +152,10 @@ fn result(step: Followed, coarser: Option<Step>, halved: Option<Numbers>, of_gri
         let error = length(change) + of_grid.as_ref().map_or(0.0, |grid| length(of(grid)));
         MeasuredVector { value: add(of(&numbers), change), error }
     };
+    let force = measured(|numbers| numbers.force);
     // A force that is given has no error but rounding.
-    let force = MeasuredVector { value: numbers.force, ..measured(|numbers| numbers.force) };
-    let force = if force.error < ROUNDING * limit { MeasuredVector { error: 0.0, ..force } } else { force };
+    let is_given = force.error < ROUNDING * limit;
+    let force = if is_given { MeasuredVector { value: numbers.force, error: 0.0 } } else { force };
     let number = |of: fn(&Numbers) -> Vector| {
         let MeasuredVector { value: [value, _], error } = measured(of);
         Measured::new(value, of_grid.map(|_| error))
@@ -198,13 +195,13 @@ impl SlipSolver {
         if problem.kind().is_given {
             return Err(SlipError::Given);
         }
-        let track = |points: [usize; 2]| Track::new(&problem, points, settings, slip);
+        let on_grid = |points: [usize; 2]| Track::new(&problem, points, settings, slip);
         let line = problem.loaded_by().line();
         let half = [0, 1].map(|axis| if line == Some(axis) { points[axis] } else { points[axis] / 2 });
         let is_fine = (0..2).all(|axis| line == Some(axis) || half[axis] >= COARSEST);
-        let coarser = if is_fine { Some(track(half)?) } else { None };
-        let (whole, halved) = (track(points)?, track(points)?);
-        Ok(Self { problem, whole, halved, coarser, parts: PARTS, last: None, is_divided: false })
+        let coarser = if is_fine { Some(on_grid(half)?) } else { None };
+        let track = on_grid(points)?;
+        Ok(Self { problem, track, halved: None, coarser, parts: PARTS })
     }
 
     /// The solver with another even number of parts for a step in which the pressure changes.
@@ -220,7 +217,7 @@ impl SlipSolver {
 
     /// The solver of the normal contact.
     pub fn normal(&self) -> &Solver {
-        self.whole.solver()
+        self.track.solver()
     }
 
     /// One step to a load, and a tangential force or shift at its end.
@@ -233,85 +230,71 @@ impl SlipSolver {
         {
             return Err(Slides(length(part)));
         }
-        let ways = self.ways(load, drive);
-        let (couples, parts) = (self.whole.couples(), self.parts);
-        let of_way = move |way: &Way| match (way.is_at_one_load(), couples) {
-            (false, _) => parts,
-            (true, true) => PARTS_AT_ONE_LOAD,
-            (true, false) => 1,
-        };
-        let step = follow(&mut self.whole, &ways, of_way);
-        self.is_divided |= ways.iter().any(|way| of_way(way) > 1);
-        let halved = if self.is_divided {
-            Some(follow(&mut self.halved, &ways, |way| of_way(way).div_ceil(2)).numbers)
-        } else {
-            // The steps are the same.
-            self.halved.copy(&self.whole);
-            None
-        };
-        let coarser = self.coarser.as_mut().map(|track| follow(track, &ways, of_way));
+        let at_one_load = if self.track.couples() { PARTS_AT_ONE_LOAD } else { 1 };
+        let (aim, parts) = (self.aim(load, drive), Parts { changing: self.parts, at_one_load });
+        let before = self.halved.take().or_else(|| parts.divide(&self.track, load, aim).then(|| self.track.history()));
+        let step = follow(&mut self.track, load, aim, parts);
+        let halved = before.map(|history| {
+            let whole = self.track.replace_history(history);
+            let numbers = follow(&mut self.track, load, aim, parts.halved()).numbers;
+            self.halved = Some(self.track.replace_history(whole));
+            numbers
+        });
+        let coarser = self.coarser.as_mut().map(|track| follow(track, load, aim, parts));
         let of_grid = coarser.as_ref().map(|coarse| step.numbers.minus(&coarse.numbers));
-        self.last = Some((load, drive));
         Ok(result(step, coarser.map(|coarse| coarse.contact), halved, of_grid))
     }
 
     /// Rolls at a load under a tangential force or a creepage until some contact lengths are passed, by steps, then by half as long ones.
     ///
-    /// Slip and energy of the result are those of one contact length.
+    /// Shift, slip and energy of the result are those of one contact length.
     ///
     /// # Errors
     /// [`RollError`].
     pub fn roll(&mut self, load: Load, drive: RollingDrive, rolling: Rolling) -> Result<SlipStep, RollError> {
-        let aim = match drive {
-            RollingDrive::Part(part) if length(part) >= 1.0 => return Err(Slides(length(part)).into()),
-            RollingDrive::Part(part) => Aim::Part(part),
-            RollingDrive::Creepage(creepage) => Aim::Creepage(creepage),
-        };
-        let pressed = self.halved.press(load);
+        if let RollingDrive::Part(part) = drive
+            && length(part) >= 1.0
+        {
+            return Err(Slides(length(part)).into());
+        }
+        let pressed = self.track.press(load);
         let grid = Arc::clone(pressed.grid());
         let whole = contact_length(&grid, pressed.finest().pressures(), rolling.direction);
+        if whole == 0.0 {
+            return Err(RollError::NoContact);
+        }
         let strides = Stride::pair(&grid, rolling.direction, rolling.step * whole)?;
         let distance = rolling.distance * whole;
-        let halved = roll(&mut self.halved, load, aim, (&strides[0], distance), whole);
-        self.whole.copy(&self.halved);
-        let step = roll(&mut self.whole, load, aim, (&strides[1], 0.5 * distance), whole);
+        let steps = roll(&mut self.track, load, drive, (&strides[0], distance), whole);
+        let halved = roll(&mut self.track, load, drive, (&strides[1], 0.5 * distance), whole);
         let coarser = match &mut self.coarser {
             None => None,
             Some(track) => {
                 let grid = Arc::clone(track.press(load).grid());
                 let [stride, _] = Stride::pair(&grid, rolling.direction, strides[0].length())?;
-                Some(roll(track, load, aim, (&stride, distance), whole))
+                Some(roll(track, load, drive, (&stride, distance), whole))
             }
         };
-        (self.last, self.is_divided) = (Some((load, Drive::Part([0.0; 2]))), true);
+        self.halved = None;
         // Both grids in steps of one length.
-        let of_grid = coarser.as_ref().map(|coarse| halved.numbers.minus(&coarse.numbers));
-        Ok(result(step, coarser.map(|coarse| coarse.contact), Some(halved.numbers), of_grid))
+        let of_grid = coarser.as_ref().map(|coarse| steps.numbers.minus(&coarse.numbers));
+        Ok(result(halved, coarser.map(|coarse| coarse.contact), Some(steps.numbers), of_grid))
     }
 
-    /// The ways of load and drive in a step.
-    fn ways(&self, load: Load, drive: Drive) -> Vec<Way> {
+    /// Tangential force or shift of a drive at a load.
+    fn aim(&self, load: Load, drive: Drive) -> Aim {
         let cell = self.problem.cell();
-        let friction = self.problem.friction().map_or(0.0, |friction| friction.coefficient());
-        let end = |load: Load, drive: Drive| match (drive, load.on(cell)) {
-            (Drive::Part(part), Control::MeanPressure(mean)) => Aim::Force(scale(friction * mean * cell.area(), part)),
+        match (drive, load.on(cell)) {
+            (Drive::Part(part), Control::MeanPressure(mean)) => {
+                Aim::Force(scale(self.track.friction() * mean * cell.area(), part))
+            }
             (Drive::Part(part), Control::Penetration(_)) => Aim::Part(part),
             (Drive::Shift(shift), _) => Aim::Shift(shift),
-        };
-        let to = end(load, drive);
-        match self.last {
-            Some((before, driven)) => vec![Way { loads: [before, load], aims: [end(before, driven).or_zero(to), to] }],
-            None => {
-                let nothing = Load::with_value(load, 0.0);
-                let pressed = Way { loads: [nothing, load], aims: [to.zero(); 2] };
-                let sheared = Way { loads: [load; 2], aims: [to.zero(), to] };
-                if self.whole.couples() { vec![pressed, sheared] } else { vec![sheared] }
-            }
         }
     }
 }
 
-/// What drives a contact that rolls.
+/// Tangential force or creepage of a contact that rolls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RollingDrive {
     /// Tangential force on the body over μP, below 1 in size.
@@ -329,97 +312,115 @@ pub enum RollError {
     /// The direction is not one of the grid.
     #[error(transparent)]
     NotAlongGrid(#[from] NotAlongGrid),
+    /// The load is zero.
+    #[error("without a load nothing touches that could roll; keep every load of a contact that rolls above 0")]
+    NoContact,
 }
 
-/// A way on which load and aim change in proportion.
-#[derive(Debug)]
-struct Way {
-    loads: [Load; 2],
-    aims: [Aim; 2],
+/// Number of parts of a ramp.
+#[derive(Debug, Clone, Copy)]
+struct Parts {
+    /// Where the load changes.
+    changing: usize,
+    at_one_load: usize,
 }
 
-impl Way {
-    fn is_at_one_load(&self) -> bool {
-        self.loads[0] == self.loads[1]
+impl Parts {
+    fn of(self, ramp: &Ramp) -> usize {
+        if ramp.is_at_one_load() { self.at_one_load } else { self.changing }
     }
 
-    /// Load and aim at the end of a part of the way: equal parts of the radius at which a paraboloid touches, a force like its cube and a
-    /// penetration like its square.
-    fn at(&self, part: usize, parts: usize) -> (Load, Aim) {
-        let ([from, to], [start, end]) = (self.loads, self.aims);
-        let t = part as f64 / parts as f64;
-        if part == parts {
-            return (to, end);
-        }
-        let power = if to.is_load_control() { 3 } else { 2 };
-        let [before, after] = [from, to].map(|load| load.value().max(0.0).powf(1.0 / f64::from(power)));
-        let load = (before + t * (after - before)).powi(power);
-        let change = to.value() - from.value();
-        let t = if change == 0.0 { t } else { (load - from.value()) / change };
-        let between = |a: f64, b: f64| a + t * (b - a);
-        let [[x0, y0], [x1, y1]] = [start.vector(), end.vector()];
-        (to.with_value(between(from.value(), to.value())), end.with([between(x0, x1), between(y0, y1)]))
+    /// Half as many, at least one.
+    fn halved(self) -> Self {
+        Self { changing: self.changing.div_ceil(2), at_one_load: self.at_one_load.div_ceil(2) }
+    }
+
+    /// Whether a step of a track is divided.
+    fn divide(self, track: &Track, load: Load, aim: Aim) -> bool {
+        track.ramps(load, aim).iter().any(|ramp| self.of(ramp) > 1)
     }
 }
 
-/// Follows all ways of a step, each in its number of parts.
-fn follow(track: &mut Track, ways: &[Way], parts: impl Fn(&Way) -> usize) -> Followed {
+/// Slip, dissipated energy per area and work of a step, summed over its parts.
+struct Sum {
+    slip: Vec<Vector>,
+    density: Vec<f64>,
+    work: f64,
+    converged: bool,
+}
+
+impl Sum {
+    fn add(&mut self, step: &TrackStep) {
+        self.work += step.work;
+        self.converged &= step.is_converged();
+        sums::update(&mut self.slip, |i, slip| add(slip, step.slip[i]));
+        sums::update(&mut self.density, |i, density| density + dot(step.traction[i], step.slip[i]));
+    }
+}
+
+/// Follows all ramps of a step, each in its number of parts.
+fn follow(track: &mut Track, load: Load, aim: Aim, parts: Parts) -> Followed {
     let len = track.solver().grid().len();
-    let (mut slip, mut density) = (vec![[0.0; 2]; len], vec![0.0; len]);
-    let (mut work, mut converged, mut last) = (0.0, true, None::<TrackStep>);
-    let all = ways.iter().map(|way| (way, parts(way)));
-    for (way, parts, part) in all.flat_map(|(way, parts)| (1..=parts).map(move |part| (way, parts, part))) {
-        // The memory of a part is freed before the next one needs as much.
-        drop(last.take());
-        let (load, aim) = way.at(part, parts);
-        let step = track.advance(load, aim);
-        work += step.work;
-        converged &= step.report.converged && step.contact.report.stop.solved();
-        sums::update(&mut slip, |i, slip| add(slip, step.slip[i]));
-        sums::update(&mut density, |i, density| density + dot(step.traction[i], step.slip[i]));
-        last = Some(step);
+    let mut sum = Sum { slip: vec![[0.0; 2]; len], density: vec![0.0; len], work: 0.0, converged: true };
+    let ramps = track.ramps(load, aim);
+    let mut ends: Vec<(Load, Aim)> = ramps.iter().flat_map(|ramp| ramp.ends(parts.of(ramp))).collect();
+    // The last one is the load and the aim.
+    ends.pop();
+    for (load, aim) in ends {
+        sum.add(&track.advance(load, aim));
     }
-    let step = last.expect("a step has a way, and a way a part");
+    let step = track.advance(load, aim);
+    sum.add(&step);
+    let Sum { slip, density, work, converged } = sum;
     let numbers =
         Numbers { force: step.force, shift: step.shift, work, stick_fraction: step.stick_fraction, creepage: None };
     followed(track, step, numbers, (&slip, density), converged)
 }
 
-/// Rolls a distance in equal strides; the `length` of the contact is what slip and work are for.
-fn roll(track: &mut Track, load: Load, aim: Aim, (stride, distance): (&Stride, f64), length: f64) -> Followed {
-    let grid = Arc::clone(track.solver().grid());
+/// Rolls a distance in equal strides; the `length` of the contact is what shift, slip and work are for.
+fn roll(
+    track: &mut Track,
+    load: Load,
+    drive: RollingDrive,
+    (stride, distance): (&Stride, f64),
+    length: f64,
+) -> Followed {
     let strides = (distance / stride.length()).ceil().max(1.0) as usize;
-    let (mut converged, mut last) = (true, None::<(TrackStep, Vector)>);
-    for _ in 0..strides {
-        drop(last.take());
-        let before = track.shift();
-        let moved = stride.moved(&grid, track.displacement());
-        let aim = match aim {
-            Aim::Creepage(creepage) => Aim::Shift(add(before, scale(stride.length(), creepage))),
-            other => other,
-        };
-        let step = track.advance_from(load, aim, &moved);
-        converged = step.report.converged && step.contact.report.stop.solved();
-        let rise = sub(step.shift, before);
-        last = Some((step, rise));
+    for _ in 1..strides {
+        rolled(track, load, drive, stride);
     }
-    let (step, rise) = last.expect("a way has strides");
+    let (step, rise) = rolled(track, load, drive, stride);
     let whole = length / stride.length();
     let slip: Vec<Vector> = step.slip.iter().map(|s| scale(whole, *s)).collect();
     let density = step.traction.iter().zip(&slip).map(|(q, s)| dot(*q, *s)).collect();
     let creepage = scale(1.0 / stride.length(), rise);
     let numbers = Numbers {
         force: step.force,
-        shift: step.shift,
+        shift: scale(length, creepage),
         // In steady rolling slip dissipates what the force does, unless the pressure does work too.
         work: if track.couples() { whole * step.work } else { length * dot(step.force, creepage) },
         stick_fraction: step.stick_fraction,
         creepage: Some(creepage),
     };
+    let converged = step.is_converged();
     followed(track, step, numbers, (&slip, density), converged)
 }
 
-/// What a track has come to, with slip and energy per area.
+/// One stride, with the rise of the shift in it.
+fn rolled(track: &mut Track, load: Load, drive: RollingDrive, stride: &Stride) -> (TrackStep, Vector) {
+    let grid = Arc::clone(track.solver().grid());
+    let before = track.shift();
+    let moved = stride.moved(&grid, track.displacement());
+    let aim = match drive {
+        RollingDrive::Part(part) => Aim::Part(part),
+        RollingDrive::Creepage(creepage) => Aim::Shift(add(before, scale(stride.length(), creepage))),
+    };
+    let step = track.advance_from(load, aim, &moved);
+    let rise = sub(step.shift, before);
+    (step, rise)
+}
+
+/// A step of a track, with its slip and energy per area.
 fn followed(
     track: &Track,
     step: TrackStep,

@@ -8,8 +8,9 @@
 //! |**q**| < m, along **q** where |**q**| = m, which is Coulomb's law by an implicit Euler step.
 //!
 //! Conjugate gradients projected onto the discs: on slipping samples the direction keeps its part along the circle, whose curvature λ stands in
-//! the step and in the [preconditioner](super::preconditioner). Each iteration takes two convolutions of A and as many of the preconditioner as
-//! it has levels.
+//! the step and in the [preconditioner](super::preconditioner). Under a given force **d** leaves no resultant of the residual, and the
+//! direction has none: both by the same weights, so that the projection is symmetric. Each iteration takes two convolutions of A and as many of
+//! the preconditioner as it has levels.
 
 use super::disc::{State, Vector, add, dot, length, projected, scale, solve, sub};
 use super::operator::TangentialOperator;
@@ -18,11 +19,17 @@ use crate::numeric::{parallel, sums};
 
 /// Passes in which the multiplier of the force and the slipping samples are found together.
 const MULTIPLIER_PASSES: usize = 3;
+/// Most passes to the multiplier with the least gap, the change that ends them and the least slip in them, both over the mean slip.
+const GAP_PASSES: usize = 24;
+const GAP_TOLERANCE: f64 = 1e-4;
+const LEAST_SLIP: f64 = 1e-9;
+/// Ratio of the gaps of both multipliers from which on the one with the least gap is taken.
+const GAP_RATIO: f64 = 4.0;
 /// Passes that bring the tractions to their force, and the part of all friction that is left of it.
 const BALANCE_PASSES: usize = 200;
 const BALANCE_TOLERANCE: f64 = 1e-14;
 
-/// What drives the counterbody along the surface.
+/// Tangential force or shift of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ShearControl {
     /// Tangential force on the body, on the cell or on the isolated contact, in the unit of pressure times length².
@@ -70,6 +77,8 @@ pub(in crate::spectral) struct StickSlip<'a> {
     /// **b**, a length, one vector per sample.
     pub before: &'a [Vector],
     pub control: ShearControl,
+    /// A value near **d** of a given force, where one is known.
+    pub near: Option<Vector>,
     /// Area of a sample.
     pub area: f64,
     pub settings: SlipSettings,
@@ -102,10 +111,10 @@ impl StickSlip<'_> {
         let before = self.operator.convolutions();
         let mut traction = self.admissible(start);
         let mut gradient = self.gradient(&traction);
-        let (mut last, mut iterations) = (None, 0);
+        let (mut last, mut iterations, mut near) = (None, 0, self.near);
         let (rise, [gap, scale]) = loop {
-            let rise = self.rise(&traction, &gradient);
-            let gap = self.gap(&traction, &gradient, rise);
+            let (rise, gap) = self.rise(&traction, &gradient, near);
+            near = Some(rise);
             let [gap_sum, scale] = gap;
             if gap_sum <= self.settings.tolerance * scale || iterations == self.settings.max_iterations {
                 break (rise, gap);
@@ -163,8 +172,10 @@ impl StickSlip<'_> {
         if let ShearControl::Force(force) = self.control {
             if traction.iter().all(|q| *q == [0.0; 2]) {
                 let [friction] = sums::of(self.len(), |i| [self.bound[i]]);
-                let share = scale(1.0 / (friction * self.area), force);
-                sums::update(&mut traction, |i, _| scale(self.bound[i], share));
+                if friction > 0.0 {
+                    let share = scale(1.0 / (friction * self.area), force);
+                    sums::update(&mut traction, |i, _| scale(self.bound[i], share));
+                }
             }
             self.balance(&mut traction, force);
         }
@@ -193,10 +204,11 @@ impl StickSlip<'_> {
         }
     }
 
-    /// **d**: given, or that which leaves no resultant of what the tractions may change by.
-    fn rise(&self, traction: &[Vector], gradient: &[Vector]) -> Vector {
+    /// **d**, with the gap and its scale: given, or that which leaves no resultant of what the tractions may change by, or the one with the
+    /// least gap where that is far less.
+    fn rise(&self, traction: &[Vector], gradient: &[Vector], near: Option<Vector>) -> (Vector, [f64; 2]) {
         if let ShearControl::Shift(rise) = self.control {
-            return rise;
+            return (rise, self.gap(traction, gradient, rise));
         }
         let mean = |weight: &(dyn Fn(usize) -> f64 + Sync)| {
             let [x, y, sum] = sums::of(self.len(), |i| {
@@ -205,27 +217,55 @@ impl StickSlip<'_> {
             });
             (sum > 0.0).then(|| [x / sum, y / sum])
         };
-        let sticking = mean(&|i| (self.bound[i] * self.bound[i] - dot(traction[i], traction[i])).max(0.0));
-        let mut rise = sticking.or_else(|| mean(&|i| self.bound[i])).unwrap_or_default();
+        let sticking = || mean(&|i| (self.bound[i] * self.bound[i] - dot(traction[i], traction[i])).max(0.0));
+        let start = near.or_else(sticking).or_else(|| mean(&|i| self.bound[i])).unwrap_or_default();
+        let mut balanced = start;
         for _ in 0..MULTIPLIER_PASSES {
-            let of = |i: usize| self.state(i, traction, gradient, rise);
-            let Some(better) = self.without_resultant(traction, of, gradient) else { break };
-            rise = better;
+            let of = |i: usize| self.state(i, traction, gradient, balanced);
+            let share = |i: usize| self.preconditioner.share(of(i));
+            let Some(better) = self.common(traction, of, |i| scale(share(i), gradient[i])) else { break };
+            balanced = better;
+        }
+        let least = self.least_gap(traction, gradient, balanced);
+        let [of_balanced, of_least] = [balanced, least].map(|rise| self.gap(traction, gradient, rise));
+        if of_balanced[0] <= GAP_RATIO * of_least[0] { (balanced, of_balanced) } else { (least, of_least) }
+    }
+
+    /// **d** with the least gap, near a value of it: Σ(m**s**/|**s**| − **q**) = 0, by Weiszfeld's iteration.
+    fn least_gap(&self, traction: &[Vector], gradient: &[Vector], near: Vector) -> Vector {
+        let (mut rise, mut least) = (near, 0.0);
+        for _ in 0..GAP_PASSES {
+            let [x, y, sum, slip, friction] = sums::of(self.len(), |i| {
+                let (m, slip) = (self.bound[i], length(self.slip(i, gradient, rise)));
+                let weight = if m > 0.0 { m / slip.max(least).max(f64::MIN_POSITIVE) } else { 0.0 };
+                let pull = add(scale(weight, gradient[i]), traction[i]);
+                [pull[0], pull[1], weight, m * slip, m]
+            });
+            let (mean, next) = (slip / friction, [x / sum, y / sum]);
+            if !(mean > 0.0 && next.iter().all(|part| part.is_finite())) {
+                break;
+            }
+            let change = length(sub(next, rise));
+            (rise, least) = (next, LEAST_SLIP * mean);
+            if change < GAP_TOLERANCE * mean {
+                break;
+            }
         }
         rise
     }
 
-    /// **d** with ΣP(**v** − **d**) = 0.
-    fn without_resultant(
+    /// **d** with ΣP(**v** − w**d**) = 0, w the share of each sample.
+    fn common(
         &self,
         traction: &[Vector],
         state: impl Fn(usize) -> State + Sync,
-        values: &[Vector],
+        value: impl Fn(usize) -> Vector + Sync,
     ) -> Option<Vector> {
         let [xx, yy, xy, x, y] = sums::of(self.len(), |i| {
             let (state, q) = (state(i), traction[i]);
-            let ([xx, yy, xy], [x, y]) = (state.projection(q), state.tangent(values[i], q));
-            [xx, yy, xy, x, y]
+            let share = self.preconditioner.share(state);
+            let ([xx, yy, xy], [x, y]) = (state.projection(q), state.tangent(value(i), q));
+            [share * xx, share * yy, share * xy, x, y]
         });
         solve([xx, yy, xy], [x, y])
     }
@@ -244,15 +284,22 @@ impl StickSlip<'_> {
     fn advance(&mut self, traction: &mut [Vector], gradient: &[Vector], rise: Vector, last: Option<Last>) -> Last {
         let len = self.len();
         let states = parallel::map_by(sums::BLOCK, len, |i| self.state(i, traction, gradient, rise));
+        let share = |i: usize| self.preconditioner.share(states[i]);
+        let resultant = match self.control {
+            ShearControl::Shift(rise) => rise,
+            ShearControl::Force(_) => {
+                self.common(traction, |i| states[i], |i| scale(share(i), gradient[i])).unwrap_or(rise)
+            }
+        };
         let mut residual = gradient.to_vec();
-        sums::update(&mut residual, |i, g| states[i].tangent(sub(g, rise), traction[i]));
+        sums::update(&mut residual, |i, g| states[i].tangent(sub(g, resultant), traction[i]));
         let rows = self.rows();
         let mut preconditioned =
             self.preconditioner.apply(self.operator, &residual, |i| (states[i], traction[i]), &rows);
         if let ShearControl::Force(_) = self.control
-            && let Some(common) = self.without_resultant(traction, |i| states[i], &preconditioned)
+            && let Some(common) = self.common(traction, |i| states[i], |i| preconditioned[i])
         {
-            sums::update(&mut preconditioned, |i, z| states[i].tangent(sub(z, common), traction[i]));
+            sums::update(&mut preconditioned, |i, z| states[i].tangent(sub(z, scale(share(i), common)), traction[i]));
         }
         let [product] = sums::of(len, |i| [dot(preconditioned[i], residual[i])]);
         let mut direction = preconditioned;

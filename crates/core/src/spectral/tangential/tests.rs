@@ -154,7 +154,28 @@ fn unlike_bodies_couple() {
         let mut track = track(&problem, 48);
         let up = track.advance(Load::Force(1.0), Aim::Force([s * 0.3, 0.0]));
         // The grid of the prototype has the spacing of this one, and another place of the apex.
-        assert!((up.shift[0] / exact - 1.0).abs() < 3e-4 && up.turns <= 25, "{s}: {} turns, {}", up.turns, up.shift[0]);
+        assert!((up.shift[0] / exact - 1.0).abs() < 3e-4 && up.turns <= 8, "{s}: {} turns, {}", up.turns, up.shift[0]);
+    }
+}
+
+/// Under a rigid counterbody pressure and tractions couple strongly, and few samples stick near μP.
+#[test]
+fn a_rigid_counterbody_takes_few_turns() {
+    for part in [0.05, 0.6, 0.9, 0.99] {
+        let mut track = track(&ball_on(Bodies::from(coated(4.0, [0.2, 0.3], 0.3)), 0.3, 2.4), 64);
+        let step = track.advance(Load::Force(1.0), Aim::Force([part * 0.3, 0.0]));
+        assert!(step.is_converged() && step.turns <= 12, "{part}: {} turns, {:?}", step.turns, step.report);
+    }
+}
+
+/// 107 samples to the radius, of which eight at the edge bear 1e-5 of the pressure: their slip must not move the others.
+#[test]
+fn samples_that_hardly_touch_do_not_slow_the_iteration() {
+    let mut track = track(&ball(2.4, 0.3, 1.0), 256);
+    let p = 4.0 / 3.0 / 0.7;
+    for part in [0.99, -0.99] {
+        let step = track.advance(Load::Force(p), Aim::Force([part * p, 0.0]));
+        assert!(step.is_converged() && step.report.iterations <= 20, "{part}: {:?}", step.report);
     }
 }
 
@@ -187,6 +208,79 @@ fn a_force_that_friction_does_not_bear_is_refused() {
     assert!(SlipSolver::new(frictionless, [48; 2], Settings::default(), SlipSettings::default()).is_err());
 }
 
+fn slip_solver(problem: Problem, n: usize) -> SlipSolver {
+    let settings = Settings { tolerance: 1e-10, ..Settings::default() };
+    SlipSolver::new(problem, [n; 2], settings, SlipSettings::default()).unwrap()
+}
+
+/// Under a shift the force is found: that of the force that leads to this shift.
+#[test]
+fn a_shift_leads_to_the_force_that_leads_to_it() {
+    let load = Load::Force(4.0 / 3.0);
+    let by_force = slip_solver(ball(2.6, 0.0, 0.5), 64).advance(load, Drive::Part([0.6, 0.0])).unwrap();
+    let mut solver = slip_solver(ball(2.6, 0.0, 0.5), 64);
+    let by_shift = solver.advance(load, Drive::Shift(by_force.shift.value)).unwrap();
+    let [force, exact] = [&by_shift, &by_force].map(|step| step.force.value[0]);
+    assert_eq!(by_force.force.error, 0.0);
+    assert!((force / exact - 1.0).abs() < 1e-5, "{force} {exact}");
+    assert!(by_shift.force.error > 0.0 && by_shift.shift.error < 1e-12, "{by_shift:?}");
+    // The force is extrapolated over the parts of a step whose load changes: back and forth leaves what the error says.
+    let mut to = |p: f64| solver.advance(Load::Force(p), Drive::Shift(by_force.shift.value)).unwrap().force;
+    let (less, again) = (to(1.0), to(4.0 / 3.0));
+    assert!(less.error > 0.0 && less.value[0] < 0.5 && again.value[0] < exact, "{less:?} {again:?}");
+}
+
+/// A drive of another kind goes on from what the one before it has come to.
+#[test]
+fn a_shift_goes_on_from_a_force() {
+    let load = Load::Force(1.0);
+    let mut solver = slip_solver(ball(2.6, 0.0, 0.5), 64);
+    let before = solver.advance(load, Drive::Part([0.5, 0.0])).unwrap();
+    // The same load in another quantity, within rounding, and the shift that is there: nothing changes.
+    let area = solver.problem().cell().area();
+    let kept = solver.advance(Load::MeanPressure(1.0 / area), Drive::Shift(before.shift.value)).unwrap();
+    assert!((kept.force.value[0] - before.force.value[0]).abs() < 1e-7, "{kept:?}");
+    assert!(kept.work.value.abs() < 1e-9, "{kept:?}");
+}
+
+#[test]
+fn without_a_load_nothing_sticks() {
+    let mut solver = slip_solver(ball(2.6, 0.0, 0.5), 48);
+    let mut to = |p: f64, part: f64| solver.advance(Load::Force(p), Drive::Part([part, 0.0])).unwrap();
+    for step in [to(0.0, 0.5), to(1.0, 0.5), to(0.0, 0.5)] {
+        let numbers = [step.force.value[0], step.shift.value[0], step.work.value, step.stick_fraction.value];
+        assert!(numbers.iter().all(|number| number.is_finite()), "{step:?}");
+        assert_eq!(step.force.value[0] == 0.0, step.limit == 0.0);
+    }
+    let rolling = Rolling { direction: [1.0, 0.0], distance: 1.0, step: 0.5 };
+    let refused = solver.roll(Load::Force(0.0), RollingDrive::Part([0.1, 0.0]), rolling).unwrap_err();
+    assert!(refused.to_string().contains("without a load"), "{refused}");
+}
+
+/// Bit for bit, with coupled tractions, a changing load and a step of rolling.
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let numbers = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let ball = HalfSpace::new(vec![], Material::from_shear(2.0, 0.3).unwrap());
+            let problem = ball_on(Bodies::elastic(coated(4.0, [0.2, 0.3], 0.3), ball), 0.3, 2.4);
+            let mut solver = slip_solver(problem, 48).with_parts(2);
+            let step = solver.advance(Load::Force(1.0), Drive::Part([0.5, 0.2])).unwrap();
+            let rolling = Rolling { direction: [1.0, 0.0], distance: 0.5, step: 0.25 };
+            let rolled = solver.roll(Load::Force(1.0), RollingDrive::Part([0.3, 0.0]), rolling).unwrap();
+            [step, rolled].map(|step| {
+                let shear = step.contact.finest().shear().unwrap().clone();
+                let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
+                let fields: Vec<_> = shear.traction.iter().chain(&shear.slip).map(|field| bits(field)).collect();
+                (fields, bits(&step.shift.value), bits(&step.force.value), step.work.value.to_bits())
+            })
+        })
+    };
+    let one = numbers(1);
+    assert!([2, 5].into_iter().all(|threads| numbers(threads) == one));
+}
+
 /// Steady rolling of a wave on like bodies: stick begins at the leading edge. Creepages over μ of a dense solver.
 #[test]
 fn rolling_waves_have_their_known_creepage() {
@@ -207,9 +301,9 @@ fn rolling_waves_have_their_known_creepage() {
             let rolling = Rolling { direction: [1.0, 0.0], distance: 3.0, step: 0.125 };
             let rolled = solver.roll(Load::MeanPressure(0.01), RollingDrive::Part([part, 0.0]), rolling).unwrap();
             let MeasuredVector { value, error } = rolled.creepage.unwrap();
-            eprintln!("rolling {layer:?} {part}: {:e} ± {:e}", value[0] / exact - 1.0, error / exact);
             assert!((value[0] - exact).abs() < error && rolled.converged, "{layer:?}, {part}: {value:?} ± {error:e}");
-            assert!((value[0] / exact - 1.0).abs() < 8e-3, "{layer:?}, {part}: {value:?}");
+            // A prototype with 16 and 32 steps a contact length, extrapolated, is within .25 %; 8 and 16 may be four times as far.
+            assert!((value[0] / exact - 1.0).abs() < 1e-2, "{layer:?}, {part}: {value:?}");
         }
     }
 }

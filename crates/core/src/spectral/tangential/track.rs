@@ -4,7 +4,7 @@
 //! solved with the gap opened by the tractions, then the tractions under the new pressure, in turn, until the normal problem needs no
 //! iteration more for the newest tractions: then both certificates hold for the same pair.
 
-use super::aim::Aim;
+use super::aim::{Aim, Ramp};
 use super::disc::{Vector, add, dot, scale, sticks, sub};
 use super::operator::TangentialOperator;
 use super::preconditioner::Preconditioner;
@@ -13,6 +13,7 @@ use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::numeric::sums;
 use crate::problem::Problem;
+use crate::spectral::iteration::Unknowns;
 use crate::spectral::{Settings, Solver, Step};
 use std::sync::Arc;
 
@@ -36,15 +37,38 @@ pub(in crate::spectral) struct Track {
     state: SlipState,
 }
 
-/// What the next step needs of those before.
+/// History of a track: all that its next step needs of those before.
 #[derive(Debug, Clone)]
-pub(in crate::spectral) struct SlipState {
+pub(super) struct History {
+    slip: SlipState,
+    /// Unknowns of the normal contact on all grids, the finest first.
+    unknowns: Vec<Unknowns>,
+}
+
+/// Tractions and displacements after a step, with the load and the tangential force that they belong to.
+#[derive(Debug, Clone)]
+struct SlipState {
     /// Traction **q** on the body, a pressure.
-    pub traction: Arc<Vec<Vector>>,
+    traction: Arc<Vec<Vector>>,
     /// Tangential displacement A**q** + Bp on all samples, a length.
-    pub displacement: Arc<Vec<Vector>>,
+    displacement: Arc<Vec<Vector>>,
     /// Shift of the counterbody against the body since the first contact, a length.
-    pub shift: Vector,
+    shift: Vector,
+    /// `None` before the first contact.
+    end: Option<StepEnd>,
+}
+
+/// Load and tangential force at the end of a step.
+#[derive(Debug, Clone, Copy)]
+struct StepEnd {
+    load: Load,
+    /// Mean pressure over the cell.
+    mean_pressure: f64,
+    penetration: f64,
+    /// Tangential force on the body.
+    force: Vector,
+    /// Largest friction μP.
+    limit: f64,
 }
 
 /// A step of a track.
@@ -71,6 +95,13 @@ pub(in crate::spectral) struct TrackStep {
     pub stick_fraction: f64,
 }
 
+impl TrackStep {
+    /// Whether pressure and tractions meet their tolerances.
+    pub fn is_converged(&self) -> bool {
+        self.report.converged && self.contact.report.stop.solved()
+    }
+}
+
 impl Track {
     /// The history before any contact, with `points` samples; the friction of the problem sticks or slips.
     pub fn new(
@@ -85,7 +116,7 @@ impl Track {
         let operator = TangentialOperator::new(solver.grid(), problem.bodies(), coupled);
         let preconditioner = Preconditioner::new(&operator);
         let still = Arc::new(vec![[0.0; 2]; solver.grid().len()]);
-        let state = SlipState { traction: Arc::clone(&still), displacement: still, shift: [0.0; 2] };
+        let state = SlipState { traction: Arc::clone(&still), displacement: still, shift: [0.0; 2], end: None };
         Ok(Self { solver, operator, preconditioner, friction, settings: slip, state })
     }
 
@@ -104,10 +135,39 @@ impl Track {
         &self.solver
     }
 
-    /// Takes over what another track of the same grid has come to.
-    pub fn copy(&mut self, other: &Self) {
-        self.state = other.state.clone();
-        self.solver.set_unknowns(other.solver.unknowns().cloned().collect());
+    /// The history so far.
+    pub fn history(&self) -> History {
+        History { slip: self.state.clone(), unknowns: self.solver.unknowns().cloned().collect() }
+    }
+
+    /// Goes on from another history on the same grid; returns the one that it leaves.
+    pub fn replace_history(&mut self, other: History) -> History {
+        let left = self.history();
+        self.state = other.slip;
+        self.solver.set_unknowns(other.unknowns);
+        left
+    }
+
+    /// The ramps from the last step to a load and an aim. The first load presses without a tangential force.
+    pub fn ramps(&self, load: Load, aim: Aim) -> Vec<Ramp> {
+        match &self.state.end {
+            Some(end) => {
+                let start = match aim {
+                    Aim::Force(_) => end.force,
+                    Aim::Part(_) if end.limit > 0.0 => scale(1.0 / end.limit, end.force),
+                    Aim::Part(_) => [0.0; 2],
+                    Aim::Shift(_) => self.state.shift,
+                };
+                let area = self.solver.grid().cell().area();
+                vec![Ramp { loads: [end.load_as(load, area), load], aims: [aim.with(start), aim] }]
+            }
+            None => {
+                let still = aim.with([0.0; 2]);
+                let pressed = Ramp { loads: [load.with_value(0.0), load], aims: [still; 2] };
+                let sheared = Ramp { loads: [load; 2], aims: [still, aim] };
+                if self.couples() { vec![pressed, sheared] } else { vec![sheared] }
+            }
+        }
     }
 
     /// Shift of the counterbody against the body since the first contact.
@@ -135,31 +195,41 @@ impl Track {
     pub fn advance_from(&mut self, load: Load, aim: Aim, before: &[Vector]) -> TrackStep {
         let mut contact = self.solver.solve(load);
         let (mut slipped, mut dragged, mut turns) = (None::<Slipped>, None, 0);
+        let (mut pressed, mut near, mut agree) = (Vec::new(), None, !self.couples());
         let (mut iterations, mut convolutions) = (contact.report.iterations, contact.convolutions);
         let mut tolerance = if self.couples() { FIRST_TOLERANCE } else { 0.0 };
         while contact.report.stop.solved() && turns < MOST_TURNS {
             turns += 1;
             tolerance = self.settings.tolerance.max(tolerance);
             dragged = self.operator.dragged(contact.finest().pressures());
-            let start = slipped.map_or_else(|| Arc::clone(&self.state.traction), |last| Arc::new(last.traction));
-            let next = self.slip(&contact, dragged.as_deref(), before, (aim, tolerance), &start);
-            let lift = self.operator.lifted(&next.traction);
+            let pressures = contact.finest().pressures();
+            let start = slipped.map_or_else(
+                || Arc::clone(&self.state.traction),
+                |last| Arc::new(rebound(last.traction, &pressed, pressures, self.friction)),
+            );
+            pressed = pressures.to_vec();
+            let next = self.slip(&contact, dragged.as_deref(), before, (aim, tolerance), (&start, near));
+            near = Some(next.rise);
+            let (lift, steady) = (self.operator.lifted(&next.traction), next.report.iterations == 0);
             slipped = Some(next);
             let Some(lift) = lift else { break };
             contact = self.solver.solve_lifted(load, &lift);
             (iterations, convolutions) = (iterations + contact.report.iterations, convolutions + contact.convolutions);
-            // No pressure changes, under tractions that meet their tolerance.
-            if contact.report.iterations == 0 && tolerance == self.settings.tolerance {
+            // Tractions that meet their tolerance change no pressure, or met it under the newest pressure as they were.
+            let rests = contact.report.iterations == 0 || steady;
+            agree = rests && tolerance == self.settings.tolerance;
+            if agree {
                 break;
             }
             tolerance *= TIGHTER;
         }
         (contact.report.iterations, contact.convolutions) = (iterations, convolutions);
-        let slipped = slipped.unwrap_or_else(|| {
+        let mut slipped = slipped.unwrap_or_else(|| {
             let still = Arc::clone(&self.state.traction);
-            self.slip(&contact, None, before, (aim, self.settings.tolerance), &still)
+            self.slip(&contact, None, before, (aim, self.settings.tolerance), (&still, None))
         });
-        self.finish(contact, slipped, dragged, turns)
+        slipped.report.converged &= agree;
+        self.finish((load, contact), slipped, dragged, turns)
     }
 
     /// The tractions under the pressure of a contact.
@@ -169,7 +239,7 @@ impl Track {
         dragged: Option<&[Vector]>,
         displaced: &[Vector],
         (aim, tolerance): (Aim, f64),
-        start: &[Vector],
+        (start, near): (&[Vector], Option<Vector>),
     ) -> Slipped {
         let bound: Vec<f64> = contact.finest().pressures().iter().map(|p| self.friction * p).collect();
         let area = contact.grid().sample_area();
@@ -177,8 +247,6 @@ impl Track {
             Aim::Force(force) => ShearControl::Force(force),
             Aim::Part(part) => ShearControl::Force(scale(area * sums::of(bound.len(), |i| [bound[i]])[0], part)),
             Aim::Shift(shift) => ShearControl::Shift(sub(shift, self.state.shift)),
-            // Of one length of rolling.
-            Aim::Creepage(rise) => ShearControl::Shift(rise),
         };
         let mut before = displaced.to_vec();
         if let Some(dragged) = dragged {
@@ -190,6 +258,7 @@ impl Track {
             bound: &bound,
             before: &before,
             control,
+            near,
             area,
             settings: SlipSettings { tolerance, ..self.settings },
         };
@@ -197,7 +266,13 @@ impl Track {
     }
 
     /// The step, and its state for the next one.
-    fn finish(&mut self, contact: Step, slipped: Slipped, dragged: Option<Vec<Vector>>, turns: usize) -> TrackStep {
+    fn finish(
+        &mut self,
+        (load, contact): (Load, Step),
+        slipped: Slipped,
+        dragged: Option<Vec<Vector>>,
+        turns: usize,
+    ) -> TrackStep {
         let Slipped { traction, mut displacement, slip, rise, report } = slipped;
         if let Some(dragged) = dragged {
             sums::update(&mut displacement, |i, u| add(u, dragged[i]));
@@ -210,10 +285,18 @@ impl Track {
             [q[0], q[1], dot(q, slip[i]), p, touches, sticks]
         });
         let (shift, limit) = (add(self.state.shift, rise), self.friction * area * pressure);
-        // What rounding leaves of no force.
+        // A force of the size of rounding is none.
         let force = scale(area, [x, y]).map(|force| if force.abs() < NO_FORCE * limit { 0.0 } else { force });
         let traction = Arc::new(traction);
-        self.state = SlipState { traction: Arc::clone(&traction), displacement: Arc::new(displacement), shift };
+        let end = StepEnd {
+            load,
+            mean_pressure: pressure / traction.len() as f64,
+            penetration: contact.penetration(),
+            force,
+            limit,
+        };
+        let (displacement, end) = (Arc::new(displacement), Some(end));
+        self.state = SlipState { traction: Arc::clone(&traction), displacement, shift, end };
         TrackStep {
             contact,
             traction,
@@ -226,5 +309,28 @@ impl Track {
             shift,
             stick_fraction: if touching > 0.0 { sticking / touching } else { 0.0 },
         }
+    }
+}
+
+/// Tractions under one pressure as a start under another: those that slip stay on their circles.
+fn rebound(mut traction: Vec<Vector>, from: &[f64], to: &[f64], friction: f64) -> Vec<Vector> {
+    sums::update(&mut traction, |i, q| {
+        let slips = from[i] > 0.0 && !sticks(q, friction * from[i]);
+        if slips { scale(to[i] / from[i], q) } else { q }
+    });
+    traction
+}
+
+impl StepEnd {
+    /// The load in the quantity of another one, on a cell of an area.
+    fn load_as(&self, other: Load, area: f64) -> Load {
+        if std::mem::discriminant(&self.load) == std::mem::discriminant(&other) {
+            return self.load;
+        }
+        other.with_value(match other {
+            Load::MeanPressure(_) => self.mean_pressure,
+            Load::Force(_) => self.mean_pressure * area,
+            Load::Penetration(_) => self.penetration,
+        })
     }
 }
