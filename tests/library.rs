@@ -16,6 +16,8 @@ mod energy;
 mod fatigue;
 #[path = "library/first_touch.rs"]
 mod first_touch;
+#[path = "library/fretting.rs"]
+mod fretting;
 #[path = "library/given_load.rs"]
 mod given_load;
 #[path = "library/hardness.rs"]

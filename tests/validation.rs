@@ -79,6 +79,7 @@ studies! {
     free_space = "free-space",
     two_bodies = "two-bodies",
     identification = "identification",
+    partial_slip = "partial-slip",
     thin_coatings = "thin-coatings",
     rings = "rings",
     hertz_stresses = "hertz-stresses",

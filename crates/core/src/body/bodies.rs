@@ -110,6 +110,11 @@ impl Bodies {
         self.each().any(tires) || self.last_by_strain()
     }
 
+    /// Whether a material has endurance limits.
+    pub fn have_endurance(&self) -> bool {
+        self.each().flat_map(HalfSpace::durabilities).any(|durability| durability.endurance.is_some())
+    }
+
     /// Whether a material has a life by strain.
     pub fn last_by_strain(&self) -> bool {
         self.each().flat_map(HalfSpace::durabilities).any(|durability| durability.strain_life.is_some())

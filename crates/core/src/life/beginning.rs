@@ -82,7 +82,7 @@ impl LifeTask {
         let fields = StressFields::new(step.finest(), self.mean);
         let sought = PathSought { fatigue: true, endurance: false, map: true };
         let found = if reading.touches() && self.problem.bodies().tire() {
-            let pass = Pass { way: self.way(), back: back.as_ref().or(self.stroke.map(|_| &step)) };
+            let pass = Pass { way: self.way(), back: back.as_ref().or(self.stroke.map(|_| &step)), ..Pass::default() };
             PathReading::of_pass(&step, &reading, &fields, (sought, &pass), goes_on).ok_or(LifeError::Interrupted)?
         } else {
             PathReading::default()

@@ -22,7 +22,7 @@ use crate::problem::Problem;
 use crate::quantity::quantities;
 use crate::spectral::Step;
 use crate::stress::{
-    PassOver, PathPeak, PathPeaks, PathSought, RangePlane, SlidingPath, StressField, StressFields, transmitted,
+    Others, PassOver, PathPeak, PathPeaks, PathSought, RangePlane, SlidingPath, StressField, StressFields, transmitted,
 };
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -196,6 +196,8 @@ pub(crate) struct Pass<'a> {
     pub way: Option<f64>,
     /// The contact on the way back, solved on the same grids, where the counterbody goes to and fro.
     pub back: Option<&'a Step>,
+    /// The other steps of a cycle, in their order, on the same grids, in which points stay in place; empty where the counterbody slides.
+    pub moments: &'a [Step],
 }
 
 /// Lives and utilisations of a step by the stresses along the path of sliding.
@@ -243,19 +245,22 @@ impl PathReading {
         let coarser = step.coarser().first().and_then(|contact| fields.of_other(contact));
         let back = pass.back.and_then(|step| fields.of_other(step.finest()));
         let coarser_back = pass.back.and_then(|step| fields.of_other(step.coarser().first()?));
+        let moments: Vec<StressFields> =
+            pass.moments.iter().filter_map(|step| fields.of_other(step.finest())).collect();
+        let coarser_moments: Vec<StressFields> =
+            pass.moments.iter().filter_map(|step| fields.of_other(step.coarser().first()?)).collect();
         let (direction, radii) = (step.problem().direction(), contact_radii(step, reading));
         let (mut lives, mut utilisations, mut path, mut planes) = (Vec::new(), Vec::new(), None, Vec::new());
         for field in wanted {
             let side = field.half_space().side();
             let coarser = coarser.as_ref().map(|coarser| coarser.on(side));
-            let over = match side {
-                Some(Side::Counterbody) => PassOver::default(),
-                _ => PassOver {
-                    way: pass.way,
-                    back: back.as_ref().map(StressFields::body),
-                    coarser_back: coarser_back.as_ref().map(StressFields::body),
-                },
+            let over = PassOver {
+                way: pass.way.filter(|_| side != Some(Side::Counterbody)),
+                others: others(back.as_ref(), &moments, side),
+                coarser: others(coarser_back.as_ref(), &coarser_moments, side),
             };
+            // A cycle has no error without all of its steps on the next coarser grid.
+            let coarser = coarser.filter(|_| over.coarser.moments.len() == over.others.moments.len());
             let mut peaks = field.path_peaks_of_pass(direction, radii, (sought, over), coarser, goes_on)?;
             peaks.each().for_each(|peak| peak.position = beside_site(step, peak.position));
             if let Some(tip) = Tip::of(step, reading, field.half_space()) {
@@ -269,6 +274,14 @@ impl PathReading {
             utilisations.extend(utilisations_of(field.half_space(), &peaks));
         }
         Some(Self { fatigue: path.and_then(|path| FatigueReading::new(path, lives)), utilisations, planes })
+    }
+}
+
+/// Stresses that points of the body on a side meet on the way back and at other moments: a counterbody stays below the contact.
+fn others<'a>(back: Option<&'a StressFields>, moments: &'a [StressFields], side: Option<Side>) -> Others<'a> {
+    Others {
+        back: back.filter(|_| side != Some(Side::Counterbody)).map(StressFields::body),
+        moments: moments.iter().map(|moment| moment.on(side)).collect(),
     }
 }
 

@@ -55,7 +55,7 @@ use crate::body::MeanStress;
 use crate::lattice::Grid;
 use crate::load::{Control, Load, LoadQuantity};
 use crate::problem::Problem;
-use crate::reading::{self, Criterion, PathReading, StressReading};
+use crate::reading::{self, Criterion, Pass, PathReading, StressReading};
 use crate::spectral::{OtherGrids, Settings, Solver, Step};
 use crate::stress::{PathSought, StressFields, Tables};
 use std::cell::Cell;
@@ -69,14 +69,16 @@ use std::sync::Arc;
 const CHECKED_GRID: usize = 3;
 
 /// Purpose for which a load is solved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Loading {
+#[derive(Debug, Clone, Copy)]
+enum Loading<'a> {
     /// A step of a load path: the contact stiffness is read too.
     Path,
     /// A load of a search for limits: of stresses those by which strengths are judged.
     Search,
     /// A limit that is shown, with all stresses.
     Limit,
+    /// A step in which points stay in place, with the other steps of the cycle that ends with it; empty where none does.
+    InPlace(&'a [Step]),
 }
 
 /// A run: loads solved one after another, on one grid or on finer and finer ones.
@@ -271,7 +273,7 @@ impl Run {
         solver: &mut Solver,
         tables: &Arc<Tables>,
         load: Load,
-        (loading, saved): (Loading, Option<LastLoad>),
+        (loading, saved): (Loading<'_>, Option<LastLoad>),
         recorder: &mut R,
     ) -> Result<(StepRecord, Step), RunError<R::Error>> {
         recorder.load(load);
@@ -292,7 +294,7 @@ impl Run {
         };
         let mut record = StepRecord::new(&step, step.reading());
         let is_indented = record.kind().is_indentation();
-        if loading == Loading::Path && is_indented && step.report.stop.solved() {
+        if matches!(loading, Loading::Path) && is_indented && step.report.stop.solved() {
             record = record.with_stiffness(solver.stiffness(&step));
         }
         let record = self.with_stresses(&step, record, tables, loading, (began, before), recorder)?;
@@ -305,7 +307,7 @@ impl Run {
         step: &Step,
         mut record: StepRecord,
         tables: &Arc<Tables>,
-        loading: Loading,
+        loading: Loading<'_>,
         (began, before): (Option<f64>, f64),
         recorder: &mut R,
     ) -> Result<StepRecord, RunError<R::Error>> {
@@ -321,15 +323,15 @@ impl Run {
             let judged = match loading {
                 Loading::Search => reading::utilisations_while(step, &record.reading, fields, &goes_on)
                     .map(|utilisations| record.clone().with_utilisations(utilisations)),
-                // What stays in place meets no range of stresses along a path of sliding.
-                Loading::Path if self.motions.is_some() => {
-                    StressReading::of_while(step, &record.reading, fields, &goes_on)
-                        .map(|stress| record.clone().with_stress(stress, bodies))
-                }
-                Loading::Path | Loading::Limit => {
+                // Without a cycle what stays in place meets no range of stresses.
+                Loading::InPlace([]) => StressReading::of_while(step, &record.reading, fields, &goes_on)
+                    .map(|stress| record.clone().with_stress(stress, bodies)),
+                Loading::Path | Loading::Limit | Loading::InPlace(_) => {
+                    let moments = if let Loading::InPlace(moments) = loading { moments } else { &[] };
+                    let sought = (PathSought::ALL, &Pass { moments, ..Pass::default() });
                     let (stress, path) = (
                         StressReading::of_while(step, &record.reading, fields, &goes_on),
-                        PathReading::of_while(step, &record.reading, fields, PathSought::ALL, &goes_on),
+                        PathReading::of_pass(step, &record.reading, fields, sought, &goes_on),
                     );
                     stress
                         .zip(path)

@@ -50,11 +50,11 @@ impl StressFields {
         Self { body, counterbody }
     }
 
-    /// The fields under another contact of the same run, or of this step on another grid; `None` under tangential tractions that do not
-    /// follow from the pressure, which are known of their own contact alone.
+    /// The fields under another contact of the same run, or of this step on another grid; `None` for a contact without the tangential
+    /// tractions that do not follow from its pressure.
     pub(crate) fn of_other(&self, contact: &Contact) -> Option<Self> {
-        let follows = self.body.form() != ShearForm::Fields;
-        follows.then(|| {
+        let is_known = self.body.form() != ShearForm::Fields || contact.shear().is_some();
+        is_known.then(|| {
             Self::with_tables(contact, self.body.mean_stress(), self.body.tables()).with_strains(self.body.strains)
         })
     }

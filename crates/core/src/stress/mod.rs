@@ -85,7 +85,7 @@ pub use crest::Crest;
 pub use field::StressField;
 pub use fields::StressFields;
 pub use loaded_window::bytes_far;
-pub use path_search::{PassOver, PathPeak, PathPeaks, PathSought, transmitted};
+pub use path_search::{Others, PassOver, PathPeak, PathPeaks, PathSought, transmitted};
 pub use peak::{Peak, Rival};
 pub use plane::DepthPlane;
 pub use range_plane::RangePlane;

@@ -31,6 +31,8 @@ pub enum SlidingPath {
     WholePlane,
     /// Path from far away to far away, past an isolated contact.
     FromFarAway,
+    /// Steps of a cycle at a point that stays in place: no path of sliding.
+    InPlace,
 }
 
 impl SlidingPath {
@@ -105,7 +107,7 @@ impl SlidingLines {
         match self.path {
             SlidingPath::LatticeVector(_) => Some(self.length()),
             SlidingPath::WholePlane => Some(self.cell.area().sqrt()),
-            SlidingPath::FromFarAway => None,
+            SlidingPath::FromFarAway | SlidingPath::InPlace => None,
         }
     }
 

@@ -6,6 +6,7 @@ use crate::output::number::{number, passes_with_error};
 use percoat_case::units::{Unit, Units};
 use percoat_core::reading::{FatiguePart, LIFE, Life};
 use percoat_core::run::StepRecord;
+use percoat_core::stress::SlidingPath;
 
 /// Table of the passes after which each material and interface first has the damage 1, one row each, the one that lasts shortest in the
 /// last step first; `None` without laws of fatigue.
@@ -25,8 +26,12 @@ pub fn lives(steps: &[StepRecord], units: &Units) -> Option<Worded> {
         by_step("passes until damage 1", (&Unit::None, |_, passes| passes_with_error(passes)), units, steps, &rows)?;
     let (quantity, first) = (units.quantity(), &last.1.first);
     let length = units.length().suited(first.position);
+    let cycle = match last.1.path {
+        SlidingPath::InPlace => "; a pass is the last closed cycle of the steps, at points that stay in place",
+        _ => "",
+    };
     let words = format!(
-        "first damage at {} = {}: {}, at {}",
+        "first damage at {} = {}: {}, at {}{cycle}",
         quantity.symbol(),
         units.load().with_unit(last.0.reading.load(quantity), number),
         first.in_words(number),
@@ -41,7 +46,6 @@ mod tests {
     use crate::sweep::examples;
     use percoat_core::body::{Fatigue, MaterialId};
     use percoat_core::reading::FatigueReading;
-    use percoat_core::stress::SlidingPath;
 
     #[test]
     fn passes_with_a_wide_error_stand_in_the_table_as_in_the_sentence() {

@@ -29,7 +29,7 @@ pub(super) struct Best {
 impl StressField {
     /// The largest value of a measure on a plane, read on lines and places that are denser.
     pub(super) fn finely(&self, depth: Depth, measure: PathMeasure, search: &PathSearch<'_>) -> Best {
-        self.best(&self.searched_lines(depth, &[measure], search, (search.pass.back, true)), 0, search)
+        self.best(&self.searched_lines(depth, &[measure], search, (&search.pass.others, true)), 0, search)
     }
 
     /// The largest value of a measure, by its number, on a plane.

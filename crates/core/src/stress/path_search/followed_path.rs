@@ -21,7 +21,7 @@ impl StressField {
                 far_states(&field.far_fields(), best.depth, &stresses.places[..stresses.places.len() - edges.len()]);
             Some((all.plane, FollowedLine::new((stresses, edges), &far, kept)?))
         };
-        let (line, back) = (follow(self)?, search.pass.back.and_then(|back| Some((back, follow(back)?))));
+        let (line, back) = (follow(self)?, search.pass.others.back.and_then(|back| Some((back, follow(back)?))));
         let value = |is_far: bool| {
             let back = back.as_ref().map(|(field, line)| field.followed_path(line, best.depth, is_far, search));
             let path = self.followed_path(&line, best.depth, is_far, search);

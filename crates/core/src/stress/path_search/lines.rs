@@ -3,7 +3,8 @@
 //! Lines go on in the windows around an isolated contact. On the surface the states just outside the edges of contact belong to the lines
 //! nearest to them.
 
-use super::pass::PathSearch;
+use super::in_place::measured;
+use super::pass::{Others, PathSearch};
 use crate::body::{Depth, Side};
 use crate::numeric::parallel;
 use crate::stress::field::StressField;
@@ -44,23 +45,30 @@ impl StressField {
 
     /// Measures along all lines of a plane on the grid of the search.
     pub(super) fn own_lines(&self, depth: Depth, measures: &[PathMeasure], search: &PathSearch<'_>) -> SearchedLines {
-        self.searched_lines(depth, measures, search, (search.pass.back, false))
+        self.searched_lines(depth, measures, search, (&search.pass.others, false))
     }
 
-    /// Measures along all lines of a plane, where the counterbody goes to and fro with the stresses `back`; `finely`: on denser
-    /// lines and places.
+    /// Measures along all lines of a plane, with `others` of the stresses that its points meet; `finely`: on denser lines and places.
     pub(super) fn searched_lines(
         &self,
         depth: Depth,
         measures: &[PathMeasure],
         search: &PathSearch<'_>,
-        (back, finely): (Option<&Self>, bool),
+        (others, finely): (&Others<'_>, bool),
     ) -> SearchedLines {
-        let kept = Kept::of(measures, finely);
+        let kept = match others.moments[..] {
+            [] => Kept::of(measures, finely),
+            _ => Kept { stress: true, finely, ..Kept::default() },
+        };
         let (lines, times) = (&search.lines, search.times);
         let all = self.numbered_lines(depth, search, kept);
-        let back = back.map(|back| (back, back.numbered_lines(depth, search, kept)));
+        let back = others.back.map(|back| (back, back.numbered_lines(depth, search, kept)));
+        let planes = others.moments.iter().map(|field| field.line_plane(lines, depth, search.radii[0], kept));
+        let moments: Vec<LinePlane> = planes.collect();
         let along = |number: usize| -> Vec<LineValue> {
+            if !moments.is_empty() {
+                return all.in_place(&moments, number, self, measures);
+            }
             let (stresses, edges) = all.stresses(self, number, lines, kept);
             let path = self.line_path((&all.plane, depth), &stresses, edges, (lines, times));
             let of_back = back.as_ref().map(|(field, all)| (*field, all, all.stresses(field, number, lines, kept)));
@@ -147,6 +155,20 @@ impl NumberedLines {
         let away = |line: &NumberedLine| (line.0 - y).abs();
         let numbered = self.lines.iter().enumerate();
         numbered.min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b))).map(|(number, _)| number)
+    }
+
+    /// The largest values of measures on a line, by its number among them, of points that stay in place in a cycle with other `moments`.
+    fn in_place(
+        &self,
+        moments: &[LinePlane],
+        number: usize,
+        field: &StressField,
+        measures: &[PathMeasure],
+    ) -> Vec<LineValue> {
+        let (cell, line) = (field.grid().cell(), self.lines[number].1);
+        let states: Vec<LineStresses> =
+            moments.iter().chain([&self.plane]).map(|plane| plane.line(cell, line)).collect();
+        measures.iter().map(|measure| measured(*measure, &states)).collect()
     }
 
     /// Stresses along a line, by its place among them, with those on edges of contact behind the others, and where those lie on the path.

@@ -15,18 +15,20 @@
 
 mod contenders;
 mod followed_path;
+mod in_place;
 mod lines;
 mod pass;
 mod peaks;
 mod stated_value;
 
-pub use pass::PassOver;
+pub use pass::{Others, PassOver};
 pub use peaks::{PathPeak, PathPeaks};
 
 use super::field::StressField;
 use super::path_measure::PathMeasure;
 use super::range_map::completed;
 use super::range_plane::{RangePlane, on_common_lines};
+use super::sliding_path::SlidingPath;
 use crate::body::{Depth, Durability, Fatigue, Interface, Layer};
 use contenders::Best;
 use lines::SearchedLines;
@@ -77,6 +79,7 @@ impl StressField {
         let times = pass.way.zip(lines.period()).map_or(1.0, |(way, period)| way / period);
         // Where the path never closes a line stands for all of them, as much of it as the period is long.
         let times = times * lines.period().map_or(1.0, |period| period / lines.length());
+        let stays = !pass.others.moments.is_empty();
         let search = PathSearch { lines, direction, radii, coarser, times, pass, goes_on };
         let (mut materials, mut interfaces, mut planes) = (Vec::new(), Vec::new(), Vec::new());
         for (number, durability) in (1..).zip(self.half_space().durabilities()) {
@@ -108,7 +111,8 @@ impl StressField {
                 });
             }
         }
-        Some(PathPeaks { path: lines.path, materials, interfaces, planes: on_common_lines(planes) })
+        let path = if stays { SlidingPath::InPlace } else { lines.path };
+        Some(PathPeaks { path, materials, interfaces, planes: on_common_lines(planes) })
     }
 
     /// The largest of each measure in a material, and the planes searched; `None` when the search does not go on.

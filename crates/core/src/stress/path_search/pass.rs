@@ -4,14 +4,23 @@ use crate::stress::field::StressField;
 use crate::stress::sliding_path::SlidingLines;
 
 /// A pass on the path of a body.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct PassOver<'a> {
     /// Length of one way of the counterbody over a lattice, a length; `None`: one period. Past an isolated contact a point comes once.
     pub way: Option<f64>,
+    /// Other stresses that points of the body meet.
+    pub others: Others<'a>,
+    /// The same on the next coarser grid.
+    pub coarser: Others<'a>,
+}
+
+/// Stresses that points of a body meet in a pass besides those of a field, on its grid.
+#[derive(Debug, Clone, Default)]
+pub struct Others<'a> {
     /// Stresses on the way back, where the counterbody goes to and fro.
     pub back: Option<&'a StressField>,
-    /// Stresses on the way back on the next coarser grid.
-    pub coarser_back: Option<&'a StressField>,
+    /// Stresses at the other steps of a cycle in which points stay in place, in their order; empty where the counterbody slides.
+    pub moments: Vec<&'a StressField>,
 }
 
 /// Parameters that the searches share.

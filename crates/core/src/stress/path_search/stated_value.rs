@@ -30,7 +30,7 @@ impl StressField {
     /// Estimated error of a value; `None` without a coarser grid.
     fn error(&self, best: &Best, measure: PathMeasure, search: &PathSearch<'_>) -> Option<f64> {
         let coarser = search.coarser?;
-        let plane = coarser.searched_lines(best.depth, &[measure], search, (search.pass.coarser_back, false));
+        let plane = coarser.searched_lines(best.depth, &[measure], search, (&search.pass.coarser, false));
         let coarse = coarser.beside(&plane, best.y, search);
         let field = self.holding(best.place);
         let state = field.stresses_at(&field.depth_response(best.depth, SEARCH_REACH), &[best.place]);

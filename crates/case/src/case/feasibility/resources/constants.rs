@@ -68,3 +68,5 @@ pub(super) const DAMAGE_LINES: u64 = 512;
 /// and its fields in files.
 pub(super) const SLIP: u64 = 1700;
 pub(super) const SLIP_FIELDS: u64 = 40;
+/// Per sample of the stresses and step, where something tires in a cycle of partial slip: the step, and its stress fields on both grids.
+pub(super) const MOMENT: u64 = 150;

@@ -1,8 +1,9 @@
 //! Memory and disk of each job: the larger of solving and drawing, and the files that it writes.
 
 use super::constants::{
-    AGAIN, CHECKPOINTS, COMPARED, COMPARISON, CURVES, CUTS, DAMAGE, DAMAGE_LINES, DEPTHS, FIELD, KEPT, MAPS, PICTURE,
-    PLACES, PROGRAM, READING, SEARCH, SHOWN, SLIP, SLIP_FIELDS, SPOT_FIELDS, STATE, STEP, STRESS, STRESSES, WORN,
+    AGAIN, CHECKPOINTS, COMPARED, COMPARISON, CURVES, CUTS, DAMAGE, DAMAGE_LINES, DEPTHS, FIELD, KEPT, MAPS, MOMENT,
+    PICTURE, PLACES, PROGRAM, READING, SEARCH, SHOWN, SLIP, SLIP_FIELDS, SPOT_FIELDS, STATE, STEP, STRESS, STRESSES,
+    WORN,
 };
 use super::job::Needs;
 use super::stress_needs::{of_series, of_shells, of_stress};
@@ -48,7 +49,9 @@ pub(super) fn of_solving(
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
     let sticks = case.tangential.is_some();
     let depths = if yields(case) { DEPTHS } else { 0 } + if sticks { SLIP_FIELDS } else { 0 };
-    let slip = if sticks { SLIP * samples } else { 0 };
+    let tires = stress > 0 && (bodies.tire() || bodies.have_endurance());
+    let moments = if tires { steps * MOMENT * series } else { 0 };
+    let slip = if sticks { SLIP * samples + moments } else { 0 };
     let (fields, written, volume) =
         if fields { (steps * (24 + depths) * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
     let drawn = 3 + 2 * u64::from(case.has_cut()) + u64::from(steps > 1) + u64::from(sticks);
