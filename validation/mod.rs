@@ -48,6 +48,8 @@ mod limit;
 mod localized;
 mod outcome;
 pub mod paper;
+#[path = "partial-slip/study.rs"]
+mod partial_slip;
 #[path = "peer/study.rs"]
 mod peer;
 #[path = "periodic-hertz/study.rs"]
@@ -83,7 +85,7 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, contradictions, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 34] = [
+pub const STUDIES: [Study; 35] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -96,6 +98,7 @@ pub const STUDIES: [Study; 34] = [
     free_space::STUDY,
     two_bodies::STUDY,
     identification::STUDY,
+    partial_slip::STUDY,
     thin_coatings::STUDY,
     rings::STUDY,
     hertz_stresses::STUDY,

@@ -3,6 +3,7 @@
 //! The forms share nothing with the solver: each is an equation of its own source, written down once for the studies,
 //! for the tests and for whoever needs a number without a grid.
 
+pub mod cattaneo_mindlin;
 pub mod coated_contact;
 pub mod coating;
 pub mod galin;
@@ -16,6 +17,7 @@ pub mod sliding_wave;
 pub mod wavy;
 pub mod westergaard;
 
+pub use cattaneo_mindlin::CattaneoMindlin;
 pub use coated_contact::CoatedContact;
 pub use coating::Coating;
 pub use galin::{Contact, Term};
