@@ -4,11 +4,11 @@ use crate::answer::CaseNumber;
 use percoat_app::output::shown;
 use percoat_case::units::Units;
 use percoat_core::quantity::Quantity;
-use percoat_core::reading::{LEVEL, READING};
+use percoat_core::reading::{LEVEL, READING, SLIP};
 use percoat_core::run::{STEP, StepRecord};
 use percoat_core::stress::maxima::EXTREMES;
 
-/// Penetration, contact, peak pressure, largest stresses and contact stiffness of a step.
+/// Penetration, contact, peak pressure, shift and stick fraction, largest stresses and contact stiffness of a step.
 pub fn of(step: &StepRecord, units: &Units) -> Vec<CaseNumber> {
     /// The number of a quantity; `None` where the record does not have it.
     fn number<R>(quantity: &Quantity<R>, record: &R, units: &Units) -> Option<CaseNumber> {
@@ -26,6 +26,9 @@ pub fn of(step: &StepRecord, units: &Units) -> Vec<CaseNumber> {
         radius.or_else(|| number(&READING.contact_fraction, reading, units)),
         number(&READING.max_pressure, reading, units),
     ];
+    if let Some(slip) = &step.tangential {
+        all.extend([&SLIP.tangential_shift, &SLIP.stick_fraction].map(|quantity| number(quantity, slip, units)));
+    }
     if let Some(stress) = &step.stress {
         all.extend(EXTREMES.each().into_iter().map(|quantity| number(quantity, &stress.overall, units)));
     }

@@ -110,6 +110,7 @@ impl Page {
 fn of_steps(case: &Case, steps: &[StepRecord]) -> Answer {
     let (units, last) = (case.units(), steps.last());
     let mut tables = vec![TableText::new("contact", table::steps(steps, &units))];
+    tables.extend(table::slip(steps, &units).map(|(words, table)| TableText::new(&words, table)));
     let utilised = table::utilisations(steps, Some(case.problem().bodies()), &units)
         .map(|utilisations| TableText::worded("utilisation of strengths", utilisations));
     let (verdict, utilised) = utilised.unzip();
@@ -208,7 +209,7 @@ impl Recorder for Recording<'_> {
 
 impl Kept {
     /// Names of the pictures of the surface.
-    const SURFACE: [&str; 2] = ["pressure", "profiles"];
+    const SURFACE: [&str; 3] = ["pressure", "slip", "profiles"];
 
     fn new(case: &Case, step: Step, record: StepRecord, sections: Vec<VerticalSection>) -> Self {
         let snapshot = Snapshot::new(&case.title, step, record.reading.clone()).with_units(case.units());
@@ -225,6 +226,7 @@ impl Kept {
         let touches = snapshot.reading.touches();
         match name {
             "pressure" if touches => Some(picture::pressure(snapshot)),
+            "slip" if touches => picture::slip(snapshot),
             "section" if touches && !sections.is_empty() => Some(picture::section(snapshot, sections)),
             "profiles" => {
                 let alone = isolated::profiles(snapshot.step.problem(), &snapshot.reading);

@@ -29,7 +29,7 @@ pub enum Request {
     },
     /// A picture of the step that is kept, as PNG.
     Picture {
-        /// Name of the picture: `pressure`, `section` or `profiles`.
+        /// Name of the picture: `pressure`, `slip`, `section` or `profiles`.
         name: String,
     },
     /// A table of the step that is kept, as CSV.

@@ -214,6 +214,31 @@ def test_a_change_is_computed_at_once_and_stands_in_the_address(browser, tmp_pat
     assert browser.find_element(By.CSS_SELECTOR, "[name=force]").get_attribute("value") == "2.5"
 
 
+def test_a_counterbody_that_sticks_has_its_shift_and_what_slips(browser, tmp_path):
+    opened(browser)
+    done(browser)
+    Select(browser.find_element(By.CSS_SELECTOR, "[name=samples]")).select_by_value("96")
+    Select(browser.find_element(By.CSS_SELECTOR, "[name=motion]")).select_by_value("sticks")
+    wait(browser, lambda: "tangential shift" in numbers(browser), "no shift")
+    done(browser)
+    drawn = [figure.get_attribute("data-name") for figure in browser.find_elements(By.CSS_SELECTOR, "#pictures figure")]
+    assert drawn == ["pressure", "slip", "section", "profiles"]
+    captions = browser.execute_script("return [...document.querySelectorAll('#more caption')].map((caption) => caption.textContent)")
+    assert any(caption.startswith("partial slip") for caption in captions)
+    assert not any(caption.startswith("limits") for caption in captions), "limits are those of a counterbody that slides"
+    step = browser.execute_script("return shown.coated.step")
+    assert abs(step["tangential"]["mobilised"] - 0.6) < 1e-6
+    case = saved(browser, "case")
+    subprocess.run([PROGRAM, "solve", case, "-o", tmp_path / "sticks", "--no-pictures", "--no-fields", "-q"], check=True)
+    other = json.loads((tmp_path / "sticks" / "summary.json").read_text())["steps"][0]
+    # Tractions are solved to a gap of 1e-8: shifts agree to about that.
+    assert step["tangential"]["tangential_shift"] == pytest.approx(other["tangential"]["tangential_shift"], rel=1e-6)
+    # Without friction nothing is left to stick.
+    browser.execute_script("form.elements.friction.value = '0'; form.elements.friction.dispatchEvent(new Event('input', {bubbles: true}))")
+    wait(browser, lambda: "tangential shift" not in numbers(browser), "the shift stays")
+    done(browser)
+
+
 # Keeps the numbers, the pictures and the verdict that stand there while the rest is computed.
 KEPT_PARTS = """
 const status = document.getElementById("status");

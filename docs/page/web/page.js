@@ -156,7 +156,7 @@ const NUMBERS = ["diameter", "period", "radius", "force", "pressure"];
 function drawForm() {
   materialsIn(form.elements.counterbody, [["", "rigid"]]);
   form.elements.counterbody.value = state.counterbody;
-  for (const name of [...NUMBERS, "lattice", "load", "friction", "samples"]) form.elements[name].value = state[name];
+  for (const name of [...NUMBERS, "lattice", "load", "friction", "motion", "part", "samples"]) form.elements[name].value = state[name];
   form.elements.body.value = state.body;
   drawStack();
   drawChoices();
@@ -164,7 +164,10 @@ function drawForm() {
 
 function drawChoices() {
   form.dataset.body = state.body;
+  form.toggleAttribute("data-rubbing", state.friction > 0);
+  form.toggleAttribute("data-sticking", sticks(state));
   at("friction").textContent = state.friction;
+  at("part").textContent = state.part;
   at("load-unit").textContent = state.load === "cell" ? "mN" : "MPa";
 }
 
@@ -173,9 +176,9 @@ function entered({ target }) {
   const name = target.name;
   if (!name) return;
   let value = target.value;
-  if (NUMBERS.includes(name) || name === "friction" || name === "samples") {
+  if (NUMBERS.includes(name) || ["friction", "part", "samples"].includes(name)) {
     value = Number(value.replace(",", "."));
-    target.classList.toggle("wrong", !(value > 0) && name !== "friction");
+    target.classList.toggle("wrong", !(value > 0) && !["friction", "part"].includes(name));
     if (Number.isNaN(value)) return refused(name, target.value);
   }
   if (Object.is(state[name], value)) return;
@@ -262,7 +265,8 @@ async function stages(own) {
       show();
     }
     radius = coated.step.levels[0]?.contact_radius ?? undefined;
-    if (points === FIRST && coated.step.strength?.length) {
+    // Limits are those of a counterbody that slides.
+    if (points === FIRST && coated.step.strength?.length && !sticks(state)) {
       at("status").textContent = "searching the loads at which something fails …";
       shown.limit = await beside("Search of limits", { task: "limit", case: caseOf(state, library, { points, radius }) });
       if (own !== round) return;
@@ -363,7 +367,7 @@ function showNumbers(coated, bare, points) {
 }
 
 // In the order in which they are shown.
-const CAPTIONS = { pressure: "Contact pressure", section: "Stresses in a vertical section, with interfaces", profiles: "Pressure across the contact" };
+const CAPTIONS = { pressure: "Contact pressure", slip: "Stick and slip", section: "Stresses in a vertical section, with interfaces", profiles: "Pressure across the contact" };
 
 function showPictures({ pictures }, isWhole) {
   const order = Object.keys(CAPTIONS);

@@ -3,13 +3,13 @@
 
 const DEFAULT = {
   body: "ball", diameter: 6, lattice: "square", period: 20, radius: 50, counterbody: "100Cr6",
-  force: 5, load: "pressure", pressure: 50, friction: 0.2, samples: 192,
+  force: 5, load: "pressure", pressure: 50, friction: 0.2, motion: "slides", part: 0.6, samples: 192,
   layers: [{ material: "TiAlN", thickness: 3 }],
   substrate: { material: "D2" },
 };
 
 // Values of the fields that are lists.
-const CHOICES = { body: ["ball", "asperities"], lattice: ["square", "hexagonal"], load: ["pressure", "cell"], samples: [96, 192, 384] };
+const CHOICES = { body: ["ball", "asperities"], lattice: ["square", "hexagonal"], load: ["pressure", "cell"], motion: ["slides", "sticks"], samples: [96, 192, 384] };
 
 // Keys of a material that the form can set, with their names and units; the last three are those of layers.
 const PROPERTIES = [
@@ -94,13 +94,18 @@ function partOf(part) {
   return section;
 }
 
+// Whether friction holds the counterbody back, at a force that it bears.
+function sticks(state) {
+  return state.friction > 0 && state.motion === "sticks";
+}
+
 function titleOf(state, bare) {
   const name = (part) => part.material || "own material";
   const layers = bare ? [] : state.layers.map((layer) => `${layer.thickness} µm ${name(layer)} on `);
   const above = state.body === "ball" ? `Ball of ${state.diameter} mm` : `Asperities of ${state.radius} µm, ${state.period} µm apart`;
   const of = state.counterbody ? `, ${state.counterbody},` : "";
   const load = state.body === "ball" ? `${state.force} N` : state.load === "cell" ? `${state.pressure} mN each` : `${state.pressure} MPa`;
-  return `${above}${of} on ${layers.join("")}${name(state.substrate)}, ${load}` + (state.friction > 0 ? `, μ = ${state.friction}` : "");
+  return `${above}${of} on ${layers.join("")}${name(state.substrate)}, ${load}` + (state.friction > 0 ? `, μ = ${state.friction}` : "") + (sticks(state) ? `, Q = ${state.part} μP` : "");
 }
 
 // The case of a state on a grid. `radius`: the contact radius where it is known, µm; `bare`: without the layers.
@@ -127,10 +132,11 @@ function caseOf(state, library, { points, radius, bare = false }) {
   own.substrate = partOf(state.substrate);
   if (state.counterbody) own.counterbody = { material: state.counterbody };
   if (state.friction > 0) own.friction = { coefficient: state.friction };
+  if (sticks(state)) own.tangential = { force: [state.part] };
   own.units = { length: "µm", pressure: "GPa" };
   own.grid = { points };
-  // Down to rounding, so that the command line has the same numbers whatever its processor.
-  own.solver = { tolerance: 1e-14 };
+  // Down to rounding, so that the command line has the same numbers whatever its processor; tractions are not solved as closely.
+  own.solver = { tolerance: sticks(state) ? 1e-11 : 1e-14 };
   own.stress = {
     mean: "half-space",
     section: { from: "level 1", toward: [1, 0], length, behind: length / 2, depth: rounded(depth, 2) },
