@@ -36,16 +36,20 @@ pub fn add(outcome: &mut Outcome, quick: bool) -> Result<(), StudyError> {
             }
         }
     }
-    let of = |is_rough: bool, bound: f64| {
-        let rows = data.rows.iter().filter(move |row| (row[0] >= ROUGH as f64) == is_rough);
+    let of = |is_rough: bool, sizes: std::ops::RangeInclusive<f64>, bound: f64| {
+        let rows = data.rows.iter().filter(move |row| (row[0] >= ROUGH as f64) == is_rough && sizes.contains(&row[1]));
         rows.map(move |row| (row[3], bound)).collect::<Vec<_>>()
     };
-    outcome.checks.push(Check::worst(
-        "iterations of the tractions, smooth contacts",
-        of(false, 20.0),
-        Tolerance::AtMost,
-    ));
-    outcome.checks.push(Check::worst("iterations of the tractions, rough contacts", of(true, 45.0), Tolerance::AtMost));
+    let mut most = |what: &str, is_rough: bool, sizes: std::ops::RangeInclusive<f64>, bound: f64| {
+        let quantity = format!("iterations of the tractions, {what}");
+        outcome.checks.push(Check::worst(quantity, of(is_rough, sizes, bound), Tolerance::AtMost));
+    };
+    most("smooth contacts, up to 512² points", false, 0.0..=512.0, 20.0);
+    most("rough contacts, up to 512² points", true, 0.0..=512.0, 45.0);
+    if !quick {
+        most("smooth contacts, 1024² points", false, 1024.0..=1024.0, 25.0);
+        most("rough contacts, 1024² points", true, 1024.0..=1024.0, 60.0);
+    }
     outcome.data.push(data);
     Ok(())
 }

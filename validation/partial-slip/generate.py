@@ -115,8 +115,8 @@ def kernels():
     return out
 
 
-def step(k, f, delta, shift, before, state, tolerance=1e-12):
-    """p, q_x, q_y under a penetration and a shift, from a state."""
+def step(k, f, delta, rise, before, state, tolerance=1e-12):
+    """p, q_x, q_y under a penetration and a rise of the shift, from a state."""
     size = f.size
     # w = C p - (K part) q: the transpose of B.
     whole = np.block([[k["C"], k["x"].T, k["y"].T], [k["x"], k["xx"], k["xy"]], [k["y"], k["xy"], k["yy"]]])
@@ -133,7 +133,7 @@ def step(k, f, delta, shift, before, state, tolerance=1e-12):
                 u += (new - p) * whole[:, i]
                 x[i] = new
                 most = max(most, abs(new - p))
-            trial = q - (u[[at[1], at[2]]] - before[[i, i + size]] - shift) / A0
+            trial = q - (u[[at[1], at[2]]] - before[[i, i + size]] - rise) / A0
             length, bound = np.hypot(*trial), MU * new
             trial = trial * (bound / length) if length > bound else trial
             for part in (0, 1):
@@ -155,10 +155,10 @@ def main():
     size = f.size
     state, before = np.zeros(3 * size), np.zeros(2 * size)
     # Pressed in two parts of equal contact radius, then shifted in two equal ones.
-    path = [(0.25, 0.0), (1.0, 0.0), (1.0, 0.5), (1.0, 1.0)]
+    path = [(0.25, 0.0), (1.0, 0.0), (1.0, 0.5), (1.0, 0.5)]
     forces = []
-    for depth, part in path:
-        state, before, sweeps = step(k, f, depth * DELTA, part * np.array(SHIFT), before, state)
+    for depth, rise in path:
+        state, before, sweeps = step(k, f, depth * DELTA, rise * np.array(SHIFT), before, state)
         p, qx, qy = state.reshape(3, size)
         forces.append((p.sum(), qx.sum(), qy.sum()))
         q = np.hypot(qx, qy)

@@ -9,12 +9,12 @@ use percoat_core::spectral::{Rolling, RollingDrive, SlipSolver};
 use std::f64::consts::{PI, TAU};
 
 const ROLLING: &str = include_str!("rolling.csv");
-const POINTS: usize = 512;
+const POINTS: usize = 1024;
 /// Steps of a sixteenth of the contact, and half as long ones: extrapolated, a prototype has them within .25 %.
 const ROLLED: Rolling = Rolling { direction: [1.0, 0.0], distance: 3.0, step: 1.0 / 16.0 };
 const CREEPAGE: f64 = 2.5e-3;
-/// Carter: contact radius over the wavelength, and the points for 41 samples to it.
-const CARTER: (f64, usize) = (0.02, 2048);
+/// Carter: contact radius over the wavelength, and the points for 82 samples to it.
+const CARTER: (f64, usize) = (0.02, 4096);
 /// ν, and C₁₁ of a circular contact (Kalker, Three-Dimensional Elastic Bodies in Rolling Contact, 1990).
 const KALKER: [(f64, f64); 2] = [(0.0, 3.40), (0.25, 4.12)];
 
@@ -29,7 +29,7 @@ pub fn add(outcome: &mut Outcome, quick: bool) -> Result<(), StudyError> {
     let mut data = Data::new("rolling", &["chi", "nu", "h", "part", "creepage", "creepage_error", "creepage_exact"]);
     for row in Data::parse("rolling", ROLLING)?.rows {
         let [chi, nu, h, part, _, exact] = row[..] else { return Err("a wave that rolls has six numbers".into()) };
-        if quick && (part != 0.6 || chi == 0.0) {
+        if quick && (part != 0.6 || chi != 4.0) {
             continue;
         }
         let [found, error] = creepage(&mut wave([chi, nu, h], POINTS)?, Load::MeanPressure(MEAN), part)?;
@@ -84,7 +84,8 @@ fn kalker(outcome: &mut Outcome) -> Result<(), StudyError> {
             solver(problem, [points; 2])?.roll(Load::Force(force), RollingDrive::Creepage([creepage, 0.0]), rolling)?;
         pairs.push((step.force.value[0] / creepage, exact));
     }
-    // The table has three digits; a prototype with 28 samples to the radius was .4 % off, and the steps leave .25 %.
-    outcome.checks.push(Check::worst("balls that do not slip, Kalker: C₁₁", pairs, Tolerance::Relative(1e-2)));
+    // Where nothing slips the traction at the trailing end is infinite, and the steps are of the order ½ instead of 1: twice as many leave .7 times as
+    // much, so that the last change, 2 %, understates what is left by half of it.
+    outcome.checks.push(Check::worst("balls that do not slip, Kalker: C₁₁", pairs, Tolerance::Relative(4e-2)));
     Ok(())
 }

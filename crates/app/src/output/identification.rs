@@ -274,10 +274,11 @@ impl IdentificationFile {
         let [low, high] = unloading.epsilons().map(number);
         let many =
             if unloading.len() == 1 { "1 unloading".to_owned() } else { format!("{} unloadings", unloading.len()) };
-        let mut lines = vec![format!(
-            "{many}, residual {} of P/S (root mean square); contact radii {least} to {most}, ε {low} to {high}",
-            length.with_unit(self.rms_residual, number)
-        )];
+        let residual = match self.degrees_of_freedom {
+            0 => "as many as parameters, so that the model meets each stiffness".to_owned(),
+            _ => format!("residual {} of P/S (root mean square)", length.with_unit(self.rms_residual, number)),
+        };
+        let mut lines = vec![format!("{many}, {residual}; contact radii {least} to {most}, ε {low} to {high}")];
         if let Some(chi) = self.reduced_chi_square {
             lines.push(format!("reduced chi-square {chi:.2}, about 1 where model and errors hold"));
         }

@@ -57,6 +57,11 @@ const FORCE: Kind = Kind {
         "load on sample",
         "force on surface",
         "applied load",
+        "last",
+        "kraft",
+        "prüfkraft",
+        "normalkraft",
+        "charge",
         "fn",
         "p",
     ],
@@ -74,6 +79,9 @@ const PENETRATION: Kind = Kind {
         "displacement",
         "displacement into surface",
         "indenter displacement",
+        "tiefe",
+        "eindringtiefe",
+        "profondeur",
         "pd",
         "h",
     ],
@@ -265,6 +273,8 @@ mod tests {
         );
         let measurement = read("force,penetration_nm,penetration_error\n2,15,0.5\n", &units()).unwrap();
         assert_eq!(measurement.deviations().unwrap(), [0.5 / 1000.0], "in the unit of the penetration");
+        let german = read("Prüfung 3;Berkovich\nZeit (s);Eindringtiefe (nm);Kraft (mN)\n0;15;2,5\n", &units()).unwrap();
+        assert_eq!((german.forces(), german.penetrations()), (&[2.5][..], &[0.015][..]));
         let measurement = read("penetration,force\n0.1,3\n", &Units::unknown()).unwrap();
         assert_eq!(
             (measurement.forces(), measurement.penetrations(), measurement.deviations()),

@@ -15,12 +15,14 @@ use super::rolling::{NotAlongGrid, Rolling, Stride, contact_length};
 use super::stick_slip::{SlipReport, SlipSettings};
 use super::track::{History, Track, TrackStep};
 use crate::lattice::LatticeError;
+use crate::lattice::components::contact_spots;
 use crate::load::{Control, Load};
 use crate::measured::Measured;
 use crate::notation::number;
 use crate::numeric::sums;
 use crate::problem::Problem;
-use crate::spectral::{Settings, Shear, Solver, Step};
+use crate::spectral::{Contact, Settings, Shear, Solver, Step};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Parts of a step in which the load changes; even.
@@ -160,11 +162,13 @@ fn result(step: Followed, coarser: Option<Step>, halved: Option<Numbers>, of_gri
         let MeasuredVector { value: [value, _], error } = measured(of);
         Measured::new(value, of_grid.map(|_| error))
     };
+    let work = number(|numbers| [numbers.work, 0.0]);
+    let left_open = square_of_a_sample(contact.finest()) * work.value.abs();
     SlipStep {
         force,
         shift: measured(|numbers| numbers.shift),
         creepage: numbers.creepage.map(|_| measured(|numbers| numbers.creepage.unwrap_or_default())),
-        work: number(|numbers| [numbers.work, 0.0]),
+        work: Measured::new(work.value, work.error.map(|error| error + left_open)),
         stick_fraction: number(|numbers| [numbers.stick_fraction, 0.0]),
         contact: match coarser {
             Some(coarse) => contact.with_coarser(coarse),
@@ -175,6 +179,13 @@ fn result(step: Followed, coarser: Option<Step>, halved: Option<Numbers>, of_gri
         turns,
         converged,
     }
+}
+
+/// Square of the spacing over the mean radius of the spots: two grids may agree by chance, and the energy errs by about this part of it.
+fn square_of_a_sample(contact: &Contact) -> f64 {
+    let pressures = contact.pressures();
+    let touching = pressures.iter().filter(|p| **p > 0.0).count();
+    if touching == 0 { 0.0 } else { PI * contact_spots(contact.grid(), pressures).len() as f64 / touching as f64 }
 }
 
 impl SlipSolver {

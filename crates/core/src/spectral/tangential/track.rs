@@ -14,7 +14,7 @@ use crate::load::Load;
 use crate::numeric::sums;
 use crate::problem::Problem;
 use crate::spectral::iteration::Unknowns;
-use crate::spectral::{Settings, Solver, Step};
+use crate::spectral::{Settings, Solver, Step, Stop};
 use std::sync::Arc;
 
 /// Most turns between the normal and the tangential problem.
@@ -96,9 +96,10 @@ pub(in crate::spectral) struct TrackStep {
 }
 
 impl TrackStep {
-    /// Whether pressure and tractions meet their tolerances.
+    /// Whether pressure and tractions meet their tolerances, or hardly a sample touches, which bears next to nothing.
     pub fn is_converged(&self) -> bool {
-        self.report.converged && self.contact.report.stop.solved()
+        let stop = self.contact.report.stop;
+        self.report.converged && (stop.solved() || stop == Stop::Unresolved)
     }
 }
 
@@ -228,7 +229,7 @@ impl Track {
             let still = Arc::clone(&self.state.traction);
             self.slip(&contact, None, before, (aim, self.settings.tolerance), (&still, None))
         });
-        slipped.report.converged &= agree;
+        slipped.report.converged &= agree || turns == 0;
         self.finish((load, contact), slipped, dragged, turns)
     }
 
