@@ -2,7 +2,7 @@
 
 use super::Criterion;
 use crate::body::{Depth, HalfSpace, InterfaceStrength, StrainDirection};
-use crate::stress::{StressState, VerticalSection};
+use crate::stress::{SAME_IN_SECTION, StressState, VerticalSection};
 use ndarray::Array2;
 
 /// A scalar stress measure that a section shows.
@@ -85,7 +85,7 @@ impl VerticalSection {
         let mut best = surface.map(|(&depth, [s, value])| LargestInSection { value, s, depth });
         for (row, &depth) in values.outer_iter().zip(&self.depths) {
             for (&value, &s) in row.iter().zip(&distances) {
-                if best.is_none_or(|best| value > best.value) {
+                if best.is_none_or(|best| value > best.value + SAME_IN_SECTION * value.abs()) {
                     best = Some(LargestInSection { value, s, depth });
                 }
             }

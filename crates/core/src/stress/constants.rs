@@ -68,3 +68,7 @@ pub(super) const MISSED_BY_SAMPLES: f64 = 0.05;
 pub(super) const RISE_BETWEEN_PLANES: f64 = 0.25;
 /// Largest relative difference of value and depth of maxima that are equal by symmetry.
 pub(super) const EQUAL_BY_SYMMETRY: f64 = 1e-3;
+
+/// Part of a stress in a section by which equal ones of mirror images differ, as closely as contacts are solved: the first of them is the
+/// largest, whatever the processor.
+pub(crate) const SAME_IN_SECTION: f64 = 1e-6;

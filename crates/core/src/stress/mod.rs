@@ -81,6 +81,7 @@ mod transform;
 mod window_waves;
 mod work;
 
+pub(crate) use constants::SAME_IN_SECTION;
 pub use crest::Crest;
 pub use field::StressField;
 pub use fields::StressFields;

@@ -4,6 +4,7 @@
 //! samples. Just below, where it still overshoots, stresses are interpolated in depth.
 
 use super::constants::OPEN_WIDTH;
+use super::constants::SAME_IN_SECTION;
 use super::depth_response::DisplacementComponents;
 use super::field::{REACH, StressField};
 use super::smoothed_shear::shear_parts;
@@ -13,7 +14,7 @@ use super::trace::Trace;
 use crate::body::Depth;
 use crate::numeric::array::field;
 use crate::numeric::parallel;
-use crate::numeric::search::first_largest;
+use crate::numeric::search::first_largest_within;
 use ndarray::Array2;
 
 /// Number of intervals between two points of a line in which the largest stress is searched.
@@ -160,7 +161,8 @@ impl<'a> LineField<'a> {
             let normal_stress = |(state, place): (&StressState, [f64; 2])| {
                 if cell.contains(place) { state.along(line.direction) } else { f64::NEG_INFINITY }
             };
-            let (best, stress) = first_largest(states.iter().zip(line.places()).map(normal_stress))?;
+            let (best, stress) =
+                first_largest_within(states.iter().zip(line.places()).map(normal_stress), SAME_IN_SECTION)?;
             Some([line.distances()[best], stress])
         };
         let [s, stress] = highest(surface, line)?;
