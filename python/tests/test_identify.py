@@ -135,7 +135,10 @@ def test_a_curve_is_a_frame_or_the_path_of_a_table(
     frame[["force_mN", "penetration"]].to_csv(path, index=False)
     for data in (path, str(path)):
         again = percoat.identify(CASE, data, ["substrate.young"])
-        assert again.to_dict() == found.to_dict() and np.array_equal(again.fitted, found.fitted)
+        # A file gives its curve its name.
+        (of_file,), (of_arrays,) = again.to_dict()["curves"], found.to_dict()["curves"]
+        assert of_file == {**of_arrays, "name": str(path)}
+        assert {**again.to_dict(), "curves": [of_arrays]} == found.to_dict() and np.array_equal(again.fitted, found.fitted)
 
 
 def test_poissons_ratio_stays_within_its_bounds(curve: tuple[Any, Any]) -> None:
