@@ -233,6 +233,8 @@ def test_a_counterbody_that_sticks_has_its_shift_and_what_slips(browser, tmp_pat
     other = json.loads((tmp_path / "sticks" / "summary.json").read_text())["steps"][0]
     # Tractions are solved to a gap of 1e-8: shifts agree to about that.
     assert step["tangential"]["tangential_shift"] == pytest.approx(other["tangential"]["tangential_shift"], rel=1e-6)
+    # Sliders stand where the state is.
+    assert browser.execute_script("return [form.elements.friction.value, form.elements.part.value]") == ["0.2", "0.6"]
     # Without friction nothing is left to stick.
     browser.execute_script("form.elements.friction.value = '0'; form.elements.friction.dispatchEvent(new Event('input', {bubbles: true}))")
     wait(browser, lambda: "tangential shift" not in numbers(browser), "the shift stays")

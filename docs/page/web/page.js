@@ -166,8 +166,8 @@ function drawChoices() {
   form.dataset.body = state.body;
   form.toggleAttribute("data-rubbing", state.friction > 0);
   form.toggleAttribute("data-sticking", sticks(state));
-  at("friction").textContent = state.friction;
-  at("part").textContent = state.part;
+  at("friction-shown").textContent = state.friction;
+  at("part-shown").textContent = state.part;
   at("load-unit").textContent = state.load === "cell" ? "mN" : "MPa";
 }
 
