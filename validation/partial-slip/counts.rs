@@ -1,6 +1,6 @@
 //! Iterations of the tractions from nothing, at one load: smooth and rough contacts, soft and stiff layers.
 
-use super::{ball, half_space, like, rubbing, solver, to_part};
+use super::setup::{ball, half_space, like, rubbing, solver, to_part};
 use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use percoat_core::counterbody::roughness::{Rms, SelfAffine};
 use percoat_core::counterbody::{Indenters, Level, Shape, Topography};

@@ -1,6 +1,6 @@
 //! Unlike bodies, whose pressure and tractions couple: a dense solution sample by sample, and a punch that sticks.
 
-use super::{advance, half_space, rubbing, solver};
+use super::setup::{advance, half_space, rubbing, solver};
 use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use percoat_core::body::{Bodies, HalfSpace, Material};
 use percoat_core::lattice::Cell;

@@ -1,7 +1,7 @@
 //! Steady rolling: waves of a dense solution, Carter's cylinders, and Kalker's balls that do not slip.
 
+use super::setup::{ball, half_space, like, rubbing, solver, wave};
 use super::waves::MEAN;
-use super::{ball, half_space, like, rubbing, solver, wave};
 use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use percoat_core::lattice::Cell;
 use percoat_core::load::Load;

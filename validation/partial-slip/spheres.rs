@@ -1,7 +1,7 @@
 //! Balls on like bodies: Cattaneo and Mindlin where that is exact, converged numbers where slip turns or the body is coated, and
 //! force and load in proportion.
 
-use super::{advance, ball, half_space, like, rubbing, solver, to_part};
+use super::setup::{advance, ball, half_space, like, rubbing, solver, to_part};
 use crate::exact::CattaneoMindlin;
 use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use percoat_core::body::HalfSpace;

@@ -1,6 +1,6 @@
 //! Coated waves in plane strain: shifts, widths that stick, and cycles of a dense solution.
 
-use super::{to_part, wave, width};
+use super::setup::{to_part, wave, width};
 use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use percoat_core::load::Load;
 
@@ -40,7 +40,7 @@ pub fn add(outcome: &mut Outcome, quick: bool) -> Result<(), StudyError> {
             let contact = step.contact.finest();
             let shear = contact.shear().ok_or("there is no shear")?;
             let sticking = (0..contact.pressures().len()).filter(|&i| shear.sticks(i, contact.pressures()[i])).count();
-            let found = 0.5 * sticking as f64 / (points * super::ROWS) as f64;
+            let found = 0.5 * sticking as f64 / (points * super::setup::ROWS) as f64;
             let difference = contact.pressures()[0] - shear.traction[0][0];
             let iterations = step.report.iterations as f64;
             data.rows.push(vec![
