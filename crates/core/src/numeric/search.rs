@@ -29,13 +29,19 @@ pub fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
 /// Index and value of the largest of some numbers, the first of several that are equal to rounding, as those of symmetric places
 /// are; NaN counts as the largest.
 pub fn first_largest(numbers: impl Iterator<Item = f64>) -> Option<(usize, f64)> {
-    first_largest_within(numbers, 1e-12)
+    let behind = |next: f64, best: f64| best.is_nan() || next <= best + 1e-12 * next.abs();
+    numbers.enumerate().reduce(|best, next| if behind(next.1, best.1) { best } else { next })
 }
 
-/// Index and value of the largest of some numbers, the first of several that differ by less than a part of them.
-pub fn first_largest_within(numbers: impl Iterator<Item = f64>, part: f64) -> Option<(usize, f64)> {
-    let behind = |next: f64, best: f64| best.is_nan() || next <= best + part * next.abs();
-    numbers.enumerate().reduce(|best, next| if behind(next.1, best.1) { best } else { next })
+/// Index and value of the first of some numbers that no neighbour exceeds and that is the largest but for a part of it.
+pub fn first_summit(numbers: &[f64], part: f64) -> Option<(usize, f64)> {
+    let (last, most) = first_largest(numbers.iter().copied())?;
+    let is_summit = |k: usize| {
+        let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten().filter_map(|k| numbers.get(k));
+        numbers[k] >= most - part * most.abs() && beside.into_iter().all(|beside| *beside <= numbers[k])
+    };
+    let first = (0..last).find(|&k| is_summit(k)).unwrap_or(last);
+    Some((first, numbers[first]))
 }
 
 #[cfg(test)]
@@ -54,7 +60,10 @@ mod tests {
         assert_eq!(largest([]), 0.0);
         assert!(largest([0.1, f64::NAN, 5.0]).is_nan());
         assert_eq!(first_largest([0.1, 0.3, 0.3 + 1e-16, 0.2].into_iter()), Some((1, 0.3)));
-        assert_eq!(first_largest_within([0.1, 0.3, 0.3 + 1e-9, 0.2].into_iter(), 1e-6), Some((1, 0.3)));
+        let summits = [0.1, 0.3 - 1e-9, 0.2, 0.3 - 2e-9, 0.3, 0.2];
+        assert_eq!(first_summit(&summits, 1e-6), Some((1, 0.3 - 1e-9)), "the first summit");
+        assert_eq!(first_summit(&summits[2..], 1e-6), Some((2, 0.3)), "not the slope of the same one");
+        assert_eq!(first_summit(&[], 1e-6), None);
         assert_eq!(first_largest([0.1, f64::NAN, 5.0].into_iter()).map(|(index, _)| index), Some(1));
     }
 }

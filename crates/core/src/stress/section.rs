@@ -14,7 +14,7 @@ use super::trace::Trace;
 use crate::body::Depth;
 use crate::numeric::array::field;
 use crate::numeric::parallel;
-use crate::numeric::search::first_largest_within;
+use crate::numeric::search::{first_largest, first_summit};
 use ndarray::Array2;
 
 /// Number of intervals between two points of a line in which the largest stress is searched.
@@ -157,21 +157,22 @@ impl<'a> LineField<'a> {
     fn highest(&self, surface: &[StressState]) -> Option<[f64; 2]> {
         let line = self.line;
         let cell = self.field.grid().cell();
-        let highest = |states: &[StressState], line: SurfaceLine| {
+        let stresses = |states: &[StressState], line: SurfaceLine| -> Vec<f64> {
             let normal_stress = |(state, place): (&StressState, [f64; 2])| {
                 if cell.contains(place) { state.along(line.direction) } else { f64::NEG_INFINITY }
             };
-            let (best, stress) =
-                first_largest_within(states.iter().zip(line.places()).map(normal_stress), SAME_IN_SECTION)?;
-            Some([line.distances()[best], stress])
+            states.iter().zip(line.places()).map(normal_stress).collect()
         };
-        let [s, stress] = highest(surface, line)?;
+        // Mirror images differ as closely as contacts are solved.
+        let (best, stress) = first_summit(&stresses(surface, line), SAME_IN_SECTION)?;
+        let s = line.distances()[best];
         let Some(smoothed) = &self.smoothed else { return Some([s, stress]) };
         // The stress jumps at an edge: a fine line between the points locates it.
         let [first, last] = line.span;
         let span = [s - line.step(), s + line.step()].map(|s| s.clamp(first.min(last), first.max(last)));
         let finer = SurfaceLine { span, points: 2 * REFINEMENT + 1, ..line };
-        highest(&self.sharp(smoothed, &finer), finer).filter(|finer| finer[1] > stress).or(Some([s, stress]))
+        let (best, finer_stress) = first_largest(stresses(&self.sharp(smoothed, &finer), finer).into_iter())?;
+        Some(if finer_stress > stress { [finer.distances()[best], finer_stress] } else { [s, stress] })
     }
 
     /// States at a depth at the points of `line`, which is a part of the field's line.
