@@ -64,6 +64,13 @@ fn shear_range(states: &[StressState]) -> f64 {
     pairs.fold(0.0, f64::max)
 }
 
+/// Largest less least τ₁ on straight lines through the states, closed.
+fn shear_stress_range(states: &[StressState]) -> f64 {
+    let between = |k: usize, part: u32| states[k].toward(&states[(k + 1) % states.len()], f64::from(part) / 16.0);
+    let all = || (0..states.len()).flat_map(|k| (0..16).map(move |part| between(k, part).tau1()));
+    all().fold(0.0, f64::max) - all().fold(f64::INFINITY, f64::min)
+}
+
 /// The largest of a measure over places below the surface along the force and beside it, a twentieth of the radius apart.
 fn most(fields: &[StressFields], depths: &[Depth], measure: fn(&[StressState]) -> f64) -> f64 {
     let places: Vec<[f64; 2]> =
@@ -92,19 +99,19 @@ fn a_cycle_tires_by_the_stresses_of_its_steps() {
     let depths = |material: usize, z: std::ops::Range<u32>| -> Vec<Depth> {
         z.map(|k| Depth { z: 0.05 * f64::from(k), material }).collect()
     };
-    for (number, depths) in [(1, depths(1, 2..9)), (2, depths(2, 8..20))] {
-        let id = problem().half_space().material_id(number);
-        let find = |wanted: Criterion| last.strength.iter().find(|found| found.criterion == wanted).cloned();
-        let Utilisation { value, error, .. } = find(Criterion::Crossland(id)).unwrap();
-        let known = most(&fields, &depths, crossland);
-        let error = error.unwrap();
-        println!("material {number}: {value} ± {error}, {known}");
-        // Between places a twentieth of the radius apart the largest value may be missed by some hundredths of it; near the surface it may lie higher.
-        assert!(value > known - error, "{value} {known}");
-        assert!(number == 1 || value < 1.02 * known + error, "{value} {known}");
-    }
+    let id = problem().half_space().material_id(2);
+    let criterion = Criterion::Crossland(id);
+    let Utilisation { value, error, .. } = *last.strength.iter().find(|found| found.criterion == criterion).unwrap();
+    let (known, error) = (most(&fields, &depths(2, 8..20), crossland), error.unwrap());
+    println!("Crossland {value} ± {error}, {known}");
+    // Places a twentieth of the radius apart miss some hundredths of the largest value.
+    assert!(value > known - error && value < 1.02 * known + error, "{value} {known}");
     let reading = last.fatigue.as_ref().unwrap();
     assert_eq!(reading.path, SlidingPath::InPlace);
+    let range = reading.life(FatiguePart::Material(id)).unwrap().range;
+    let known = most(&fields, &depths(2, 8..20), shear_stress_range);
+    println!("range {range} {known}");
+    assert!(range > 0.995 * known && range < 1.03 * known, "{range} {known}");
     let interface = problem().half_space().interface_id(1);
     let life = reading.life(FatiguePart::Interface(interface)).unwrap();
     let known = most(&fields, &[Depth { z: 0.4, material: 1 }], shear_range);

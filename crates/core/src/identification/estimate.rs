@@ -40,7 +40,7 @@ pub(super) fn estimates(
     place.iter().enumerate().map(estimate).collect()
 }
 
-/// What follows at the place where a search ended, if that is a minimum.
+/// Result of `at` for the place where a search ended, if that is a minimum.
 ///
 /// # Errors
 /// Why the search did not end at a minimum; but first the error of what follows: a search along what the measurement does not contain has no

@@ -333,9 +333,10 @@ impl Run {
                         StressReading::of_while(step, &record.reading, fields, &goes_on),
                         PathReading::of_pass(step, &record.reading, fields, sought, &goes_on),
                     );
-                    stress
-                        .zip(path)
-                        .map(|(stress, path)| record.clone().with_stress(stress, bodies).with_path(path, &self.problem))
+                    stress.zip(path).map(|(stress, path)| {
+                        let record = record.clone().with_stress(stress, bodies);
+                        if moments.is_empty() { record.with_path(path, &self.problem) } else { record.with_cycle(path) }
+                    })
                 }
             };
             if let Some(error) = ended.into_inner() {

@@ -197,8 +197,14 @@ impl StepRecord {
     /// The record with what the stresses along the path of sliding of a problem say: lives, those by strain among them, and utilisations of
     /// endurance limits behind those of the strengths.
     #[must_use]
-    pub(super) fn with_path(self, PathReading { fatigue, utilisations, .. }: PathReading, problem: &Problem) -> Self {
-        let fatigue = FatigueReading::with_strains(fatigue, problem, &self.strength);
+    pub(super) fn with_path(self, path: PathReading, problem: &Problem) -> Self {
+        let fatigue = FatigueReading::with_strains(path.fatigue, problem, &self.strength);
+        self.with_cycle(PathReading { fatigue, ..path })
+    }
+
+    /// The record with lives and utilisations of endurance limits of a cycle in which points stay in place; lives by strain are those of a pass.
+    #[must_use]
+    pub(super) fn with_cycle(self, PathReading { fatigue, utilisations, .. }: PathReading) -> Self {
         let strength = [&self.strength[..], &utilisations].concat();
         Self { fatigue, ..self }.with_utilisations(strength)
     }

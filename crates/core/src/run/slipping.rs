@@ -49,10 +49,11 @@ impl Run {
         if known >= self.loads.len() {
             return Err(OtherGrids.into());
         }
-        let (mut last, tables) = (None, Arc::default());
-        let (mut steps, keeps_steps) = (Vec::new(), self.tires_in_place());
+        let (mut steps, tables, keeps_steps) = (Vec::new(), Arc::default(), self.tires_in_place());
         for (number, (&load, &motion)) in self.loads.iter().zip(motions).enumerate() {
-            drop(last.take());
+            if !keeps_steps {
+                steps.clear();
+            }
             if number >= known {
                 recorder.load(load);
             }
@@ -72,11 +73,8 @@ impl Run {
                 let record = self.with_stresses(&step.contact, record, &tables, loading, (began, 0.0), recorder)?;
                 records.push(record);
             }
-            if keeps_steps {
-                steps.push(step.contact.clone());
-            }
-            last = Some(step.contact);
+            steps.push(step.contact);
         }
-        Ok((records, last))
+        Ok((records, steps.pop()))
     }
 }

@@ -18,7 +18,7 @@ use std::fmt;
 const PILES_UP: f64 = 0.7;
 /// Exponents m of elastic unloading, from that of a flat punch to that of a cone, and a twentieth beyond for the scatter.
 const EXPONENTS: [f64; 2] = [0.95, 2.1];
-/// Root mean square of the residuals of the power law over h − h_f, from which on a pattern in them is told.
+/// Root mean square of the residuals of the power law over h − h_f from which on a doubt names their pattern.
 const LARGE: f64 = 2e-3;
 
 /// The contact of an unloading in the model that was found.

@@ -17,8 +17,8 @@ const SWEEPS: usize = 100_000;
 /// along **q** on its circle.
 pub(super) fn tractions(operator: &mut TangentialOperator, m: &[f64], b: &[Vector], d: Vector) -> Vec<Vector> {
     let columns = columns(operator, m.len());
-    let own = |i: usize| [columns[i][0][i], columns[i][1][i]];
-    let a = (0..m.len()).map(|i| own(i).map(length).into_iter().fold(0.0, f64::max)).fold(0.0, f64::max);
+    let of_itself = |i: usize| [columns[i][0][i], columns[i][1][i]];
+    let a = (0..m.len()).map(|i| of_itself(i).map(length).into_iter().fold(0.0, f64::max)).fold(0.0, f64::max);
     let mut q = vec![[0.0; 2]; m.len()];
     let mut displacement = vec![[0.0; 2]; m.len()];
     for _ in 0..SWEEPS {
