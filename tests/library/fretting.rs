@@ -104,19 +104,19 @@ fn a_cycle_tires_by_the_stresses_of_its_steps() {
     let Utilisation { value, error, .. } = *last.strength.iter().find(|found| found.criterion == criterion).unwrap();
     let (known, error) = (most(&fields, &depths(2, 8..20), crossland), error.unwrap());
     println!("Crossland {value} ± {error}, {known}");
-    // Places a twentieth of the radius apart miss some hundredths of the largest value.
-    assert!(value > known - error && value < 1.02 * known + error, "{value} {known}");
+    // Places a twentieth of the radius apart miss some thousandths of the largest value.
+    assert!(value > known - error && value < 1.005 * known + error, "{value} {known}");
     let reading = last.fatigue.as_ref().unwrap();
     assert_eq!(reading.path, SlidingPath::InPlace);
     let range = reading.life(FatiguePart::Material(id)).unwrap().range;
     let known = most(&fields, &depths(2, 8..20), shear_stress_range);
     println!("range {range} {known}");
-    assert!(range > 0.995 * known && range < 1.03 * known, "{range} {known}");
+    assert!((range / known - 1.0).abs() < 5e-3, "{range} {known}");
     let interface = problem().half_space().interface_id(1);
     let life = reading.life(FatiguePart::Interface(interface)).unwrap();
     let known = most(&fields, &[Depth { z: 0.4, material: 1 }], shear_range);
     println!("interface {} {known}", life.range);
-    assert!(life.range > 0.999 * known && life.range < 1.01 * known, "{} {known}", life.range);
+    assert!((life.range / known - 1.0).abs() < 2e-3, "{} {known}", life.range);
     // Like bodies are sheared alike, by the mirror image through the contact.
     let pairs: Vec<[f64; 2]> = (0..last.strength.len())
         .flat_map(|i| (0..i).map(move |j| (i, j)))
