@@ -18,6 +18,8 @@ mod fatigue;
 mod first_touch;
 #[path = "library/fretting.rs"]
 mod fretting;
+#[path = "library/fretting_wear.rs"]
+mod fretting_wear;
 #[path = "library/given_load.rs"]
 mod given_load;
 #[path = "library/hardness.rs"]

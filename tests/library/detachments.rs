@@ -81,6 +81,7 @@ fn task(exponent: f64, points: usize, passes: f64) -> (LifeTask, f64, f64, Fatig
         distance: None,
         stroke: None,
         tolerance: 1e-2,
+        motions: None,
     };
     (task, radius, peak, law)
 }

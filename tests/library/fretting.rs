@@ -1,8 +1,9 @@
 //! A contact that is shaken in place: what tires over the steps of a cycle, against the stresses of the steps at many places.
 
+use percoat::body::Strength;
 use percoat::reading::{Criterion, FatiguePart, Utilisation};
-use percoat::run::{Motion, Run, Sampling, StressRequest};
-use percoat::spectral::{Drive, SlipSettings, SlipSolver};
+use percoat::run::{At, Limit, Motion, Run, RunError, Sampling, StepRecord, StressRequest};
+use percoat::spectral::{Drive, Rolling, RollingDrive, SlipSettings, SlipSolver};
 use percoat::{
     Bodies, Cell, Depth, Durability, Endurance, Fatigue, Friction, HalfSpace, Indenters, Interface, Lattice, Layer,
     Level, Load, Material, MeanStress, Problem, Settings, Shape, SlidingPath, StressFields, StressState,
@@ -142,4 +143,68 @@ fn without_a_closed_cycle_nothing_tires() {
     let outcome = run(&[0.5, -0.3]).solve(&mut ()).unwrap();
     assert!(outcome.steps.iter().all(|step| step.stress.is_some() && step.fatigue.is_none()));
     assert!(outcome.steps.iter().all(|step| step.stress.as_ref().unwrap().overall.tau1.error.is_some()));
+}
+
+/// A ball between like bodies without a layer, with a tensile strength and endurance limits.
+fn breaking(tensile: f64) -> Problem {
+    let durability = Durability { endurance: Some(endurance()), ..Durability::default() };
+    let strength = Strength { yielding: None, tensile: Some(tensile) };
+    let body = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
+    let body = body.with_substrate_strength(strength).unwrap().with_substrate_durability(durability).unwrap();
+    problem().on_body(body)
+}
+
+fn largest(steps: &[StepRecord], criterion: Criterion) -> f64 {
+    let values = steps.iter().filter_map(|step| step.utilisation(criterion));
+    values.map(|utilisation| utilisation.value).fold(0.0, f64::max)
+}
+
+/// Followed anew at its limit, the worst step of a history is at 1, and endurance at the end of the cycle.
+#[test]
+fn a_limit_of_a_history_is_that_of_its_worst_step() {
+    let of = |tensile: f64, parts: &[f64]| Run { problem: breaking(tensile).into(), stress: None, ..run(parts) };
+    let parts = [0.8, 0.0, -0.8, 0.0, 0.8];
+    let found = of(0.1, &parts).limits(&mut ()).unwrap();
+    let sought = found.limits.iter().filter(|limit| matches!(limit.at, At::Load { .. }));
+    let sought: Vec<&Limit> = sought.collect();
+    assert!(found.converged() && sought.len() >= 3, "{found}");
+    for limit in &sought {
+        let loads = vec![Load::Force(limit.load()); parts.len()];
+        let steps = Run { loads, ..of(0.1, &parts) }.solve(&mut ()).unwrap().steps;
+        let most = largest(&steps, limit.criterion);
+        assert!((most - 1.0).abs() < 3e-3, "{limit:?}: {most}");
+        let [low, high] = limit.interval();
+        assert!(low < limit.load() && limit.load() < high && high < 1.5 * limit.load(), "{limit:?}");
+    }
+    let cracking = |found: &percoat::run::Limits| {
+        found.limits.iter().find(|limit| limit.criterion == Criterion::cracking_of(1)).unwrap().load()
+    };
+    // Without a length but the radius, loads at which stresses are twice as large are eight times as large; the window ends the search.
+    let twice = cracking(&of(0.126, &parts).limits(&mut ()).unwrap());
+    assert!((twice / cracking(&found) / 1.26f64.powi(3) - 1.0).abs() < 0.03, "{twice} {}", cracking(&found));
+    // What slides everywhere tears more at its edge than what slips at its rim.
+    let sliding = Run { motions: None, ..of(0.1, &parts) }.limits(&mut ()).unwrap();
+    assert!(cracking(&sliding) < 0.95 * cracking(&found), "{} {}", cracking(&sliding), cracking(&found));
+    let rising = Run { loads: vec![Load::Force(0.1), Load::Force(0.2)], ..of(0.1, &[0.1, 0.2]) };
+    assert!(matches!(rising.check_limits(), Err(RunError::SeveralLoads)));
+}
+
+/// A contact that slips everywhere as it rolls tires in a pass as one that slides.
+#[test]
+fn a_contact_that_rolls_tires_in_a_pass() {
+    let rolling = Rolling { direction: [1.0, 0.0], distance: 2.0, step: 0.25 };
+    let roll = Motion::Roll(RollingDrive::Creepage([0.09, 0.0]), rolling);
+    let sliding = Run { motions: None, ..run(&[0.0]) };
+    let rolls = Run { motions: Some(vec![roll]), ..sliding.clone() };
+    let [slid, rolled] = [sliding, rolls].map(|run| run.solve(&mut ()).unwrap().steps.remove(0));
+    assert_eq!(rolled.tangential.as_ref().unwrap().stick_fraction, 0.0);
+    let [slid_lives, lives] = [&slid, &rolled].map(|step| step.fatigue.as_ref().unwrap());
+    assert_eq!(slid_lives.path, lives.path);
+    for (life, known) in lives.lives.iter().zip(&slid_lives.lives) {
+        assert!(life.part == known.part && (life.range / known.range - 1.0).abs() < 2e-3, "{life:?} {known:?}");
+    }
+    for known in &slid.strength {
+        let utilisation = rolled.utilisation(known.criterion).unwrap();
+        assert!((utilisation.value / known.value - 1.0).abs() < 2e-3, "{utilisation:?} {known:?}");
+    }
 }

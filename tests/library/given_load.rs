@@ -110,6 +110,7 @@ fn passes_by_strain_under_a_disc_are_those_of_its_closed_forms() {
             distance: None,
             stroke: None,
             tolerance: 1e-2,
+            motions: None,
         };
         task.check().unwrap();
         let begun = task.beginning(&|_| true, &|| true).unwrap();

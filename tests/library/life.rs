@@ -45,6 +45,7 @@ fn task(bodies: impl Into<Bodies>, passes: Option<f64>) -> LifeTask {
         distance: None,
         stroke: None,
         tolerance: 1e-2,
+        motions: None,
     }
 }
 

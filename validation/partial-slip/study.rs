@@ -21,6 +21,7 @@ pub const STUDY: Study = Study {
         "cycles.data.csv",
         "figure.png",
         "iterations.data.csv",
+        "kalker.data.csv",
         "proportional.data.csv",
         "punch.data.csv",
         "rolling.data.csv",
@@ -47,20 +48,20 @@ fn run(quick: bool) -> Result<Outcome, StudyError> {
 fn charts(outcome: &Outcome) -> Vec<Chart> {
     let find = |name: &str| outcome.data.iter().find(|data| data.name == name).cloned().unwrap_or(Data::new("", &[]));
     let (waves, rolling, iterations) = (find("waves"), find("rolling"), find("iterations"));
+    // The dense solution is a line a body: rows of a body follow each other, and the last ones are those of the finest grid.
     let against = |data: &Data, found: &str, exact: &str| {
-        let parts = data.column("part");
-        let points = |name: &str| parts.iter().copied().zip(data.column(name)).map(|(x, y)| [x, y]).collect::<Vec<_>>();
-        let finest = data.column("points").into_iter().fold(0.0, f64::max);
-        let kept = data.column("points").into_iter().map(|points| points == finest || finest == 0.0);
-        let kept: Vec<bool> = kept.collect();
-        let all = if kept.is_empty() { vec![true; parts.len()] } else { kept };
-        let keep = |all: &[bool], points: Vec<[f64; 2]>| {
-            points.into_iter().zip(all.to_vec()).filter(|(_, kept)| *kept).map(|(point, _)| point).collect::<Vec<_>>()
-        };
-        vec![
-            curve("dense solution", Style::Markers, 0, keep(&all, points(exact))),
-            curve("percoat", Style::Markers, 1, keep(&all, points(found))),
-        ]
+        let [chi, nu, h, part, found, exact] = ["chi", "nu", "h", "part", found, exact].map(|name| data.column(name));
+        let points = data.column("points");
+        let finest = points.iter().copied().fold(0.0, f64::max);
+        let kept: Vec<usize> =
+            (0..part.len()).filter(|&i| points.get(i).is_none_or(|points| *points == finest)).collect();
+        let bodies = kept.chunk_by(|&i, &j| [chi[i], nu[i], h[i]] == [chi[j], nu[j], h[j]]);
+        let named = |index: usize| if index == 0 { "dense solution, a line a body" } else { "" };
+        let dense = bodies
+            .enumerate()
+            .map(|(index, body)| curve(named(index), Style::Line, 0, body.iter().map(|&i| [part[i], exact[i]])));
+        let percoat = curve("percoat", Style::Markers, 1, kept.iter().map(|&i| [part[i], found[i]]));
+        dense.chain([percoat]).collect::<Vec<_>>()
     };
     let counted = (0u8..).zip(counts::NAMES).map(|(index, name)| {
         let rows = iterations.rows.iter().filter(|row| row[0] == f64::from(index));

@@ -46,10 +46,6 @@ use std::sync::Arc;
 /// Relative error of a step of wear without a section `[life]`.
 const LIFE_TOLERANCE: f64 = 1e-2;
 
-/// Why a contact that sticks has no life of sliding.
-const STICKS: &str = "wear and fatigue are followed under a counterbody that slides, and [tangential] lets this one stick: leave that section \
-                      out, or read stresses and dissipated energy of a cycle from percoat solve";
-
 section! { whole
     /// A valid case with every default resolved. Its values do not change after reading; overrides act while it is read.
     ///
@@ -192,9 +188,6 @@ impl Case {
     /// # Errors
     /// A sentence for a case with several loads, a given pressure, or a cell that is too oblong.
     pub fn life_task(&self) -> Result<LifeTask, String> {
-        if self.tangential.is_some() {
-            return Err(STICKS.to_owned());
-        }
         let loads = self.load.loads();
         let [load] = loads[..] else {
             return Err(format!(
@@ -220,6 +213,7 @@ impl Case {
             distance: self.life.and_then(|life| life.distance),
             stroke: self.life.and_then(|life| life.stroke),
             tolerance: self.life.map_or(LIFE_TOLERANCE, |life| life.tolerance),
+            motions: self.run().motions,
         })
     }
 

@@ -39,6 +39,7 @@ impl LifeTask {
             detached: 0.0,
             lowered: 0.0,
             damage: Damage::none(self.problem.half_space(), radii, &beginning.planes),
+            in_place: Vec::new(),
             worn: [Vec::new(), Vec::new()],
             indented: Vec::new(),
             step: 0.0,
@@ -66,6 +67,9 @@ impl LifeTask {
     ) -> Result<LifeState, LifeError> {
         if state.end.is_some() {
             return Ok(state);
+        }
+        if self.motions.is_some() {
+            return self.advance_in_place(state, begun, goes_on);
         }
         let Some((body, gone)) = self.problem.half_space().uncovered(state.removed()) else {
             return Ok(self.ended(state, LifeEnd::NothingLeft));
@@ -100,7 +104,8 @@ impl LifeTask {
         let rates = Rates::new(original, gone, &contact.planes, reading, next.damage.y());
         let pending = std::mem::take(&mut next.pending);
         next.damage.add(&rates, pending, next.removed());
-        self.record(&mut next, contact, &rates);
+        let failure = self.next_failure(&next, &rates);
+        self.record(&mut next, contact, failure);
         let last = self.passes.unwrap_or(f64::INFINITY);
         if next.passes >= last {
             return Ok(LifeState { end: Some(LifeEnd::Passes), ..next });
@@ -139,14 +144,15 @@ impl LifeTask {
         }
         // Surfaces that stay as they are have this contact to the end.
         if next.end.is_none() && next.passes >= last && next.removed() == before && next.pending == 0.0 {
-            self.record(&mut next, contact, &rates);
+            let failure = self.next_failure(&next, &rates);
+            self.record(&mut next, contact, failure);
             next.end = Some(LifeEnd::Passes);
         }
         Ok(next)
     }
 
     /// State after a contact that is not solved: in a wider window where it reaches the border, else at the end.
-    fn without_contact(&self, state: LifeState, stop: Stop) -> LifeState {
+    pub(super) fn without_contact(&self, state: LifeState, stop: Stop) -> LifeState {
         let wider = if stop == Stop::AtBorder { self.in_wider_window(state.clone()) } else { None };
         match wider {
             Some(wider) => LifeState { stop: None, step: 0.0, ..wider },

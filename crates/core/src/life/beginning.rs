@@ -16,8 +16,10 @@ pub struct Beginning {
     pub back: Option<Step>,
     /// Record of the step, with the lives of what tires.
     pub record: StepRecord,
-    /// Range of τ₁ on planes of the materials that tire.
+    /// Range of τ₁ on planes of the materials that tire; none of points that stay in place.
     pub planes: Vec<RangePlane>,
+    /// Length by which both surfaces slip against each other in a cycle, sample by sample, a₂ fastest; empty where the counterbody slides.
+    pub slid: Vec<f64>,
     /// Largest [change](crate::run::change) from the grid before, that of the passes included; `None` on a first or prescribed grid.
     pub change: Option<f64>,
     /// Why a refinement has ended; `None` on a prescribed grid.
@@ -37,6 +39,9 @@ impl LifeTask {
         goes_on: &dyn Fn() -> bool,
     ) -> Result<Beginning, LifeError> {
         let on_grid = |points: [usize; 2]| {
+            if self.motions.is_some() {
+                return self.begun_in_place(points, goes_on);
+            }
             let mut solver = Solver::new(Arc::clone(&self.problem), points, self.settings)?;
             self.contact(&mut solver, goes_on)
         };
@@ -95,6 +100,6 @@ impl LifeTask {
         drop(fields);
         let fatigue = FatigueReading::with_strains(found.fatigue, &self.problem, &strains);
         let record = StepRecord { fatigue, ..StepRecord::new(&step, reading) };
-        Ok(Beginning { step, back, record, planes: found.planes, change: None, end: None })
+        Ok(Beginning { step, back, record, planes: found.planes, slid: Vec::new(), change: None, end: None })
     }
 }

@@ -17,6 +17,8 @@ pub enum EventKind {
     Delamination,
     /// Sliding, or wear of the surface by fatigue, has taken the rest of a layer.
     WornThrough,
+    /// A material or an interface fails where points stay in place: a crack begins, and nothing comes off.
+    Crack,
 }
 
 impl fmt::Display for EventKind {
@@ -26,6 +28,7 @@ impl fmt::Display for EventKind {
             Self::SurfaceWear => "wear of the surface by fatigue",
             Self::Delamination => "delamination",
             Self::WornThrough => "worn through",
+            Self::Crack => "crack",
         })
     }
 }
@@ -59,7 +62,7 @@ impl Course {
     }
 }
 
-/// Wear scar of the counterbody of an isolated contact.
+/// Wear scar of a surface of an isolated contact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Scar {
     /// Diameter of a circle with its area, a length: that of the samples that are worn.
@@ -96,6 +99,9 @@ pub struct Course {
     /// Scar of the counterbody of an isolated contact that wears; `None` without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scar: Option<Scar>,
+    /// Scar of the body under an isolated contact whose points stay in place and wear; `None` without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body_scar: Option<Scar>,
     /// Volume worn off that counterbody over force and distance, one over a pressure; `None` before it has slid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub specific_rate: Option<f64>,

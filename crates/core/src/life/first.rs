@@ -78,7 +78,7 @@ impl First {
             damage: None,
             x: None,
             y: None,
-            z: Some(event.removed),
+            z: (event.what != EventKind::Crack).then_some(event.removed),
         };
         // The failure of the unworn surfaces has a place; that of surfaces that wear errs by as much at least.
         let followed = life.map_or(followed, |life| match life.passes == event.passes {

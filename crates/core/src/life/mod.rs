@@ -17,6 +17,8 @@
 //! - Where contact reaches the border of the window of an isolated contact, life goes on in one twice as large, on as many samples, and
 //!   damage on its lines too.
 //!
+//! Under a contact that sticks and slips a pass is a cycle, and points stay in place (`in_place`).
+//!
 //! A [`LifeState`] is all that the rest of a life depends on: [`LifeTask::advance`] leads from one to the next, with one solution of the
 //! contact, and can begin anywhere.
 
@@ -26,6 +28,7 @@ mod damage;
 mod event;
 mod first;
 mod groove;
+mod in_place;
 mod rates;
 mod state;
 mod tally;
@@ -39,5 +42,5 @@ pub use beginning::Beginning;
 pub use damage::Damage;
 pub use event::{Course, Event, EventKind, Scar};
 pub use first::{First, FirstKind};
-pub use state::{LifeEnd, LifeState};
+pub use state::{LifeEnd, LifeState, PartDamage};
 pub use task::{LifeError, LifeTask};

@@ -3,6 +3,7 @@
 use super::damage::Damage;
 use super::event::{Course, Event};
 use crate::body::Side;
+use crate::reading::FatiguePart;
 use crate::spectral::Stop;
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +21,9 @@ pub struct LifeState {
     pub lowered: f64,
     /// Damage in the frame of the original body.
     pub damage: Damage,
+    /// Damage so far of each part of points that stay in place, at the worst place of each state; empty where the counterbody slides.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub in_place: Vec<PartDamage>,
     /// Depths worn off body and counterbody by sliding, lengths sample by sample, a₂ fastest; empty where nothing is.
     pub worn: [Vec<f64>; 2],
     /// Depths pressed in for good of a counterbody that is softer, lengths sample by sample; empty where nothing is.
@@ -42,6 +46,16 @@ pub struct LifeState {
     pub end: Option<LifeEnd>,
     /// Why the last contact was not solved, where it was not.
     pub stop: Option<Stop>,
+}
+
+/// Damage of a material or an interface of the body.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PartDamage {
+    /// The part, by its number in the original body.
+    #[serde(flatten)]
+    pub part: FatiguePart,
+    /// Damage; 1 where a crack begins.
+    pub damage: f64,
 }
 
 /// Why a life is not followed any further.

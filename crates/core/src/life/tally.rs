@@ -14,16 +14,21 @@ use std::f64::consts::PI;
 const ROUNDING: f64 = 1e-8;
 
 impl LifeTask {
-    /// Adds the present state to the course.
-    pub(super) fn record(&self, state: &mut LifeState, contact: &Beginning, rates: &Rates) {
+    /// Passes until the next failure at these rates; infinite where there is none.
+    pub(super) fn next_failure(&self, state: &LifeState, rates: &Rates) -> f64 {
         let failure = state.damage.next_failure(self.problem.half_space(), rates, state.removed());
+        failure.map_or(f64::INFINITY, |failure| failure.passes)
+    }
+
+    /// Adds the present state to the course, with the passes until the `next` failure.
+    pub(super) fn record(&self, state: &mut LifeState, contact: &Beginning, next: f64) {
         // At the end of a groove the mean before stays.
         let groove = state.course.last().filter(|row| row.max_pressure_error.is_some() && self.is_over(state));
         let row = Course {
             max_pressure: groove.map_or(contact.record.reading.max_pressure, |row| row.max_pressure),
             max_pressure_error: groove.and_then(|row| row.max_pressure_error),
             contact_area: contact.record.reading.contact_area,
-            next: failure.map_or(f64::INFINITY, |failure| failure.passes),
+            next,
             ..self.row(state)
         };
         state.course.push(row);
@@ -45,7 +50,7 @@ impl LifeTask {
     fn row(&self, state: &LifeState) -> Course {
         let last = state.course.last();
         let distance = self.slid_after(state.passes);
-        let scar = self.scar(state);
+        let scar = self.scar(state, Side::Counterbody);
         let work = match self.load {
             Load::Force(force) => distance.map(|distance| force * distance).filter(|work| *work > 0.0),
             _ => None,
@@ -62,6 +67,7 @@ impl LifeTask {
             groove: self.groove(state),
             specific_rate: scar.zip(work).map(|(scar, work)| scar.volume / work),
             scar,
+            body_scar: self.scar(state, Side::Body).filter(|_| self.motions.is_some()),
             max_pressure: last.map_or(0.0, |row| row.max_pressure),
             max_pressure_error: None,
             contact_area: last.map_or(0.0, |row| row.contact_area),
@@ -74,25 +80,26 @@ impl LifeTask {
         self.problem.cell().surroundings().per_cell(side).map(|side| state.mean_worn(side))
     }
 
-    /// The scar of the counterbody of an isolated contact that wears.
-    fn scar(&self, state: &LifeState) -> Option<Scar> {
-        let wears = self.problem.bodies().wear(Side::Counterbody) > 0.0;
+    /// The scar of a surface of an isolated contact that wears.
+    fn scar(&self, state: &LifeState, side: Side) -> Option<Scar> {
+        let wears = self.problem.bodies().wear(side) > 0.0;
         if !(wears && self.passes.is_some() && self.problem.kind().is_indentation()) {
             return None;
         }
-        let (depths, window) = (state.of(Side::Counterbody), self.window(state).area());
+        let (depths, window) = (state.of(side), self.window(state).area());
         let worn = depths.iter().filter(|depth| **depth > 0.0).count();
         let area = window * worn as f64 / depths.len().max(1) as f64;
         Some(Scar {
             diameter: 2.0 * (area / PI).sqrt(),
-            depth: state.largest_worn(Side::Counterbody),
-            volume: state.mean_worn(Side::Counterbody) * window,
+            depth: state.largest_worn(side),
+            volume: state.mean_worn(side) * window,
         })
     }
 
     /// Cross-section of the groove in the body under an isolated contact, a length squared; `None` where none is worn.
     fn groove(&self, state: &LifeState) -> Option<f64> {
-        let is_worn = self.problem.kind().is_indentation() && state.largest_worn(Side::Body) > 0.0;
+        let is_swept = self.problem.kind().is_indentation() && self.motions.is_none();
+        let is_worn = is_swept && state.largest_worn(Side::Body) > 0.0;
         is_worn.then(|| {
             let (window, direction) = (self.window(state), self.problem.direction());
             let along = usize::from(direction[0].abs() <= direction[1].abs());

@@ -4,8 +4,8 @@ use crate::body::{Durability, MeanStress, Side};
 use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::problem::Problem;
-use crate::run::{Sampling, TooOblong};
-use crate::spectral::{FieldError, Settings, Wear, WearError};
+use crate::run::{Motion, Sampling, TooOblong};
+use crate::spectral::{FieldError, RollError, Settings, SlipError, Wear, WearError};
 use crate::stress::period_along;
 use std::sync::Arc;
 
@@ -31,6 +31,9 @@ pub struct LifeTask {
     pub stroke: Option<f64>,
     /// Relative error of a step of wear.
     pub tolerance: f64,
+    /// Motions from the first contact on, the last of which make a closed cycle, of a contact that sticks and slips: a pass is that cycle.
+    /// `None` of a counterbody that slides.
+    pub motions: Option<Vec<Motion>>,
 }
 
 /// Why a life cannot be followed.
@@ -83,6 +86,26 @@ pub enum LifeError {
     /// A worn surface is no gap.
     #[error(transparent)]
     Field(#[from] FieldError),
+    /// A history does not end with a closed cycle.
+    #[error(
+        "a pass of a contact that sticks and slips is a cycle, and [tangential] does not come back to a force or shift that it had before: give \
+         tangential.path, or steps that end where an earlier one does"
+    )]
+    NoCycle,
+    /// A contact that rolls.
+    #[error("wear by rolling is not followed: percoat solve states the passes to the first damage")]
+    Rolls,
+    /// A distance or a stroke of a contact that sticks and slips.
+    #[error(
+        "a pass of a contact that sticks and slips is a cycle of [tangential]: leave life.distance and life.stroke out"
+    )]
+    CycleAndDistance,
+    /// Partial slip cannot be set up.
+    #[error(transparent)]
+    Slip(#[from] SlipError),
+    /// The contact does not stick so.
+    #[error(transparent)]
+    Slides(#[from] RollError),
     /// The search for damage was interrupted.
     #[error("the search for damage was interrupted")]
     Interrupted,
@@ -102,6 +125,9 @@ impl LifeTask {
         if self.distance.is_some() && self.stroke.is_some() {
             return Err(LifeError::DistanceAndStroke);
         }
+        if let Some(motions) = &self.motions {
+            return self.check_in_place(motions);
+        }
         if let Some((stroke, period)) = self.stroke.zip(self.period()).filter(|(stroke, period)| stroke < period) {
             return Err(LifeError::ShortStroke { stroke, period });
         }
@@ -117,6 +143,25 @@ impl LifeTask {
         }
         let wear = self.wear(&self.problem)?;
         if self.body_wears() { Ok(wear.check(self.problem.cell())?) } else { Ok(()) }
+    }
+
+    /// The checks of a contact that sticks and slips.
+    fn check_in_place(&self, motions: &[Motion]) -> Result<(), LifeError> {
+        if motions.iter().any(|motion| matches!(motion, Motion::Roll(..))) {
+            return Err(LifeError::Rolls);
+        }
+        if self.distance.is_some() || self.stroke.is_some() {
+            return Err(LifeError::CycleAndDistance);
+        }
+        if self.cycle_length().is_none() {
+            return Err(LifeError::NoCycle);
+        }
+        let wears = self.wears() && self.passes.is_some();
+        match self.load {
+            Load::Penetration(_) if wears => Err(LifeError::Penetration),
+            _ if wears || self.problem.bodies().tire() => Ok(()),
+            _ => Err(LifeError::NothingTires),
+        }
     }
 
     fn body_wears(&self) -> bool {
@@ -136,8 +181,11 @@ impl LifeTask {
     }
 
     /// Distance that the counterbody slides in one pass, a length: there and back where it goes to and fro. `None` of an isolated contact
-    /// without a distance.
+    /// without a distance, and of a contact that sticks and slips.
     pub fn distance(&self) -> Option<f64> {
+        if self.motions.is_some() {
+            return None;
+        }
         self.stroke.map(|stroke| 2.0 * stroke).or(self.distance).or_else(|| self.period())
     }
 

@@ -26,9 +26,9 @@ impl LifeTask {
     pub(super) fn in_wider_window(&self, state: LifeState) -> Option<LifeState> {
         self.problem.cell().widened(2.0).filter(|_| state.doubled < DOUBLED)?;
         let direction = self.problem.direction();
-        let along = usize::from(direction[0].abs() <= direction[1].abs());
+        let (along, is_swept) = (usize::from(direction[0].abs() <= direction[1].abs()), self.motions.is_none());
         let wider = |depths: &[f64], goes_on: Option<usize>| spread(depths, state.points, goes_on);
-        let worn = [wider(state.of(Side::Body), Some(along)), wider(state.of(Side::Counterbody), None)];
+        let worn = [wider(state.of(Side::Body), is_swept.then_some(along)), wider(state.of(Side::Counterbody), None)];
         let indented = wider(&state.indented, None);
         Some(LifeState { worn, indented, doubled: state.doubled + 1, ..state })
     }

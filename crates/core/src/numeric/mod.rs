@@ -16,6 +16,7 @@ pub(crate) mod paraboloid;
 pub(crate) mod parallel;
 pub mod quadrature;
 pub(crate) mod rows;
+pub(crate) mod runge_kutta_chebyshev;
 pub mod search;
 pub(crate) mod serialised;
 pub(crate) mod series_fit;

@@ -62,6 +62,10 @@ quantities! {
         /// Error of the creepage.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub creepage_error: Option<f64>,
+        /// Change against half as many parts of the step, the larger of that of the force over μP and of the shift over the largest so far; 0 where
+        /// the step needs one part.
+        #[serde(default)]
+        pub change: f64,
         /// Whether the tractions of all parts of the step meet the tolerance.
         pub converged: bool,
         /// Iterations of the last part of the step.
@@ -118,6 +122,7 @@ impl SlipReading {
             creepage_vector: step.creepage.map(|creepage| creepage.value),
             creepage: step.creepage.map(|creepage| along(creepage.value)),
             creepage_error: step.creepage.filter(|_| stick.error.is_some()).map(|creepage| creepage.error),
+            change: step.change,
             converged: step.converged,
             iterations: step.report.iterations,
             turns: step.turns,

@@ -1,23 +1,26 @@
 //! The utilisations of a step by a search for the stresses of its criteria alone.
 
-use super::fatigue::PathReading;
+use super::fatigue::{Pass, PathReading};
 use super::stress::{Tip, contact_radii, move_beside_site};
 use super::{Criterion, Reading, Utilisation};
 use crate::body::StrainDirection;
 use crate::spectral::Step;
 use crate::stress::{PathSought, StrengthPeaks, StressFields};
 
-/// The utilisations of a step that has contact, by a search for the stresses of the criteria alone and along the path of sliding; they are
+/// The utilisations of a step that has contact, by a search for the stresses of the criteria alone, and in a pass, if one is given; they are
 /// those by [`StressReading::of`](super::StressReading::of). `None` when `goes_on`, called many times a second during the search, returns false.
 pub(crate) fn utilisations_while(
     step: &Step,
     reading: &Reading,
     fields: &StressFields,
+    pass: Option<&Pass<'_>>,
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Vec<Utilisation>> {
     let mut all = largest_while(step, reading, fields, goes_on)?;
     let sought = PathSought { fatigue: false, endurance: true, map: false };
-    all.extend(PathReading::of_while(step, reading, fields, sought, goes_on)?.utilisations);
+    if let Some(pass) = pass {
+        all.extend(PathReading::of_pass(step, reading, fields, (sought, pass), goes_on)?.utilisations);
+    }
     Some(all)
 }
 
@@ -129,10 +132,10 @@ mod tests {
                 let step = solver.solve(Load::Force(0.01));
                 let (reading, fields) = (step.reading(), StressFields::new(step.finest(), MeanStress::Confined));
                 let all = Utilisation::all(step.problem().bodies(), &StressReading::of(&step, &reading, &fields));
-                let found = utilisations_while(&step, &reading, &fields, &|| true).unwrap();
+                let found = utilisations_while(&step, &reading, &fields, Some(&Pass::default()), &|| true).unwrap();
                 assert!(found == all && !found.is_empty(), "{index}: {found:?}, {all:?}");
                 assert!(found.iter().all(|utilisation| utilisation.error.is_some() || utilisation.value.is_infinite()));
-                assert_eq!(utilisations_while(&step, &reading, &fields, &|| false), None);
+                assert_eq!(utilisations_while(&step, &reading, &fields, None, &|| false), None);
                 compared += found.len();
             }
         }

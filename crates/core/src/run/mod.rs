@@ -49,6 +49,7 @@ pub use recorder::Recorder;
 pub use sampling::Sampling;
 pub use slipping::Motion;
 pub use tapered::Tapered;
+pub(crate) use wear::next_length;
 pub use wear::{PathEnd, WearPath, WornPath, WornStep, WornSurface};
 
 use crate::body::MeanStress;
@@ -79,6 +80,8 @@ enum Loading<'a> {
     Limit,
     /// A step in which points stay in place, with the other steps of the cycle that ends with it; empty where none does.
     InPlace(&'a [Step]),
+    /// Such a step of a search for limits.
+    SearchInPlace(&'a [Step]),
 }
 
 /// A run: loads solved one after another, on one grid or on finer and finer ones.
@@ -320,15 +323,22 @@ impl Run {
             let ended = Cell::new(None);
             let goes_on = || recorder.searching().map_err(|error| ended.set(Some(error))).is_ok();
             let bodies = self.problem.bodies();
+            let moments = match loading {
+                Loading::InPlace(moments) | Loading::SearchInPlace(moments) => moments,
+                Loading::Path | Loading::Search | Loading::Limit => &[],
+            };
+            let pass = Pass { moments, ..Pass::default() };
             let judged = match loading {
-                Loading::Search => reading::utilisations_while(step, &record.reading, fields, &goes_on)
-                    .map(|utilisations| record.clone().with_utilisations(utilisations)),
+                Loading::Search | Loading::SearchInPlace(_) => {
+                    let pass = Some(&pass).filter(|_| matches!(loading, Loading::Search) || !moments.is_empty());
+                    reading::utilisations_while(step, &record.reading, fields, pass, &goes_on)
+                        .map(|utilisations| record.clone().with_utilisations(utilisations))
+                }
                 // Without a cycle what stays in place meets no range of stresses.
                 Loading::InPlace([]) => StressReading::of_while(step, &record.reading, fields, &goes_on)
                     .map(|stress| record.clone().with_stress(stress, bodies)),
                 Loading::Path | Loading::Limit | Loading::InPlace(_) => {
-                    let moments = if let Loading::InPlace(moments) = loading { moments } else { &[] };
-                    let sought = (PathSought::ALL, &Pass { moments, ..Pass::default() });
+                    let sought = (PathSought::ALL, &pass);
                     let (stress, path) = (
                         StressReading::of_while(step, &record.reading, fields, &goes_on),
                         PathReading::of_pass(step, &record.reading, fields, sought, &goes_on),

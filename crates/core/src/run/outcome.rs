@@ -119,12 +119,11 @@ pub enum RunError<E: Error + 'static> {
     /// A penetration is beyond complete contact.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
-    /// Limits are searched of a contact that sticks.
+    /// Limits are searched of a history under loads that differ.
     #[error(
-        "limits are loads of a counterbody that slides or is still, and [tangential] lets this one stick: leave that section out, or read the \
-         utilisations of each step from percoat solve"
+        "limits are loads under which all of [tangential] is followed, and its steps have loads that differ: give `load` one value"
     )]
-    Sticks,
+    SeveralLoads,
     /// Partial slip cannot be set up.
     #[error(transparent)]
     Slip(#[from] SlipError),

@@ -158,7 +158,7 @@ impl StepRecord {
 
     /// The record with partial slip.
     #[must_use]
-    pub(super) fn with_slip(self, slip: SlipReading) -> Self {
+    pub(crate) fn with_slip(self, slip: SlipReading) -> Self {
         let stop = if slip.converged { self.stop } else { Stop::IterationLimit };
         Self { tangential: Some(slip), stop, ..self }
     }

@@ -19,6 +19,8 @@ use std::f64::consts::PI;
 const TAPERED_PART: f64 = 0.02;
 /// Fraction in contact from which on the mean lateral stress is a large part of all stresses.
 const FILLED: f64 = 0.5;
+/// Relative change of force or shift against half as many parts of a step of partial slip from which on there is a warning.
+const COARSE: f64 = 0.05;
 /// Relative error of the stresses on the surface from which on there is a warning.
 const SURFACE_ERROR: f64 = 0.02;
 
@@ -46,6 +48,7 @@ pub(super) fn of_judged(
         unresolved(all),
         beyond_hardness(all),
         slips_beyond_hardness(problem, all),
+        coarse_path(judged),
         not_converged(all),
         at_window(problem, all),
         without_errors(judged),
@@ -92,6 +95,18 @@ fn slips_beyond_hardness(problem: &Problem, steps: &[Numbered]) -> Option<String
          yield; prescribe less",
         number(most),
         number(hardness)
+    ))
+}
+
+/// Steps of partial slip in which load and force, or the way rolled, change too much at once.
+fn coarse_path(steps: &[Numbered]) -> Option<String> {
+    let change = |step: &StepRecord| step.tangential.as_ref().map_or(0.0, |slip| slip.change);
+    let list = list(steps, |step| change(step) > COARSE)?;
+    let most = largest(steps.iter().map(|(_, step)| change(step)));
+    Some(format!(
+        "step {list} is a large one: half as many parts of it change tangential force or shift by {} %; give further steps between, or roll by \
+         shorter ones",
+        number(100.0 * most)
     ))
 }
 

@@ -4,7 +4,7 @@ use super::{Table, lives};
 use crate::output::LifeFile;
 use crate::output::number::number;
 use percoat_case::units::{Unit, Units, pascals};
-use percoat_core::life::{Course, Event, First, FirstKind, LifeEnd};
+use percoat_core::life::{Course, Event, First, FirstKind, LifeEnd, Scar};
 use percoat_core::notation::power_error;
 use percoat_core::spectral::Stop;
 
@@ -124,7 +124,7 @@ fn unsolved(stop: Option<Stop>) -> String {
     }
 }
 
-/// The groove and the scar of an isolated contact, as wear is measured.
+/// The groove and the scars of an isolated contact, as wear is measured.
 fn worn_alone(last: &Course, units: &Units) -> String {
     let length = |x: f64| units.length().with_unit(x, number);
     let raised = |x: f64, power: i32, sign: &str| {
@@ -135,16 +135,18 @@ fn worn_alone(last: &Course, units: &Units) -> String {
     let groove = last.groove.map(|area| {
         format!("its groove is {} deep and has a cross-section of {}", length(last.body_depth), raised(area, 2, "²"))
     });
-    let scar = last.scar.filter(|scar| scar.depth > 0.0).map(|scar| {
-        let rate = last.specific_rate.map_or(String::new(), |rate| format!(", {}", specific_rate(rate, units)));
-        format!(
-            "the scar of the counterbody has a diameter of {}, a depth of {} and a volume of {}{rate}",
-            length(scar.diameter),
-            length(scar.depth),
-            raised(scar.volume, 3, "³")
-        )
-    });
-    groove.into_iter().chain(scar).map(|words| format!(", {words}")).collect()
+    let scar = |of: &str, scar: Option<Scar>| {
+        let words = |scar: Scar| {
+            let (diameter, depth) = (length(scar.diameter), length(scar.depth));
+            let volume = raised(scar.volume, 3, "³");
+            format!("the scar of the {of} has a diameter of {diameter}, a depth of {depth} and a volume of {volume}")
+        };
+        scar.filter(|scar| scar.depth > 0.0).map(words)
+    };
+    let rate = last.specific_rate.map_or(String::new(), |rate| format!(", {}", specific_rate(rate, units)));
+    let of_counterbody = scar("counterbody", last.scar).map(|words| words + &rate);
+    let all = groove.into_iter().chain(scar("body", last.body_scar)).chain(of_counterbody);
+    all.map(|words| format!(", {words}")).collect()
 }
 
 /// A specific wear rate with its unit.

@@ -23,6 +23,9 @@
 //!
 //! Under a hardness H no contact bears a mean pressure of H, and the search ends at 0.999 H where contact is not complete before. A given
 //! pressure grows until its highest value is 0.999 H.
+//!
+//! A contact that sticks and slips goes through the whole history of its tangential forces, parts of μP, or shifts at each load that is
+//! solved: a utilisation is the largest of all steps, and endurance that of its last closed cycle.
 
 mod band;
 mod curve;
@@ -54,7 +57,7 @@ impl Run {
 
     fn checked_for_limits<E: Error + 'static>(&self) -> Result<(), RunError<E>> {
         if self.motions.is_some() {
-            return Err(RunError::Sticks);
+            self.history::<E>()?;
         }
         if Criterion::all(self.problem.bodies()).is_empty() {
             return Err(RunError::NoStrengths);

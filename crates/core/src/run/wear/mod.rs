@@ -14,5 +14,6 @@ mod path;
 mod tried_step;
 mod worn_step;
 
+pub(crate) use path::next_length;
 pub use path::{PathEnd, WearPath, WornPath};
 pub use worn_step::{WornStep, WornSurface};

@@ -135,7 +135,7 @@ impl WearPath {
                     solver.keep_indentation();
                 }
                 present = solver.wear_state();
-                path.next = length * factor(excess);
+                path.next = length * next_length(excess);
                 if each(&worn, &step).is_break() {
                     path.end = PathEnd::Stopped;
                     break;
@@ -149,7 +149,7 @@ impl WearPath {
                     break;
                 }
             }
-            length *= if tried.stop.solved() { factor(excess) } else { FACTORS[0] };
+            length *= if tried.stop.solved() { next_length(excess) } else { FACTORS[0] };
         }
         Ok(path)
     }
@@ -167,7 +167,7 @@ fn fitted(length: f64, left: f64) -> f64 {
 }
 
 /// Length of the next step over that of one with an excess, and of the next try after a step that was too long.
-fn factor(excess: f64) -> f64 {
+pub(crate) fn next_length(excess: f64) -> f64 {
     let part = if excess > 1.0 { SAFETY / excess } else { SAFETY / excess.sqrt() };
     part.clamp(FACTORS[0], FACTORS[1])
 }

@@ -21,7 +21,8 @@ use crate::measured::Measured;
 use crate::notation::number;
 use crate::numeric::sums;
 use crate::problem::Problem;
-use crate::spectral::{Contact, Settings, Shear, Solver, Step};
+use crate::spectral::{Contact, FieldError, Settings, Shear, Solver, Step};
+use ndarray::Array2;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -31,6 +32,9 @@ const PARTS: usize = 16;
 const PARTS_AT_ONE_LOAD: usize = 2;
 /// Part of μP that rounding makes of a force that is given.
 const ROUNDING: f64 = 1e-11;
+/// Rolling: error over the last change. Where hardly anything slips the tractions at the trailing end are nearly infinite, steps are of the order ½,
+/// and what the first order extrapolates to is √2 times the change away.
+const OF_HALF_ORDER: f64 = 1.5;
 /// Fewest points of a coarser grid along a lattice vector.
 const COARSEST: usize = 24;
 
@@ -75,6 +79,8 @@ pub struct SlipSolver {
     /// The same steps on the next coarser grid; `None` where that has too few points.
     coarser: Option<Track>,
     parts: usize,
+    /// Largest size of the shift so far, a length.
+    farthest: f64,
 }
 
 /// A vector, and the length of its error.
@@ -107,6 +113,9 @@ pub struct SlipStep {
     pub turns: usize,
     /// Part of the samples in contact that stick.
     pub stick_fraction: Measured,
+    /// Change against half as many parts, the larger of that of the force over μP and of the shift over the largest so far; 0 where the step needs one
+    /// part.
+    pub change: f64,
     /// Whether all parts converged.
     pub converged: bool,
 }
@@ -145,13 +154,14 @@ impl Numbers {
 }
 
 /// The result of a step, extrapolated where it was followed in half as many parts too, with the difference `of_grid` from the coarser grid,
-/// whose contact is that of the errors of stresses.
-fn result(step: Followed, coarser: Option<Step>, halved: Option<Numbers>, of_grid: Option<Numbers>) -> SlipStep {
+/// whose contact is that of the errors of stresses; the `farthest` shift so far is what changes of the shift are part of.
+fn result(step: Followed, coarser: Option<Step>, [halved, of_grid]: [Option<Numbers>; 2], farthest: f64) -> SlipStep {
     let Followed { contact, numbers, limit, report, turns, converged } = step;
     let in_time = halved.map(|halved| numbers.minus(&halved));
     let measured = |of: fn(&Numbers) -> Vector| {
         let change = in_time.as_ref().map_or([0.0; 2], of);
-        let error = length(change) + of_grid.as_ref().map_or(0.0, |grid| length(of(grid)));
+        let left = if numbers.creepage.is_some() { OF_HALF_ORDER } else { 1.0 };
+        let error = left * length(change) + of_grid.as_ref().map_or(0.0, |grid| length(of(grid)));
         MeasuredVector { value: add(of(&numbers), change), error }
     };
     let force = measured(|numbers| numbers.force);
@@ -163,6 +173,8 @@ fn result(step: Followed, coarser: Option<Step>, halved: Option<Numbers>, of_gri
         Measured::new(value, of_grid.map(|_| error))
     };
     let work = number(|numbers| [numbers.work, 0.0]);
+    let part = |change: Vector, of: f64| if of > 0.0 { length(change) / of } else { 0.0 };
+    let change = in_time.map_or(0.0, |change| part(change.force, limit).max(part(change.shift, farthest)));
     let left_open = square_of_a_sample(contact.finest()) * work.value.abs();
     SlipStep {
         force,
@@ -177,6 +189,7 @@ fn result(step: Followed, coarser: Option<Step>, halved: Option<Numbers>, of_gri
         limit,
         report,
         turns,
+        change,
         converged,
     }
 }
@@ -212,13 +225,40 @@ impl SlipSolver {
         let is_fine = (0..2).all(|axis| line == Some(axis) || half[axis] >= COARSEST);
         let coarser = if is_fine { Some(on_grid(half)?) } else { None };
         let track = on_grid(points)?;
-        Ok(Self { problem, track, halved: None, coarser, parts: PARTS })
+        Ok(Self { problem, track, halved: None, coarser, parts: PARTS, farthest: 0.0 })
     }
 
     /// The solver with another even number of parts for a step in which the pressure changes.
     #[must_use]
     pub fn with_parts(self, parts: usize) -> Self {
         Self { parts: parts.next_multiple_of(2).max(2), ..self }
+    }
+
+    /// The solver with another initial gap, lengths on its grid, as of [`Solver::with_gap`], and without the coarser grid: its steps have no
+    /// errors.
+    ///
+    /// # Errors
+    /// [`FieldError`].
+    pub fn on_gap(self, gap: Array2<f64>) -> Result<Self, FieldError> {
+        Ok(Self { track: self.track.on_gap(gap)?, coarser: None, halved: None, ..self })
+    }
+
+    /// Shift of the counterbody less the tangential displacement of each sample, lengths, since the first contact: what both surfaces have moved
+    /// against each other there, also beside the contact.
+    pub fn sheared(&self) -> Vec<Vector> {
+        let shift = self.track.shift();
+        self.track.displacement().iter().map(|displacement| sub(shift, *displacement)).collect()
+    }
+
+    /// Least mean pressure of complete contact, as of [`Solver::full_contact_pressure`].
+    pub fn full_contact_pressure(&mut self) -> f64 {
+        self.track.full_contact_pressure()
+    }
+
+    /// Forgets all steps: the next one is the first.
+    pub fn begin_anew(&mut self) {
+        (self.halved, self.farthest) = (None, 0.0);
+        [Some(&mut self.track), self.coarser.as_mut()].into_iter().flatten().for_each(Track::begin_anew);
     }
 
     /// The problem.
@@ -253,7 +293,8 @@ impl SlipSolver {
         });
         let coarser = self.coarser.as_mut().map(|track| follow(track, load, aim, parts));
         let of_grid = coarser.as_ref().map(|coarse| step.numbers.minus(&coarse.numbers));
-        Ok(result(step, coarser.map(|coarse| coarse.contact), halved, of_grid))
+        self.farthest = self.farthest.max(length(step.numbers.shift));
+        Ok(result(step, coarser.map(|coarse| coarse.contact), [halved, of_grid], self.farthest))
     }
 
     /// Rolls at a load under a tangential force or a creepage until some contact lengths are passed, by steps, then by half as long ones.
@@ -289,7 +330,8 @@ impl SlipSolver {
         self.halved = None;
         // Both grids in steps of one length.
         let of_grid = coarser.as_ref().map(|coarse| steps.numbers.minus(&coarse.numbers));
-        Ok(result(halved, coarser.map(|coarse| coarse.contact), Some(steps.numbers), of_grid))
+        let farthest = length(halved.numbers.shift);
+        Ok(result(halved, coarser.map(|coarse| coarse.contact), [Some(steps.numbers), of_grid], farthest))
     }
 
     /// Tangential force or shift of a drive at a load.

@@ -225,9 +225,16 @@ fn a_shift_leads_to_the_force_that_leads_to_it() {
     assert!((force / exact - 1.0).abs() < 1e-5, "{force} {exact}");
     assert!(by_shift.force.error > 0.0 && by_shift.shift.error < 1e-12, "{by_shift:?}");
     // The force is extrapolated over the parts of a step whose load changes: back and forth leaves what the error says.
-    let mut to = |p: f64| solver.advance(Load::Force(p), Drive::Shift(by_force.shift.value)).unwrap().force;
-    let (less, again) = (to(1.0), to(4.0 / 3.0));
-    assert!(less.error > 0.0 && less.value[0] < 0.5 && again.value[0] < exact, "{less:?} {again:?}");
+    let by_parts = |parts: usize| {
+        let mut solver = slip_solver(ball(2.6, 0.0, 0.5), 64).with_parts(parts);
+        let mut to = |p: f64| solver.advance(Load::Force(p), Drive::Shift(by_force.shift.value)).unwrap().force;
+        to(4.0 / 3.0);
+        [to(1.0), to(4.0 / 3.0)]
+    };
+    for (coarse, fine) in by_parts(8).into_iter().zip(by_parts(32)) {
+        let apart = (coarse.value[0] - fine.value[0]).abs();
+        assert!(apart > 0.0 && apart < coarse.error && fine.error < coarse.error, "{coarse:?} {fine:?}");
+    }
 }
 
 /// A drive of another kind goes on from what the one before it has come to.

@@ -14,7 +14,8 @@ use crate::load::Load;
 use crate::numeric::sums;
 use crate::problem::Problem;
 use crate::spectral::iteration::Unknowns;
-use crate::spectral::{Settings, Solver, Step, Stop};
+use crate::spectral::{FieldError, Settings, Solver, Step, Stop};
+use ndarray::Array2;
 use std::sync::Arc;
 
 /// Most turns between the normal and the tangential problem.
@@ -56,6 +57,14 @@ struct SlipState {
     shift: Vector,
     /// `None` before the first contact.
     end: Option<StepEnd>,
+}
+
+impl SlipState {
+    /// The state of so many samples before the first contact.
+    fn still(len: usize) -> Self {
+        let still = Arc::new(vec![[0.0; 2]; len]);
+        Self { traction: Arc::clone(&still), displacement: still, shift: [0.0; 2], end: None }
+    }
 }
 
 /// Load and tangential force at the end of a step.
@@ -116,8 +125,7 @@ impl Track {
         let solver = Solver::new(problem.at_rest().without_hardness(), points, settings)?;
         let operator = TangentialOperator::new(solver.grid(), problem.bodies(), coupled);
         let preconditioner = Preconditioner::new(&operator);
-        let still = Arc::new(vec![[0.0; 2]; solver.grid().len()]);
-        let state = SlipState { traction: Arc::clone(&still), displacement: still, shift: [0.0; 2], end: None };
+        let state = SlipState::still(solver.grid().len());
         Ok(Self { solver, operator, preconditioner, friction, settings: slip, state })
     }
 
@@ -139,6 +147,22 @@ impl Track {
     /// The history so far.
     pub fn history(&self) -> History {
         History { slip: self.state.clone(), unknowns: self.solver.unknowns().cloned().collect() }
+    }
+
+    /// The track with another initial gap, before any contact.
+    pub fn on_gap(self, gap: Array2<f64>) -> Result<Self, FieldError> {
+        let state = SlipState::still(gap.len());
+        Ok(Self { solver: self.solver.with_gap(gap)?, state, ..self })
+    }
+
+    /// Least mean pressure of complete contact.
+    pub fn full_contact_pressure(&mut self) -> f64 {
+        self.solver.full_contact_pressure()
+    }
+
+    /// Forgets all steps: the next one presses first. The pressure stays as a start of the iteration.
+    pub fn begin_anew(&mut self) {
+        self.state = SlipState::still(self.solver.grid().len());
     }
 
     /// Goes on from another history on the same grid; returns the one that it leaves.

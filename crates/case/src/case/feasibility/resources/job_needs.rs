@@ -49,9 +49,7 @@ pub(super) fn of_solving(
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
     let sticks = case.tangential.is_some();
     let depths = if yields(case) { DEPTHS } else { 0 } + if sticks { SLIP_FIELDS } else { 0 };
-    let tires = stress > 0 && (bodies.tire() || bodies.have_endurance());
-    let moments = if tires { steps * MOMENT * series } else { 0 };
-    let slip = if sticks { SLIP * samples + moments } else { 0 };
+    let slip = of_slip(case, samples, series, stress > 0);
     let (fields, written, volume) =
         if fields { (steps * (24 + depths) * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
     let drawn = 3 + 2 * u64::from(case.has_cut()) + u64::from(steps > 1) + u64::from(sticks);
@@ -62,6 +60,16 @@ pub(super) fn of_solving(
     let disk_while_running = disk + fields.max(steps * written) + coarser + (CHECKPOINTS + 3 * depths) * samples;
     let solving = PROGRAM + grids + heights + slip + working.max(READING * samples).max(stress);
     Needs { memory: solving.max(drawing), disk, disk_while_running }
+}
+
+/// Partial slip, and the steps of a cycle in which something tires under the stresses that are computed; nothing where the counterbody slides.
+fn of_slip(case: &Case, samples: u64, series: u64, stressed: bool) -> u64 {
+    if case.tangential.is_none() {
+        return 0;
+    }
+    let bodies = case.problem().bodies();
+    let tires = stressed && (bodies.tire() || bodies.have_endurance());
+    SLIP * samples + if tires { case.step_count() as u64 * MOMENT * series } else { 0 }
 }
 
 /// Steps that stay in memory, without files.
@@ -83,7 +91,8 @@ pub(super) fn of_life(case: &Case, samples: u64, [grids, working, heights]: [u64
     // The way back has a contact and stresses of its own.
     let back = case.life.is_some_and(|life| life.stroke.is_some());
     let back = if back { grids + STEP * samples + stress } else { 0 };
-    let solving = PROGRAM + grids + heights + (STEP + WORN) * samples + damage[0] + contact + back;
+    let slip = of_slip(case, samples, series, true);
+    let solving = PROGRAM + grids + heights + (STEP + WORN) * samples + damage[0] + contact + back + slip;
     let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
     let disk = COMPARISON + WORN * samples + damage[1] + if pictures { 2 * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: 2 * disk }
@@ -98,7 +107,8 @@ pub(super) fn of_limits(case: &Case, samples: u64, [grids, working, heights]: [u
     // The steps that are shown stay in memory while those at higher limits are solved.
     let shown = Criterion::all(case.problem().bodies()).len().clamp(1, EVENTS) as u64 - 1;
     let stress = of_bodies + SEARCH * series + of_shells(case, series) + shown * SHOWN * samples;
-    let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
+    let slip = of_slip(case, samples, series, true);
+    let solving = PROGRAM + grids + heights + slip + working.max(READING * samples).max(stress);
     let disk = COMPARISON + if pictures { (1 + EVENTS as u64) * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
 }

@@ -12,9 +12,11 @@ use super::{At, Limit, LimitStep, Limits, SearchEnd};
 use crate::load::LoadQuantity;
 use crate::problem::Problem;
 use crate::reading::{Criterion, Utilisation};
+use crate::run::slipping::Sought;
 use crate::run::{Loading, Recorder, Run, RunError, StepRecord};
-use crate::spectral::{Solver, Step};
+use crate::spectral::{SlipSolver, Solver, Step};
 use crate::stress::Tables;
+use std::error::Error;
 use std::sync::Arc;
 
 /// Largest number of limits that are shown with their fields.
@@ -26,13 +28,46 @@ const ROUNDS: usize = 4;
 /// Relative difference below which two loads are one.
 const SAME_LOAD: f64 = 1e-12;
 
+/// What solves a load.
+enum Loaded {
+    /// A counterbody that slides or is still.
+    Sliding(Box<Solver>),
+    /// A counterbody that sticks and slips, with its history.
+    Sticking(Box<SlipSolver>),
+}
+
+impl Loaded {
+    fn new<E: Error + 'static>(run: &Run, problem: &Arc<Problem>, points: [usize; 2]) -> Result<Self, RunError<E>> {
+        Ok(if run.motions.is_some() {
+            Self::Sticking(Box::new(run.slip_solver(problem, points)?))
+        } else {
+            Self::Sliding(Box::new(Solver::new(Arc::clone(problem), points, run.settings)?))
+        })
+    }
+
+    fn full_contact_pressure(&mut self) -> f64 {
+        match self {
+            Self::Sliding(solver) => solver.full_contact_pressure(),
+            Self::Sticking(solver) => solver.full_contact_pressure(),
+        }
+    }
+
+    /// The solver of the normal contact.
+    fn normal(&self) -> &Solver {
+        match self {
+            Self::Sliding(solver) => solver,
+            Self::Sticking(solver) => solver.normal(),
+        }
+    }
+}
+
 /// A search on one grid.
 pub(super) struct LimitSearch<'a, R: Recorder> {
     run: &'a Run,
     windows: Windows,
     /// The window of the solver.
     window: usize,
-    solver: Solver,
+    solver: Loaded,
     /// Tables that the stresses of all loads share.
     tables: Arc<Tables>,
     /// The quantity of all loads.
@@ -56,8 +91,8 @@ pub(super) struct LimitSearch<'a, R: Recorder> {
 impl<'a, R: Recorder> LimitSearch<'a, R> {
     /// A search for the limits of a run up to the load `most` on a grid of `points`, before its first load.
     fn new(run: &'a Run, (points, most): ([usize; 2], f64), recorder: &'a mut R) -> Result<Self, RunError<R::Error>> {
-        let mut solver = Solver::new(Arc::clone(&run.problem), points, run.settings)?;
-        recorder.begin(&solver).map_err(RunError::Recorder)?;
+        let mut solver = Loaded::new(run, &run.problem, points)?;
+        recorder.begin(solver.normal()).map_err(RunError::Recorder)?;
         // A flat surface is in complete contact at zero pressure, which does not end the search: its stresses grow with the load.
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
         let (quantity, area) = (run.quantity(), run.problem.cell().area());
@@ -132,7 +167,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let is_load = |limit: &&&Limit| limit.load() > 0.0 && limit.load().is_finite();
         let events: Vec<Limit> = limits.ordered().iter().filter(is_load).take(EVENTS).map(|limit| **limit).collect();
         for limit in events {
-            let record = search.solve_for(limit.load(), Loading::Limit)?.clone();
+            let record = search.solve_for(limit.load(), Some(limit.criterion))?.clone();
             // Rounding decides between places that are equal by symmetry: the place is that of the step that is shown.
             let limit = limit.moved_to(search.utilisation(&record, limit.criterion).position);
             limits
@@ -147,17 +182,26 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
 
     /// Solves a load of the search and keeps its record.
     fn solve(&mut self, load: f64) -> Result<&StepRecord, RunError<R::Error>> {
-        self.solve_for(load, Loading::Search)
+        self.solve_for(load, None)
     }
 
-    /// Solves a load and keeps its record.
-    fn solve_for(&mut self, load: f64, loading: Loading) -> Result<&StepRecord, RunError<R::Error>> {
+    /// Solves a load and keeps its record; with all stresses where it is the limit of a criterion.
+    fn solve_for(&mut self, load: f64, limit: Option<Criterion>) -> Result<&StepRecord, RunError<R::Error>> {
         // The memory of a step is freed before the next one needs as much.
         self.last = None;
         self.enter(self.windows.of(load))?;
         let prescribed = self.quantity.load(load);
-        let (record, step) =
-            self.run.solve_load(&mut self.solver, &self.tables, prescribed, (loading, None), self.recorder)?;
+        let (loading, sought) = match limit {
+            Some(_) => (Loading::Limit, Sought::Stresses),
+            None => (Loading::Search, Sought::Utilisations),
+        };
+        let (run, tables) = (self.run, &self.tables);
+        let (record, step) = match &mut self.solver {
+            Loaded::Sliding(solver) => run.solve_load(solver, tables, prescribed, (loading, None), self.recorder)?,
+            Loaded::Sticking(solver) => {
+                run.worst_of_history(solver, prescribed, (sought, limit, tables), self.recorder)?
+            }
+        };
         self.last = Some(step);
         // The load of a reading is the prescribed one to rounding.
         let quantity = self.quantity;
@@ -180,12 +224,12 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     /// Sets the solver up for a window, unless it is there.
     fn enter(&mut self, window: usize) -> Result<(), RunError<R::Error>> {
         if window != self.window {
-            let (problem, points) = (Arc::clone(self.windows.problem(window)), self.solver.grid().points());
+            let (problem, points) = (Arc::clone(self.windows.problem(window)), self.solver.normal().grid().points());
             // The tables of one window are kept at a time.
             self.tables = Arc::default();
-            self.solver = Solver::new(problem, points, self.run.settings)?;
+            self.solver = Loaded::new(self.run, &problem, points)?;
             self.window = window;
-            self.recorder.begin(&self.solver).map_err(RunError::Recorder)?;
+            self.recorder.begin(self.solver.normal()).map_err(RunError::Recorder)?;
         }
         Ok(())
     }

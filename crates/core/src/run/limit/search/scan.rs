@@ -110,7 +110,7 @@ impl<R: Recorder> LimitSearch<'_, R> {
         if self.run.problem.kind().is_given {
             return true;
         }
-        let samples = reading.contact_area / self.solver.grid().sample_area();
+        let samples = reading.contact_area / self.solver.normal().grid().sample_area();
         let whole = (samples / PI).sqrt();
         let of_levels = reading.levels.iter().map(|level| level.resolution).reduce(f64::max);
         of_levels.unwrap_or(whole) >= LEAST_SAMPLES
