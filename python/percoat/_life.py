@@ -18,7 +18,8 @@ class Life(FirstFailure):
     ``first`` is the first event of any kind, ``None`` where nothing tires and nothing is worn through: with ``kind`` (``"fatigue"``,
     ``"delamination"``, ``"worn_through"``), ``material`` or ``interface``, ``passes``, the ``distance`` slid by then and a relative
     ``error``, of fatigue ``range`` of the shear stress and ``x``, ``y``, ``z``; ``criteria`` has all lives. With ``life.passes`` in the case
-    ``events`` have what comes off, each with ``passes``, ``what``, ``depth``, ``thickness`` and ``removed``, and ``wear`` the course.
+    ``events`` have what comes off, each with ``passes``, ``what``, ``depth``, ``thickness`` and ``removed``, and ``wear`` the course. A pass of
+    a contact that sticks and slips (``tangential``) is its closed cycle; cracks begin, and nothing comes off.
     ``title`` and ``warnings`` are as in ``life.json``; ``converged`` says whether every contact was solved.
     """
 

@@ -266,3 +266,45 @@ fn a_ball_that_wears_needs_the_length_of_its_track_and_has_a_scar() {
     let page = fs::read_to_string(desk.path("out/report.html")).unwrap();
     assert!(page.contains("is worn through after") && page.contains("specific wear rate"));
 }
+
+const SHAKEN: &str = r#"
+title = "ball that is shaken"
+lattice = { kind = "isolated", size = 220.0 }
+levels = [{ shape = "sphere", radius = 5000.0 }]
+layers = [{ young = 400.0, poisson = 0.25, thickness = 3.0, tensile_strength = 2.0, wear = 1e-4 }]
+substrate = { young = 210.0, poisson = 0.3 }
+counterbody = { young = 210.0, poisson = 0.3, wear = 1e-4 }
+load = { force = [20000.0] }
+friction = { coefficient = 0.5, coupling = false }
+tangential = { path = { amplitude = 0.6, cycles = 1, steps = 4 } }
+units = { length = "µm", pressure = "GPa" }
+grid = { points = 48 }
+life = { passes = 2000, tolerance = 0.1 }
+"#;
+
+#[test]
+fn a_ball_that_is_shaken_has_limits_and_wears_in_place() {
+    let desk = Desk::new();
+    desk.write("case.toml", SHAKEN);
+    let text = |out: &str| out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let answer = desk.succeeds(&["limit", "case.toml", "-o", "limit"]);
+    let limit = desk.json("limit/limit.json");
+    assert!(limit["first"]["criterion"] == "cracking" && number(&limit, "/first/force") > 0.0, "{limit}");
+    assert!(text(&answer.out).contains("cracking"), "{}", answer.out);
+    let answer = desk.succeeds(&["life", "case.toml", "-o", "life"]);
+    let life = desk.json("life/life.json");
+    let last = life["wear"].as_array().unwrap().last().unwrap();
+    assert!(number(last, "/passes") == 2000.0 && last["distance"].is_null() && last["groove"].is_null(), "{last}");
+    let [body, ball] = ["/body_scar/volume", "/scar/volume"].map(|key| number(last, key));
+    assert!(body > 0.0 && (body / ball - 1.0).abs() < 1e-9, "{last}");
+    assert!(text(&answer.out).contains("the scar of the body has a diameter of"), "{}", answer.out);
+    assert!(desk.path("life/life.svg").exists() || desk.path("life/life.png").exists());
+    desk.succeeds(&["report", "life"]);
+    desk.percoat(&["life", "case.toml", "--set", "life.stroke=5"]).complains(2, &["a cycle of [tangential]"]);
+    let open = ["life", "case.toml", "--set", "tangential={ force = [0.3, -0.3] }"];
+    desk.percoat(&open).complains(2, &["does not come back", "tangential.path"]);
+    let rising =
+        ["limit", "case.toml", "--set", "tangential={ force = [0.3, -0.3] }", "--set", "load.force=[1e4, 2e4]"];
+    desk.percoat(&rising).complains(2, &["give `load` one value"]);
+    desk.percoat(&["compare", "case.toml"]).complains(2, &["partial slip"]);
+}

@@ -30,10 +30,15 @@ fn problem() -> Problem {
     let layer = layer.with_durability(durability, Some(steep())).unwrap();
     let body = HalfSpace::new(vec![layer], Material::from_shear(1.0, 0.3).unwrap());
     let body = body.with_substrate_durability(durability).unwrap();
+    pressed(Bodies::elastic(body.clone(), body))
+}
+
+/// A ball of the radius 1 that is pressed on a body and rubs.
+fn pressed(bodies: Bodies) -> Problem {
     let lattice = Lattice::new(Cell::window([2.6; 2]).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
     let ball = Indenters::new(lattice, vec![Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap()]).unwrap();
     let friction = Friction::new(0.5, [1.0, 0.0]).unwrap();
-    Problem::new(ball, Bodies::elastic(body.clone(), body)).sliding(friction).unwrap()
+    Problem::new(ball, bodies).sliding(friction).unwrap()
 }
 
 fn run(parts: &[f64]) -> Run {
@@ -145,13 +150,13 @@ fn without_a_closed_cycle_nothing_tires() {
     assert!(outcome.steps.iter().all(|step| step.stress.as_ref().unwrap().overall.tau1.error.is_some()));
 }
 
-/// A ball between like bodies without a layer, with a tensile strength and endurance limits.
-fn breaking(tensile: f64) -> Problem {
-    let durability = Durability { endurance: Some(endurance()), ..Durability::default() };
-    let strength = Strength { yielding: None, tensile: Some(tensile) };
-    let body = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
-    let body = body.with_substrate_strength(strength).unwrap().with_substrate_durability(durability).unwrap();
-    problem().on_body(body)
+/// A ball between like bodies without a layer, one of which has a tensile strength and endurance limits.
+fn breaking() -> Problem {
+    let durability = Durability { endurance: Some(Endurance::new(0.25, 0.375).unwrap()), ..Durability::default() };
+    let strength = Strength { yielding: None, tensile: Some(0.25) };
+    let like = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
+    let body = like.clone().with_substrate_strength(strength).unwrap().with_substrate_durability(durability).unwrap();
+    pressed(Bodies::elastic(body, like))
 }
 
 fn largest(steps: &[StepRecord], criterion: Criterion) -> f64 {
@@ -162,30 +167,32 @@ fn largest(steps: &[StepRecord], criterion: Criterion) -> f64 {
 /// Followed anew at its limit, the worst step of a history is at 1, and endurance at the end of the cycle.
 #[test]
 fn a_limit_of_a_history_is_that_of_its_worst_step() {
-    let of = |tensile: f64, parts: &[f64]| Run { problem: breaking(tensile).into(), stress: None, ..run(parts) };
-    let parts = [0.8, 0.0, -0.8, 0.0, 0.8];
-    let found = of(0.1, &parts).limits(&mut ()).unwrap();
-    let sought = found.limits.iter().filter(|limit| matches!(limit.at, At::Load { .. }));
-    let sought: Vec<&Limit> = sought.collect();
-    assert!(found.converged() && sought.len() >= 3, "{found}");
+    let of = |parts: &[f64]| {
+        let sampling = Sampling::Points([40; 2]);
+        Run { problem: breaking().into(), stress: None, sampling, ..run(parts) }
+    };
+    let parts = [0.8, -0.8, 0.8];
+    let found = of(&parts).limits_up_to(2.0, &mut ()).unwrap();
+    let sought: Vec<&Limit> = found.limits.iter().filter(|limit| matches!(limit.at, At::Load { .. })).collect();
+    println!("{found}");
+    assert!(found.converged() && sought.len() == 3, "{found} {:?}", found.limits);
     for limit in &sought {
         let loads = vec![Load::Force(limit.load()); parts.len()];
-        let steps = Run { loads, ..of(0.1, &parts) }.solve(&mut ()).unwrap().steps;
+        let steps = Run { loads, ..of(&parts) }.solve(&mut ()).unwrap().steps;
         let most = largest(&steps, limit.criterion);
-        assert!((most - 1.0).abs() < 3e-3, "{limit:?}: {most}");
+        // Where a utilisation jumps, from sample to sample, no error of the load is stated.
+        let jumps = matches!(limit.at, At::Load { error: None, .. });
+        assert!((most - 1.0).abs() < if jumps { 0.03 } else { 3e-3 }, "{limit:?}: {most}");
         let [low, high] = limit.interval();
         assert!(low < limit.load() && limit.load() < high && high < 1.5 * limit.load(), "{limit:?}");
     }
     let cracking = |found: &percoat::run::Limits| {
         found.limits.iter().find(|limit| limit.criterion == Criterion::cracking_of(1)).unwrap().load()
     };
-    // Without a length but the radius, loads at which stresses are twice as large are eight times as large; the window ends the search.
-    let twice = cracking(&of(0.126, &parts).limits(&mut ()).unwrap());
-    assert!((twice / cracking(&found) / 1.26f64.powi(3) - 1.0).abs() < 0.03, "{twice} {}", cracking(&found));
     // What slides everywhere tears more at its edge than what slips at its rim.
-    let sliding = Run { motions: None, ..of(0.1, &parts) }.limits(&mut ()).unwrap();
+    let sliding = Run { motions: None, ..of(&parts) }.limits_up_to(2.0, &mut ()).unwrap();
     assert!(cracking(&sliding) < 0.95 * cracking(&found), "{} {}", cracking(&sliding), cracking(&found));
-    let rising = Run { loads: vec![Load::Force(0.1), Load::Force(0.2)], ..of(0.1, &[0.1, 0.2]) };
+    let rising = Run { loads: vec![Load::Force(0.1), Load::Force(0.2)], ..of(&[0.1, 0.2]) };
     assert!(matches!(rising.check_limits(), Err(RunError::SeveralLoads)));
 }
 
@@ -193,7 +200,7 @@ fn a_limit_of_a_history_is_that_of_its_worst_step() {
 #[test]
 fn a_contact_that_rolls_tires_in_a_pass() {
     let rolling = Rolling { direction: [1.0, 0.0], distance: 2.0, step: 0.25 };
-    let roll = Motion::Roll(RollingDrive::Creepage([0.09, 0.0]), rolling);
+    let roll = Motion::Roll(RollingDrive::Creepage([20.0, 0.0]), rolling);
     let sliding = Run { motions: None, ..run(&[0.0]) };
     let rolls = Run { motions: Some(vec![roll]), ..sliding.clone() };
     let [slid, rolled] = [sliding, rolls].map(|run| run.solve(&mut ()).unwrap().steps.remove(0));

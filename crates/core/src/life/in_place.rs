@@ -126,9 +126,7 @@ impl LifeTask {
                 let reading = step.contact.reading();
                 record = Some(StepRecord::new(&step.contact, reading).with_slip(SlipReading::of(&step, direction)));
                 slid.resize(sheared.len(), 0.0);
-                let paths = sheared.iter().zip(&before);
-                let paths = paths.map(|(to, from): (&[f64; 2], &[f64; 2])| (to[0] - from[0]).hypot(to[1] - from[1]));
-                slid.iter_mut().zip(paths).for_each(|(slid, path)| *slid += path);
+                add_slip(&mut slid, &step.contact, &before, &sheared);
                 steps.push(step.contact);
             }
             before = sheared;
@@ -274,7 +272,7 @@ impl LifeTask {
         let mut cycles = tried.min(longest);
         let still = vec![0.0; slid.len()];
         let mut stopped = None;
-        for _ in 0..MAX_TRIES {
+        for attempt in 0..MAX_TRIES {
             if !goes_on() {
                 return Err(LifeError::Interrupted);
             }
@@ -309,8 +307,8 @@ impl LifeTask {
             let excess = error / (self.tolerance * worn.max(OF_ALL * (before + worn)));
             let next = cycles * next_length(excess);
             if excess <= 1.0 || cycles <= f64::MIN_POSITIVE {
-                // A step that was cut short says nothing against the length tried before.
-                let next = if cycles < tried { next.max(tried) } else { next };
+                // A step that was cut short at first says nothing against the length that was to be tried.
+                let next = if attempt == 0 && cycles < tried { next.max(tried) } else { next };
                 return Ok(Ok(Worn { depth, cycles, next }));
             }
             cycles = next.min(longest);
@@ -385,6 +383,17 @@ impl LifeState {
             if so_far >= 1.0 - FAILED { f64::INFINITY } else { (1.0 - so_far) / rate.damage }
         };
         rates.iter().map(left).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Adds the way of a step, by which surfaces are sheared from `before` to `after`, where they do not stick.
+fn add_slip(slid: &mut [f64], contact: &Step, before: &[[f64; 2]], after: &[[f64; 2]]) {
+    let (pressures, shear) = (contact.finest().pressures(), contact.finest().shear());
+    for (i, slid) in slid.iter_mut().enumerate() {
+        let sticks = pressures[i] > 0.0 && shear.is_some_and(|shear| shear.sticks(i, pressures[i]));
+        if !sticks {
+            *slid += (after[i][0] - before[i][0]).hypot(after[i][1] - before[i][1]);
+        }
     }
 }
 

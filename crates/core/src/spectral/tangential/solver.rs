@@ -11,6 +11,7 @@
 
 use super::aim::{Aim, Ramp};
 use super::disc::{Vector, add, dot, length, scale, sub};
+use super::prolonged::prolonged;
 use super::rolling::{NotAlongGrid, Rolling, Stride, contact_length};
 use super::stick_slip::{SlipReport, SlipSettings};
 use super::track::{History, Track, TrackStep};
@@ -30,6 +31,8 @@ use std::sync::Arc;
 const PARTS: usize = 16;
 /// Parts of a step at one load in which the pressure follows the tractions a little.
 const PARTS_AT_ONE_LOAD: usize = 2;
+/// Parts of a step in which the load changes, of a history without errors.
+const FEW_PARTS: usize = 4;
 /// Part of μP that rounding makes of a force that is given.
 const ROUNDING: f64 = 1e-11;
 /// Rolling: error over the last change. Where hardly anything slips the tractions at the trailing end are nearly infinite, steps are of the order ½,
@@ -79,6 +82,8 @@ pub struct SlipSolver {
     /// The same steps on the next coarser grid; `None` where that has too few points.
     coarser: Option<Track>,
     parts: usize,
+    /// Whether steps are followed in half as many parts too.
+    with_errors: bool,
     /// Largest size of the shift so far, a length.
     farthest: f64,
 }
@@ -225,7 +230,7 @@ impl SlipSolver {
         let is_fine = (0..2).all(|axis| line == Some(axis) || half[axis] >= COARSEST);
         let coarser = if is_fine { Some(on_grid(half)?) } else { None };
         let track = on_grid(points)?;
-        Ok(Self { problem, track, halved: None, coarser, parts: PARTS, farthest: 0.0 })
+        Ok(Self { problem, track, halved: None, coarser, parts: PARTS, with_errors: true, farthest: 0.0 })
     }
 
     /// The solver with another even number of parts for a step in which the pressure changes.
@@ -234,13 +239,14 @@ impl SlipSolver {
         Self { parts: parts.next_multiple_of(2).max(2), ..self }
     }
 
-    /// The solver with another initial gap, lengths on its grid, as of [`Solver::with_gap`], and without the coarser grid: its steps have no
-    /// errors.
+    /// The solver with another initial gap, lengths on its grid, as of [`Solver::with_gap`]. Its steps have no errors: there is no coarser grid, and
+    /// fewer parts of steps in which the load changes.
     ///
     /// # Errors
     /// [`FieldError`].
     pub fn on_gap(self, gap: Array2<f64>) -> Result<Self, FieldError> {
-        Ok(Self { track: self.track.on_gap(gap)?, coarser: None, halved: None, ..self })
+        let track = self.track.on_gap(gap)?;
+        Ok(Self { track, coarser: None, halved: None, parts: FEW_PARTS, with_errors: false, ..self })
     }
 
     /// Shift of the counterbody less the tangential displacement of each sample, lengths, since the first contact: what both surfaces have moved
@@ -283,15 +289,18 @@ impl SlipSolver {
         }
         let at_one_load = if self.track.couples() { PARTS_AT_ONE_LOAD } else { 1 };
         let (aim, parts) = (self.aim(load, drive), Parts { changing: self.parts, at_one_load });
-        let before = self.halved.take().or_else(|| parts.divide(&self.track, load, aim).then(|| self.track.history()));
-        let step = follow(&mut self.track, load, aim, parts);
+        let is_divided = self.with_errors && parts.divide(&self.track, load, aim);
+        let before = self.halved.take().or_else(|| is_divided.then(|| self.track.history()));
+        let coarser = self.coarser.as_mut().map(|track| follow(track, load, aim, parts, None));
+        let near = coarser.as_ref().and_then(|coarse| prolonged(coarse.contact.finest(), self.track.solver().grid()));
+        let near = near.as_deref();
+        let step = follow(&mut self.track, load, aim, parts, near);
         let halved = before.map(|history| {
             let whole = self.track.replace_history(history);
-            let numbers = follow(&mut self.track, load, aim, parts.halved()).numbers;
+            let numbers = follow(&mut self.track, load, aim, parts.halved(), near).numbers;
             self.halved = Some(self.track.replace_history(whole));
             numbers
         });
-        let coarser = self.coarser.as_mut().map(|track| follow(track, load, aim, parts));
         let of_grid = coarser.as_ref().map(|coarse| step.numbers.minus(&coarse.numbers));
         self.farthest = self.farthest.max(length(step.numbers.shift));
         Ok(result(step, coarser.map(|coarse| coarse.contact), [halved, of_grid], self.farthest))
@@ -411,8 +420,8 @@ impl Sum {
     }
 }
 
-/// Follows all ramps of a step, each in its number of parts.
-fn follow(track: &mut Track, load: Load, aim: Aim, parts: Parts) -> Followed {
+/// Follows all ramps of a step, each in its number of parts; at the end tractions are `near` such parts of μp.
+fn follow(track: &mut Track, load: Load, aim: Aim, parts: Parts, near: Option<&[Vector]>) -> Followed {
     let len = track.solver().grid().len();
     let mut sum = Sum { slip: vec![[0.0; 2]; len], density: vec![0.0; len], work: 0.0, converged: true };
     let ramps = track.ramps(load, aim);
@@ -422,7 +431,7 @@ fn follow(track: &mut Track, load: Load, aim: Aim, parts: Parts) -> Followed {
     for (load, aim) in ends {
         sum.add(&track.advance(load, aim));
     }
-    let step = track.advance(load, aim);
+    let step = track.advance_near(load, aim, near);
     sum.add(&step);
     let Sum { slip, density, work, converged } = sum;
     let numbers =
@@ -468,7 +477,7 @@ fn rolled(track: &mut Track, load: Load, drive: RollingDrive, stride: &Stride) -
         RollingDrive::Part(part) => Aim::Part(part),
         RollingDrive::Creepage(creepage) => Aim::Shift(add(before, scale(stride.length(), creepage))),
     };
-    let step = track.advance_from(load, aim, &moved);
+    let step = track.advance_from(load, aim, &moved, None);
     let rise = sub(step.shift, before);
     (step, rise)
 }

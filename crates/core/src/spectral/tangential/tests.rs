@@ -1,6 +1,7 @@
 //! Against closed forms and converged numbers.
 
 use super::aim::Aim;
+use super::prolonged::prolonged;
 use super::rolling::Rolling;
 use super::solver::{Drive, MeasuredVector, RollingDrive, SlipSolver};
 use super::stick_slip::SlipSettings;
@@ -8,7 +9,7 @@ use super::track::Track;
 use crate::body::{Bodies, HalfSpace, Interface, Layer, Material};
 use crate::counterbody::{Indenters, Level, Shape, Topography};
 use crate::friction::Friction;
-use crate::lattice::{Cell, Lattice};
+use crate::lattice::{Cell, Grid, Lattice};
 use crate::load::Load;
 use crate::problem::Problem;
 use crate::spectral::Settings;
@@ -313,4 +314,30 @@ fn rolling_waves_have_their_known_creepage() {
             assert!((value[0] / exact - 1.0).abs() < 1e-2, "{layer:?}, {part}: {value:?}");
         }
     }
+}
+
+/// Samples that both grids have keep their part of μp, none is beyond it, and a start from the coarser grid takes fewer iterations.
+#[test]
+fn tractions_of_a_coarser_grid_are_a_start() {
+    let (load, drive) = (Load::Force(1.0), Drive::Part([0.6, 0.0]));
+    let step = slip_solver(ball(2.6, 0.3, 0.5), 48).advance(load, drive).unwrap();
+    let (coarse, grid) = (step.contact.finest(), Grid::new(step.contact.grid().cell(), [96, 144]).unwrap());
+    let parts = prolonged(coarse, &grid).unwrap();
+    let shear = coarse.shear().unwrap();
+    let mut touching = 0;
+    for (i, p) in coarse.pressures().iter().enumerate() {
+        let found = parts[2 * (i / 48) * 144 + 3 * (i % 48)];
+        if *p > 0.0 {
+            touching += 1;
+            let exact = [0, 1].map(|axis| shear.traction[axis][i] / (0.5 * p));
+            assert!((0..2).all(|axis| (found[axis] - exact[axis]).abs() < 1e-5), "{found:?} {exact:?}");
+        }
+    }
+    assert!(touching > 200 && parts.iter().all(|[x, y]| x.hypot(*y) < 1.0 + 1e-9));
+    let from_coarser = slip_solver(ball(2.6, 0.3, 0.5), 192).advance(load, drive).unwrap();
+    let settings = Settings { tolerance: 1e-10, ..Settings::default() };
+    let mut track = Track::new(&ball(2.6, 0.3, 0.5), [192; 2], settings, SlipSettings::default()).unwrap();
+    let cold = track.advance(load, Aim::Force([0.3, 0.0]));
+    assert!(from_coarser.report.iterations < cold.report.iterations, "{from_coarser:?} {:?}", cold.report);
+    assert!((from_coarser.shift.value[0] / cold.shift[0] - 1.0).abs() < 1e-6);
 }

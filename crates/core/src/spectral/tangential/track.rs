@@ -210,14 +210,20 @@ impl Track {
         self.solver.solve(load)
     }
 
-    /// One step to a load and a tangential force or shift.
+    /// One step to a load and a tangential force or shift, from the tractions of the step before.
     pub fn advance(&mut self, load: Load, aim: Aim) -> TrackStep {
-        let before = Arc::clone(&self.state.displacement);
-        self.advance_from(load, aim, &before)
+        self.advance_near(load, aim, None)
     }
 
-    /// One step whose samples had the tangential displacement `before`.
-    pub fn advance_from(&mut self, load: Load, aim: Aim, before: &[Vector]) -> TrackStep {
+    /// One step as [`Self::advance`]; without tractions so far the iteration begins with such `parts` of μp.
+    pub fn advance_near(&mut self, load: Load, aim: Aim, parts: Option<&[Vector]>) -> TrackStep {
+        let before = Arc::clone(&self.state.displacement);
+        let is_new = self.state.traction.iter().all(|q| *q == [0.0; 2]);
+        self.advance_from(load, aim, &before, parts.filter(|_| is_new))
+    }
+
+    /// One step from such parts of μp, or the tractions of the step before; its samples had the tangential displacement `before`.
+    pub fn advance_from(&mut self, load: Load, aim: Aim, before: &[Vector], parts: Option<&[Vector]>) -> TrackStep {
         let mut contact = self.solver.solve(load);
         let (mut slipped, mut dragged, mut turns) = (None::<Slipped>, None, 0);
         let (mut pressed, mut near, mut agree) = (Vec::new(), None, !self.couples());
@@ -228,10 +234,12 @@ impl Track {
             tolerance = self.settings.tolerance.max(tolerance);
             dragged = self.operator.dragged(contact.finest().pressures());
             let pressures = contact.finest().pressures();
-            let start = slipped.map_or_else(
-                || Arc::clone(&self.state.traction),
-                |last| Arc::new(rebound(last.traction, &pressed, pressures, self.friction)),
-            );
+            let first = || match parts {
+                Some(parts) => Arc::new(of_bounds(parts, pressures, self.friction)),
+                None => Arc::clone(&self.state.traction),
+            };
+            let start =
+                slipped.map_or_else(first, |last| Arc::new(rebound(last.traction, &pressed, pressures, self.friction)));
             pressed = pressures.to_vec();
             let next = self.slip(&contact, dragged.as_deref(), before, (aim, tolerance), (&start, near));
             near = Some(next.rise);
@@ -335,6 +343,13 @@ impl Track {
             stick_fraction: if touching > 0.0 { sticking / touching } else { 0.0 },
         }
     }
+}
+
+/// Tractions that are `parts` of μp.
+fn of_bounds(parts: &[Vector], pressures: &[f64], friction: f64) -> Vec<Vector> {
+    let mut traction = parts.to_vec();
+    sums::update(&mut traction, |i, part| scale(friction * pressures[i], part));
+    traction
 }
 
 /// Tractions under one pressure as a start under another: those that slip stay on their circles.
