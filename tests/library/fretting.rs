@@ -150,10 +150,10 @@ fn without_a_closed_cycle_nothing_tires() {
     assert!(outcome.steps.iter().all(|step| step.stress.as_ref().unwrap().overall.tau1.error.is_some()));
 }
 
-/// A ball between like bodies without a layer, one of which has a tensile strength and endurance limits.
-fn breaking() -> Problem {
-    let durability = Durability { endurance: Some(Endurance::new(0.25, 0.375).unwrap()), ..Durability::default() };
-    let strength = Strength { yielding: None, tensile: Some(0.25) };
+/// A ball between like bodies without a layer, one of which has a tensile strength, and endurance limits or none.
+fn breaking(tensile: f64, endurance: Option<Endurance>) -> Problem {
+    let durability = Durability { endurance, ..Durability::default() };
+    let strength = Strength { yielding: None, tensile: Some(tensile) };
     let like = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
     let body = like.clone().with_substrate_strength(strength).unwrap().with_substrate_durability(durability).unwrap();
     pressed(Bodies::elastic(body, like))
@@ -168,8 +168,9 @@ fn largest(steps: &[StepRecord], criterion: Criterion) -> f64 {
 #[test]
 fn a_limit_of_a_history_is_that_of_its_worst_step() {
     let of = |parts: &[f64]| {
-        let sampling = Sampling::Points([40; 2]);
-        Run { problem: breaking().into(), stress: None, sampling, ..run(parts) }
+        let sampling = Sampling::Points([32; 2]);
+        let endurance = Endurance::new(0.25, 0.375).ok();
+        Run { problem: breaking(0.25, endurance).into(), stress: None, sampling, ..run(parts) }
     };
     let parts = [0.8, -0.8, 0.8];
     let found = of(&parts).limits_up_to(2.0, &mut ()).unwrap();
@@ -194,6 +195,7 @@ fn a_limit_of_a_history_is_that_of_its_worst_step() {
     assert!(cracking(&sliding) < 0.95 * cracking(&found), "{} {}", cracking(&sliding), cracking(&found));
     let rising = Run { loads: vec![Load::Force(0.1), Load::Force(0.2)], ..of(&[0.1, 0.2]) };
     assert!(matches!(rising.check_limits(), Err(RunError::SeveralLoads)));
+    assert!(matches!(of(&[0.3, -0.3]).check_limits(), Err(RunError::NoCycle)));
 }
 
 /// A contact that slips everywhere as it rolls tires in a pass as one that slides.
@@ -214,4 +216,20 @@ fn a_contact_that_rolls_tires_in_a_pass() {
         let utilisation = rolled.utilisation(known.criterion).unwrap();
         assert!((utilisation.value / known.value - 1.0).abs() < 2e-3, "{utilisation:?} {known:?}");
     }
+}
+
+/// A limit whose contact has no room in its window is found in a larger one.
+#[test]
+fn a_limit_of_a_history_may_need_a_larger_window() {
+    let of = |tensile: f64| {
+        let sampling = Sampling::Points([32; 2]);
+        let run = Run { problem: breaking(tensile, None).into(), stress: None, sampling, ..run(&[0.8, -0.8]) };
+        let found = run.limits(&mut ()).unwrap();
+        assert!(found.converged(), "{found}");
+        (found.limits[0].load(), found.window)
+    };
+    let [(within, window), (beyond, wider)] = [0.4, 1.2].map(of);
+    assert!(window.is_none() && wider.is_some_and(|[width, _]| width > 5.0), "{window:?} {wider:?}");
+    // Three times the stress: 27 times the load. Peaks at the edge differ by a sample.
+    assert!((beyond / within / 27.0 - 1.0).abs() < 0.3, "{within} {beyond}");
 }

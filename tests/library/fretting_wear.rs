@@ -13,7 +13,7 @@ use percoat::{
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-const POINTS: [usize; 2] = [64; 2];
+const POINTS: [usize; 2] = [48; 2];
 const LOAD: Load = Load::Force(0.3);
 
 /// A ball of the radius 1 in a window of some side.
@@ -43,7 +43,7 @@ fn task(problem: Problem, drives: &[Drive], passes: Option<f64>) -> LifeTask {
         passes,
         distance: None,
         stroke: None,
-        tolerance: 5e-3,
+        tolerance: 0.02,
         motions: Some(drives.iter().map(|drive| Motion::Shear(*drive)).collect()),
     }
 }
@@ -70,7 +70,7 @@ fn cycles_of_gross_slip_wear_as_sliding_does() {
     let (begun, state) = followed(&task(problem(like_bodies(k), 1e-3, 2.4), &drives, Some(cycles)));
     assert_eq!(state.end, Some(LifeEnd::Passes));
     let touched = begun.step.finest().pressures().iter().zip(&begun.slid).filter(|(p, _)| **p > 0.0);
-    assert!(touched.clone().count() > 100 && touched.clone().all(|(_, slid)| (slid / 4.0 - 1.0).abs() < 2e-3));
+    assert!(touched.clone().count() > 60 && touched.clone().all(|(_, slid)| (slid / 4.0 - 1.0).abs() < 2e-3));
     // What a counterbody alone wears does not depend on the direction.
     let wear = Wear::new(0.0, k[0] + k[1], [1.0, 0.0]).unwrap();
     let path = WearPath::new(LOAD, wear, 4.0 * cycles, 2e-3).unwrap();
@@ -110,11 +110,11 @@ fn the_volume_that_wears_is_the_dissipated_energy_times_k_over_friction() {
 /// After many cycles the annulus that slipped bears next to nothing, and what stuck still does (Ciavarella & Hills, Eur. J. Mech. A 18 (1999) 491).
 #[test]
 fn what_slipped_wears_until_it_bears_nothing() {
-    let points = [48; 2];
+    let points = [40; 2];
     let base = task(problem(like_bodies([0.0, 1.0]), 0.4, 2.4), &parts(&[0.7, -0.7, 0.7]), Some(400.0));
-    let (begun, state) = followed(&LifeTask { sampling: Sampling::Points(points), tolerance: 0.05, ..base });
+    let (begun, state) = followed(&LifeTask { sampling: Sampling::Points(points), tolerance: 0.1, ..base });
     let sticks: Vec<bool> = begun.slid.iter().map(|slid| *slid == 0.0).collect();
-    assert!(sticks.iter().filter(|sticks| **sticks).count() > 50);
+    assert!(sticks.iter().filter(|sticks| **sticks).count() > 40);
     println!("{} states, {:?}", state.solved, state.course.last());
     assert_eq!(state.end, Some(LifeEnd::Passes));
     // The pressure of the worn surfaces.
@@ -139,6 +139,30 @@ fn what_slipped_wears_until_it_bears_nothing() {
     let kept = state.worn[1].iter().zip(&sticks).filter(|(depth, sticks)| **sticks && **depth < 0.02 * deepest).count();
     let stuck = sticks.iter().filter(|sticks| **sticks).count();
     assert!(4 * kept > 3 * stuck, "{kept} of {stuck}");
+}
+
+/// Steps that are coarse leave the volume what it is in fine ones, also while slip spreads.
+#[test]
+fn the_worn_volume_does_not_depend_on_the_steps() {
+    let volume = |tolerance: f64| {
+        let base = task(problem(like_bodies([0.0, 1.0]), 0.4, 2.4), &parts(&[0.7, -0.7, 0.7]), Some(4.0));
+        let (_, state) = followed(&LifeTask { sampling: Sampling::Points([40; 2]), tolerance, ..base });
+        (state.course.last().unwrap().scar.unwrap().volume, state.solved)
+    };
+    let [(coarse, few), (fine, many)] = [0.1, 0.02].map(volume);
+    println!("{coarse} {few} {fine} {many}");
+    assert!(few < many && (coarse / fine - 1.0).abs() < 1e-2, "{coarse} {fine}");
+}
+
+/// A force so small that no sample slips wears nothing.
+#[test]
+fn what_sticks_everywhere_does_not_wear() {
+    let base = task(problem(like_bodies([1.0, 1.0]), 0.4, 2.4), &parts(&[0.001, -0.001, 0.001]), Some(1e6));
+    let (begun, state) = followed(&LifeTask { sampling: Sampling::Points([24; 2]), ..base });
+    let pressures = begun.step.finest().pressures();
+    assert!(begun.slid.iter().zip(pressures).all(|(slid, p)| *p == 0.0 || *slid == 0.0));
+    assert_eq!((state.end, state.solved), (Some(LifeEnd::Passes), 1));
+    assert!(state.removed() == 0.0 && state.largest_worn(Side::Counterbody) == 0.0);
 }
 
 #[test]

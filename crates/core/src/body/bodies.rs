@@ -103,11 +103,16 @@ impl Bodies {
 
     /// Whether a material or an interface has a law of fatigue, a life by strain among them.
     pub fn tire(&self) -> bool {
+        self.tire_by_stress() || self.last_by_strain()
+    }
+
+    /// Whether a material or an interface has a law of fatigue by its stress.
+    pub fn tire_by_stress(&self) -> bool {
         let tires = |body: &HalfSpace| {
             body.durabilities().any(|durability| durability.fatigue.is_some())
                 || body.layers().iter().any(|layer| layer.interface_fatigue().is_some())
         };
-        self.each().any(tires) || self.last_by_strain()
+        self.each().any(tires)
     }
 
     /// Whether a material has endurance limits.

@@ -65,7 +65,8 @@ impl Course {
 /// Wear scar of a surface of an isolated contact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Scar {
-    /// Diameter of a circle with its area, a length: that of the samples that are worn.
+    /// Diameter of a circle with its area, a length: that of the samples that are worn, or of the ellipse around them where points stay in place and
+    /// the middle may stick.
     pub diameter: f64,
     /// Largest depth, a length.
     pub depth: f64,
@@ -82,8 +83,8 @@ pub struct Course {
     pub distance: Option<f64>,
     /// Thickness of all layers together, a length: under an isolated contact where its groove is deepest.
     pub thickness: f64,
-    /// Height of what has come off and was worn off the body, a length: the mean of what was worn off on a lattice, the largest of it under
-    /// an isolated contact.
+    /// Height of what has come off and was worn off the body, a length: the mean of what sliding has worn off on a lattice, the largest of it
+    /// under an isolated contact and where points stay in place.
     pub removed: f64,
     /// Mean depth worn off the body by sliding, a length; `None` under an isolated contact, which has no area to take it over.
     pub body: Option<f64>,

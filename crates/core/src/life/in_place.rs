@@ -22,8 +22,8 @@ use crate::friction::Friction;
 use crate::numeric::runge_kutta_chebyshev as stabilised;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
-use crate::reading::{FatiguePart, Pass, PathReading, SlipReading};
-use crate::run::{Motion, StepRecord, next_length};
+use crate::reading::{FatiguePart, Life, Pass, PathReading, SlipReading};
+use crate::run::{StepRecord, closed_cycle, next_length};
 use crate::spectral::{SlipSettings, SlipSolver, Solver, Step, Stop, Wear};
 use crate::stress::{PathSought, StressFields};
 use ndarray::Array2;
@@ -45,13 +45,10 @@ const FIRST: f64 = 0.02;
 const BESIDE: f64 = 1.3;
 /// Part of all volume worn by which the error of a step is measured at least.
 const OF_ALL: f64 = 0.1;
-/// Difference of two forces over μP, or of two shifts over the largest, below which a cycle is closed.
-const CLOSED: f64 = 1e-9;
-
 /// A cycle that was followed.
 #[derive(Debug)]
 struct Cycle {
-    /// Its steps; the last one closes it.
+    /// Steps of the cycle, or the last one alone, which closes it.
     steps: Vec<Step>,
     record: StepRecord,
     /// S, lengths sample by sample.
@@ -69,12 +66,7 @@ struct Worn {
 impl LifeTask {
     /// Number of the last steps of the history that make a cycle; `None` where it does not come back to where it was.
     pub(super) fn cycle_length(&self) -> Option<usize> {
-        let motions = self.motions.as_deref()?;
-        let vectors: Vec<[f64; 2]> = motions.iter().map(Motion::vector).collect();
-        let (last, before) = vectors.split_last()?;
-        let size = largest(vectors.iter().map(|[x, y]| x.hypot(*y)));
-        let is_same = |other: &[f64; 2]| (other[0] - last[0]).hypot(other[1] - last[1]) <= CLOSED * size;
-        before.iter().rev().position(is_same).map(|between| between + 1).filter(|length| *length > 1)
+        closed_cycle(self.motions.as_deref()?, &[])
     }
 
     /// The contact of unworn surfaces on a grid, after its first cycles, with what a cycle does.
@@ -85,7 +77,8 @@ impl LifeTask {
     ) -> Result<Beginning, LifeError> {
         let slip = SlipSettings::default();
         let mut solver = SlipSolver::new(Arc::clone(&self.problem), points, self.settings, slip)?;
-        self.begun(self.follow(&mut solver, goes_on)?, goes_on)
+        let tires = self.problem.bodies().tire();
+        self.begun(self.follow(&mut solver, tires, goes_on)?, goes_on)
     }
 
     /// The contact at the end of a cycle, with the lives of what tires in it.
@@ -106,8 +99,8 @@ impl LifeTask {
         Ok(Beginning { step, back: None, record, planes: Vec::new(), slid, change: None, end: None })
     }
 
-    /// Follows the history from the first contact on.
-    fn follow(&self, solver: &mut SlipSolver, goes_on: &dyn Fn() -> bool) -> Result<Cycle, LifeError> {
+    /// Follows the history from the first contact on, and keeps all steps of its cycle or the last one alone.
+    fn follow(&self, solver: &mut SlipSolver, keeps: bool, goes_on: &dyn Fn() -> bool) -> Result<Cycle, LifeError> {
         let motions = self.motions.as_deref().unwrap_or_default();
         let length = self.cycle_length().ok_or(LifeError::NoCycle)?;
         let direction = self.problem.friction().map_or([1.0, 0.0], Friction::direction);
@@ -127,6 +120,9 @@ impl LifeTask {
                 record = Some(StepRecord::new(&step.contact, reading).with_slip(SlipReading::of(&step, direction)));
                 slid.resize(sheared.len(), 0.0);
                 add_slip(&mut slid, &step.contact, &before, &sheared);
+                if !keeps {
+                    steps.clear();
+                }
                 steps.push(step.contact);
             }
             before = sheared;
@@ -149,12 +145,18 @@ impl LifeTask {
             return Ok(self.ended(state, LifeEnd::NothingLeft));
         };
         let problem = Arc::new(self.problem_of(&state, body));
-        let contact = match state.solved {
-            0 => begun.clone(),
-            _ => {
-                let mut solver = self.worn_in_place(&problem, &state, &[])?;
-                self.begun(self.follow(&mut solver, goes_on)?, goes_on)?
-            }
+        let wear = Wear::of(&problem);
+        let k: f64 = [Side::Body, Side::Counterbody].map(|side| wear.coefficient(side)).iter().sum();
+        let wears = self.passes.is_some() && k > 0.0;
+        let worn = || -> Result<Beginning, LifeError> {
+            let mut solver = self.worn_in_place(&problem, &state, &[])?;
+            self.begun(self.follow(&mut solver, self.problem.bodies().tire(), goes_on)?, goes_on)
+        };
+        let contact = match (state.solved, wears) {
+            (0, false) => begun.clone(),
+            // The slip of all states in parts alike, so that their difference is that of the surfaces.
+            (0, true) => Beginning { slid: worn()?.slid, ..begun.clone() },
+            _ => worn()?,
         };
         let mut next = LifeState { solved: state.solved + 1, ..state };
         let stop = contact.step.report.stop;
@@ -173,9 +175,8 @@ impl LifeTask {
         if next.solved >= MAX_LOADS {
             return Ok(LifeState { end: Some(LifeEnd::LoadLimit), ..next });
         }
-        let wear = Wear::of(&problem);
-        let k: f64 = [Side::Body, Side::Counterbody].map(|side| wear.coefficient(side)).iter().sum();
-        if self.passes.is_none() || k == 0.0 {
+        let slips = contact.slid.iter().zip(contact.step.finest().pressures()).any(|(slid, p)| slid * p > 0.0);
+        if !(wears && slips) {
             return Ok(self.unworn_to_the_end(next, &rates, &contact));
         }
         self.wear_in_place(next, (&problem, &wear), (&contact, &rates, gone), goes_on)
@@ -215,13 +216,19 @@ impl LifeTask {
         let [body, counterbody] = [Side::Body, Side::Counterbody].map(|side| wear.coefficient(side));
         let k = body + counterbody;
         let pressure = contact.step.finest().pressures();
-        let rate = largest(contact.slid.iter().zip(pressure).map(|(slid, p)| slid * p));
+        let rates_of = || contact.slid.iter().zip(pressure).map(|(slid, p)| slid * p);
         let original = self.problem.half_space();
         let face = original.interface_depths().get(gone).map_or(f64::INFINITY, |face| face - state.removed());
         let room = original.layers().get(gone).map_or(f64::INFINITY, |layer| (RELAID * layer.thickness()).min(face));
         let last = self.passes.unwrap_or(f64::INFINITY) - state.passes;
-        let most = last.min(state.next_crack(rates)).min(room / (body * rate));
-        let first = FIRST * contact.record.reading.penetration.abs() / (k * rate);
+        // Until a place is worn deeper than the deepest one so far by this room.
+        let deepest = state.largest_worn(Side::Body) + room;
+        let until = rates_of().enumerate().map(|(i, rate)| {
+            let worn = state.worn[0].get(i).copied().unwrap_or(0.0);
+            if rate > 0.0 { (deepest - worn) / (body * rate) } else { f64::INFINITY }
+        });
+        let most = until.fold(last.min(state.next_crack(rates)), f64::min);
+        let first = FIRST * contact.record.reading.penetration.abs() / (k * largest(rates_of()));
         let tried = if state.step > 0.0 { state.step } else { first };
         let found = self.worn_by(&state, (problem, k), contact, [tried, most], goes_on)?;
         let Worn { depth, cycles, next } = match found {
@@ -257,13 +264,7 @@ impl LifeTask {
     ) -> Result<Result<Worn, Stop>, LifeError> {
         let slid = &contact.slid;
         let normal = problem.at_rest().without_hardness();
-        let mut solver = Some(Solver::new(normal, state.points, self.settings)?);
-        let pressures = |solver: &mut Option<Solver>, rise: &[f64]| -> Result<Step, LifeError> {
-            let worn = solver.take().ok_or(LifeError::Interrupted)?;
-            let gap = self.worn_gap(problem, state, rise)?;
-            let worn = solver.insert(worn.with_gap(gap)?);
-            Ok(worn.solve(self.load))
-        };
+        let mut solver = Solver::new(normal, state.points, self.settings)?;
         // Beside the contact, where it comes to, surfaces slip a little further.
         let touched = slid.iter().zip(contact.step.finest().pressures()).filter(|(_, p)| **p > 0.0);
         let fast = k * BESIDE * largest(touched.map(|(slid, _)| *slid)) / least_compliance(problem, state.points);
@@ -271,15 +272,17 @@ impl LifeTask {
         let longest = most.min(stabilised::largest(STAGES) / fast);
         let mut cycles = tried.min(longest);
         let still = vec![0.0; slid.len()];
-        let mut stopped = None;
+        let (mut stopped, mut pressures) = (None, Vec::new());
         for attempt in 0..MAX_TRIES {
             if !goes_on() {
                 return Err(LifeError::Interrupted);
             }
             let mut rate = |rise: &[f64]| -> Result<Vec<f64>, LifeError> {
-                let step = pressures(&mut solver, rise)?;
+                solver.set_gap(self.worn_gap(problem, state, rise)?)?;
+                let step = solver.solve(self.load);
                 stopped = stopped.or(Some(step.report.stop).filter(|stop| !stop.solved()));
-                Ok(slid.iter().zip(step.finest().pressures()).map(|(slid, p)| k * slid * p).collect())
+                pressures = step.finest().pressures().to_vec();
+                Ok(slid.iter().zip(&pressures).map(|(slid, p)| k * slid * p).collect())
             };
             let start = rate(&still)?;
             let step = stabilised::step(&start, cycles, stabilised::stages(cycles * fast), &mut rate)?;
@@ -288,23 +291,20 @@ impl LifeTask {
             }
             // Waves of the stages wear nothing back.
             let rise: Vec<f64> = step.rise.iter().map(|rise| rise.max(0.0)).collect();
-            let after = self.follow(&mut self.worn_in_place(problem, state, &rise)?, goes_on)?;
+            let after = self.follow(&mut self.worn_in_place(problem, state, &rise)?, false, goes_on)?;
             if !after.record.converged() {
                 return Ok(Err(after.record.stop));
             }
             let corrected = |i: usize| {
                 let change = 0.5 * (after.slid[i] - slid[i]);
-                if slid[i] > 0.0 {
-                    rise[i] * (1.0 + change / slid[i])
-                } else {
-                    cycles * change / after.slid[i].max(f64::MIN_POSITIVE) * step.rate[i]
-                }
+                // What begins to slip in the step wears by the pressure at its end.
+                if slid[i] > 0.0 { rise[i] * (1.0 + change / slid[i]) } else { cycles * k * change * pressures[i] }
             };
             let depth: Vec<f64> = (0..rise.len()).map(|i| corrected(i).max(0.0)).collect();
             // By volume: where a sample begins to slip its own depth is known no better in a shorter step.
             let worn: f64 = depth.iter().sum();
             let error: f64 = (0..rise.len()).map(|i| (depth[i] - rise[i]).abs() + step.error[i]).sum();
-            let excess = error / (self.tolerance * worn.max(OF_ALL * (before + worn)));
+            let excess = if error > 0.0 { error / (self.tolerance * worn.max(OF_ALL * (before + worn))) } else { 0.0 };
             let next = cycles * next_length(excess);
             if excess <= 1.0 || cycles <= f64::MIN_POSITIVE {
                 // A step that was cut short at first says nothing against the length that was to be tried.
@@ -329,15 +329,15 @@ impl LifeTask {
 
     /// A solver for the cycle of surfaces that have worn off a further depth.
     fn worn_in_place(&self, problem: &Arc<Problem>, state: &LifeState, rise: &[f64]) -> Result<SlipSolver, LifeError> {
-        let solver = SlipSolver::new(Arc::clone(problem), state.points, self.settings, SlipSettings::default())?;
-        Ok(solver.on_gap(self.worn_gap(problem, state, rise)?)?)
+        let gap = self.worn_gap(problem, state, rise)?;
+        Ok(SlipSolver::on_gap(Arc::clone(problem), gap, self.settings, SlipSettings::default())?)
     }
 
     /// Damage in a cycle at the worst place of each part of the body, of whose original `gone` layers have come off.
     fn rates_in_place(&self, contact: &Beginning, gone: usize) -> Vec<PartDamage> {
         let original = self.problem.half_space();
         let lives = contact.record.fatigue.iter().flat_map(|fatigue| &fatigue.lives);
-        let of = |life: &crate::reading::Life| {
+        let of = |life: &Life| {
             let part = match life.part {
                 FatiguePart::Material(id) => FatiguePart::Material(original.material_id(id.number + gone)),
                 FatiguePart::Interface(id) => FatiguePart::Interface(original.interface_id(id.number + gone)),
@@ -358,7 +358,8 @@ impl LifeTask {
             }
             let damage = &mut state.in_place[index].damage;
             let was_whole = *damage < 1.0 - FAILED;
-            *damage += rate.damage * passes;
+            // Under a tip the first cycle fails.
+            *damage += if rate.damage.is_infinite() { rate.damage } else { rate.damage * passes };
             if was_whole && *damage >= 1.0 - FAILED {
                 let removed = state.removed();
                 state.events.push(Event {

@@ -3,6 +3,7 @@
 use super::damage::Damage;
 use super::event::{Course, Event};
 use crate::body::Side;
+use crate::numeric::serialised;
 use crate::reading::FatiguePart;
 use crate::spectral::Stop;
 use serde::{Deserialize, Serialize};
@@ -16,8 +17,8 @@ pub struct LifeState {
     pub points: [usize; 2],
     /// Height of what has come off by damage, a length.
     pub detached: f64,
-    /// Height by which sliding has lowered the body, a length: the mean depth worn off it on a lattice, the largest under an isolated
-    /// contact, beside which nothing is worn.
+    /// Height by which wear has lowered the body, a length: the mean depth worn off it by sliding on a lattice, the largest under an isolated
+    /// contact, beside which nothing is worn, and where points stay in place.
     pub lowered: f64,
     /// Damage in the frame of the original body.
     pub damage: Damage,
@@ -28,7 +29,7 @@ pub struct LifeState {
     pub worn: [Vec<f64>; 2],
     /// Depths pressed in for good of a counterbody that is softer, lengths sample by sample; empty where nothing is.
     pub indented: Vec<f64>,
-    /// Length of sliding that the next step of wear tries, a length; 0 at the beginning.
+    /// Length of sliding that the next step of wear tries, a length, or its cycles where points stay in place; 0 at the beginning.
     pub step: f64,
     /// Passes so far whose damage is to be added at the rates of the present surfaces.
     pub pending: f64,
@@ -54,7 +55,8 @@ pub struct PartDamage {
     /// The part, by its number in the original body.
     #[serde(flatten)]
     pub part: FatiguePart,
-    /// Damage; 1 where a crack begins.
+    /// Damage; 1 where a crack begins, infinite under a tip.
+    #[serde(deserialize_with = "serialised::infinite")]
     pub damage: f64,
 }
 

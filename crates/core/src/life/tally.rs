@@ -87,8 +87,12 @@ impl LifeTask {
             return None;
         }
         let (depths, window) = (state.of(side), self.window(state).area());
-        let worn = depths.iter().filter(|depth| **depth > 0.0).count();
-        let area = window * worn as f64 / depths.len().max(1) as f64;
+        // Of points that stay in place the middle may stick.
+        let worn = match self.motions {
+            Some(_) => around(depths, state.points[1]),
+            None => depths.iter().filter(|depth| **depth > 0.0).count() as f64,
+        };
+        let area = window * worn / depths.len().max(1) as f64;
         Some(Scar {
             diameter: 2.0 * (area / PI).sqrt(),
             depth: state.largest_worn(side),
@@ -135,4 +139,15 @@ impl LifeTask {
             state.sheds = false;
         }
     }
+}
+
+/// Samples of the ellipse in the smallest rectangle around all that are worn, by a thousandth of the deepest at least, in rows of so many.
+fn around(depths: &[f64], columns: usize) -> f64 {
+    let least = 1e-3 * depths.iter().copied().fold(0.0, f64::max);
+    let worn = || depths.iter().enumerate().filter(|(_, depth)| **depth > least).map(|(i, _)| i);
+    let width = |places: Vec<usize>| match (places.iter().min(), places.iter().max()) {
+        (Some(least), Some(most)) => (most - least + 1) as f64,
+        _ => 0.0,
+    };
+    0.25 * PI * width(worn().map(|i| i / columns).collect()) * width(worn().map(|i| i % columns).collect())
 }

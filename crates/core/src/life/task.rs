@@ -88,8 +88,8 @@ pub enum LifeError {
     Field(#[from] FieldError),
     /// A history does not end with a closed cycle.
     #[error(
-        "a pass of a contact that sticks and slips is a cycle, and [tangential] does not come back to a force or shift that it had before: give \
-         tangential.path, or steps that end where an earlier one does"
+        "a pass of a contact that sticks and slips is a cycle, and [tangential] does not come back, from the same side, to a force or shift that \
+         it had before: give tangential.path, or steps that end where an earlier one does"
     )]
     NoCycle,
     /// A contact that rolls.
@@ -159,7 +159,7 @@ impl LifeTask {
         let wears = self.wears() && self.passes.is_some();
         match self.load {
             Load::Penetration(_) if wears => Err(LifeError::Penetration),
-            _ if wears || self.problem.bodies().tire() => Ok(()),
+            _ if wears || self.problem.bodies().tire_by_stress() => Ok(()),
             _ => Err(LifeError::NothingTires),
         }
     }

@@ -31,13 +31,18 @@ impl LifeTask {
                 life.in_words(number)
             ));
         }
-        if let Some(row) = state.course.iter().find(|row| row.is_grooved()) {
+        if let Some(row) = state.course.iter().find(|row| self.motions.is_none() && row.is_grooved()) {
             warnings.push(format!(
                 "after {} passes a groove is deeper than the remaining layers: layers are taken as even, with their mean thickness",
                 number(row.passes)
             ));
         }
-        let more = [self.unworn_below(state), self.short_way(begun), self.wear_left_out(begun)];
+        let by_strain = self.motions.is_some() && self.problem.bodies().last_by_strain();
+        let by_strain = by_strain.then(|| {
+            "passes by strain are left out: `strain_life` counts passes of a counterbody that slides, not cycles in which points stay in place"
+                .to_owned()
+        });
+        let more = [self.unworn_below(state), self.short_way(begun), self.wear_left_out(begun), by_strain];
         warnings.extend(more.into_iter().flatten());
         if state.end == Some(LifeEnd::LoadLimit) {
             warnings.push("the life is followed no further: it takes too many loads".to_owned());

@@ -25,8 +25,6 @@ pub fn largest(stages: usize) -> f64 {
 pub struct Step {
     /// Rise of **y**.
     pub rise: Vec<f64>,
-    /// **F** at the end.
-    pub rate: Vec<f64>,
     /// Estimated error of the rise, value by value.
     pub error: Vec<f64>,
 }
@@ -61,7 +59,7 @@ pub fn step<E>(first: &[f64], h: f64, stages: usize, rate: &mut Rate<'_, E>) -> 
     }
     let last = rate(&rise)?;
     let error = (0..rise.len()).map(|i| (0.4 * h * (first[i] + last[i]) - 0.8 * rise[i]).abs()).collect();
-    Ok(Step { rise, rate: last, error })
+    Ok(Step { rise, error })
 }
 
 #[cfg(test)]

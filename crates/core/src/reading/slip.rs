@@ -131,17 +131,27 @@ impl SlipReading {
     }
 }
 
-/// Number of the steps of the last closed cycle of a path: those since load and tangential force were what they are at the end; `None` where
-/// they never were.
-pub fn cycle_length<'a>(steps: impl DoubleEndedIterator<Item = (&'a Reading, &'a SlipReading)>) -> Option<usize> {
-    let mut back = steps.rev();
-    let (reading, last) = back.next()?;
-    let same = |a: f64, b: f64, scale: f64| (a - b).abs() <= SAME * scale;
-    let is_closed = |(before, slip): (&Reading, &SlipReading)| {
-        same(before.force, reading.force, reading.force)
-            && (0..2).all(|axis| same(slip.force[axis], last.force[axis], last.limit))
+/// Number of the steps of the last closed cycle of a path: those since load and tangential force, or shift, were what they are at the end and were
+/// come to from the same side; `None` where they never were.
+fn cycle_length<'a>(steps: impl DoubleEndedIterator<Item = (&'a Reading, &'a SlipReading)>) -> Option<usize> {
+    let steps: Vec<(&Reading, &SlipReading)> = steps.collect();
+    let end = steps.len().checked_sub(1)?;
+    let farthest = steps.iter().map(|(_, slip)| slip.shift[0].hypot(slip.shift[1])).fold(0.0, f64::max);
+    let (last, slip) = steps[end];
+    let same = |a: [f64; 2], b: [f64; 2], scale: f64| (0..2).all(|axis| (a[axis] - b[axis]).abs() <= SAME * scale);
+    // Load and shift on the way to a step, over their sizes.
+    let way = |k: usize| {
+        let from = k.checked_sub(1).map_or((steps[0].0.force, [0.0; 2]), |k| (steps[k].0.force, steps[k].1.shift));
+        let (to, shift) = (steps[k].0.force, steps[k].1.shift);
+        [(to - from.0) / last.force, (shift[0] - from.1[0]) / farthest, (shift[1] - from.1[1]) / farthest]
     };
-    back.position(is_closed).map(|between| between + 1)
+    let is_closed = |k: &usize| {
+        let (before, other) = steps[*k];
+        let is_same = same(other.force, slip.force, slip.limit) || same(other.shift, slip.shift, farthest);
+        let along: f64 = way(*k).iter().zip(way(end)).map(|(a, b)| a * b).sum();
+        (before.force - last.force).abs() <= SAME * last.force && is_same && along > 0.0
+    };
+    (0..end).rev().find(is_closed).map(|k| end - k)
 }
 
 /// Energy that slip dissipates in the last closed cycle of a path; `None` without one.

@@ -48,6 +48,7 @@ pub use record::{STEP, Sliding, StepQuantities, StepRecord};
 pub use recorder::Recorder;
 pub use sampling::Sampling;
 pub use slipping::Motion;
+pub(crate) use slipping::closed_cycle;
 pub use tapered::Tapered;
 pub(crate) use wear::next_length;
 pub use wear::{PathEnd, WearPath, WornPath, WornStep, WornSurface};
@@ -80,7 +81,7 @@ enum Loading<'a> {
     Limit,
     /// A step in which points stay in place, with the other steps of the cycle that ends with it; empty where none does.
     InPlace(&'a [Step]),
-    /// Such a step of a search for limits.
+    /// A step in place, as before, of a search for limits.
     SearchInPlace(&'a [Step]),
 }
 

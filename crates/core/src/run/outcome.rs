@@ -124,6 +124,12 @@ pub enum RunError<E: Error + 'static> {
         "limits are loads under which all of [tangential] is followed, and its steps have loads that differ: give `load` one value"
     )]
     SeveralLoads,
+    /// Endurance limits are searched of a history without a closed cycle.
+    #[error(
+        "endurance limits of a contact that sticks and slips are those of a closed cycle: give tangential.path, or end the steps where an earlier \
+         one does, come to from the same side; or leave `endurance` out"
+    )]
+    NoCycle,
     /// Partial slip cannot be set up.
     #[error(transparent)]
     Slip(#[from] SlipError),

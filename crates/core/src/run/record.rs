@@ -159,7 +159,8 @@ impl StepRecord {
     /// The record with partial slip.
     #[must_use]
     pub(crate) fn with_slip(self, slip: SlipReading) -> Self {
-        let stop = if slip.converged { self.stop } else { Stop::IterationLimit };
+        // Why the normal contact is not solved says more.
+        let stop = if slip.converged || !self.stop.solved() { self.stop } else { Stop::IterationLimit };
         Self { tangential: Some(slip), stop, ..self }
     }
 

@@ -4,7 +4,7 @@ use super::{EarlierRun, Loading, Recorder, Run, RunError, Solved, StepRecord};
 use crate::friction::Friction;
 use crate::load::Load;
 use crate::problem::Problem;
-use crate::reading::{Criterion, SlipReading, Utilisation, cycle_length};
+use crate::reading::{Criterion, SlipReading, Utilisation};
 use crate::spectral::{
     Drive, OtherGrids, RollError, Rolling, RollingDrive, SlipError, SlipSettings, SlipSolver, SlipStep, Step,
 };
@@ -22,14 +22,6 @@ pub enum Motion {
 }
 
 impl Motion {
-    /// Force over μP, shift (a length) or creepage.
-    pub(crate) fn vector(&self) -> [f64; 2] {
-        match *self {
-            Self::Shear(Drive::Part(vector) | Drive::Shift(vector))
-            | Self::Roll(RollingDrive::Part(vector) | RollingDrive::Creepage(vector), _) => vector,
-        }
-    }
-
     /// The step of a solver to a load.
     pub(crate) fn step(self, solver: &mut SlipSolver, load: Load) -> Result<SlipStep, RollError> {
         match self {
@@ -39,23 +31,42 @@ impl Motion {
     }
 }
 
-/// Purpose for which the steps of a history are solved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Sought {
-    /// All readings of every step.
-    Steps,
-    /// Utilisations alone.
-    Utilisations,
-    /// All stresses of every step, and no lives.
-    Stresses,
+/// Difference of two motions or loads over the largest below which they are the same.
+const SAME: f64 = 1e-9;
+
+/// Number of the steps of the closed cycle with which a history ends: those since load and tangential force, or shift, were what they are at the end
+/// and were come to from the same side; `None` where they never were.
+pub(crate) fn closed_cycle(motions: &[Motion], loads: &[Load]) -> Option<usize> {
+    let sheared = |motion: &Motion| match *motion {
+        Motion::Shear(Drive::Part(vector)) => Some((false, vector)),
+        Motion::Shear(Drive::Shift(vector)) => Some((true, vector)),
+        Motion::Roll(..) => None,
+    };
+    let steps: Vec<(bool, [f64; 2])> = motions.iter().map(sheared).collect::<Option<_>>()?;
+    let (is_shift, last) = *steps.last()?;
+    let farthest = steps.iter().map(|(_, [x, y])| x.hypot(*y)).fold(f64::MIN_POSITIVE, f64::max);
+    let highest = loads.iter().map(|load| load.value().abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let state = |k: usize| {
+        let (_, [x, y]) = steps[k];
+        [x / farthest, y / farthest, loads.get(k).map_or(0.0, |load| load.value() / highest)]
+    };
+    let before = |k: usize| k.checked_sub(1).map_or([0.0, 0.0, state(0)[2]], state);
+    let way = |k: usize| std::array::from_fn::<f64, 3, _>(|axis| state(k)[axis] - before(k)[axis]);
+    let end = steps.len() - 1;
+    let is_same = |k: &usize| {
+        let (kind, vector) = steps[*k];
+        let same = kind == is_shift
+            && (vector[0] - last[0]).hypot(vector[1] - last[1]) <= SAME * farthest
+            && (state(*k)[2] - state(end)[2]).abs() <= SAME;
+        same && way(*k).iter().zip(way(end)).map(|(a, b)| a * b).sum::<f64>() > 0.0
+    };
+    (0..end).rev().find(is_same).map(|k| end - k).filter(|length| *length > 1)
 }
 
-/// Records and steps of a history so far, and where the next one stands in it.
-struct Past<'a> {
-    records: &'a [StepRecord],
-    /// The last steps; empty unless something tires in place.
-    steps: &'a [Step],
-    is_last: bool,
+/// The other steps of a cycle of some length that ends with the next step, of the steps so far; none where these are not kept.
+fn moments(steps: &[Step], cycle: Option<usize>) -> &[Step] {
+    let count = cycle.filter(|_| !steps.is_empty()).map_or(0, |length| length - 1);
+    &steps[steps.len() - count..]
 }
 
 impl Run {
@@ -81,6 +92,7 @@ impl Run {
         recorder: &mut R,
     ) -> Result<Solved, RunError<R::Error>> {
         let mut solver = self.slip_solver(&self.problem, points)?;
+        let cycle = closed_cycle(motions, &self.loads);
         recorder.begin(solver.normal()).map_err(RunError::Recorder)?;
         let mut records = finished.map_or_else(Vec::new, |earlier| earlier.steps);
         let known = records.len();
@@ -99,8 +111,8 @@ impl Run {
             let began = recorder.clock();
             let step = motion.step(&mut solver, load)?;
             if number >= known {
-                let past = Past { records: &records[..number], steps: &steps, is_last: number + 1 == self.loads.len() };
-                let record = self.slip_record(&step, motion, past, (Sought::Steps, &tables, began), recorder)?;
+                let moments = moments(&steps, cycle.filter(|_| number + 1 == self.loads.len()));
+                let record = self.slip_record(&step, motion, moments, (true, &tables, began), recorder)?;
                 records.push(record);
             }
             steps.push(step.contact);
@@ -108,29 +120,23 @@ impl Run {
         Ok((records, steps.pop()))
     }
 
-    /// The record of a step of a history, passed to the recorder. The last one of a closed cycle has the lives and endurance of the cycle, one
-    /// that rolls those of a pass.
+    /// The record of a step of a history, passed to the recorder: with all readings, or the utilisations alone. One that closes a cycle has the
+    /// lives and endurance of the cycle by its `moments`, one that rolls those of a pass.
     fn slip_record<R: Recorder>(
         &self,
         step: &SlipStep,
         motion: Motion,
-        past: Past<'_>,
-        (sought, tables, began): (Sought, &Arc<Tables>, Option<f64>),
+        moments: &[Step],
+        (all, tables, began): (bool, &Arc<Tables>, Option<f64>),
         recorder: &mut R,
     ) -> Result<StepRecord, RunError<R::Error>> {
         let direction = self.problem.friction().map_or([1.0, 0.0], Friction::direction);
         let (reading, slip) = (step.contact.reading(), SlipReading::of(step, direction));
-        let before = past.records.iter().filter_map(|step| Some((&step.reading, step.tangential.as_ref()?)));
-        let cycle = cycle_length(before.chain([(&reading, &slip)]));
-        // The steps between those that begin and end the cycle.
-        let moments = cycle.filter(|_| past.is_last && !past.steps.is_empty()).map_or(0, |length| length - 1);
-        let moments = &past.steps[past.steps.len() - moments..];
-        let loading = match (motion, sought) {
-            (Motion::Roll(..), Sought::Steps) => Loading::Path,
-            (Motion::Roll(..), Sought::Utilisations) => Loading::Search,
-            (Motion::Roll(..), Sought::Stresses) => Loading::Limit,
-            (Motion::Shear(_), Sought::Utilisations) => Loading::SearchInPlace(moments),
-            (Motion::Shear(_), _) => Loading::InPlace(moments),
+        let loading = match (motion, all) {
+            (Motion::Roll(..), true) => Loading::Path,
+            (Motion::Roll(..), false) => Loading::Search,
+            (Motion::Shear(_), true) => Loading::InPlace(moments),
+            (Motion::Shear(_), false) => Loading::SearchInPlace(moments),
         };
         let record = StepRecord::new(&step.contact, reading).with_slip(slip);
         self.with_stresses(&step.contact, record, tables, loading, (began, 0.0), recorder)
@@ -139,38 +145,44 @@ impl Run {
     /// Motions of a history that is followed at any load. A contact that rolls has one.
     ///
     /// # Errors
-    /// [`RunError::SeveralLoads`] of motions at loads that differ.
+    /// [`RunError::SeveralLoads`] of motions at loads that differ, [`RunError::NoCycle`] of endurance limits without a closed cycle.
     pub(super) fn history<E: Error + 'static>(&self) -> Result<&[Motion], RunError<E>> {
-        match self.motions.as_deref().unwrap_or_default() {
-            [roll @ Motion::Roll(..), ..] => Ok(std::slice::from_ref(roll)),
-            motions if self.loads.iter().all(|load| *load == self.loads[0]) => Ok(motions),
-            _ => Err(RunError::SeveralLoads),
+        let motions = self.motions.as_deref().unwrap_or_default();
+        let first = motions.first().ok_or(RunError::NoLoads)?;
+        if let Motion::Roll(..) = first {
+            let is_one = motions.iter().all(|motion| motion == first);
+            return if is_one { Ok(std::slice::from_ref(first)) } else { Err(RunError::SeveralLoads) };
         }
+        if self.loads.iter().any(|load| *load != self.loads[0]) {
+            return Err(RunError::SeveralLoads);
+        }
+        if self.problem.bodies().have_endurance() && closed_cycle(motions, &[]).is_none() {
+            return Err(RunError::NoCycle);
+        }
+        Ok(motions)
     }
 
     /// Follows the history of the run anew at a load. Returns the step at which a criterion, or any without one, is nearest to failure, with its
-    /// record, in which each utilisation is the largest of all steps.
+    /// record, in which each utilisation is the largest of all steps; with all stresses where there is a criterion.
     pub(super) fn worst_of_history<R: Recorder>(
         &self,
         solver: &mut SlipSolver,
         load: Load,
-        (sought, of, tables): (Sought, Option<Criterion>, &Arc<Tables>),
+        (of, tables): (Option<Criterion>, &Arc<Tables>),
         recorder: &mut R,
     ) -> Result<(StepRecord, Step), RunError<R::Error>> {
         solver.begin_anew();
         recorder.load(load);
         let (motions, keeps_steps) = (self.history()?, self.tires_in_place());
+        let cycle = closed_cycle(motions, &[]);
         let (mut records, mut steps, mut worst) = (Vec::<StepRecord>::new(), Vec::<Step>::new(), [0; 2]);
         for (number, &motion) in motions.iter().enumerate() {
             recorder.searching().map_err(RunError::Recorder)?;
             let began = recorder.clock();
             let step = motion.step(solver, load)?;
-            let past = Past {
-                records: &records,
-                steps: if keeps_steps { &steps } else { &[] },
-                is_last: number + 1 == motions.len(),
-            };
-            let record = self.slip_record(&step, motion, past, (sought, tables, began), recorder)?;
+            let is_last = number + 1 == motions.len();
+            let moments = moments(if keeps_steps { &steps } else { &[] }, cycle.filter(|_| is_last));
+            let record = self.slip_record(&step, motion, moments, (of.is_some(), tables, began), recorder)?;
             let taken = |record: &StepRecord| nearness(record, of);
             if number == 0 || taken(&record) > taken(&records[worst[0]]) {
                 worst = [number, steps.len()];
@@ -185,8 +197,9 @@ impl Run {
         }
         let (strength, stop) = (largest_of_all(&records), records.iter().find(|record| !record.converged()));
         let stop = stop.map(|record| record.stop);
+        let seconds = records.iter().map(|record| record.seconds).sum();
         let record = records.swap_remove(worst[0]);
-        let record = StepRecord { stop: stop.unwrap_or(record.stop), ..record.with_utilisations(strength) };
+        let record = StepRecord { stop: stop.unwrap_or(record.stop), seconds, ..record.with_utilisations(strength) };
         Ok((record, steps.swap_remove(worst[1])))
     }
 }
@@ -215,4 +228,38 @@ fn largest_of_all(records: &[StepRecord]) -> Vec<Utilisation> {
         *most = Utilisation { rival, ..Utilisation::new(larger.criterion, larger.value, error, larger.position) };
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn length(parts: &[f64], loads: &[f64]) -> Option<usize> {
+        let motions: Vec<Motion> = parts.iter().map(|part| Motion::Shear(Drive::Part([*part, 0.0]))).collect();
+        let loads: Vec<Load> = loads.iter().map(|load| Load::Force(*load)).collect();
+        closed_cycle(&motions, &loads)
+    }
+
+    #[test]
+    fn a_cycle_ends_where_it_began_from_the_same_side() {
+        for (parts, expected) in [
+            (&[0.6, -0.6, 0.6][..], Some(2)),
+            (&[0.3, 0.6, 0.3, 0.0, -0.3, -0.6, -0.3, 0.0, 0.3, 0.6], Some(8)),
+            (&[0.6, 0.0, -0.6, 0.0, 0.6, 0.0], Some(4)),
+            // A loading that never comes back.
+            (&[0.1, 0.5, 0.1], None),
+            (&[0.5, -0.3], None),
+            (&[0.5], None),
+            (&[], None),
+        ] {
+            assert_eq!(length(parts, &[]), expected, "{parts:?}");
+        }
+        let parts = [0.5, 0.3, 0.5, 0.3, 0.5];
+        assert_eq!(length(&parts, &[1.0; 5]), Some(2));
+        assert_eq!(length(&parts, &[1.0, 2.0, 3.0, 2.0, 1.0]), Some(4));
+        assert_eq!(length(&parts, &[1.0, 2.0, 3.0, 2.0, 2.0]), None);
+        let shift = Motion::Shear(Drive::Shift([0.5, 0.0]));
+        let part = |part: f64| Motion::Shear(Drive::Part([part, 0.0]));
+        assert_eq!(closed_cycle(&[part(0.5), part(-0.5), shift], &[]), None);
+    }
 }

@@ -104,8 +104,8 @@ fn coarse_path(steps: &[Numbered]) -> Option<String> {
     let list = list(steps, |step| change(step) > COARSE)?;
     let most = largest(steps.iter().map(|(_, step)| change(step)));
     Some(format!(
-        "step {list} is a large one: half as many parts of it change tangential force or shift by {} %; give further steps between, or roll by \
-         shorter ones",
+        "tangential force or shift of step {list} is uncertain by up to {} %: so much half as many parts of the step change it; bring load and force \
+         up in more steps, or roll by a shorter tangential.rolling.step",
         number(100.0 * most)
     ))
 }

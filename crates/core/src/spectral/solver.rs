@@ -72,7 +72,16 @@ impl Solver {
     ///
     /// # Errors
     /// [`FieldError`] for another shape, and for a value that is negative or not finite.
-    pub fn with_gap(mut self, mut gap: Array2<f64>) -> Result<Self, FieldError> {
+    pub fn with_gap(mut self, gap: Array2<f64>) -> Result<Self, FieldError> {
+        self.set_gap(gap)?;
+        Ok(self)
+    }
+
+    /// Gives the solver another initial gap, as [`Self::with_gap`].
+    ///
+    /// # Errors
+    /// [`FieldError`] as for [`Self::with_gap`].
+    pub fn set_gap(&mut self, mut gap: Array2<f64>) -> Result<(), FieldError> {
         self.grid().check(gap.dim().into())?;
         if let Some((index, &value)) = gap.indexed_iter().find(|(_, gap)| !(gap.is_finite() && **gap >= 0.0)) {
             return Err(FieldError::Gap { sample: index.into(), value });
@@ -81,7 +90,7 @@ impl Solver {
             gap = level.give_gap(gap);
         }
         self.worn = None;
-        Ok(self)
+        Ok(())
     }
 
     /// Solver with contact on a part of the cell alone; elsewhere there is no pressure, and the gap may become

@@ -38,6 +38,8 @@ const ROUNDING: f64 = 1e-11;
 /// Rolling: error over the last change. Where hardly anything slips the tractions at the trailing end are nearly infinite, steps are of the order ½,
 /// and what the first order extrapolates to is √2 times the change away.
 const OF_HALF_ORDER: f64 = 1.5;
+/// Part of μδ, the order of a shift under which all slips, that is the least by which changes of the shift are measured.
+const LEAST_SHIFT: f64 = 0.02;
 /// Fewest points of a coarser grid along a lattice vector.
 const COARSEST: usize = 24;
 
@@ -70,6 +72,9 @@ pub enum SlipError {
     /// The grid is refused.
     #[error(transparent)]
     Grid(#[from] LatticeError),
+    /// The gap is refused.
+    #[error(transparent)]
+    Gap(#[from] FieldError),
 }
 
 /// A contact that sticks and slips, step after step, of elastic surfaces: a hardness is left out.
@@ -206,6 +211,18 @@ fn square_of_a_sample(contact: &Contact) -> f64 {
     if touching == 0 { 0.0 } else { PI * contact_spots(contact.grid(), pressures).len() as f64 / touching as f64 }
 }
 
+/// The problem, where its counterbody can stick.
+fn checked(problem: impl Into<Arc<Problem>>) -> Result<Arc<Problem>, SlipError> {
+    let problem = problem.into();
+    if problem.friction().is_none_or(|friction| friction.coefficient() == 0.0) {
+        return Err(SlipError::Frictionless);
+    }
+    if problem.kind().is_given {
+        return Err(SlipError::Given);
+    }
+    Ok(problem)
+}
+
 impl SlipSolver {
     /// The contact of a problem with friction before any load, on a grid of `points`.
     ///
@@ -217,13 +234,7 @@ impl SlipSolver {
         settings: Settings,
         slip: SlipSettings,
     ) -> Result<Self, SlipError> {
-        let problem = problem.into();
-        if problem.friction().is_none_or(|friction| friction.coefficient() == 0.0) {
-            return Err(SlipError::Frictionless);
-        }
-        if problem.kind().is_given {
-            return Err(SlipError::Given);
-        }
+        let problem = checked(problem)?;
         let on_grid = |points: [usize; 2]| Track::new(&problem, points, settings, slip);
         let line = problem.loaded_by().line();
         let half = [0, 1].map(|axis| if line == Some(axis) { points[axis] } else { points[axis] / 2 });
@@ -233,20 +244,27 @@ impl SlipSolver {
         Ok(Self { problem, track, halved: None, coarser, parts: PARTS, with_errors: true, farthest: 0.0 })
     }
 
+    /// The contact of a problem with friction before any load, with an initial gap, lengths on its grid, as of [`Solver::with_gap`]. Its steps have no
+    /// errors: there is no coarser grid, and fewer parts of steps in which the load changes.
+    ///
+    /// # Errors
+    /// [`SlipError`].
+    pub fn on_gap(
+        problem: impl Into<Arc<Problem>>,
+        gap: Array2<f64>,
+        settings: Settings,
+        slip: SlipSettings,
+    ) -> Result<Self, SlipError> {
+        let problem = checked(problem)?;
+        let track = Track::new(&problem, gap.dim().into(), settings, slip)?.on_gap(gap)?;
+        let (parts, with_errors) = (FEW_PARTS, false);
+        Ok(Self { problem, track, halved: None, coarser: None, parts, with_errors, farthest: 0.0 })
+    }
+
     /// The solver with another even number of parts for a step in which the pressure changes.
     #[must_use]
     pub fn with_parts(self, parts: usize) -> Self {
         Self { parts: parts.next_multiple_of(2).max(2), ..self }
-    }
-
-    /// The solver with another initial gap, lengths on its grid, as of [`Solver::with_gap`]. Its steps have no errors: there is no coarser grid, and
-    /// fewer parts of steps in which the load changes.
-    ///
-    /// # Errors
-    /// [`FieldError`].
-    pub fn on_gap(self, gap: Array2<f64>) -> Result<Self, FieldError> {
-        let track = self.track.on_gap(gap)?;
-        Ok(Self { track, coarser: None, halved: None, parts: FEW_PARTS, with_errors: false, ..self })
     }
 
     /// Shift of the counterbody less the tangential displacement of each sample, lengths, since the first contact: what both surfaces have moved
@@ -292,7 +310,8 @@ impl SlipSolver {
         let is_divided = self.with_errors && parts.divide(&self.track, load, aim);
         let before = self.halved.take().or_else(|| is_divided.then(|| self.track.history()));
         let coarser = self.coarser.as_mut().map(|track| follow(track, load, aim, parts, None));
-        let near = coarser.as_ref().and_then(|coarse| prolonged(coarse.contact.finest(), self.track.solver().grid()));
+        let begins = coarser.as_ref().filter(|_| self.track.has_no_tractions());
+        let near = begins.and_then(|coarse| prolonged(coarse.contact.finest(), self.track.solver().grid()));
         let near = near.as_deref();
         let step = follow(&mut self.track, load, aim, parts, near);
         let halved = before.map(|history| {
@@ -302,7 +321,9 @@ impl SlipSolver {
             numbers
         });
         let of_grid = coarser.as_ref().map(|coarse| step.numbers.minus(&coarse.numbers));
-        self.farthest = self.farthest.max(length(step.numbers.shift));
+        // Shifts far below μδ are none.
+        let least = LEAST_SHIFT * self.track.friction() * step.contact.penetration().abs();
+        self.farthest = self.farthest.max(length(step.numbers.shift)).max(least);
         Ok(result(step, coarser.map(|coarse| coarse.contact), [halved, of_grid], self.farthest))
     }
 

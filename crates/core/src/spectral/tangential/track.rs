@@ -134,6 +134,11 @@ impl Track {
         self.operator.couples()
     }
 
+    /// Whether nothing has been sheared yet.
+    pub fn has_no_tractions(&self) -> bool {
+        self.state.traction.iter().all(|q| *q == [0.0; 2])
+    }
+
     /// Coefficient of friction μ.
     pub fn friction(&self) -> f64 {
         self.friction
@@ -218,7 +223,7 @@ impl Track {
     /// One step as [`Self::advance`]; without tractions so far the iteration begins with such `parts` of μp.
     pub fn advance_near(&mut self, load: Load, aim: Aim, parts: Option<&[Vector]>) -> TrackStep {
         let before = Arc::clone(&self.state.displacement);
-        let is_new = self.state.traction.iter().all(|q| *q == [0.0; 2]);
+        let is_new = self.has_no_tractions();
         self.advance_from(load, aim, &before, parts.filter(|_| is_new))
     }
 

@@ -91,7 +91,9 @@ pub(super) fn of_life(case: &Case, samples: u64, [grids, working, heights]: [u64
     // The way back has a contact and stresses of its own.
     let back = case.life.is_some_and(|life| life.stroke.is_some());
     let back = if back { grids + STEP * samples + stress } else { 0 };
-    let slip = of_slip(case, samples, series, true);
+    // The contact of each stage of wear in place is solved beside the cycle.
+    let stages = if case.tangential.is_some() { grids } else { 0 };
+    let slip = stages + of_slip(case, samples, series, true);
     let solving = PROGRAM + grids + heights + (STEP + WORN) * samples + damage[0] + contact + back + slip;
     let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
     let disk = COMPARISON + WORN * samples + damage[1] + if pictures { 2 * PICTURE } else { 0 };

@@ -12,7 +12,6 @@ use super::{At, Limit, LimitStep, Limits, SearchEnd};
 use crate::load::LoadQuantity;
 use crate::problem::Problem;
 use crate::reading::{Criterion, Utilisation};
-use crate::run::slipping::Sought;
 use crate::run::{Loading, Recorder, Run, RunError, StepRecord};
 use crate::spectral::{SlipSolver, Solver, Step};
 use crate::stress::Tables;
@@ -191,16 +190,11 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         self.last = None;
         self.enter(self.windows.of(load))?;
         let prescribed = self.quantity.load(load);
-        let (loading, sought) = match limit {
-            Some(_) => (Loading::Limit, Sought::Stresses),
-            None => (Loading::Search, Sought::Utilisations),
-        };
+        let loading = if limit.is_some() { Loading::Limit } else { Loading::Search };
         let (run, tables) = (self.run, &self.tables);
         let (record, step) = match &mut self.solver {
             Loaded::Sliding(solver) => run.solve_load(solver, tables, prescribed, (loading, None), self.recorder)?,
-            Loaded::Sticking(solver) => {
-                run.worst_of_history(solver, prescribed, (sought, limit, tables), self.recorder)?
-            }
+            Loaded::Sticking(solver) => run.worst_of_history(solver, prescribed, (limit, tables), self.recorder)?,
         };
         self.last = Some(step);
         // The load of a reading is the prescribed one to rounding.
