@@ -65,7 +65,7 @@ fn parts(parts: &[f64]) -> Vec<Drive> {
 /// A shift of ± 1, some thousand times what sticks, slips everywhere by 4 in a cycle: both surfaces wear as one that slides 4 in its place.
 #[test]
 fn cycles_of_gross_slip_wear_as_sliding_does() {
-    let (k, cycles) = ([0.02, 0.03], 8.0);
+    let (k, cycles) = ([0.02, 0.03], 4.0);
     let drives = [1.0, -1.0, 1.0].map(|shift| Drive::Shift([shift, 0.0]));
     let (begun, state) = followed(&task(problem(like_bodies(k), 1e-3, 2.4), &drives, Some(cycles)));
     assert_eq!(state.end, Some(LifeEnd::Passes));
@@ -78,7 +78,7 @@ fn cycles_of_gross_slip_wear_as_sliding_does() {
     path.slide(&mut solver, &mut |_, _| ControlFlow::Continue(())).unwrap();
     let expected = solver.worn().unwrap().depth(Side::Counterbody);
     let deepest = expected.iter().copied().fold(0.0, f64::max);
-    assert!(deepest > 0.1, "{deepest}");
+    assert!(deepest > 0.05, "{deepest}");
     // The tolerance of each step, of which there are some tens, is that of what it wears; errors of both signs.
     for (side, depths) in state.worn.iter().enumerate() {
         let part = k[side] / (k[0] + k[1]);
@@ -145,7 +145,7 @@ fn what_slipped_wears_until_it_bears_nothing() {
 #[test]
 fn the_worn_volume_does_not_depend_on_the_steps() {
     let volume = |tolerance: f64| {
-        let base = task(problem(like_bodies([0.0, 1.0]), 0.4, 2.4), &parts(&[0.7, -0.7, 0.7]), Some(4.0));
+        let base = task(problem(like_bodies([0.0, 1.0]), 0.4, 2.4), &parts(&[0.7, -0.7, 0.7]), Some(2.0));
         let (_, state) = followed(&LifeTask { sampling: Sampling::Points([40; 2]), tolerance, ..base });
         (state.course.last().unwrap().scar.unwrap().volume, state.solved)
     };

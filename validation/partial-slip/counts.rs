@@ -44,11 +44,10 @@ pub fn add(outcome: &mut Outcome, quick: bool) -> Result<(), StudyError> {
         let quantity = format!("iterations of the tractions, {what}");
         outcome.checks.push(Check::worst(quantity, of(is_rough, sizes, bound), Tolerance::AtMost));
     };
-    most("smooth contacts, up to 512² points", false, 0.0..=512.0, 20.0);
+    most("smooth contacts", false, 0.0..=1024.0, 20.0);
     most("rough contacts, up to 512² points", true, 0.0..=512.0, 45.0);
     if !quick {
-        most("smooth contacts, 1024² points", false, 1024.0..=1024.0, 25.0);
-        most("rough contacts, 1024² points", true, 1024.0..=1024.0, 60.0);
+        most("rough contacts, 1024² points", true, 1024.0..=1024.0, 50.0);
     }
     outcome.data.push(data);
     Ok(())

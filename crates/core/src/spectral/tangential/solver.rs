@@ -35,9 +35,9 @@ const PARTS_AT_ONE_LOAD: usize = 2;
 const FEW_PARTS: usize = 4;
 /// Part of μP that rounding makes of a force that is given.
 const ROUNDING: f64 = 1e-11;
-/// Rolling: error over the last change. Where hardly anything slips the tractions at the trailing end are nearly infinite, steps are of the order ½,
-/// and what the first order extrapolates to is √2 times the change away.
-const OF_HALF_ORDER: f64 = 1.5;
+/// What is left of a change by steps of rolling half as long, over that change, where nothing slips: tractions at the trailing end are infinite
+/// then, steps are of the order ½, and what the first order extrapolates to is off by more than the change.
+const OF_HALF_ORDER: f64 = 2.5;
 /// Part of μδ, the order of a shift under which all slips, that is the least by which changes of the shift are measured.
 const LEAST_SHIFT: f64 = 0.02;
 /// Fewest points of a coarser grid along a lattice vector.
@@ -164,13 +164,18 @@ impl Numbers {
 }
 
 /// The result of a step, extrapolated where it was followed in half as many parts too, with the difference `of_grid` from the coarser grid,
-/// whose contact is that of the errors of stresses; the `farthest` shift so far is what changes of the shift are part of.
-fn result(step: Followed, coarser: Option<Step>, [halved, of_grid]: [Option<Numbers>; 2], farthest: f64) -> SlipStep {
+/// whose contact is that of the errors of stresses. The `farthest` shift so far is what changes of the shift are part of, and `left` the error
+/// over the change.
+fn result(
+    step: Followed,
+    coarser: Option<Step>,
+    [halved, of_grid]: [Option<Numbers>; 2],
+    [farthest, left]: [f64; 2],
+) -> SlipStep {
     let Followed { contact, numbers, limit, report, turns, converged } = step;
     let in_time = halved.map(|halved| numbers.minus(&halved));
     let measured = |of: fn(&Numbers) -> Vector| {
         let change = in_time.as_ref().map_or([0.0; 2], of);
-        let left = if numbers.creepage.is_some() { OF_HALF_ORDER } else { 1.0 };
         let error = left * length(change) + of_grid.as_ref().map_or(0.0, |grid| length(of(grid)));
         MeasuredVector { value: add(of(&numbers), change), error }
     };
@@ -324,7 +329,7 @@ impl SlipSolver {
         // Shifts far below μδ are none.
         let least = LEAST_SHIFT * self.track.friction() * step.contact.penetration().abs();
         self.farthest = self.farthest.max(length(step.numbers.shift)).max(least);
-        Ok(result(step, coarser.map(|coarse| coarse.contact), [halved, of_grid], self.farthest))
+        Ok(result(step, coarser.map(|coarse| coarse.contact), [halved, of_grid], [self.farthest, 1.0]))
     }
 
     /// Rolls at a load under a tangential force or a creepage until some contact lengths are passed, by steps, then by half as long ones.
@@ -361,7 +366,10 @@ impl SlipSolver {
         // Both grids in steps of one length.
         let of_grid = coarser.as_ref().map(|coarse| steps.numbers.minus(&coarse.numbers));
         let farthest = length(halved.numbers.shift);
-        Ok(result(halved, coarser.map(|coarse| coarse.contact), [Some(steps.numbers), of_grid], farthest))
+        // Where less than half a step slips, the traction at the trailing end is as good as infinite.
+        let slips = (1.0 - halved.numbers.stick_fraction).max(0.0);
+        let left = 1.0 + (OF_HALF_ORDER - 1.0) * (0.5 * rolling.step / slips).min(1.0);
+        Ok(result(halved, coarser.map(|coarse| coarse.contact), [Some(steps.numbers), of_grid], [farthest, left]))
     }
 
     /// Tangential force or shift of a drive at a load.
