@@ -291,6 +291,7 @@ fn a_ball_that_is_shaken_has_limits_and_wears_in_place() {
     let limit = desk.json("limit/limit.json");
     assert!(limit["first"]["criterion"] == "cracking" && number(&limit, "/first/force") > 0.0, "{limit}");
     assert!(text(&answer.out).contains("cracking"), "{}", answer.out);
+    desk.succeeds(&["report", "limit"]);
     let answer = desk.succeeds(&["life", "case.toml", "-o", "life"]);
     let life = desk.json("life/life.json");
     let last = life["wear"].as_array().unwrap().last().unwrap();

@@ -130,7 +130,8 @@ mod tests {
             assert!(read == written && read.to_json() == written.to_json(), "{name}");
             let substrate = &json!(steps)[steps.len() - 1]["stress"]["materials"][case.half_space().layers().len()];
             assert_eq!(substrate["max_tau1"]["name"], "steel", "{name}");
-            if case.run().check_limits().is_ok() {
+            // A history takes long for each load; the program's test of a ball that is shaken reads its limits back.
+            if case.tangential.is_none() && case.run().check_limits().is_ok() {
                 let mut limits = case.run().limits(&mut ()).unwrap();
                 limits.steps = limits.steps.into_iter().map(kept).collect();
                 let written = LimitFile::new(&limits, &case, &[]);

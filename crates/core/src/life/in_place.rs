@@ -45,6 +45,7 @@ const FIRST: f64 = 0.02;
 const BESIDE: f64 = 1.3;
 /// Part of all volume worn by which the error of a step is measured at least.
 const OF_ALL: f64 = 0.1;
+
 /// A cycle that was followed.
 #[derive(Debug)]
 struct Cycle {
@@ -229,6 +230,8 @@ impl LifeTask {
         });
         let most = until.fold(last.min(state.next_crack(rates)), f64::min);
         let first = FIRST * contact.record.reading.penetration.abs() / (k * largest(rates_of()));
+        // A flat surface has no penetration to begin with.
+        let first = if first > 0.0 { first } else { most };
         let tried = if state.step > 0.0 { state.step } else { first };
         let found = self.worn_by(&state, (problem, k), contact, [tried, most], goes_on)?;
         let Worn { depth, cycles, next } = match found {
