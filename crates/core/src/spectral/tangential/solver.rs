@@ -35,8 +35,8 @@ const PARTS_AT_ONE_LOAD: usize = 2;
 const FEW_PARTS: usize = 4;
 /// Part of μP that rounding makes of a force that is given.
 const ROUNDING: f64 = 1e-11;
-/// What is left of a change by steps of rolling half as long, over that change, where nothing slips: tractions at the trailing end are infinite
-/// then, steps are of the order ½, and what the first order extrapolates to is off by more than the change.
+/// Error that is stated over the change by steps of rolling half as long, where nothing slips: tractions at the trailing end are infinite then,
+/// steps are of the order ½, and extrapolation leaves more than the change. Kalker's balls at 16 steps are off by 1.4 times this.
 const OF_HALF_ORDER: f64 = 2.5;
 /// Part of μδ, the order of a shift under which all slips, that is the least by which changes of the shift are measured.
 const LEAST_SHIFT: f64 = 0.02;
