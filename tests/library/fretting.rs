@@ -190,7 +190,7 @@ fn a_limit_of_a_history_is_that_of_its_worst_step() {
     let cracking = |found: &percoat::run::Limits| {
         found.limits.iter().find(|limit| limit.criterion == Criterion::cracking_of(1)).unwrap().load()
     };
-    // What slides everywhere tears more at its edge than what slips at its rim.
+    // A contact that slides everywhere is torn more at its edge than one that slips at its rim.
     let sliding = Run { motions: None, ..of(&parts) }.limits_up_to(2.0, &mut ()).unwrap();
     assert!(cracking(&sliding) < 0.95 * cracking(&found), "{} {}", cracking(&sliding), cracking(&found));
     let rising = Run { loads: vec![Load::Force(0.1), Load::Force(0.2)], ..of(&[0.1, 0.2]) };

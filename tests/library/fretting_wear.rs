@@ -71,7 +71,7 @@ fn cycles_of_gross_slip_wear_as_sliding_does() {
     assert_eq!(state.end, Some(LifeEnd::Passes));
     let touched = begun.step.finest().pressures().iter().zip(&begun.slid).filter(|(p, _)| **p > 0.0);
     assert!(touched.clone().count() > 60 && touched.clone().all(|(_, slid)| (slid / 4.0 - 1.0).abs() < 2e-3));
-    // What a counterbody alone wears does not depend on the direction.
+    // Wear of a counterbody alone does not depend on the direction.
     let wear = Wear::new(0.0, k[0] + k[1], [1.0, 0.0]).unwrap();
     let path = WearPath::new(LOAD, wear, 4.0 * cycles, 2e-3).unwrap();
     let mut solver = Solver::new(problem(like_bodies(k), 1e-3, 2.4).at_rest(), POINTS, Settings::default()).unwrap();
@@ -84,7 +84,7 @@ fn cycles_of_gross_slip_wear_as_sliding_does() {
         let part = k[side] / (k[0] + k[1]);
         let apart = depths.iter().zip(expected).map(|(depth, known)| (depth - part * known).abs()).fold(0.0, f64::max);
         println!("{} states, {apart:e} of {deepest}", state.solved);
-        assert!(apart < 1e-2 * part * deepest, "{apart:e}");
+        assert!(apart < 5e-3 * part * deepest, "{apart:e}");
     }
     let (row, volume) = (state.course.last().unwrap(), 4.0 * cycles * (k[0] + k[1]) * 0.3);
     let [body, counterbody] = [row.body_scar.unwrap(), row.scar.unwrap()].map(|scar| scar.volume);
@@ -133,8 +133,8 @@ fn what_slipped_wears_until_it_bears_nothing() {
     };
     let [before, after] = [&begun.step, &step].map(outside);
     println!("outside {before} {after}");
-    assert!(before > 0.3 && after < 0.1 * before, "{before} {after}");
-    // What stuck keeps its height, but for samples at its border.
+    assert!(before > 0.3 && after < 1e-3, "{before} {after}");
+    // Samples that stuck keep their height, but for those at the border of what slips.
     let deepest = state.largest_worn(Side::Counterbody);
     let kept = state.worn[1].iter().zip(&sticks).filter(|(depth, sticks)| **sticks && **depth < 0.02 * deepest).count();
     let stuck = sticks.iter().filter(|sticks| **sticks).count();

@@ -113,9 +113,7 @@ impl LifeTask {
         if next.solved >= MAX_LOADS {
             return Ok(LifeState { end: Some(LifeEnd::LoadLimit), ..next });
         }
-        // Until the half-space is laid out anew, or the first layer is worn through.
-        let left = original.interface_depths().get(gone).map_or(f64::INFINITY, |face| face - next.removed());
-        let room = original.layers().get(gone).map_or(f64::INFINITY, |layer| (RELAID * layer.thickness()).min(left));
+        let room = self.room(&next, gone);
         let wear = self.wear(solver.problem())?;
         let wears = [Side::Body, Side::Counterbody].iter().any(|&side| wear.coefficient(side) > 0.0);
         let (before, begun) = (next.removed(), next.passes);
@@ -149,6 +147,14 @@ impl LifeTask {
             next.end = Some(LifeEnd::Passes);
         }
         Ok(next)
+    }
+
+    /// Height that may still wear off a state whose `gone` layers have come off, a length, until the half-space is laid out anew or the first layer is
+    /// worn through.
+    pub(super) fn room(&self, state: &LifeState, gone: usize) -> f64 {
+        let original = self.problem.half_space();
+        let left = original.interface_depths().get(gone).map_or(f64::INFINITY, |face| face - state.removed());
+        original.layers().get(gone).map_or(f64::INFINITY, |layer| (RELAID * layer.thickness()).min(left))
     }
 
     /// State after a contact that is not solved: in a wider window where it reaches the border, else at the end.

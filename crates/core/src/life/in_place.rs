@@ -23,7 +23,7 @@ use crate::numeric::runge_kutta_chebyshev as stabilised;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
 use crate::reading::{FatiguePart, Life, Pass, PathReading, SlipReading};
-use crate::run::{StepRecord, closed_cycle, next_length};
+use crate::run::{StepRecord, cycle_of, next_length};
 use crate::spectral::{SlipSettings, SlipSolver, Solver, Step, Stop, Wear};
 use crate::stress::{PathSought, StressFields};
 use ndarray::Array2;
@@ -37,8 +37,6 @@ const MAX_TRIES: usize = 12;
 const STAGES: usize = 150;
 /// Part of a failure's passes from which on it has come.
 const FAILED: f64 = 1e-4;
-/// Part of a thickness that is gone when the half-space is laid out anew.
-const RELAID: f64 = 0.05;
 /// Depth of the first step that is tried over the penetration.
 const FIRST: f64 = 0.02;
 /// Slip where contact comes to over the largest within it.
@@ -67,7 +65,7 @@ struct Worn {
 impl LifeTask {
     /// Number of the last steps of the history that make a cycle; `None` where it does not come back to where it was.
     pub(super) fn cycle_length(&self) -> Option<usize> {
-        closed_cycle(self.motions.as_deref()?, &[])
+        cycle_of(self.motions.as_deref()?, &[])
     }
 
     /// The contact of unworn surfaces on a grid, after its first cycles, with what a cycle does.
@@ -150,7 +148,8 @@ impl LifeTask {
         let k: f64 = [Side::Body, Side::Counterbody].map(|side| wear.coefficient(side)).iter().sum();
         let wears = self.passes.is_some() && k > 0.0;
         let worn = || -> Result<Beginning, LifeError> {
-            let mut solver = self.worn_in_place(&problem, &state, &[])?;
+            let gap = self.worn_gap(&problem, &state)?;
+            let mut solver = self.on_gap(&problem, opened(&gap, &[]))?;
             self.begun(self.follow(&mut solver, self.problem.bodies().tire(), goes_on)?, goes_on)
         };
         let contact = match (state.solved, wears) {
@@ -218,12 +217,9 @@ impl LifeTask {
         let k = body + counterbody;
         let pressure = contact.step.finest().pressures();
         let rates_of = || contact.slid.iter().zip(pressure).map(|(slid, p)| slid * p);
-        let original = self.problem.half_space();
-        let face = original.interface_depths().get(gone).map_or(f64::INFINITY, |face| face - state.removed());
-        let room = original.layers().get(gone).map_or(f64::INFINITY, |layer| (RELAID * layer.thickness()).min(face));
         let last = self.passes.unwrap_or(f64::INFINITY) - state.passes;
         // Until a place is worn deeper than the deepest one so far by this room.
-        let deepest = state.largest_worn(Side::Body) + room;
+        let deepest = state.largest_worn(Side::Body) + self.room(&state, gone);
         let until = rates_of().enumerate().map(|(i, rate)| {
             let worn = state.worn[0].get(i).copied().unwrap_or(0.0);
             if rate > 0.0 { (deepest - worn) / (body * rate) } else { f64::INFINITY }
@@ -272,6 +268,7 @@ impl LifeTask {
         let touched = slid.iter().zip(contact.step.finest().pressures()).filter(|(_, p)| **p > 0.0);
         let fast = k * BESIDE * largest(touched.map(|(slid, _)| *slid)) / least_compliance(problem, state.points);
         let before: f64 = state.worn.iter().flatten().sum();
+        let gap = self.worn_gap(problem, state)?;
         let longest = most.min(stabilised::largest(STAGES) / fast);
         let mut cycles = tried.min(longest);
         let still = vec![0.0; slid.len()];
@@ -281,7 +278,7 @@ impl LifeTask {
                 return Err(LifeError::Interrupted);
             }
             let mut rate = |rise: &[f64]| -> Result<Vec<f64>, LifeError> {
-                solver.set_gap(self.worn_gap(problem, state, rise)?)?;
+                solver.set_gap(opened(&gap, rise))?;
                 let step = solver.solve(self.load);
                 stopped = stopped.or(Some(step.report.stop).filter(|stop| !stop.solved()));
                 pressures = step.finest().pressures().to_vec();
@@ -294,13 +291,13 @@ impl LifeTask {
             }
             // Waves of the stages wear nothing back.
             let rise: Vec<f64> = step.rise.iter().map(|rise| rise.max(0.0)).collect();
-            let after = self.follow(&mut self.worn_in_place(problem, state, &rise)?, false, goes_on)?;
+            let after = self.follow(&mut self.on_gap(problem, opened(&gap, &rise))?, false, goes_on)?;
             if !after.record.converged() {
                 return Ok(Err(after.record.stop));
             }
             let corrected = |i: usize| {
                 let change = 0.5 * (after.slid[i] - slid[i]);
-                // What begins to slip in the step wears by the pressure at its end.
+                // A sample that begins to slip in the step wears by the pressure at the end of the step.
                 if slid[i] > 0.0 { rise[i] * (1.0 + change / slid[i]) } else { cycles * k * change * pressures[i] }
             };
             let depth: Vec<f64> = (0..rise.len()).map(|i| corrected(i).max(0.0)).collect();
@@ -319,20 +316,14 @@ impl LifeTask {
         Ok(Err(Stop::IterationLimit))
     }
 
-    /// The gap of the surfaces of a state that have worn off a further depth, lengths; its least is 0.
-    fn worn_gap(&self, problem: &Problem, state: &LifeState, rise: &[f64]) -> Result<Array2<f64>, LifeError> {
-        let mut gap = problem.loaded_by().surface(state.points)?.initial_gap().to_owned();
-        for depths in [&state.worn[0][..], &state.worn[1], rise] {
-            gap.iter_mut().zip(depths).for_each(|(gap, depth)| *gap += depth);
-        }
-        let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
-        gap.mapv_inplace(|gap| gap - least);
-        Ok(gap)
+    /// The gap of the surfaces of a state, lengths.
+    fn worn_gap(&self, problem: &Problem, state: &LifeState) -> Result<Array2<f64>, LifeError> {
+        let gap = problem.loaded_by().surface(state.points)?.initial_gap().to_owned();
+        Ok(state.worn.iter().fold(gap, |gap, depths| opened(&gap, depths)))
     }
 
-    /// A solver for the cycle of surfaces that have worn off a further depth.
-    fn worn_in_place(&self, problem: &Arc<Problem>, state: &LifeState, rise: &[f64]) -> Result<SlipSolver, LifeError> {
-        let gap = self.worn_gap(problem, state, rise)?;
+    /// A solver for the cycle of surfaces with a gap.
+    fn on_gap(&self, problem: &Arc<Problem>, gap: Array2<f64>) -> Result<SlipSolver, LifeError> {
         Ok(SlipSolver::on_gap(Arc::clone(problem), gap, self.settings, SlipSettings::default())?)
     }
 
@@ -388,6 +379,15 @@ impl LifeState {
         };
         rates.iter().map(left).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// A gap that is opened by further depths, lengths sample by sample, or by none; its least is 0, so that it counts from first touch.
+fn opened(gap: &Array2<f64>, depths: &[f64]) -> Array2<f64> {
+    let mut opened = gap.clone();
+    opened.iter_mut().zip(depths).for_each(|(gap, depth)| *gap += depth);
+    let least = opened.iter().copied().fold(f64::INFINITY, f64::min);
+    opened.mapv_inplace(|gap| gap - least);
+    opened
 }
 
 /// Adds the way of a step, by which surfaces are sheared from `before` to `after`, where they do not stick.

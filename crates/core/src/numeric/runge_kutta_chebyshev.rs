@@ -32,7 +32,7 @@ pub struct Step {
 /// The rise of **y** over a step `h` in so many stages, from the rate at its start; `rate` gives **F** after a rise.
 ///
 /// # Errors
-/// Those of `rate`.
+/// Errors of `rate`.
 pub fn step<E>(first: &[f64], h: f64, stages: usize, rate: &mut Rate<'_, E>) -> Result<Step, E> {
     let s = stages.max(2);
     let w0 = 1.0 + DAMPING / (s * s) as f64;
@@ -85,7 +85,7 @@ mod tests {
         }
     }
 
-    /// Rates from 1 to 10⁴ decay in a step of 1 with the stages that are asked for, and in a few less grow.
+    /// In a step of 1 solutions with eigenvalues from −1 to −10⁴ decay with the stages of [`stages`], and grow with three quarters of them.
     #[test]
     fn stages_suffice_and_are_not_many_more_than_needed() {
         let rates: Vec<f64> = (0..=400).map(|k| 10f64.powf(0.01 * f64::from(k))).collect();

@@ -53,6 +53,7 @@ pub use level::{FEW_SAMPLES, LEVEL, LevelErrors, LevelQuantities, LevelReading, 
 pub use plastic::{PLASTIC, PlasticQuantities, PlasticReading};
 pub use rough::{ROUGH, RoughQuantities, RoughReading, SpotSizes, stiffness};
 pub use section::{LargestInSection, SectionMeasure};
+pub(crate) use slip::closed_cycle;
 pub use slip::{SLIP, SlipLevel, SlipQuantities, SlipReading, cycle};
 pub use strength::{Criterion, UTILISATION, Utilisation, UtilisationQuantities};
 pub(crate) use strength_search::{largest_while, utilisations_while};

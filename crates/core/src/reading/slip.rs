@@ -131,27 +131,35 @@ impl SlipReading {
     }
 }
 
-/// Number of the steps of the last closed cycle of a path: those since load and tangential force, or shift, were what they are at the end and were
-/// come to from the same side; `None` where they never were.
-fn cycle_length<'a>(steps: impl DoubleEndedIterator<Item = (&'a Reading, &'a SlipReading)>) -> Option<usize> {
-    let steps: Vec<(&Reading, &SlipReading)> = steps.collect();
-    let end = steps.len().checked_sub(1)?;
-    let farthest = steps.iter().map(|(_, slip)| slip.shift[0].hypot(slip.shift[1])).fold(0.0, f64::max);
-    let (last, slip) = steps[end];
-    let same = |a: [f64; 2], b: [f64; 2], scale: f64| (0..2).all(|axis| (a[axis] - b[axis]).abs() <= SAME * scale);
-    // Load and shift on the way to a step, over their sizes.
-    let way = |k: usize| {
-        let from = k.checked_sub(1).map_or((steps[0].0.force, [0.0; 2]), |k| (steps[k].0.force, steps[k].1.shift));
-        let (to, shift) = (steps[k].0.force, steps[k].1.shift);
-        [(to - from.0) / last.force, (shift[0] - from.1[0]) / farthest, (shift[1] - from.1[1]) / farthest]
-    };
+/// Number of the steps of the closed cycle with which a path of states (load, x, y) ends, each part over its largest size: those since load and place
+/// were what they are at the end, within a tolerance, and were come to from the same side; `None` where they never were. The path begins at its
+/// first load with x = y = 0.
+pub(crate) fn closed_cycle(states: &[[f64; 3]], tolerance: f64) -> Option<usize> {
+    let end = states.len().checked_sub(1)?;
+    let before = |k: usize| k.checked_sub(1).map_or([states[0][0], 0.0, 0.0], |k| states[k]);
+    let way = |k: usize| std::array::from_fn::<f64, 3, _>(|part| states[k][part] - before(k)[part]);
     let is_closed = |k: &usize| {
-        let (before, other) = steps[*k];
-        let is_same = same(other.force, slip.force, slip.limit) || same(other.shift, slip.shift, farthest);
-        let along: f64 = way(*k).iter().zip(way(end)).map(|(a, b)| a * b).sum();
-        (before.force - last.force).abs() <= SAME * last.force && is_same && along > 0.0
+        let is_same = (0..3).all(|part| (states[*k][part] - states[end][part]).abs() <= tolerance);
+        is_same && way(*k).iter().zip(way(end)).map(|(a, b)| a * b).sum::<f64>() > 0.0
     };
-    (0..end).rev().find(is_closed).map(|k| end - k)
+    (0..end).rev().find(is_closed).map(|k| end - k).filter(|length| *length > 1)
+}
+
+/// Number of the steps of the last closed cycle by the forces of the steps, or by their shifts.
+fn cycle_length<'a>(steps: impl Iterator<Item = (&'a Reading, &'a SlipReading)>) -> Option<usize> {
+    let steps: Vec<(&Reading, &SlipReading)> = steps.collect();
+    let largest =
+        |of: &dyn Fn(&(&Reading, &SlipReading)) -> f64| steps.iter().map(of).fold(f64::MIN_POSITIVE, f64::max);
+    let (load, limit) = (largest(&|step| step.0.force), largest(&|step| step.1.limit));
+    let farthest = largest(&|step| step.1.shift[0].hypot(step.1.shift[1]));
+    let by = |of: fn(&SlipReading) -> [f64; 2], size: f64| {
+        let state = |(reading, slip): &(&Reading, &SlipReading)| {
+            let [x, y] = of(slip);
+            [reading.force / load, x / size, y / size]
+        };
+        closed_cycle(&steps.iter().map(state).collect::<Vec<_>>(), SAME)
+    };
+    by(|slip| slip.force, limit).or_else(|| by(|slip| slip.shift, farthest))
 }
 
 /// Energy that slip dissipates in the last closed cycle of a path; `None` without one.

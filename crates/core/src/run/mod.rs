@@ -48,7 +48,7 @@ pub use record::{STEP, Sliding, StepQuantities, StepRecord};
 pub use recorder::Recorder;
 pub use sampling::Sampling;
 pub use slipping::Motion;
-pub(crate) use slipping::closed_cycle;
+pub(crate) use slipping::cycle_of;
 pub use tapered::Tapered;
 pub(crate) use wear::next_length;
 pub use wear::{PathEnd, WearPath, WornPath, WornStep, WornSurface};

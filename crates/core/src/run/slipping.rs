@@ -4,7 +4,7 @@ use super::{EarlierRun, Loading, Recorder, Run, RunError, Solved, StepRecord};
 use crate::friction::Friction;
 use crate::load::Load;
 use crate::problem::Problem;
-use crate::reading::{Criterion, SlipReading, Utilisation};
+use crate::reading::{Criterion, SlipReading, Utilisation, closed_cycle};
 use crate::spectral::{
     Drive, OtherGrids, RollError, Rolling, RollingDrive, SlipError, SlipSettings, SlipSolver, SlipStep, Step,
 };
@@ -31,36 +31,27 @@ impl Motion {
     }
 }
 
-/// Difference of two motions or loads over the largest below which they are the same.
+/// Difference of two motions, or of two loads, over the largest of the history, up to which they are taken for one.
 const SAME: f64 = 1e-9;
 
-/// Number of the steps of the closed cycle with which a history ends: those since load and tangential force, or shift, were what they are at the end
-/// and were come to from the same side; `None` where they never were.
-pub(crate) fn closed_cycle(motions: &[Motion], loads: &[Load]) -> Option<usize> {
-    let sheared = |motion: &Motion| match *motion {
-        Motion::Shear(Drive::Part(vector)) => Some((false, vector)),
-        Motion::Shear(Drive::Shift(vector)) => Some((true, vector)),
-        Motion::Roll(..) => None,
-    };
-    let steps: Vec<(bool, [f64; 2])> = motions.iter().map(sheared).collect::<Option<_>>()?;
-    let (is_shift, last) = *steps.last()?;
-    let farthest = steps.iter().map(|(_, [x, y])| x.hypot(*y)).fold(f64::MIN_POSITIVE, f64::max);
+/// Number of the steps of the closed cycle with which a history of forces, or of shifts, ends; `None` without one. Without `loads` these are alike.
+pub(crate) fn cycle_of(motions: &[Motion], loads: &[Load]) -> Option<usize> {
+    let by_shift = |motion: &Motion| matches!(motion, Motion::Shear(Drive::Shift(_)));
+    let vectors: Vec<[f64; 2]> = motions
+        .iter()
+        .map(|motion| match *motion {
+            Motion::Shear(Drive::Part(vector) | Drive::Shift(vector)) => Some(vector),
+            Motion::Roll(..) => None,
+        })
+        .collect::<Option<_>>()?;
+    if motions.iter().any(by_shift) && !motions.iter().all(by_shift) {
+        return None;
+    }
+    let farthest = vectors.iter().map(|[x, y]| x.hypot(*y)).fold(f64::MIN_POSITIVE, f64::max);
     let highest = loads.iter().map(|load| load.value().abs()).fold(f64::MIN_POSITIVE, f64::max);
-    let state = |k: usize| {
-        let (_, [x, y]) = steps[k];
-        [x / farthest, y / farthest, loads.get(k).map_or(0.0, |load| load.value() / highest)]
-    };
-    let before = |k: usize| k.checked_sub(1).map_or([0.0, 0.0, state(0)[2]], state);
-    let way = |k: usize| std::array::from_fn::<f64, 3, _>(|axis| state(k)[axis] - before(k)[axis]);
-    let end = steps.len() - 1;
-    let is_same = |k: &usize| {
-        let (kind, vector) = steps[*k];
-        let same = kind == is_shift
-            && (vector[0] - last[0]).hypot(vector[1] - last[1]) <= SAME * farthest
-            && (state(*k)[2] - state(end)[2]).abs() <= SAME;
-        same && way(*k).iter().zip(way(end)).map(|(a, b)| a * b).sum::<f64>() > 0.0
-    };
-    (0..end).rev().find(is_same).map(|k| end - k).filter(|length| *length > 1)
+    let load = |k: usize| loads.get(k).map_or(0.0, |load| load.value() / highest);
+    let states = vectors.iter().enumerate().map(|(k, [x, y])| [load(k), x / farthest, y / farthest]);
+    closed_cycle(&states.collect::<Vec<_>>(), SAME)
 }
 
 /// The other steps of a cycle of some length that ends with the next step, of the steps so far; none where these are not kept.
@@ -92,7 +83,7 @@ impl Run {
         recorder: &mut R,
     ) -> Result<Solved, RunError<R::Error>> {
         let mut solver = self.slip_solver(&self.problem, points)?;
-        let cycle = closed_cycle(motions, &self.loads);
+        let cycle = cycle_of(motions, &self.loads);
         recorder.begin(solver.normal()).map_err(RunError::Recorder)?;
         let mut records = finished.map_or_else(Vec::new, |earlier| earlier.steps);
         let known = records.len();
@@ -156,7 +147,7 @@ impl Run {
         if self.loads.iter().any(|load| *load != self.loads[0]) {
             return Err(RunError::SeveralLoads);
         }
-        if self.problem.bodies().have_endurance() && closed_cycle(motions, &[]).is_none() {
+        if self.problem.bodies().have_endurance() && cycle_of(motions, &[]).is_none() {
             return Err(RunError::NoCycle);
         }
         Ok(motions)
@@ -174,7 +165,7 @@ impl Run {
         solver.begin_anew();
         recorder.load(load);
         let (motions, keeps_steps) = (self.history()?, self.tires_in_place());
-        let cycle = closed_cycle(motions, &[]);
+        let cycle = cycle_of(motions, &[]);
         let (mut records, mut steps, mut worst) = (Vec::<StepRecord>::new(), Vec::<Step>::new(), [0; 2]);
         for (number, &motion) in motions.iter().enumerate() {
             recorder.searching().map_err(RunError::Recorder)?;
@@ -237,7 +228,7 @@ mod tests {
     fn length(parts: &[f64], loads: &[f64]) -> Option<usize> {
         let motions: Vec<Motion> = parts.iter().map(|part| Motion::Shear(Drive::Part([*part, 0.0]))).collect();
         let loads: Vec<Load> = loads.iter().map(|load| Load::Force(*load)).collect();
-        closed_cycle(&motions, &loads)
+        cycle_of(&motions, &loads)
     }
 
     #[test]
@@ -260,6 +251,6 @@ mod tests {
         assert_eq!(length(&parts, &[1.0, 2.0, 3.0, 2.0, 2.0]), None);
         let shift = Motion::Shear(Drive::Shift([0.5, 0.0]));
         let part = |part: f64| Motion::Shear(Drive::Part([part, 0.0]));
-        assert_eq!(closed_cycle(&[part(0.5), part(-0.5), shift], &[]), None);
+        assert_eq!(cycle_of(&[part(0.5), part(-0.5), shift], &[]), None);
     }
 }

@@ -27,7 +27,7 @@ const ROUNDS: usize = 4;
 /// Relative difference below which two loads are one.
 const SAME_LOAD: f64 = 1e-12;
 
-/// What solves a load.
+/// Solver of the loads of a search.
 enum Loaded {
     /// A counterbody that slides or is still.
     Sliding(Box<Solver>),
