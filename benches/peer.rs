@@ -15,7 +15,7 @@
 mod shared;
 
 use npyz::WriterBuilder;
-use percoat::run::Recorder;
+use percoat::run::{GridStart, Recorder};
 use percoat::spectral::Checkpoint;
 use percoat::*;
 use rustfft::FftNum;
@@ -86,7 +86,7 @@ struct Times(Vec<Instant>);
 impl Recorder for Times {
     type Error = Infallible;
 
-    fn begin(&mut self, _solver: &Solver) -> Result<(), Infallible> {
+    fn begin(&mut self, _start: &GridStart) -> Result<(), Infallible> {
         self.0.push(Instant::now());
         Ok(())
     }

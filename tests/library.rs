@@ -3,6 +3,8 @@
 
 mod common;
 
+#[path = "library/adhesion.rs"]
+mod adhesion;
 #[path = "library/cases_refused.rs"]
 mod cases_refused;
 #[cfg(feature = "cli")]

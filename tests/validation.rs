@@ -80,6 +80,7 @@ studies! {
     two_bodies = "two-bodies",
     identification = "identification",
     partial_slip = "partial-slip",
+    adhesion = "adhesion",
     thin_coatings = "thin-coatings",
     rings = "rings",
     hertz_stresses = "hertz-stresses",

@@ -13,6 +13,8 @@
 
 #![allow(clippy::too_many_lines, reason = "a study is told from top to bottom in one function")]
 
+#[path = "adhesion/study.rs"]
+mod adhesion;
 mod alone;
 mod cells;
 mod check;
@@ -85,7 +87,7 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, contradictions, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 35] = [
+pub const STUDIES: [Study; 36] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -99,6 +101,7 @@ pub const STUDIES: [Study; 35] = [
     two_bodies::STUDY,
     identification::STUDY,
     partial_slip::STUDY,
+    adhesion::STUDY,
     thin_coatings::STUDY,
     rings::STUDY,
     hertz_stresses::STUDY,

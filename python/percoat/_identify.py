@@ -221,7 +221,8 @@ def identify(
     segment
         ``"loading"`` takes the points up to nearly the largest force, without hold and unloading; ``None`` all of them, which
         have to be loading. Points before contact are left out. ``"unloading"`` takes the stiffness at the largest force, by Oliver and Pharr's method on
-        the layered body.
+        the layered body. ``"retraction"`` takes the curve of drawing off surfaces that adhere, from the largest penetration to the
+        least force; ``fitted`` and ``fitted_error`` are then forces.
     part
         Parts of the largest force between which unloading is fitted, (0.25, 0.95) where it is not said.
     set, threads, progress

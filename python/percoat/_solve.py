@@ -275,6 +275,17 @@ class Step(Sampled):
         return displacement
 
     @cached_property
+    def tension(self) -> Optional[Array]:
+        """Tension between the surfaces ≥ 0 (n₁, n₂), in the unit of Young's modulus; None of surfaces that do not adhere.
+
+        What acts on the bodies is the pressure of contact less the tension.
+        """
+        tension = self._core.tension()
+        if tension is not None:
+            tension.flags.writeable = False
+        return tension
+
+    @cached_property
     def _shear(self) -> Optional[tuple[Array, Array, Array]]:
         shear = self._core.shear()
         for field in shear or ():

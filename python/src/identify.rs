@@ -95,6 +95,14 @@ fn columns(measured: &Curves, found: &FoundNumbers) -> Columns {
                 Some(curve),
             ]
         }
+        (Curves::Retraction(measured), FoundNumbers::Retraction(found)) => [
+            Some(measured.forces().to_vec()),
+            Some(measured.penetrations().to_vec()),
+            None,
+            Some(found.fitted.clone()),
+            Some(found.band.clone()),
+            None,
+        ],
         _ => [const { None }; 6],
     };
     [

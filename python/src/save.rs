@@ -11,7 +11,7 @@ use percoat::output::{
     Clock, FolderError, OutputError, Plan, Recording, RunFolder, Summary, Timing, Writer, solved_plan, write_file,
     write_scalars,
 };
-use percoat::run::{Outcome, Recorder, StepRecord};
+use percoat::run::{GridStart, Outcome, Recorder, StepRecord};
 use percoat::{Solver, StressFields, case, plain, sweep};
 use pyo3::prelude::*;
 use std::io::Write;
@@ -96,7 +96,8 @@ fn save_solved(
         return Err(SaveError::Refused("there are no load steps to save".to_owned()));
     };
     let solver = Solver::new(Arc::clone(case.problem()), points, case.solver);
-    recording.begin(&solver.map_err(|error| SaveError::Refused(error.to_string()))?)?;
+    let solver = solver.map_err(|error| SaveError::Refused(error.to_string()))?;
+    recording.begin(&GridStart::from(&solver))?;
     let Summary { steps, accuracy, warnings, timing, .. } = summary;
     let steps: Vec<StepRecord> = steps.into_iter().zip(kept).map(|(record, kept)| whole(record, kept)).collect();
     for (record, kept) in steps.iter().zip(kept) {

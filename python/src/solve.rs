@@ -10,10 +10,10 @@ use numpy::{IntoPyArray, PyArray2};
 use percoat::Progress;
 use percoat::case;
 use percoat::output::{Clock, Phase, Summary, number, table};
-use percoat::run::{Recorder, StepRecord};
+use percoat::run::{GridStart, Recorder, StepRecord};
 use percoat::spectral::Checkpoint;
 use percoat::task::{Solve, Solved};
-use percoat::{Load, Solver, StressFields, Surface};
+use percoat::{Load, StressFields, Surface};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -57,11 +57,11 @@ impl<'a> Keeping<'a> {
 impl Recorder for Keeping<'_> {
     type Error = Stopped;
 
-    fn begin(&mut self, solver: &Solver) -> Result<(), Stopped> {
+    fn begin(&mut self, start: &GridStart) -> Result<(), Stopped> {
         // Steps on a coarser grid are not part of the result.
         self.steps.clear();
-        (self.done, self.points) = (0, solver.grid().points());
-        self.surface = Some(Arc::clone(solver.surface()));
+        (self.done, self.points) = (0, start.grid().points());
+        self.surface = Some(Arc::clone(start.surface()));
         self.tell(true, || "begins".to_owned(), None);
         self.searching()
     }

@@ -102,6 +102,13 @@ impl Step {
         Some((pair(&shear.traction), pair(&shear.slip), work))
     }
 
+    /// Tension (n₁, n₂) of surfaces that adhere; `None` of others.
+    fn tension<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<f64>>> {
+        let [n1, n2] = self.0.step.grid().points();
+        let tension = self.0.step.finest().tensions()?;
+        Some(Array2::from_shape_fn((n1, n2), |(i, j)| tension[i * n2 + j]).into_pyarray(py))
+    }
+
     /// Stresses (n, 6) at points (n, 3), or their strains; on an interface in the material of this number, from 1.
     #[pyo3(signature = (points, material = None, body = "body", strain = false))]
     fn at_points<'py>(
@@ -176,14 +183,13 @@ impl Step {
         Ok((coordinates, materials.into_pyarray(py), components.into_pyarray(py)))
     }
 
-    /// The largest stresses, and strains where the case asks for them, as a dict; `None` without contact.
+    /// The largest stresses, and strains where the case asks for them, as a dict; `None` where nothing acts on the bodies.
     fn maxima<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let kept = Arc::clone(&self.0);
         let stress = work::run(py, None, None, move |listener| {
             let reading = kept.step.reading();
-            (reading.max_pressure > 0.0)
-                .then(|| StressReading::of_while(&kept.step, &reading, &kept.fields(), &listener.goes_on()))
-                .flatten()
+            let acts = kept.step.finest().net_pressures().iter().any(|pressure| *pressure != 0.0);
+            acts.then(|| StressReading::of_while(&kept.step, &reading, &kept.fields(), &listener.goes_on())).flatten()
         })?;
         stress.map(|stress| to_python(py, &stress)).transpose()
     }
@@ -191,7 +197,9 @@ impl Step {
     /// The bytes from which [`step`] restores the step.
     fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let checkpoint = self.0.checkpoint.as_ref().ok_or_else(|| {
-            refused("a step of a contact that sticks cannot be pickled, since it follows from those before: solve its case again")
+            refused(
+                "a step of a contact that sticks or adheres cannot be pickled, since it follows from those before: solve its case again",
+            )
         })?;
         let mut bytes = Cursor::new(Vec::new());
         write_checkpoint(&mut bytes, checkpoint).map_err(refused)?;

@@ -94,8 +94,8 @@ pub enum Command {
         /// Known additions of the instrument, in the units of the case, and the factor of the stiffness of unloading of tips that are not round [default: 1]: offset=LENGTH,frame_compliance=LENGTH PER FORCE,beta=FACTOR
         #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',')]
         known: Vec<String>,
-        /// Part of the test that is fitted; `loading`: up to nearly the largest force, without hold and unloading; `unloading`: the stiffness at the largest force, by Oliver and Pharr's method on the layered body [default: all of it, which has to be loading]
-        #[arg(long, value_name = "SEGMENT", value_parser = ["loading", "unloading"])]
+        /// Part of the test that is fitted; `loading`: up to nearly the largest force, without hold and unloading; `unloading`: the stiffness at the largest force, by Oliver and Pharr's method on the layered body; `retraction`: drawing off surfaces that adhere, to the least force, as for adhesion.work [default: all of it, which has to be loading]
+        #[arg(long, value_name = "SEGMENT", value_parser = ["loading", "unloading", "retraction"])]
         segment: Option<String>,
         /// Parts of the largest force between which unloading is fitted [default: 0.25,0.95]
         #[arg(long, value_name = "LOW,HIGH", value_delimiter = ',')]

@@ -90,6 +90,9 @@ fn written<'a>() -> [Declared<Identified<'a>>; 3] {
                 (Curves::Unloading(unloadings), Found::Unloading(found)) => {
                     Some(picture::unloading(best, unloadings, found, result.beta))
                 }
+                (Curves::Retraction(curve), Found::Retraction(found)) => {
+                    Some(picture::retraction(&best.title, &best.units(), curve, found))
+                }
                 _ => None,
             }
         }),

@@ -13,8 +13,8 @@ use percoat_app::picture::{self, Canvas, Snapshot};
 use percoat_app::task::{FindLimits, Limited};
 use percoat_common::machine::Capacity;
 use percoat_core::load::LoadQuantity;
-use percoat_core::run::{EVENTS, LimitStep, Recorder, StepRecord};
-use percoat_core::{Solver, Step, StressFields};
+use percoat_core::run::{EVENTS, GridStart, LimitStep, Recorder, StepRecord};
+use percoat_core::{Step, StressFields};
 use std::convert::Infallible;
 use std::path::Path;
 use std::time::Instant;
@@ -32,9 +32,9 @@ struct Searching {
 impl Recorder for Searching {
     type Error = Infallible;
 
-    fn begin(&mut self, solver: &Solver) -> Result<(), Infallible> {
-        self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
-        self.progress.grid(solver.grid().points(), 0);
+    fn begin(&mut self, start: &GridStart) -> Result<(), Infallible> {
+        self.progress.tell(format_args!("{}\n{start}", start.problem()));
+        self.progress.grid(start.grid().points(), 0);
         Ok(())
     }
 

@@ -6,9 +6,9 @@ use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
 use percoat_app::output::{Clock, OutputError, Recording};
-use percoat_core::run::{EarlierRun, Recorder, Run, StepRecord};
+use percoat_core::run::{EarlierRun, GridStart, Recorder, Run, StepRecord};
 use percoat_core::spectral::Checkpoint;
-use percoat_core::{Load, Solver, Step, StressFields, VerticalSection};
+use percoat_core::{Load, Step, StressFields, VerticalSection};
 
 /// Records a run and shows its progress.
 pub struct ProgressRecorder<'a> {
@@ -51,15 +51,15 @@ impl Recorder for ProgressRecorder<'_> {
         self.recording.solved(checkpoint)
     }
 
-    fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
-        self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
+    fn begin(&mut self, start: &GridStart) -> Result<(), OutputError> {
+        self.progress.tell(format_args!("{}\n{start}", start.problem()));
         // The handler of signals waits until the steps of a coarser grid have moved aside.
         let mut saved = interruption::hold();
-        self.recording.begin(solver)?;
+        self.recording.begin(start)?;
         *saved = self.saved();
         drop(saved);
         terminal::tell_aside(self.recording.set_aside(), self.results.saying.quiet);
-        self.progress.grid(solver.grid().points(), self.recording.steps());
+        self.progress.grid(start.grid().points(), self.recording.steps());
         Ok(())
     }
 

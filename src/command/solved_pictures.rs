@@ -38,6 +38,10 @@ impl Pictured {
         picture::slip_loop(&self.last.title, self.last.step.problem(), &self.last.units, &self.steps)
     }
 
+    fn approach(&self) -> Option<Canvas> {
+        picture::approach(&self.last.title, self.last.step.problem(), &self.last.units, &self.steps)
+    }
+
     fn curve(&self) -> Option<Canvas> {
         picture::load_curves(&self.last.title, self.last.step.problem(), &self.last.units, &self.steps)
     }
@@ -47,8 +51,8 @@ impl Pictured {
 pub fn of_case(case: &Case, steps: usize) -> Vec<Declared<Pictured>> {
     let is_cut = case.has_cut();
     let is_indented = case.problem().bodies().hardness().is_some();
-    let sticks = case.tangential.is_some();
-    let pictures: [(bool, Declared<Pictured>); 9] = [
+    let (sticks, adheres) = (case.tangential.is_some(), case.adhesion.is_some());
+    let pictures: [(bool, Declared<Pictured>); 10] = [
         (true, Picture("pressure", |solved| solved.touches().then(|| picture::pressure(&solved.last)))),
         (true, Picture("contact", Pictured::contact)),
         (true, Picture("profiles", Pictured::profiles)),
@@ -57,7 +61,8 @@ pub fn of_case(case: &Case, steps: usize) -> Vec<Declared<Pictured>> {
         (is_cut, Picture("lines", |solved| Some(picture::lines(&solved.last, solved.cut()?)))),
         (sticks, Picture("slip", |solved| picture::slip(&solved.last))),
         (sticks && steps > 1, Picture("loop", Pictured::slip_loop)),
-        (steps > 1 && !sticks, Picture("curve", Pictured::curve)),
+        (adheres && steps > 1, Picture("approach", Pictured::approach)),
+        (steps > 1 && !sticks && !adheres, Picture("curve", Pictured::curve)),
     ];
     pictures.into_iter().filter_map(|(is_drawn, picture)| is_drawn.then_some(picture)).collect()
 }

@@ -62,9 +62,11 @@ fn every_case_runs() {
         let steps = folder.steps();
         let count = if sticks { case.step_count() } else { 2 };
         assert_eq!(steps.len(), if is_given { 1 } else { count }, "{name}");
-        for step in &steps {
+        for (index, step) in steps.iter().enumerate() {
             assert_eq!(step["converged"], true, "{name}");
-            assert!(number(step, "/penetration") > 0.0 && number(step, "/contact_area") > 0.0, "{name}");
+            // Surfaces that adhere may have come apart at the end.
+            let is_pressed = number(step, "/penetration") > 0.0 && number(step, "/contact_area") > 0.0;
+            assert!(is_pressed || index > 0 && case.adhesion.is_some(), "{name}");
         }
     }
 }

@@ -279,7 +279,7 @@ fn tests_without_an_unloading_to_fit_are_refused_with_what_to_do() {
     for (known, told) in [("beta=0", "above 0"), ("beta=1,beta=2", "`beta` is there twice")] {
         refused(&[&unloading("whole.txt")[..], &["--known", known]].concat(), &[told]);
     }
-    refused(&["curve.csv", "case.toml", "--known", "beta=1.034"], &["loading does not have"]);
+    refused(&["curve.csv", "case.toml", "--known", "beta=1.034"], &["other segments do not have"]);
     let two = ["--free", "substrate.young"];
     refused(&[&unloading("whole.txt")[..], &two].concat(), &["1 unloading does not determine 2 parameters"]);
 }

@@ -2,9 +2,9 @@
 
 use percoat::case::{Case, Source};
 use percoat::output::{self, Clock, OutputError, Recording, RunFolder, solved_plan, write_scalars};
-use percoat::run::{EarlierRun, Outcome, Recorder, RunError, StepRecord};
+use percoat::run::{EarlierRun, GridStart, Outcome, Recorder, RunError, StepRecord};
 use percoat::spectral::Checkpoint;
-use percoat::{Solver, Step, StressFields};
+use percoat::{Step, StressFields};
 use std::fmt;
 use std::path::Path;
 
@@ -57,7 +57,7 @@ impl Recorder for Mortal<'_> {
         points[0] <= ROOM
     }
 
-    fn begin(&mut self, solver: &Solver) -> Result<(), Death> {
+    fn begin(&mut self, solver: &GridStart) -> Result<(), Death> {
         let done = self.recording.begin(solver);
         self.lives(done)
     }

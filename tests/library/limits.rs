@@ -5,10 +5,10 @@ use crate::common;
 use common::one_level;
 use percoat::body::{Durability, InterfaceStrength, Strength};
 use percoat::reading::Criterion;
-use percoat::run::{At, Limit, Limits, Recorder, RefinementEnd, RunError, SearchEnd, StepRecord};
+use percoat::run::{At, GridStart, Limit, Limits, Recorder, RefinementEnd, RunError, SearchEnd, StepRecord};
 use percoat::{
     Cell, Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, LoadQuantity, Material, Problem, Run, Sampling,
-    Shape, Solver, Step, Stop, StressFields,
+    Shape, Step, Stop, StressFields,
 };
 use std::convert::Infallible;
 
@@ -318,7 +318,7 @@ impl Recorder for Heard {
         n <= self.room
     }
 
-    fn begin(&mut self, solver: &Solver) -> Result<(), Infallible> {
+    fn begin(&mut self, solver: &GridStart) -> Result<(), Infallible> {
         self.grids.push(solver.grid().points()[0]);
         Ok(())
     }

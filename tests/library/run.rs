@@ -3,7 +3,9 @@
 use crate::common;
 
 use common::{PAPER, one_level, paraboloid};
-use percoat::run::{Outcome, Recorder, RefinementEnd, Run, RunError, Sampling, StepRecord, StressRequest, change};
+use percoat::run::{
+    GridStart, Outcome, Recorder, RefinementEnd, Run, RunError, Sampling, StepRecord, StressRequest, change,
+};
 use percoat::{Cell, Lattice, Load, Method, Problem, Settings, Solver, Step, Stop, StressFields};
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -35,7 +37,7 @@ impl Recorder for Diary {
         points.iter().all(|&n| n <= self.room)
     }
 
-    fn begin(&mut self, solver: &Solver) -> Result<(), Full> {
+    fn begin(&mut self, solver: &GridStart) -> Result<(), Full> {
         self.heard.push(format!("grid {}", solver.grid().points()[0]));
         Ok(())
     }

@@ -113,6 +113,11 @@ impl Units {
         self.pressure_times(3, "J", "³")
     }
 
+    /// Unit of energies per area: a pressure times a length; [`Unit::None`] where one of both has no name.
+    pub fn energy_per_area(&self) -> Unit {
+        self.pressure_times(1, "J/m²", "")
+    }
+
     /// Unit of a quantity by its kind; [`Unit::None`] of a number without dimension, and where a unit has no name.
     pub fn unit(&self, kind: Kind) -> Unit {
         match kind {

@@ -19,7 +19,7 @@ pub(crate) const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", 
 const PSI: f64 = POUND_FORCE / (0.0254 * 0.0254);
 
 /// Units with SI prefixes: powers of newtons and metres.
-const PREFIXED: [(&str, i32, i32); 3] = [("m", 0, 1), ("N", 1, 0), ("Pa", 1, -2)];
+const PREFIXED: [(&str, i32, i32); 4] = [("m", 0, 1), ("N", 1, 0), ("Pa", 1, -2), ("J", 1, 1)];
 
 /// Inch, m, without its power of ten.
 const INCH: f64 = 2.54;

@@ -21,12 +21,12 @@
 //! stands to its left:
 //!
 //! ```text
-//! numeric → notation → measured → quantity → lattice → load → kind → body → counterbody → friction → problem → spectral → stress
+//! numeric → notation → measured → quantity → lattice → load → kind → body → counterbody → friction → adhesion → problem → spectral → stress
 //! → reading → identification → localized → run → life → comparison
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
-//! - [`load`], [`kind`], [`friction`], [`problem`]: loads, friction, bodies and counterbody of a problem;
+//! - [`load`], [`kind`], [`friction`], [`adhesion`], [`problem`]: loads, friction, tension, bodies and counterbody of a problem;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`measured`]: values with their errors; [`quantity`]: names, symbols and kinds of what is read off a step, declared once;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
@@ -54,6 +54,7 @@
 //! # }
 //! ```
 
+pub mod adhesion;
 pub mod body;
 pub mod comparison;
 pub mod counterbody;
@@ -74,6 +75,7 @@ pub mod run;
 pub mod spectral;
 pub mod stress;
 
+pub use adhesion::{Adhesion, AdhesionLaw};
 pub use body::{
     Bodies, Depth, Durability, Endurance, Fatigue, HalfSpace, Interface, InterfaceStrength, Layer, Material,
     MaterialError, MeanStress, StrainDirection, StrainLife, Strength, Substrate,
@@ -91,8 +93,8 @@ pub use problem::Problem;
 pub use reading::{DamageMap, FatigueReading, LevelReading, Life, Reading, StressReading};
 pub use run::{Run, Sampling};
 pub use spectral::{
-    Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver, Step, Stop, Tangent, Wear,
-    WearError, Worn,
+    AdhesiveSolver, AdhesiveStep, Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver,
+    Step, Stop, Tangent, Wear, WearError, Worn,
 };
 pub use stress::{
     DepthPlane, SlidingPath, StressField, StressFields, StressState, SurfaceLine, Traction, VerticalSection,

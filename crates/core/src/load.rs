@@ -1,4 +1,4 @@
-//! The prescribed quantity of a load step: mean pressure, force or penetration.
+//! The prescribed quantity of a load step: mean pressure, force, penetration or the position of a grip.
 
 use crate::lattice::Cell;
 use crate::notation::number;
@@ -7,15 +7,23 @@ use std::fmt;
 /// The prescribed quantity of a load step and its value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Load {
-    /// Mean pressure p̄ ≥ 0 over the cell, in the unit of Young's modulus (load control). Around an isolated contact, whose force is
+    /// Mean pressure p̄ over the cell, below 0 of surfaces that adhere alone, in the unit of Young's modulus (load control). Around an isolated contact, whose force is
     /// what counts, over the window.
     MeanPressure(f64),
-    /// Force P ≥ 0 on the cell, or on the isolated contact, a pressure times an area (load control).
+    /// Force P on the cell, likewise, or on the isolated contact, a pressure times an area (load control).
     Force(f64),
     /// Penetration δ below first touch, a length (displacement control); in a periodic system at most the mean of the initial gap,
     /// where contact is complete, unless compressible layers lie on a rigid base; of a surface with hardness below the largest initial gap
     /// and what the hardness compresses the layers by. Of a given pressure the largest deflection.
     Penetration(f64),
+    /// Position of a grip that holds the counterbody by a spring, for surfaces that adhere: the penetration and what the force stretches the
+    /// spring by, δ + P/k.
+    Grip {
+        /// Position, a length; falls where the counterbody is drawn off.
+        position: f64,
+        /// Stiffness k of the spring, a force per length; infinite of a rigid machine.
+        stiffness: f64,
+    },
 }
 
 /// The quantity in which loads are stated.
@@ -74,30 +82,36 @@ impl Load {
     /// The prescribed value, a pressure, a force or a length.
     pub fn value(self) -> f64 {
         match self {
-            Self::MeanPressure(value) | Self::Force(value) | Self::Penetration(value) => value,
+            Self::MeanPressure(value)
+            | Self::Force(value)
+            | Self::Penetration(value)
+            | Self::Grip { position: value, .. } => value,
         }
     }
 
     /// The same quantity with another value.
-    pub(crate) fn with_value(self, value: f64) -> Self {
+    pub fn with_value(self, value: f64) -> Self {
         match self {
             Self::MeanPressure(_) => Self::MeanPressure(value),
             Self::Force(_) => Self::Force(value),
             Self::Penetration(_) => Self::Penetration(value),
+            Self::Grip { stiffness, .. } => Self::Grip { position: value, stiffness },
         }
     }
 
     /// Whether the mean pressure or the force is prescribed.
     pub fn is_load_control(self) -> bool {
-        !matches!(self, Self::Penetration(_))
+        matches!(self, Self::MeanPressure(_) | Self::Force(_))
     }
 
-    /// Control by the load on a cell: a force is a mean pressure there.
+    /// Control by the load on a cell: a force is a mean pressure there, and the position of a grip the penetration of a rigid machine.
     pub(crate) fn on(self, cell: Cell) -> Control {
         match self {
             Self::MeanPressure(mean) => Control::MeanPressure(mean),
             Self::Force(force) => Control::MeanPressure(force / cell.area()),
-            Self::Penetration(penetration) => Control::Penetration(penetration),
+            Self::Penetration(penetration) | Self::Grip { position: penetration, .. } => {
+                Control::Penetration(penetration)
+            }
         }
     }
 }
@@ -131,6 +145,7 @@ impl fmt::Display for Load {
             Self::MeanPressure(_) => "mean pressure",
             Self::Force(_) => "force",
             Self::Penetration(_) => "penetration",
+            Self::Grip { .. } => "grip at",
         };
         write!(f, "{name} {}", number(self.value()))
     }

@@ -1,5 +1,6 @@
 //! The problem: a layered elastic half-space, loaded by a counterbody, rigid or elastic, at rest or sliding, or by a given pressure.
 
+use crate::adhesion::{Adhesion, AdhesionError};
 use crate::body::{Bodies, CompositeError, CompositeHardness, HalfSpace, Interface, Side};
 use crate::counterbody::{Counterbody, GivenPressure, Indenters, Level, LevelName, LoadedBy, Topography};
 use crate::friction::{Friction, FrictionError};
@@ -13,6 +14,7 @@ pub struct Problem {
     loaded_by: LoadedBy,
     bodies: Bodies,
     friction: Option<Friction>,
+    adhesion: Option<Adhesion>,
     composite: Option<CompositeHardness>,
 }
 
@@ -21,7 +23,8 @@ impl Problem {
     /// [`Topography`]), or the load of a [`GivenPressure`], on a [`HalfSpace`], rigid, or of [`Bodies`] of which both are elastic; in
     /// one unit of length.
     pub fn new(loaded_by: impl Into<LoadedBy>, bodies: impl Into<Bodies>) -> Self {
-        Self { loaded_by: loaded_by.into(), bodies: bodies.into(), friction: None, composite: None }
+        let (loaded_by, bodies) = (loaded_by.into(), bodies.into());
+        Self { loaded_by, bodies, friction: None, adhesion: None, composite: None }
     }
 
     /// The problem with friction.
@@ -38,6 +41,31 @@ impl Problem {
             Some(interface) => Err(FrictionError::Unheld(interface)),
             None => Ok(Self { friction: Some(friction), ..self }),
         }
+    }
+
+    /// The problem with surfaces that pull each other.
+    ///
+    /// # Errors
+    /// [`AdhesionError::Given`] under a given pressure, [`AdhesionError::Hardness`] with a hardness, [`AdhesionError::Coupled`] with friction that
+    /// couples.
+    pub fn adhering(self, adhesion: Adhesion) -> Result<Self, AdhesionError> {
+        self.may_adhere()?;
+        Ok(Self { adhesion: Some(adhesion), ..self })
+    }
+
+    /// Whether surfaces of these bodies, with this friction, may adhere.
+    pub(crate) fn may_adhere(&self) -> Result<(), AdhesionError> {
+        match () {
+            () if self.kind().is_given => Err(AdhesionError::Given),
+            () if self.largest_hardness().is_some() => Err(AdhesionError::Hardness),
+            () if self.friction.is_some_and(|friction| friction.couples()) => Err(AdhesionError::Coupled),
+            () => Ok(()),
+        }
+    }
+
+    /// Adhesion of the surfaces; `None` where they do not pull each other.
+    pub fn adhesion(&self) -> Option<&Adhesion> {
+        self.adhesion.as_ref()
     }
 
     /// The problem without friction: neither sliding nor sticking.
@@ -202,6 +230,7 @@ impl Problem {
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}\n{}", self.loaded_by, self.bodies)?;
-        self.friction.iter().try_for_each(|friction| write!(f, "\n{friction}"))
+        self.friction.iter().try_for_each(|friction| write!(f, "\n{friction}"))?;
+        self.adhesion.iter().try_for_each(|adhesion| write!(f, "\n{adhesion}"))
     }
 }

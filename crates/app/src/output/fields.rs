@@ -46,6 +46,9 @@ impl ContactArchive {
                 self.arrays.add(name, &step.grid().points(), field.iter().copied())?;
             }
         }
+        if let Some(tension) = step.finest().tensions() {
+            self.arrays.add("tension", &step.grid().points(), tension.iter().copied())?;
+        }
         Ok(self.arrays.left())
     }
 

@@ -9,7 +9,8 @@ use percoat_case::case::{Case, Found};
 use percoat_case::measurements::{Curves, Taken};
 use percoat_case::units::Units;
 use percoat_core::identification::{
-    Doubt, Estimate, FromUnloading, Identification, LEVEL, Measurement, Missing, Sensitivity, Trial,
+    Doubt, Estimate, FromRetraction, FromUnloading, Identification, LEVEL, Measurement, Missing, Retraction,
+    Sensitivity, Trial,
 };
 use percoat_core::notation::WIDE;
 use percoat_core::run::tip::outside;
@@ -31,6 +32,9 @@ with_head! {
         contact_radii: [f64; 2],
         curves: Vec<CurveRecord>,
         unloading: Option<UnloadingRecord>,
+        /// Of a curve of drawing off the least force of the fit; `None` of others.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pull_off: Option<f64>,
         sensitivities: Vec<KnownNumber>,
         /// Warnings about the fit, a sentence each.
         pub warnings: Vec<String>,
@@ -88,6 +92,7 @@ impl IdentificationFile {
         let (correlation, sensitivities, contact_radii) = match found {
             Found::Loading(found) => (&found.correlation, &found.sensitivities, found.radii),
             Found::Unloading(found) => (&found.correlation, &found.sensitivities, found.radii),
+            Found::Retraction(found) => (&found.correlation, &Vec::new(), found.radii),
         };
         let (points, degrees_of_freedom, rms_residual, reduced_chi_square, model_error, steps) = match found {
             Found::Loading(found) => {
@@ -97,6 +102,10 @@ impl IdentificationFile {
             Found::Unloading(found) => {
                 let FromUnloading { contacts, freedom, rms, reduced_chi_square, model_error, steps, .. } = found;
                 (contacts.len(), *freedom, *rms, *reduced_chi_square, Some(*model_error), *steps)
+            }
+            Found::Retraction(found) => {
+                let FromRetraction { fitted, freedom, rms, model_error, steps, .. } = found;
+                (fitted.len(), *freedom, *rms, None, Some(*model_error), *steps)
             }
         };
         let Head { percoat, title, case: keys, units } = Head::of(case);
@@ -115,6 +124,7 @@ impl IdentificationFile {
             contact_radii,
             curves: curves(measured, found),
             unloading,
+            pull_off: if let Found::Retraction(found) = found { Some(found.pull_off) } else { None },
             sensitivities: sensitivities.iter().map(known).collect(),
             warnings: warnings.to_vec(),
             steps,
@@ -137,7 +147,8 @@ fn curves(measured: &Taken, found: &Found) -> Vec<CurveRecord> {
         (Curves::Unloading(unloadings), _) => {
             unloadings.iter().map(|unloading| (unloading.forces.len(), unloading.rms)).collect()
         }
-        (Curves::Loading(_), Found::Unloading(_)) => Vec::new(),
+        (Curves::Retraction(curve), Found::Retraction(found)) => vec![(curve.forces().len(), found.rms)],
+        _ => Vec::new(),
     };
     names.zip(sizes).map(|(name, (points, rms_residual))| CurveRecord { name, points, rms_residual }).collect()
 }
@@ -148,7 +159,8 @@ pub fn fitted(measured: &Taken, found: &Found) -> String {
     let (measured, found) = match (&measured.curves, found) {
         (Curves::Loading(measured), Found::Loading(found)) => (measured, found),
         (Curves::Unloading(unloadings), _) => return unloaded(unloadings),
-        (Curves::Loading(_), Found::Unloading(_)) => return String::new(),
+        (Curves::Retraction(curve), Found::Retraction(found)) => return drawn_off(curve, found),
+        _ => return String::new(),
     };
     let mut text = "force,penetration,fitted,fitted_error,curve\n".to_owned();
     let points = measured.forces().iter().zip(measured.penetrations()).zip(&found.fitted).zip(&found.band);
@@ -159,9 +171,33 @@ pub fn fitted(measured: &Taken, found: &Found) -> String {
     text
 }
 
-/// A trial of the search in words, in lengths of the case.
+/// The content of `identification.csv` for a curve of drawing off, whose fitted values are forces.
+fn drawn_off(measured: &Retraction, found: &FromRetraction) -> String {
+    let mut text = "force,penetration,fitted_force,fitted_force_error\n".to_owned();
+    let points = measured.forces().iter().zip(measured.penetrations()).zip(&found.fitted).zip(&found.band);
+    for (((force, penetration), fitted), band) in points {
+        writeln!(text, "{force},{penetration},{fitted},{band}").expect("a String takes any text");
+    }
+    text
+}
+
+/// Why what was found from a curve of drawing off may not hold, a sentence each.
+pub fn doubts_of_retraction(found: &FromRetraction) -> Vec<String> {
+    let pattern = found.pattern.as_ref().map(|pattern| {
+        format!(
+            "the residuals are not scatter: along the way they have {} runs of one sign where scatter has {:.1}; the model does not hold, nor do the \
+             standard errors: free `offset` or `frame_compliance`, or look for drift, a wrong radius or another law of the tension",
+            pattern.runs, pattern.expected
+        )
+    });
+    pattern.into_iter().collect()
+}
+
+/// A trial of the search in words, in lengths or forces of the case.
 pub fn trial(case: &Case, trial: Trial) -> String {
-    let residual = trial.rms.map(|rms| case.units().length().with_unit(rms, number));
+    let (units, force) = (case.units(), case.units().force());
+    let unit = if trial.is_of_forces { &force } else { units.length() };
+    let residual = trial.rms.map(|rms| unit.with_unit(rms, number));
     format!("trial {}, residual {}", trial.number, residual.unwrap_or("unknown: no contact is solved there".to_owned()))
 }
 
@@ -253,6 +289,18 @@ impl IdentificationFile {
             return self.fit_of_unloading(unloading, units);
         }
         let [least, most] = self.contact_radii.map(|radius| length.with_unit(radius, number));
+        if let Some(pull_off) = self.pull_off {
+            let force = |x: f64| units.force().with_unit(x, number);
+            let error = self.model_error.unwrap_or(0.0);
+            return vec![
+                format!(
+                    "{} points, residual {} (root mean square); contact radii {least} to {most}",
+                    self.points,
+                    force(self.rms_residual)
+                ),
+                format!("pull-off of the fit {}; error of its forces by the grid: {error:.1e}", force(pull_off)),
+            ];
+        }
         let mut lines = vec![format!(
             "{} points, residual {} (root mean square); contact radii {least} to {most}",
             self.points,

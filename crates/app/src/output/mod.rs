@@ -98,7 +98,7 @@ pub use folder::RunFolder;
 pub use folder_error::FolderError;
 pub use head::UnitNames;
 pub use histograms::histograms;
-pub use identification::{IdentificationFile, doubts, fitted, identified, trial};
+pub use identification::{IdentificationFile, doubts, doubts_of_retraction, fitted, identified, trial};
 pub use interrupted::{coarser, has_begun, has_solved_alone, staged_bytes};
 pub use json::Unreadable;
 pub use kernel::{Traction, kernel};

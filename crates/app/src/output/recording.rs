@@ -9,8 +9,8 @@ use super::stress::StressArchive;
 use super::{Files, OutputError, RunFolder, disk, write_text};
 use percoat_case::case::Case;
 use percoat_core::load::Load;
-use percoat_core::run::{EarlierRun, Recorder, Run, StepRecord, StressRequest};
-use percoat_core::spectral::{Checkpoint, Solver, Step};
+use percoat_core::run::{EarlierRun, GridStart, Recorder, Run, StepRecord, StressRequest};
+use percoat_core::spectral::{Checkpoint, Step};
 use percoat_core::stress::{StressField, StressFields, VerticalSection};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -102,12 +102,12 @@ impl<'a> Recording<'a> {
         Self { fields: false, ..self }
     }
 
-    /// The files of the steps on the grid of a solver, after those that an interrupted run has finished.
-    fn open(&self, solver: &Solver, steps: usize) -> Result<OnGrid, OutputError> {
+    /// The files of the steps on a grid, after those that an interrupted run has finished.
+    fn open(&self, start: &GridStart, steps: usize) -> Result<OnGrid, OutputError> {
         let folder = self.claim.staging();
-        let bodies = solver.problem().bodies().clone();
+        let bodies = start.problem().bodies().clone();
         let request = self.stress.clone().filter(|_| self.fields);
-        let surface = self.fields.then(|| Arc::clone(solver.surface()));
+        let surface = self.fields.then(|| Arc::clone(start.surface()));
         let run = self.checkpoints.as_ref().map(|checkpoints| checkpoints.fingerprint.clone());
         Ok(OnGrid {
             fields: surface.map(|surface| ContactArchive::new(&folder, surface, steps)).transpose()?,
@@ -150,19 +150,19 @@ const BEGUN: &str = "a run begins a grid before its steps";
 impl Recorder for Recording<'_> {
     type Error = OutputError;
 
-    fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
+    fn begin(&mut self, start: &GridStart) -> Result<(), OutputError> {
         self.clock.turn(Phase::Output);
         let folder = self.claim.staging();
         self.files = None;
         if let Some(checkpoints) = &mut self.checkpoints {
-            checkpoints.begin(&folder, solver.grid().points())?;
+            checkpoints.begin(&folder, start.grid().points())?;
         }
         let standing = self.standing.take();
         if standing.is_none() {
             self.set_aside = self.claim.begin_finer()?;
         }
         write_text(&folder.join(CASE), &self.case)?;
-        self.files = Some(self.open(solver, standing.unwrap_or(0))?);
+        self.files = Some(self.open(start, standing.unwrap_or(0))?);
         self.clock.turn(Phase::Setup);
         Ok(())
     }

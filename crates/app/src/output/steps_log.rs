@@ -58,6 +58,7 @@ pub(super) enum Prescribed {
     MeanPressure(f64),
     Force(f64),
     Penetration(f64),
+    Grip(f64),
 }
 
 impl From<Load> for Prescribed {
@@ -66,6 +67,7 @@ impl From<Load> for Prescribed {
             Load::MeanPressure(value) => Self::MeanPressure(value),
             Load::Force(value) => Self::Force(value),
             Load::Penetration(value) => Self::Penetration(value),
+            Load::Grip { position, .. } => Self::Grip(position),
         }
     }
 }

@@ -121,7 +121,7 @@ fn radii_words(snapshot: &Snapshot, letter: char, has_dashed: bool, beyond: &[St
 /// Text of the caption on the contacts without a boundary of their own: merged ones, and those of few samples.
 fn merged_words(snapshot: &Snapshot) -> String {
     let levels = |which: fn(&LevelReading) -> bool| {
-        let matching = snapshot.reading.levels.iter().filter(|level| level.load > 0.0 && which(level));
+        let matching = snapshot.reading.levels.iter().filter(|level| level.touches() && which(level));
         matching.map(|level| level.level.to_string()).collect::<Vec<String>>()
     };
     let plural = |levels: &[String]| format!("level{} {}", if levels.len() > 1 { "s" } else { "" }, levels.join(", "));

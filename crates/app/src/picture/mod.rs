@@ -18,14 +18,17 @@
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles());
 //!   what hardness has pressed in: [`indentation`](indentation()).
 //! - Its partial slip: [`slip`](slip()), and the loop of all steps: [`slip_loop`].
+//! - Surfaces that adhere: [`approach`], force and area over the penetration.
 //! - Its stresses under a line ([sections](percoat_core::stress::VerticalSection)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
 //! - Damage below the surface: [`damage`](damage()); what is left of a body pass after pass: [`course`](course()).
 //! - The rows of a sweep: [`sweep`](sweep()): curves over a key, maps over two; of uncertain keys: [`uncertainty`](uncertainty()).
-//! - Measured curves and what was found by them: [`identification`](identification()), [`unloading`](unloading()).
+//! - Measured curves and what was found by them: [`identification`](identification()), [`unloading`](unloading()),
+//!   [`retraction`](retraction()).
 //! - Localized against spectral: [`comparison`](comparison()).
 //! - A topography before anything is solved: [`spectrum`](spectrum()).
 
+mod adhesion;
 mod between_rows;
 mod comparison;
 mod contact;
@@ -39,6 +42,7 @@ mod load_curves;
 mod outline;
 mod pressure;
 mod profiles;
+mod retraction;
 mod section;
 mod shown_depths;
 mod signed_values;
@@ -55,6 +59,7 @@ mod zoom;
 
 pub use percoat_draw::{Axis, Canvas, Chart, Curve, Figure, Format, Ink, Label, Scale, Style};
 
+pub use adhesion::approach;
 pub use comparison::comparison;
 pub use contact::contact;
 pub use file::write;
@@ -65,6 +70,7 @@ pub use lines::lines;
 pub use load_curves::load_curves;
 pub use pressure::pressure;
 pub use profiles::profiles;
+pub use retraction::retraction;
 pub use section::section;
 pub use slip::{slip, slip_loop};
 pub use snapshot::Snapshot;

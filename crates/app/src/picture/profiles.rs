@@ -49,7 +49,7 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
     let reach = curves.iter().flat_map(|curve| &curve.points).map(|[s, _]| s.abs()).fold(0.0, f64::max);
     (!curves.is_empty()).then(|| {
         let mut what = format!("Lines of largest extent: {} from the x axis.", directions.join(", "));
-        if snapshot.reading.levels.iter().any(|level| level.merged && level.load > 0.0) {
+        if snapshot.reading.levels.iter().any(|level| level.merged && level.touches()) {
             what += " Lines of merged contacts end where the neighbour's begins.";
         }
         if isolated.is_some() {

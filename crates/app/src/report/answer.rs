@@ -28,11 +28,21 @@ fn text<R>(quantity: &Quantity<R>, record: &R, units: &Units) -> String {
 /// Sentence on the penetration, the contact and the peak pressure of a load step.
 fn sentence(step: &StepRecord, units: &Units) -> String {
     let reading = &step.reading;
+    let ReadingQuantities { penetration: depth, max_pressure: peak, .. } = &READING;
+    let load = READING.load(units.quantity());
+    let pulls = step.adhesion.as_ref().is_some_and(|adhesion| adhesion.adhesive_load > 0.0);
+    if !reading.touches() && pulls {
+        return format!(
+            "Nothing touches, but the surfaces pull: the {} is {} at the {} {}.",
+            load.named.name,
+            text(load, reading, units),
+            depth.named.name,
+            text(depth, reading, units)
+        );
+    }
     if !reading.touches() {
         return "Nothing touches: there is no load.".to_owned();
     }
-    let ReadingQuantities { penetration: depth, max_pressure: peak, .. } = &READING;
-    let load = READING.load(units.quantity());
     let is = match reading.singular() {
         true => "is infinite".to_owned(),
         false => format!("is {}", text(peak, reading, units)),
@@ -70,7 +80,7 @@ fn rows(step: &StepRecord, units: &Units) -> Vec<(&'static str, Markup)> {
             .map(|(name, mean)| (name, numbers(&with_unit(units.pressure(), mean)))),
     );
     if let [level] = &reading.levels[..]
-        && level.contact_radius.is_some_and(|_| level.load > 0.0 && !level.ring)
+        && level.contact_radius.is_some_and(|_| level.touches() && !level.ring)
     {
         rows.push((LEVEL.contact_radius.named.name, numbers(&text(&LEVEL.contact_radius, level, units))));
     }
@@ -102,7 +112,7 @@ fn rows(step: &StepRecord, units: &Units) -> Vec<(&'static str, Markup)> {
 
 /// The level with the largest pressure, where there are several.
 fn highest(levels: &[LevelReading]) -> Option<&LevelReading> {
-    let loaded = levels.iter().filter(|level| level.load > 0.0 && levels.len() > 1);
+    let loaded = levels.iter().filter(|level| level.touches() && levels.len() > 1);
     loaded.max_by(|a, b| a.max_pressure.total_cmp(&b.max_pressure))
 }
 

@@ -15,6 +15,52 @@ struct Condition {
     means: &'static str,
 }
 
+/// What the quantities mean.
+struct Words {
+    adheres: bool,
+    energy_gap: &'static str,
+    penetration: &'static str,
+    residual: &'static str,
+    load: &'static str,
+}
+
+impl Words {
+    const STILL: Self = Self {
+        adheres: false,
+        energy_gap: "The energy of this pressure is at most this part above the least possible one on this grid: a proven bound, \
+                     however the pressure was found.",
+        penetration: "Where there is no pressure the surfaces overlap by at most this part of the penetration; exactly they would not.",
+        residual: "Pressure times gap, which is zero everywhere in the exact solution, summed over all samples and relative to load times \
+                   penetration.",
+        load: "Relative difference from the prescribed mean pressure, force or penetration.",
+    };
+    const SLIDING: Self = Self {
+        energy_gap: "The elastic energy of what the pressure still differs by from the exact one of this grid is at most this part \
+                     of the whole: a proven bound, however the pressure was found; where friction is coupled it bounds the error, \
+                     not an excess of energy.",
+        ..Self::STILL
+    };
+    const ADHERING: Self = Self {
+        adheres: true,
+        energy_gap: "With the tension held as it is, the energy of this pressure is at most this part above the least possible one on this \
+                     grid. The tension softens with the gap: the state is an equilibrium that holds against small changes where its margin of \
+                     stability is above zero, not the one of least energy of all.",
+        penetration: "Where the surfaces do not touch they overlap by at most this part of the largest displacement; exactly they would not.",
+        residual: "Pressure of the bodies and tension of the gap that are not in balance, as all are in the exact solution, summed over all \
+                   samples and relative to what presses and pulls.",
+        load: "Difference from the prescribed mean pressure, force or penetration, relative to that, or of forces to the tension where that \
+               is more.",
+    };
+
+    fn of(steps: &[&StepRecord]) -> Self {
+        match () {
+            () if steps.iter().any(|step| step.adhesion.is_some()) => Self::ADHERING,
+            () if steps.iter().any(|step| step.friction.is_some()) => Self::SLIDING,
+            () => Self::STILL,
+        }
+    }
+}
+
 /// The certificate of all steps under load; `tolerance` is `solver.tolerance`, where the case has it.
 pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Markup {
     let solved: Vec<&StepRecord> =
@@ -24,41 +70,24 @@ pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Marku
     }
     let at_rounding = solved.iter().any(|step| step.stop == Stop::Rounding);
     let most = |of: fn(&StepRecord) -> f64| largest(solved.iter().map(|&step| of(step)));
-    let slides = solved.iter().any(|step| step.friction.is_some());
+    let words = Words::of(&solved);
+    // What the solver of surfaces that adhere ends by is the residual alone.
+    let tested = |limit: f64| tolerance.filter(|_| !words.adheres).map(|tolerance| limit * tolerance);
     let conditions = [
         Condition {
             name: "Energy gap",
             value: most(|step| step.certificate.energy_gap),
-            below: tolerance.map(|tolerance| Certificate::ENERGY_GAP * tolerance),
-            means: if slides {
-                "The elastic energy of what the pressure still differs by from the exact one of this grid is at most this part \
-                 of the whole: a proven bound, however the pressure was found; where friction is coupled it bounds the error, \
-                 not an excess of energy."
-            } else {
-                "The energy of this pressure is at most this part above the least possible one on this grid: a proven bound, \
-                 however the pressure was found."
-            },
+            below: tested(Certificate::ENERGY_GAP),
+            means: words.energy_gap,
         },
         Condition {
             name: "Penetration outside contact",
             value: most(|step| step.certificate.penetration),
-            below: tolerance.map(|tolerance| Certificate::PENETRATION * tolerance),
-            means: "Where there is no pressure the surfaces overlap by at most this part of the penetration; exactly they would \
-                    not.",
+            below: tested(Certificate::PENETRATION),
+            means: words.penetration,
         },
-        Condition {
-            name: "Residual ε",
-            value: most(|step| step.residual),
-            below: tolerance,
-            means: "Pressure times gap, which is zero everywhere in the exact solution, summed over all samples and relative to \
-                    load times penetration.",
-        },
-        Condition {
-            name: "Load",
-            value: most(|step| step.certificate.load),
-            below: None,
-            means: "Relative difference from the prescribed mean pressure, force or penetration.",
-        },
+        Condition { name: "Residual ε", value: most(|step| step.residual), below: tolerance, means: words.residual },
+        Condition { name: "Load", value: most(|step| step.certificate.load), below: None, means: words.load },
     ];
     let entry =
         |condition: &Condition| vec![tag("dt", margin(condition, at_rounding)), tag("dd", condition.means)].into();

@@ -148,7 +148,8 @@ fn sentence(case: &Value) -> String {
     };
     let slides = case["friction"]["coefficient"].as_f64();
     let slides = slides.map_or(String::new(), |mu| format!(", and {slide} over it with friction μ = {}", plain(mu)));
-    format!("{subject} {pressed} into {body}{slides}{above}.")
+    let pulls = if case["adhesion"].is_object() { ", and their surfaces pull each other" } else { "" };
+    format!("{subject} {pressed} into {body}{slides}{above}{pulls}.")
 }
 
 /// The coating of a body in words; none of an uncoated one.
@@ -229,7 +230,7 @@ fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> Str
 /// The keys of a section with their values, without those of no effect on an isolated contact.
 fn entries(section: &str, value: &Value, words: &AroundWords) -> Vec<(String, String)> {
     let prefix = |key: &str| {
-        if matches!(section, "stress" | "friction" | "tangential" | "life") {
+        if matches!(section, "stress" | "friction" | "tangential" | "adhesion" | "life") {
             format!("{section}: {key}")
         } else {
             key.to_owned()

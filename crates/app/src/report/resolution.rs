@@ -18,7 +18,7 @@ pub(super) fn resolution(steps: &[StepRecord], change: Option<f64>) -> Markup {
     }
     let touching = |index: usize| {
         let levels = steps.iter().filter_map(move |step| step.reading.levels.get(index));
-        levels.filter(|level| level.load > 0.0).map(|level| level.resolution)
+        levels.filter(|level| level.touches()).map(|level| level.resolution)
     };
     let levels = steps.iter().map(|step| step.reading.levels.len()).max().unwrap_or(0);
     let mut texts: Vec<String> = (0..levels)

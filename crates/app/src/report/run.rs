@@ -12,14 +12,14 @@ use super::results::Results;
 use super::table::table;
 use super::units::{case_of, measured_in, units_of};
 use crate::output::{Summary, table as tables};
-use percoat_case::case::kind_of;
+use percoat_case::case::{Case, kind_of};
 use percoat_case::units::Units;
 use percoat_case::words::AroundWords;
 use percoat_core::run::StepRecord;
 use serde_json::Value;
 
 /// The pictures of a run; those of an isolated contact have no neighbours.
-fn pictures(words: &AroundWords) -> [PictureText; 7] {
+fn pictures(words: &AroundWords) -> [PictureText; 8] {
     let [pressure, contact, profiles] = words.pictures;
     [
         ("pressure", pressure[0], pressure[1]),
@@ -29,6 +29,11 @@ fn pictures(words: &AroundWords) -> [PictureText; 7] {
             "indentation",
             "Map of the depths pressed in, and a profile through the deepest place",
             "What the hardness has pressed in for good, without the elastic displacement.",
+        ),
+        (
+            "approach",
+            "Curves of force and contact area over the penetration, with jumps and pull-off",
+            "Force and contact area as the surfaces come together and part.",
         ),
         ("curve", "Curves of what the load steps say over the load", "What the load steps say over the load."),
         (
@@ -50,6 +55,14 @@ fn stresses(case: &Value, steps: &[StepRecord], units: &Units) -> Option<Section
     let strains = tables::largest_strains(steps, units);
     let strains = strains.map(|strains| table("Largest strains and their places", &strains)).unwrap_or_default();
     Some(section("stresses", "Largest stresses", vec![stresses, strains, assumed(case, false)]))
+}
+
+/// The section of adhesion; `None` where surfaces do not pull each other.
+fn adhesion(case: &Case, steps: &[StepRecord], units: &Units) -> Option<Section> {
+    let (words, all) = tables::adhesion(case, steps, units)?;
+    let words = words.iter().map(|words| tag("p", upper(words)));
+    let all = table("Adhesion; ± is the estimated error of the grid", &all);
+    Some(section("adhesion", "Adhesion", words.chain([all]).collect()))
 }
 
 /// The part of the page for a run, from `summary.json`.
@@ -95,6 +108,7 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         let caption = "Partial slip; ± is the estimated error of the grid and of steps in which the load changes";
         sections.push(section("slip", "Partial slip", vec![tag("p", upper(&words)), table(caption, &slip)]));
     }
+    sections.extend(read.as_ref().and_then(|case| adhesion(case, steps, &units)));
     sections.extend(stresses(case, steps, &units));
     if let Some(taken) = &taken {
         let caption = "Utilisations: 1 is where the material or interface fails";

@@ -63,6 +63,7 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: impl Into<O
         beneath: None,
         friction: None,
         tangential: None,
+        adhesion: None,
         stress: None,
         strength: Vec::new(),
         governing: None,

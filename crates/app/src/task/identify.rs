@@ -1,7 +1,7 @@
 //! Numbers of a case from measured indentation curves.
 
 use super::refused::Refused;
-use crate::output::{IdentificationFile, doubts, doubts_of_unloading};
+use crate::output::{IdentificationFile, doubts, doubts_of_retraction, doubts_of_unloading};
 use percoat_case::case::feasibility::Allowed;
 use percoat_case::case::resources::Job;
 use percoat_case::case::{Case, CaseError, Found, IdentificationTask, plausibility};
@@ -53,7 +53,8 @@ impl<'a> Identify<'a> {
         let doubts = match (&measured.curves, &found) {
             (Curves::Loading(curve), Found::Loading(found)) => doubts(curve, found, &best),
             (_, Found::Unloading(found)) => doubts_of_unloading(&measured.names, found, &best),
-            (Curves::Unloading(_), Found::Loading(_)) => Vec::new(),
+            (_, Found::Retraction(found)) => doubts_of_retraction(found),
+            (Curves::Unloading(_) | Curves::Retraction(_), Found::Loading(_)) => Vec::new(),
         };
         let warnings = [measured.notes.clone(), doubts, plausibility::of_case(&best)].concat();
         Ok(Identified { measured, found, beta: self.task.beta(), best, warnings })

@@ -2,8 +2,8 @@
 
 use percoat_case::case::feasibility::Allowed;
 use percoat_core::load::Load;
-use percoat_core::run::{EarlierRun, Recorder, StepRecord};
-use percoat_core::spectral::{Checkpoint, Progress, Solver, Step};
+use percoat_core::run::{EarlierRun, GridStart, Recorder, StepRecord};
+use percoat_core::spectral::{Checkpoint, Progress, Step};
 use percoat_core::stress::StressFields;
 
 /// A recorder under which a refinement ends before a grid for which memory or disk do not suffice.
@@ -23,8 +23,8 @@ impl<R: Recorder> Recorder for Within<'_, R> {
         self.recorder.finished()
     }
 
-    fn begin(&mut self, solver: &Solver) -> Result<(), R::Error> {
-        self.recorder.begin(solver)
+    fn begin(&mut self, start: &GridStart) -> Result<(), R::Error> {
+        self.recorder.begin(start)
     }
 
     fn load(&mut self, load: Load) {

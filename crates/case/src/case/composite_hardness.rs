@@ -6,7 +6,6 @@ use super::load::LoadSection;
 use super::reader::TableAt;
 use super::section::{Words, section, words};
 use percoat_core::body::{CompositeError, CompositeHardness, HardnessLaw};
-use percoat_core::load::Load;
 use percoat_core::problem::Problem;
 
 words! { HardnessLaw { Area = "area", Korsunsky = "korsunsky", } }
@@ -39,11 +38,8 @@ impl CompositeHardnessSection {
             let message = "its laws are those of one indentation, and this is no isolated contact";
             return refuse(message.to_owned(), "leave the section out, or set lattice.kind = \"isolated\"");
         }
-        let size = |load: &Load| match *load {
-            Load::MeanPressure(value) | Load::Force(value) | Load::Penetration(value) => value,
-        };
         let loads = load.loads();
-        if loads.windows(2).any(|two| size(&two[1]) < size(&two[0])) {
+        if loads.windows(2).any(|two| two[1].value() < two[0].value()) {
             let message = "the loads fall, and the hardness is that of a growing depth";
             return refuse(message.to_owned(), "give loads that rise, or leave the section out");
         }

@@ -5,7 +5,8 @@ use super::Source;
 /// Name of the case that runs when none is given.
 pub const DEFAULT: &str = "fig2";
 
-const CASES: [(&str, &str); 21] = [
+const CASES: [(&str, &str); 23] = [
+    ("afm-pull-off", include_str!("../../../../cases/afm-pull-off.toml")),
     ("ball-on-disc", include_str!("../../../../cases/ball-on-disc.toml")),
     ("dlc-on-steel", include_str!("../../../../cases/dlc-on-steel.toml")),
     ("fig2", include_str!("../../../../cases/fig2.toml")),
@@ -25,6 +26,7 @@ const CASES: [(&str, &str); 21] = [
     ("rough-metal", include_str!("../../../../cases/rough-metal.toml")),
     ("running-in", include_str!("../../../../cases/running-in.toml")),
     ("scratch", include_str!("../../../../cases/scratch.toml")),
+    ("textured", include_str!("../../../../cases/textured.toml")),
     ("tin-fatigue", include_str!("../../../../cases/tin-fatigue.toml")),
     ("tin-on-steel", include_str!("../../../../cases/tin-on-steel.toml")),
 ];

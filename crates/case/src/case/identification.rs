@@ -5,8 +5,8 @@ use super::{Case, CaseError, Document};
 use crate::measurements::{Curves, Segment};
 use percoat_common::plain;
 use percoat_core::identification::{
-    Estimate, FromUnloading, Identification, IdentificationError, Instrument, Listener, Model, Parameter, Quantity,
-    UnloadingModel,
+    Estimate, FromRetraction, FromUnloading, Identification, IdentificationError, Instrument, Listener, Model,
+    Parameter, Quantity, UnloadingModel,
 };
 use percoat_core::problem::Problem;
 use percoat_core::run::Sampling;
@@ -67,7 +67,7 @@ pub enum NotKnown {
     Twice(String),
     /// A factor of the stiffness where no stiffness is measured.
     #[error(
-        "`{BETA}` is the factor of the stiffness of unloading, which loading does not have: leave it out, or take the segment of unloading"
+        "`{BETA}` is the factor of the stiffness of unloading, which other segments do not have: leave it out, or take the segment of unloading"
     )]
     Beta,
     /// A factor of the stiffness that is none.
@@ -118,7 +118,7 @@ impl Known {
     /// [`NotKnown::Beta`] for a factor of the stiffness where the segment is none of unloading.
     pub fn for_segment(self, segment: Segment) -> Result<Self, NotKnown> {
         match (self.beta, segment) {
-            (Some(_), Segment::Whole | Segment::Loading) => Err(NotKnown::Beta),
+            (Some(_), Segment::Whole | Segment::Loading | Segment::Retraction) => Err(NotKnown::Beta),
             _ => Ok(self),
         }
     }
@@ -131,6 +131,8 @@ pub enum Found {
     Loading(Identification),
     /// By the stiffness of unloading.
     Unloading(FromUnloading),
+    /// By the forces of drawing off.
+    Retraction(FromRetraction),
 }
 
 impl Found {
@@ -139,6 +141,7 @@ impl Found {
         match self {
             Self::Loading(found) => &found.estimates,
             Self::Unloading(found) => &found.estimates,
+            Self::Retraction(found) => &found.estimates,
         }
     }
 
@@ -147,6 +150,7 @@ impl Found {
         match self {
             Self::Loading(found) => found.steps,
             Self::Unloading(found) => found.steps,
+            Self::Retraction(found) => found.steps,
         }
     }
 }
@@ -254,6 +258,10 @@ impl<'a> IdentificationTask<'a> {
             Curves::Unloading(unloadings) => {
                 let model = UnloadingModel { problem: &problem, instrument, beta: self.beta() };
                 Found::Unloading(FromUnloading::new(&model, asked, unloadings, progress)?)
+            }
+            Curves::Retraction(curve) => {
+                let model = Model { problem: &problem, points: points(self.case), settings: self.case.solver };
+                Found::Retraction(FromRetraction::new(&model, &parameters, (curve, instrument), progress)?)
             }
         };
         let values: Vec<f64> = found.estimates().iter().map(|estimate| estimate.value).collect();

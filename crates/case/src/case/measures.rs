@@ -9,7 +9,7 @@ use percoat_common::measure::{Measure, split};
 use percoat_core::load::LoadQuantity;
 
 /// Known units, for error messages.
-const KNOWN: &str = "m, N and Pa with their prefixes (µm, mN, GPa), cm, Å, in, mil, daN, kgf, lbf, bar, atm, psi, ksi, their powers, products and \
+const KNOWN: &str = "m, N, Pa and J with their prefixes (µm, mN, GPa), cm, Å, in, mil, daN, kgf, lbf, bar, atm, psi, ksi, their powers, products and \
                      quotients, as in \"N/mm²\", \"GPa/µm\" and \"mm³/(N·m)\"";
 
 /// The units of a case; `None` where they have no name that is known.
@@ -148,7 +148,7 @@ impl CaseUnits {
             }
             Unit::Length => "units.length",
             Unit::Pressure | Unit::PerPressure => "units.pressure",
-            Unit::Force | Unit::PressurePerLength => "units.length and units.pressure",
+            Unit::Force | Unit::PressurePerLength | Unit::PressureTimesLength => "units.length and units.pressure",
         };
         let Some(wanted) = self.unit(of) else {
             let help = format!("add [units] with length = \"µm\" and pressure = \"GPa\", or others; known are {KNOWN}");
@@ -171,6 +171,7 @@ impl CaseUnits {
             Unit::Force => Some(pressure?.by(length?, 2)),
             Unit::PerPressure => Some(Measure::ONE.over(pressure?)),
             Unit::PressurePerLength => Some(pressure?.over(length?)),
+            Unit::PressureTimesLength => Some(pressure?.by(length?, 1)),
         }
     }
 }

@@ -4,7 +4,7 @@
 //! and the run that solves it. Faults are refused with their line ([`CaseError`]).
 //!
 //! One file a section: lattice, levels (with `area_function`), surface, layers (with the substrate, `durability`, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
-//! friction, tangential, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
+//! friction, tangential, adhesion, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
 //! makes of them the texts of `percoat explain` and the schema; `identification` lets numbers be free; `materials` is the library. A [`Document`] is parsed to a tree (`node`) once, changed by `overrides`,
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
 //!
@@ -15,6 +15,7 @@
 //! assert_eq!(case.load.values(), [0.01]);
 //! ```
 
+mod adhesion;
 mod area_function;
 mod composite_hardness;
 mod counterbody;
@@ -65,6 +66,7 @@ mod units;
 mod value;
 mod writer;
 
+pub use adhesion::{AdhesionSection, TensionLaw};
 pub use area_function::{AreaSection, CoefficientsSection};
 pub use composite_hardness::CompositeHardnessSection;
 pub use document::Document;

@@ -1,5 +1,6 @@
 //! The whole case.
 
+use super::adhesion::ADHESION;
 use super::composite_hardness::COMPOSITE_HARDNESS;
 use super::counterbody::{self, CounterbodySections};
 use super::elastic_counterbody::{self, Above, COUNTERBODY};
@@ -28,8 +29,8 @@ use super::tangential::TANGENTIAL;
 use super::units::UNITS;
 use super::writer::written;
 use super::{
-    CompositeHardnessSection, CounterbodySection, FrictionSection, LatticeSection, LayerSection, LevelSection,
-    LifeSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection,
+    AdhesionSection, CompositeHardnessSection, CounterbodySection, FrictionSection, LatticeSection, LayerSection,
+    LevelSection, LifeSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection, SurfaceSection,
     TangentialSection, UnitsSection,
 };
 use crate::units::Units;
@@ -79,7 +80,7 @@ section! { whole
         pub substrate: SubstrateSection = Key::new(&[Form::Table(&SUBSTRATE)], "{ young = 1.0, poisson = 0.3 }"),
         /// the body that the indenters or the topography belong to
         pub counterbody: Option<CounterbodySection> = Key::new(&[Form::Table(&COUNTERBODY)], "{ young = 210.0, poisson = 0.3 }").otherwise("rigid"),
-        /// mean pressure, force or penetration, one value a load step, or a given pressure
+        /// mean pressure, force, penetration or position of a grip, one value a load step, or a given pressure
         pub load: LoadSection = Key::new(&[Form::Table(&LOAD)], "{ mean_pressure = 0.01 }"),
         /// samples of the cell
         pub grid: Sampling = Key::new(&[Form::Table(&GRID)], "{ points = 256 }").otherwise("its defaults"),
@@ -92,6 +93,9 @@ section! { whole
         /// tangential force or shift of a contact that sticks and slips
         pub tangential: Option<TangentialSection> =
             Key::new(&[Form::Table(&TANGENTIAL)], "{ force = [0.3, -0.3, 0.3] }").otherwise("with [friction] the counterbody slides"),
+        /// how the two surfaces pull each other
+        pub adhesion: Option<AdhesionSection> =
+            Key::new(&[Form::Table(&ADHESION)], "{ work = 0.05, range = 0.001 }").otherwise("surfaces do not pull"),
         /// hardness of a coating and its substrate together
         pub composite_hardness: Option<CompositeHardnessSection> =
             Key::new(&[Form::Table(&COMPOSITE_HARDNESS)], "{ law = \"area\", constant = 0.5 }")
@@ -148,7 +152,7 @@ impl Case {
         measures::load(text, &self.units())
     }
 
-    /// The mean pressures p̄; `None` where penetrations are prescribed.
+    /// The mean pressures p̄; `None` where penetrations or positions of a grip are prescribed.
     pub fn mean_pressures(&self) -> Option<Vec<f64>> {
         self.load.mean_pressures(self.problem.cell().area())
     }
@@ -197,6 +201,9 @@ impl Case {
                 self.load.quantity()
             ));
         };
+        if self.adhesion.is_some() {
+            return Err("a life has no adhesion: wear and fatigue pass after pass are those of surfaces that do not pull; leave [adhesion] out".to_owned());
+        }
         if self.problem.kind().is_given {
             return Err(
                 "a given pressure has no surfaces that wear: percoat solve states the passes to the first damage"
@@ -274,7 +281,8 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         counterbody::read(&root, source)?;
     let (body, above, bodies) = bodies(&root, loaded_by.cell())?;
     let load_section = root.required_section("load")?;
-    let load = load::read(&load_section, source, &loaded_by)?;
+    let adheres = root.section("adhesion")?.is_some();
+    let load = load::read(&load_section, source, &loaded_by, adheres)?;
     let file_points = loaded_by.samples().map(|samples| samples.dim().into());
     let (surface, sampling) = match surface {
         Some((section, sampling)) => (Some(section), sampling),
@@ -283,14 +291,10 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
     magnitude::grid(sampling, file_points, &grid_section, &cell_section, loaded_by.cell())?;
     let solver_section = root.section_or_empty("solver")?;
     let settings = Settings::read_table(&solver_section)?;
-    let mut problem = Problem::new(loaded_by, bodies);
-    let mut friction = None;
-    if let Some(section) = root.section("friction")? {
-        let keys = FrictionSection::read_table(&section)?;
-        let places = [body.places(), above.iter().flat_map(|above| &above.body).flat_map(Body::places).collect()];
-        problem = keys.slide(&section, &places, (problem, settings), &solver_section)?;
-        friction = Some(keys);
-    }
+    let problem = Problem::new(loaded_by, bodies);
+    let places = [body.places(), above.iter().flat_map(|above| &above.body).flat_map(Body::places).collect()];
+    let Surfaces { mut problem, friction, adhesion } =
+        Surfaces::read(&root, &places, (problem, settings), &solver_section)?;
     let mut composite_hardness = None;
     if let Some(section) = root.section("composite_hardness")? {
         let keys = CompositeHardnessSection::read_table(&section)?;
@@ -307,6 +311,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         solver: settings,
         friction,
         tangential,
+        adhesion,
         composite_hardness,
         units: root.section("units")?.as_ref().map(UnitsSection::read_table).transpose()?,
         stress: root
@@ -324,6 +329,36 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         file_doubts,
         problem: Arc::new(problem),
     })
+}
+
+/// The problem with what its surfaces do to each other beside pressing.
+struct Surfaces {
+    problem: Problem,
+    friction: Option<FrictionSection>,
+    adhesion: Option<AdhesionSection>,
+}
+
+impl Surfaces {
+    /// Reads the sections `[friction]` and `[adhesion]`; `places` are the layers of both bodies.
+    fn read(
+        root: &TableAt<'_>,
+        places: &[Vec<&TableAt<'_>>; 2],
+        (problem, settings): (Problem, Settings),
+        solver: &TableAt<'_>,
+    ) -> Result<Self, Refusal> {
+        let mut all = Self { problem, friction: None, adhesion: None };
+        if let Some(section) = root.section("friction")? {
+            let keys = FrictionSection::read_table(&section)?;
+            all.problem = keys.slide(&section, places, (all.problem, settings), solver)?;
+            all.friction = Some(keys);
+        }
+        if let Some(section) = root.section("adhesion")? {
+            let keys = AdhesionSection::read_table(&section)?;
+            all.problem = keys.adhere(&section, root, (all.problem, settings))?;
+            all.adhesion = Some(keys);
+        }
+        Ok(all)
+    }
 }
 
 /// The end of the text of a source, where what is missing is missed.

@@ -83,8 +83,8 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
                      substrate = { young = 1, poisson = 0.3, hardness = 0.1 }\nload = { force = 1e-3 }\n\
                      composite_hardness = { law = \"korsunsky\", constant = 1 }\n";
     let texts = [RICH, &other, isolated, rigid, ball, to_and_fro, composite, TIPS];
-    let slips = slips();
-    let texts = texts.into_iter().chain(surfaces.iter().chain(&bodies).chain(&slips).map(String::as_str));
+    let more = [&slips()[..], &adheres()].concat();
+    let texts = texts.into_iter().chain(surfaces.iter().chain(&bodies).chain(&more).map(String::as_str));
     for text in embedded::all().iter().map(|(_, text)| *text).chain(texts) {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };
         Case::read(&source, &[]).unwrap_or_else(|error| panic!("{error}"));
@@ -106,6 +106,20 @@ fn slips() -> [String; 3] {
             "lattice = {{ kind = \"isolated\", size = 2 }}\nlevels = [{{ shape = \"sphere\", radius = 1 }}]\n\
              substrate = {{ young = 1, poisson = 0.3 }}\nload = {{ force = 1e-3 }}\nfriction = {{ coefficient = 0.1 }}\n\
              tangential = {{ {keys} }}\n"
+        )
+    })
+}
+
+/// Contacts that adhere, with the keys of `[adhesion]` and the ranges that no embedded case has.
+fn adheres() -> [String; 5] {
+    let range = "{ from = 1e-3, to = 2e-3, steps = 3, spacing = \"log\", back = true }";
+    let ranges = ["mean_pressure", "force", "penetration", "grip"].map(|key| format!("{key} = {range}"));
+    let [mean, force, penetration, grip] = ranges;
+    [mean, force, penetration, grip, "force = -1e-3".to_owned()].map(|load| {
+        format!(
+            "lattice = {{ kind = \"square\", period = 2 }}\nlevels = [{{ shape = \"sphere\", radius = 1 }}]\n\
+             substrate = {{ young = 1, poisson = 0.3 }}\nload = {{ {load} }}\n\
+             adhesion = {{ work = 1e-3, strength = 0.1, law = \"exponential\" }}\n"
         )
     })
 }

@@ -1,7 +1,7 @@
 //! Why a table is no measured curve, or no area function.
 
 use percoat_core::counterbody::TipError;
-use percoat_core::identification::{MeasurementError, UnloadingError};
+use percoat_core::identification::{MeasurementError, RetractionError, UnloadingError};
 
 /// Why a table is no measured curve, or no area function.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -76,6 +76,12 @@ pub enum Fault {
     /// A test that has no stiffness of unloading.
     #[error("{}{}", .1.map_or(String::new(), |line| format!("line {line}, ")), .0)]
     Unloading(UnloadingError, Option<usize>),
+    /// Points that are no curve of drawing off.
+    #[error("{}{}", .1.map_or(String::new(), |line| format!("line {line}, ")), .0)]
+    Retraction(RetractionError, Option<usize>),
+    /// Several curves of drawing off.
+    #[error("one curve of drawing off is fitted at a time, and here are {0}")]
+    SeveralRetractions(usize),
     /// Depths and areas that are none of a tip.
     #[error("{}{}", at(*.1), .0)]
     Tip(TipError, Option<usize>),

@@ -245,7 +245,7 @@ mod tests {
         let taken = Taken::new(&[("", source)], segment, units).map_err(|fault| fault.fault)?;
         match taken.curves {
             Curves::Loading(measurement) => Ok((measurement, taken.notes)),
-            Curves::Unloading(_) => unreachable!("loading is taken"),
+            Curves::Unloading(_) | Curves::Retraction(_) => unreachable!("loading is taken"),
         }
     }
 

@@ -2,7 +2,9 @@
 
 use super::Fault;
 use super::segment::Segment;
-use percoat_core::identification::{Measurement, MeasurementError, Unloading, UnloadingError};
+use percoat_core::identification::{
+    Measurement, MeasurementError, Retraction, RetractionError, Unloading, UnloadingError,
+};
 
 /// Part of the largest force up to which a test is loaded: creep and the noise of a hold begin above it.
 const LOADED: f64 = 0.995;
@@ -53,7 +55,7 @@ impl Points {
         let Self { forces, penetrations, deviations, lines } = self;
         let advice = match segment {
             Segment::Whole => "; or take the segment of loading alone (--segment loading)",
-            Segment::Loading | Segment::Unloading { .. } => "",
+            Segment::Loading | Segment::Unloading { .. } | Segment::Retraction => "",
         };
         let measurement = Measurement::new(forces, penetrations, deviations);
         measurement.map(|measurement| (measurement, notes)).map_err(|error| {
@@ -94,6 +96,23 @@ impl Points {
             let line = first.and_then(|index| lines.get(index).copied());
             Fault::Unloading(error, line)
         })
+    }
+
+    /// The curve of drawing off, and what was left out, in a sentence.
+    pub fn retraction(&self) -> Result<(Retraction, Option<String>), Fault> {
+        let Self { forces, penetrations, lines, .. } = self;
+        let curve = Retraction::new(forces, penetrations).map_err(|error| {
+            let first = if let RetractionError::NotFinite(index) = error { Some(index) } else { None };
+            Fault::Retraction(error, first.and_then(|index| lines.get(index).copied()))
+        })?;
+        let left = forces.len() - curve.forces().len();
+        let note = (left > 0).then(|| {
+            format!(
+                "{left} of {} points are left out, those before the largest penetration and behind the least force",
+                forces.len()
+            )
+        });
+        Ok((curve, note))
     }
 
     fn keep(&mut self, range: std::ops::Range<usize>) {

@@ -16,13 +16,15 @@ pub enum Segment {
         /// Parts of the largest force between which it is fitted.
         part: [f64; 2],
     },
+    /// Drawing off surfaces that adhere, from the largest penetration to the least force.
+    Retraction,
 }
 
 /// Why words name no segment.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoSegment {
     /// A name of no segment.
-    #[error("the segment must be \"loading\" or \"unloading\", not \"{}\"", plain::line(.0))]
+    #[error("the segment must be \"loading\", \"unloading\" or \"retraction\", not \"{}\"", plain::line(.0))]
     Name(String),
     /// A fitted part where no unloading is fitted.
     #[error("a fitted part is that of unloading: take the segment of unloading, or leave the part out")]
@@ -41,6 +43,7 @@ impl Segment {
         let segment = match name {
             None => Self::Whole,
             Some("loading") => Self::Loading,
+            Some("retraction") => Self::Retraction,
             Some("unloading") => Self::Unloading {
                 part: match part {
                     None => Unloading::PART,
@@ -51,7 +54,7 @@ impl Segment {
             Some(other) => return Err(NoSegment::Name(other.to_owned())),
         };
         match (segment, part) {
-            (Self::Whole | Self::Loading, Some(_)) => Err(NoSegment::Part),
+            (Self::Whole | Self::Loading | Self::Retraction, Some(_)) => Err(NoSegment::Part),
             _ => Ok(segment),
         }
     }

@@ -1,11 +1,11 @@
-//! Measured curves taken together: those of loading, or unloadings.
+//! Measured curves taken together: those of loading, or unloadings; or one of drawing off.
 
 use super::fault::{CurveFault, Fault};
 use super::points::Points;
 use super::segment::Segment;
 use super::{points_of_columns, points_of_text};
 use crate::units::Units;
-use percoat_core::identification::{Measurement, Unloading};
+use percoat_core::identification::{Measurement, Retraction, Unloading};
 
 /// Where a curve stands.
 #[derive(Debug, Clone, Copy)]
@@ -23,6 +23,8 @@ pub enum Curves {
     Loading(Measurement),
     /// Unloading: the stiffness of each.
     Unloading(Vec<Unloading>),
+    /// Drawing off surfaces that adhere.
+    Retraction(Retraction),
 }
 
 /// Measured curves with their names, and what was left out.
@@ -77,6 +79,17 @@ impl Taken {
                 let each = each.map(|(index, points)| points.unloading(part).map_err(fault(index)));
                 Curves::Unloading(each.collect::<Result<_, _>>()?)
             }
+            Segment::Retraction => match &all[..] {
+                [points] => {
+                    let (curve, left_out) = points.retraction().map_err(fault(0))?;
+                    notes.extend(left_out);
+                    Curves::Retraction(curve)
+                }
+                _ => {
+                    let fault = Fault::SeveralRetractions(all.len());
+                    return Err(CurveFault { name: String::new(), fault });
+                }
+            },
         };
         let names = sources.iter().enumerate().map(|(index, (name, _))| named(name, index)).collect();
         Ok(Self { curves, names, notes })

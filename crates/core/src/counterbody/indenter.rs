@@ -141,6 +141,15 @@ impl Shape {
         self.exponent() <= 1.0
     }
 
+    /// Radius of curvature at the apex, a length; `None` of shapes without one.
+    pub fn apex_radius(&self) -> Option<f64> {
+        match *self {
+            Self::Paraboloid { radius } | Self::Sphere { radius } | Self::SpheroCone { radius, .. } => Some(radius),
+            Self::Power { coefficient, exponent: 2.0 } => Some(0.5 / coefficient),
+            Self::Cone { .. } | Self::Power { .. } | Self::Measured(_) => None,
+        }
+    }
+
     /// Exponent n of the profile near the apex, f ~ rⁿ.
     pub fn exponent(&self) -> f64 {
         match *self {

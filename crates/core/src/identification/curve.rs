@@ -9,7 +9,7 @@ use crate::lattice::{Cell, Lattice};
 use crate::load::Load;
 use crate::notation::number;
 use crate::problem::Problem;
-use crate::spectral::{Settings, Solver, Stop};
+use crate::spectral::{AdhesiveError, Settings, Solver, Stop};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -37,6 +37,20 @@ pub enum CurveError {
     /// Friction couples the pressure to its traction.
     #[error("friction that couples to the pressure has no tangent: leave out [friction]")]
     Coupled,
+    /// Surfaces that adhere, of which loading and unloading are no curve of their own.
+    #[error(
+        "loading and unloading are fitted without adhesion: take the curve of drawing off (--segment retraction), or leave out [adhesion]"
+    )]
+    Adheres,
+    /// Surfaces that do not adhere.
+    #[error("a curve of drawing off is that of surfaces that adhere: add [adhesion] with a work and a range")]
+    NoAdhesion,
+    /// A grid that does not resolve the tension.
+    #[error(transparent)]
+    Adhesive(#[from] AdhesiveError),
+    /// A state on the way off that is not solved.
+    #[error("the contact at the penetration {} is not solved: {}", number(*.0), .1)]
+    NotFollowed(f64, Stop),
     /// A load that is not solved.
     #[error("the contact under the force {} is not solved: {}", number(*.0), .1)]
     NotSolved(f64, Stop),
@@ -142,11 +156,14 @@ impl IndentationCurve {
     }
 }
 
-/// Refuses problems of other contacts than that of one indenter alone without coupled friction.
+/// Refuses problems of other contacts than that of one indenter alone without coupled friction and adhesion.
 pub fn check(problem: &Problem) -> Result<(), CurveError> {
     problem.lone_indenter().ok_or(CurveError::NotAlone)?;
     if problem.friction().is_some_and(crate::friction::Friction::couples) {
         return Err(CurveError::Coupled);
+    }
+    if problem.adhesion().is_some() {
+        return Err(CurveError::Adheres);
     }
     Ok(())
 }

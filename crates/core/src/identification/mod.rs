@@ -5,6 +5,8 @@
 //! compliance C_f add δ₀ + C_f P. Least squares of the measured penetrations give the parameters, and their
 //! covariance s²(JᵀJ)⁻¹ with s² the sum of squares over the degrees of freedom.
 //!
+//! From drawing off surfaces that adhere the parameters follow by least squares of the forces (`retraction`).
+//!
 //! From unloading the parameters follow by Oliver and Pharr's method with the layered body in place of the bare one (`unloading`).
 //!
 //! A parameter whose standard error exceeds [`MOST_UNCERTAIN`] of it, or of half the way between its bounds, is not stated: the curve does not contain it.
@@ -21,6 +23,7 @@ mod least_squares;
 mod measurement_error;
 mod parameter;
 mod pattern;
+mod retraction;
 mod search;
 mod sensitivity;
 mod student;
@@ -35,6 +38,7 @@ pub use fit::Identification;
 pub use measurement_error::MeasurementError;
 pub use parameter::{Parameter, Quantity};
 pub use pattern::{LEVEL, Pattern};
+pub use retraction::{FromRetraction, Retraction, RetractionError};
 pub use search::{Listener, Model, Trial};
 pub use sensitivity::{NoDerivative, Sensitivity};
 pub use unloading::{

@@ -36,8 +36,10 @@ impl<E> fmt::Debug for Model<'_, E> {
 pub struct Trial {
     /// Number of the trial, from 1.
     pub number: usize,
-    /// Root mean square of measured minus computed penetrations, a length; `None` where the model has no value.
+    /// Root mean square of measured minus computed penetrations, a length, or forces; `None` where the model has no value.
     pub rms: Option<f64>,
+    /// Whether forces are compared.
+    pub is_of_forces: bool,
 }
 
 /// Called with each trial of a search; `Break` ends it.
@@ -108,7 +110,7 @@ impl<'a, E: Send> Search<'a, E> {
         let linearised = self.linearised(t);
         self.trials += 1;
         let rms = linearised.as_ref().ok().map(|linearised| self.rms(&linearised.residuals));
-        match listener(Trial { number: self.trials, rms }) {
+        match listener(Trial { number: self.trials, rms, is_of_forces: false }) {
             ControlFlow::Continue(()) => linearised,
             ControlFlow::Break(()) => {
                 self.is_stopped = true;

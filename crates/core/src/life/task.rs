@@ -39,6 +39,9 @@ pub struct LifeTask {
 /// Why a life cannot be followed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LifeError {
+    /// The surfaces adhere.
+    #[error("fatigue and wear of surfaces that adhere are not followed: leave adhesion out")]
+    Adheres,
     /// Nothing tires, and nothing wears over a number of passes.
     #[error(
         "neither a fatigue law nor wear is given: give a material `fatigue` or `strain_life`, or a layer `interface_fatigue`, or `wear` of a \
@@ -119,6 +122,12 @@ impl LifeTask {
     /// [`LifeError::NothingTires`], [`LifeError::Penetration`], [`LifeError::Wear`], [`LifeError::NoDistance`],
     /// [`LifeError::DistanceAndStroke`] and [`LifeError::ShortStroke`].
     pub fn check(&self) -> Result<(), LifeError> {
+        if self.problem.adhesion().is_some() {
+            return Err(LifeError::Adheres);
+        }
+        if matches!(self.load, Load::Grip { .. }) {
+            return Err(LifeError::Penetration);
+        }
         if self.problem.composite_hardness().is_some() {
             return Err(LifeError::CompositeHardness);
         }

@@ -61,7 +61,7 @@ fn spots(problem: &Problem, reading: &Reading, [n1, n2]: [usize; 2]) -> Vec<[f64
         let sample = problem.cell().area() / (n1 * n2) as f64;
         return vec![[reading.grid_peak(), reading.spot_resolution * sample.sqrt()]];
     }
-    let touching = reading.levels.iter().filter(|level| level.load > 0.0);
+    let touching = reading.levels.iter().filter(|level| level.touches());
     // Under a tip the mean pressure is finite.
     let of = |level: &super::LevelReading| {
         let pressure = level.finite_peak().unwrap_or(level.load / level.contact_area);

@@ -27,7 +27,7 @@ quantities! {
         /// Mean pressure p̄ over the cell, in the unit of Young's modulus; `None` for an isolated contact.
         #[serde(deserialize_with = "Option::deserialize")]
         pub mean_pressure: Option<f64> = Pressure "mean pressure" "p̄",
-        /// Force P on the cell, or on the isolated contact, a pressure times an area.
+        /// Force P on the cell, or on the isolated contact, a pressure times an area; below 0 where surfaces that adhere are drawn apart.
         #[serde(default = "unknown", deserialize_with = "serialised::number")]
         pub force: f64 = Force "force" "P",
         /// Penetration δ, a length: measured from the mean plane of the deformed surface, the additional displacement of Eq. (8); of an
@@ -48,7 +48,8 @@ quantities! {
         /// [`Contact::elastic_energy`](crate::spectral::Contact::elastic_energy).
         #[serde(default = "unknown", deserialize_with = "serialised::number")]
         pub elastic_energy: f64 = Energy "elastic energy" "U",
-        /// Largest pressure, between the samples, in the unit of Young's modulus; infinite where that of a level is.
+        /// Largest pressure in contact, between the samples, in the unit of Young's modulus; infinite where that of a level is. Of surfaces
+        /// that adhere the tension is taken off.
         #[serde(flatten, with = "serialised::max_pressure")]
         pub max_pressure: f64 = Pressure "peak pressure" "p" short "peak",
         /// Largest pressure that the grid resolves, where the largest one is infinite; `None` where it is finite.
@@ -111,15 +112,15 @@ quantities! {
 impl Reading {
     /// Whether there is any contact.
     pub fn touches(&self) -> bool {
-        self.force > 0.0
+        self.contact_area > 0.0
     }
 
-    /// Mean pressure P/A where there is contact, in the unit of Young's modulus, and its error (those of force and area added, relative);
-    /// `None` without contact.
+    /// Mean pressure P/A where there is contact, in the unit of Young's modulus, of surfaces that adhere with all that pulls, and its error (those of
+    /// force and area added, relative); `None` without contact.
     pub fn mean_contact_pressure(&self) -> Option<Measured> {
         let Self { force, contact_area, errors, .. } = self;
         let mean = (self.touches() && *contact_area > 0.0).then(|| force / contact_area)?;
-        let error = errors.contact_area.map(|area| mean * (area / contact_area + errors.force.unwrap_or(0.0) / force));
+        let error = errors.contact_area.map(|area| (mean.abs() * area + errors.force.unwrap_or(0.0)) / contact_area);
         Some(Measured::new(mean, error))
     }
 
@@ -193,10 +194,10 @@ impl Reading {
             Vec::new()
         };
         let area = ContactArea::of(contact, &components, &spots, &topography);
-        let mean_pressure = sums::mean(pressure);
+        let mean_pressure = sums::mean(&contact.net_pressures());
         let (cell, surroundings) = (grid.cell(), grid.cell().surroundings());
         let levels: Vec<LevelReading> = (1..=contact.problem().levels().len())
-            .map(|level| LevelSpots::new(contact, level, &spots).reading(&area, mean_pressure))
+            .map(|level| LevelSpots::new(contact, level, &spots).reading(&area, sums::mean(pressure)))
             .collect();
         let fractions = || Fractions {
             between: area.fraction(),
@@ -212,10 +213,11 @@ impl Reading {
         // A pressure that is given has no peak between the samples.
         let highest_peak = match given {
             Some(given) => given.highest() * (mean_pressure * cell.area() / given.force()),
-            None => highest.map_or(0.0, |index| peak::interpolated(contact, index)),
+            None => highest.map_or(0.0, |index| peak::net(contact, peak::interpolated(contact, index))),
         };
         // Between the samples the highest of them need not be the highest peak.
-        let resolved = levels.iter().map(LevelReading::grid_peak).fold(highest_peak, f64::max);
+        let touching = levels.iter().filter(|level| level.touches());
+        let resolved = touching.map(LevelReading::grid_peak).fold(highest_peak, f64::max);
         let (max_pressure, resolved_peak) = LevelReading::peak_of(resolved, levels.iter().any(LevelReading::singular));
         Self {
             mean_pressure: surroundings.per_cell(mean_pressure),

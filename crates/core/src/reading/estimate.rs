@@ -6,7 +6,8 @@ use super::rough::mean_gap;
 use super::{Errors, LevelErrors, LevelReading, Reading, RoughReading};
 use crate::counterbody::Topography;
 use crate::load::Load;
-use crate::spectral::{Contact, Step};
+use crate::numeric::sums;
+use crate::spectral::{Contact, Step, adhesive_samples, zone_law};
 
 /// Relative error of a peak pressure n samples away from the edge of contact, for profiles of an exponent.
 fn peak_law(samples: f64, exponent: f64) -> f64 {
@@ -99,7 +100,8 @@ impl Step {
             let is_given = self.problem().kind().is_given;
             let hardness = self.finest().hardness();
             let apex = self.apex_error();
-            let grids = Grids { fine: &reading, coarser: &coarser, load: self.load, is_given, hardness, apex };
+            let pull = self.pull();
+            let grids = Grids { fine: &reading, coarser: &coarser, load: self.load, is_given, hardness, apex, pull };
             let of_levels: Vec<LevelErrors> =
                 exponents.iter().enumerate().map(|(index, &exponent)| grids.level_errors(index, exponent)).collect();
             let by_apex = grids.by_apex();
@@ -119,6 +121,21 @@ impl Step {
             reading.errors.contact_area = Some(error * cell.area());
             reading.contact_fraction = cell.surroundings().per_cell(fraction.value);
             reading.errors.contact_fraction = cell.surroundings().per_cell(error);
+        } else if self.finest().tensions().is_some() {
+            // Surfaces that pull and do not touch.
+            let pull = self.pull();
+            let of = |law: f64, of: fn(&Reading) -> f64| {
+                Some(estimate(safety::LOAD, law, of(&reading), coarser.iter().map(|coarse| Some(of(coarse)))))
+            };
+            let force = if self.load.is_load_control() { Some(0.0) } else { of(pull.force, |reading| reading.force) };
+            let cell = self.grid().cell();
+            reading.errors = Errors {
+                force,
+                mean_pressure: force.filter(|_| reading.mean_pressure.is_some()).map(|force| force / cell.area()),
+                penetration: of(pull.penetration, |reading| reading.penetration),
+                elastic_energy: of(0.0, |reading| reading.elastic_energy),
+                ..Errors::default()
+            };
         } else if self.load.is_load_control() && reading.penetration > 0.0 {
             // The penetration that earlier loads have left.
             let left = coarser.iter().map(|coarse| Some(coarse.penetration));
@@ -154,6 +171,17 @@ impl Step {
         self.problem().topography().map_or(0.0, Topography::apex_error)
     }
 
+    /// Errors of the tension of surfaces that adhere; zero of others.
+    fn pull(&self) -> Pull {
+        let contact = self.finest();
+        let Some(tension) = contact.tensions() else { return Pull::default() };
+        let (gap, f, penetration) = (contact.gaps(), contact.surface().gaps(), contact.penetration());
+        let [sum] = sums::of(tension.len(), |i| [tension[i]]);
+        let displaced = -sums::least(gap.len(), |i| -(gap[i] - f[i] + penetration).abs());
+        let law = zone_law(adhesive_samples(self.problem(), contact.grid()));
+        Pull { force: law * sum * contact.grid().sample_area(), penetration: law * displaced }
+    }
+
     /// The contacts on the coarser grids that estimates compare with, the next coarser first.
     fn compared(&self) -> Vec<&Contact> {
         self.coarser().iter().take(CHANGE_WEIGHTS.len()).collect()
@@ -182,6 +210,15 @@ struct Grids<'a> {
     hardness: f64,
     /// Height by which a kinked topography may exceed its apex, a length.
     apex: f64,
+    /// Errors of the tension of surfaces that adhere.
+    pull: Pull,
+}
+
+/// Errors by the samples across the zone in which surfaces that adhere pull beside contact; zero of others.
+#[derive(Clone, Copy, Default)]
+struct Pull {
+    force: f64,
+    penetration: f64,
 }
 
 /// Changes under a prescribed penetration by the error of the apex from which it counts.
@@ -208,26 +245,27 @@ impl Grids<'_> {
         let by_load = self.load.is_load_control();
         let [largest, smallest] = self.resolutions();
         let prescribed = |free: Option<f64>, prescribed: bool| if prescribed { Some(0.0) } else { free };
-        let load = fine.force * load_law(largest);
+        let load = fine.force.abs() * load_law(largest) + self.pull.force;
         let force = prescribed(self.error(safety::MEAN_PRESSURE, load, &|reading| Some(reading.force)), by_load);
         let area = fine.mean_pressure.map(|mean| fine.force / mean);
         let [depth, safety] = match fine.levels.is_empty() {
             true => [topography_law(largest), safety::TOPOGRAPHY],
             false => [penetration_law(largest), safety::PENETRATION],
         };
-        let penetration = self.error(safety, fine.penetration.abs() * depth, &|reading| Some(reading.penetration));
-        let stored = if fine.levels.is_empty() { depth } else { energy_law(largest) };
+        let depth = fine.penetration.abs() * depth + self.pull.penetration;
+        let penetration = self.error(safety, depth, &|reading| Some(reading.penetration));
+        let stored = if fine.levels.is_empty() { topography_law(largest) } else { energy_law(largest) };
         let [stored, safety] = if by_load { [stored, safety] } else { [load_law(largest), safety::MEAN_PRESSURE] };
         let energy = self.error(safety, fine.elastic_energy * stored, &|reading| Some(reading.elastic_energy));
         let [force, penetration, energy] = [(force, by_apex.force), (penetration, self.apex), (energy, by_apex.energy)]
             .map(|(error, more)| error.map(|error| error + more));
-        let loaded = fine.levels.iter().zip(exponents).filter(|(level, _)| level.load > 0.0);
+        let loaded = fine.levels.iter().zip(exponents).filter(|(level, _)| level.touches());
         let sharpest = loaded.map(|(_, &exponent)| exponent).fold(2.0, f64::min);
-        let peak = fine.grid_peak() * peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest);
+        let peak = fine.grid_peak().abs() * peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest);
         // The highest of all may be that of any level that reaches as high within its own error.
         let peaks = fine.levels.iter().zip(of_levels);
         let peaks = peaks.filter_map(|(level, errors)| Some(level.finite_peak()? + errors.max_pressure?));
-        let beyond = peaks.fold(0.0, f64::max) - fine.grid_peak();
+        let beyond = peaks.fold(f64::NEG_INFINITY, f64::max) - fine.grid_peak();
         Errors {
             mean_pressure: force.zip(area).map(|(force, area)| force / area),
             force,
@@ -269,7 +307,7 @@ impl Grids<'_> {
     /// largest contact, the highest peak as the least resolved one. A topography has its typical spot.
     fn resolutions(&self) -> [f64; 2] {
         let mut touching: Vec<f64> =
-            self.fine.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution).collect();
+            self.fine.levels.iter().filter(|level| level.touches()).map(|level| level.resolution).collect();
         if self.fine.levels.is_empty() {
             touching.push(self.fine.spot_resolution);
         }
@@ -280,7 +318,7 @@ impl Grids<'_> {
     /// Estimated errors of the scalars of a level, by its index from 0, whose profile has an exponent.
     fn level_errors(&self, index: usize, exponent: f64) -> LevelErrors {
         let level = &self.fine.levels[index];
-        if level.load <= 0.0 {
+        if !level.touches() {
             return LevelErrors::default();
         }
         let by_load = self.load.is_load_control();
@@ -291,8 +329,9 @@ impl Grids<'_> {
         };
         // A single level carries the whole load.
         let share = if self.fine.levels.len() == 1 { 0.0 } else { share_law(samples) };
-        let load = level.load * if by_load { share / level.load_share } else { load_law(samples) };
-        let peak = level.grid_peak() * peak_law(level.uncertainty.peak_to_edge.max(1.0), exponent);
+        let load =
+            level.load.abs() * if by_load { share / level.load_share } else { load_law(samples) } + self.pull.force;
+        let peak = level.grid_peak().abs() * peak_law(level.uncertainty.peak_to_edge.max(1.0), exponent);
         let centre = level.contact_radius.unwrap_or(0.0) * centre_law(samples);
         let radius = |error: Option<f64>, value: fn(&LevelReading) -> Option<f64>| of(safety::AREA, error?, value);
         let relative = level.uncertainty.boundary.zip(level.radius_max).map(|(error, largest)| error / largest);

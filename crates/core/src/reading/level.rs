@@ -11,10 +11,10 @@ quantities! {
     pub struct LevelReading {
         /// Level, from 1.
         pub level: usize,
-        /// Force on one indenter: a pressure times an area.
+        /// Force on one indenter: a pressure times an area; with the tension on the samples that face it.
         #[serde(deserialize_with = "serialised::number")]
         pub load: f64 = Force "load on one" "P",
-        /// Share of the whole load that the level carries.
+        /// Share of the whole load that the level carries; of surfaces that adhere of the contact load, without tension.
         #[serde(deserialize_with = "serialised::number")]
         pub load_share: f64 = Fraction "share of the load" "P/ΣP" short "share",
         /// Peak pressure, between the samples, in the unit of Young's modulus; infinite under a tip with load, see
@@ -95,6 +95,11 @@ impl LevelReading {
     /// The peak pressure, infinite under a tip, and the value `shown` by the grid there; `None` away from tips.
     pub(crate) fn peak_of(shown: f64, is_tip: bool) -> (f64, Option<f64>) {
         if is_tip && !shown.is_nan() { (f64::INFINITY, Some(shown)) } else { (shown, None) }
+    }
+
+    /// Whether any of its indenters is in contact.
+    pub fn touches(&self) -> bool {
+        self.contact_area > 0.0
     }
 
     /// Whether the peak pressure is infinite.

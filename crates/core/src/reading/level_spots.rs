@@ -4,6 +4,7 @@ use super::boundary::Boundary;
 use super::contact_area::ContactArea;
 use super::spots::SpotReading;
 use super::{LevelErrors, LevelReading, Uncertainty, peak};
+use crate::numeric::sums;
 use crate::spectral::Contact;
 use std::f64::consts::PI;
 
@@ -26,7 +27,7 @@ impl<'a> LevelSpots<'a> {
         Self { contact, level, spots, boundaries }
     }
 
-    /// The reading of the level under a mean pressure over the cell, without estimated errors.
+    /// The reading of the level under a mean pressure of contact over the cell, without estimated errors.
     pub fn reading(&self, area: &ContactArea, mean_pressure: f64) -> LevelReading {
         let (grid, indenters) = (self.contact.grid(), self.spots.len() as f64);
         let load = self.spots.iter().map(|spot| spot.load).sum::<f64>();
@@ -41,10 +42,11 @@ impl<'a> LevelSpots<'a> {
         let moment = [0, 1].map(|k| self.spots.iter().map(|spot| spot.moment[k]).sum::<f64>());
         let radius_min = self.radii(|b| b.extremes().0).and_then(|radii| radii.into_iter().reduce(f64::min));
         let radius_max = self.largest(|b| b.extremes().1);
-        let (max_pressure, resolved_peak) = LevelReading::peak_of(self.max_pressure(), load > 0.0 && self.is_tip());
+        let peak = if load > 0.0 { peak::net(self.contact, self.max_pressure()) } else { 0.0 };
+        let (max_pressure, resolved_peak) = LevelReading::peak_of(peak, load > 0.0 && self.is_tip());
         LevelReading {
             level: self.level,
-            load: load / indenters,
+            load: (load - self.pull()) / indenters,
             load_share: if mean_pressure > 0.0 { load / (mean_pressure * grid.cell().area()) } else { 0.0 },
             max_pressure,
             resolved_peak,
@@ -70,7 +72,15 @@ impl<'a> LevelSpots<'a> {
         }
     }
 
-    /// Largest pressure that the grid resolves under the indenters, between the samples; in the unit of Young's modulus.
+    /// Tension on the samples that face the indenters, a force; 0 without adhesion.
+    fn pull(&self) -> f64 {
+        let (surface, area) = (self.contact.surface(), self.contact.grid().sample_area());
+        let Some(tension) = self.contact.tensions() else { return 0.0 };
+        let faces = |i: usize| surface.level_at(i) == self.level;
+        area * sums::of(tension.len(), |i| if faces(i) { [tension[i]] } else { [0.0] })[0]
+    }
+
+    /// Largest pressure of contact that the grid resolves under the indenters, between the samples; in the unit of Young's modulus.
     fn max_pressure(&self) -> f64 {
         self.peaks().map(|index| peak::interpolated(self.contact, index)).fold(0.0, f64::max)
     }

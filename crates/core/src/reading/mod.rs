@@ -5,6 +5,7 @@
 //! the middle is a **ring**: its area is that in contact. Radii and areas carry an estimate of their discretisation
 //! error.
 
+mod adhesion;
 mod area;
 mod beneath;
 pub(crate) mod boundary;
@@ -36,6 +37,9 @@ mod topography;
 mod touch;
 mod verdict;
 
+pub use adhesion::{
+    ADHESION, AdhesionQuantities, AdhesionReading, JumpKind, JumpReading, PullOffReading, loss, of_apex, pull_off,
+};
 pub use beneath::Beneath;
 pub(crate) use beneath::pressure_on;
 pub use boundary::Boundary;

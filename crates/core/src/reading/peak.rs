@@ -1,5 +1,6 @@
 //! Peak pressure between the samples, and its distance from the edge of contact.
 
+use crate::adhesion::Adhesion;
 use crate::lattice::Grid;
 use crate::numeric::paraboloid;
 use crate::spectral::Contact;
@@ -13,6 +14,11 @@ pub fn interpolated(contact: &Contact, index: usize) -> f64 {
     let at = |i: i32, j: i32| pressure[wrapped(row + i, n1) * n2 + wrapped(column + j, n2)];
     // The paraboloid is shifted to pass through the sample.
     (pressure[index] + paraboloid::rise(1, at).unwrap_or(0.0)).min(contact.hardness())
+}
+
+/// A pressure of contact less the tension between surfaces that adhere and touch.
+pub fn net(contact: &Contact, pressure: f64) -> f64 {
+    pressure - contact.tensions().and(contact.problem().adhesion()).map_or(0.0, Adhesion::strength)
 }
 
 /// Distance from the edge, in samples, at which a ridge along it is resolved: an edge farther away is not searched.

@@ -224,7 +224,7 @@ pub fn contact_radii(step: &Step, reading: &Reading) -> [f64; 2] {
         return [least, radii.iter().copied().fold(least, f64::max)];
     }
     let whole = (reading.contact_area / PI).sqrt();
-    let touching = reading.levels.iter().filter(|level| level.load > 0.0);
+    let touching = reading.levels.iter().filter(|level| level.touches());
     let radii: Vec<f64> = touching.filter_map(|level| level.contact_radius).collect();
     let least = radii.iter().copied().fold(whole, f64::min).max(4.0 * grid.spacing());
     let most = if radii.is_empty() { whole } else { radii.iter().copied().fold(0.0, f64::max) };

@@ -27,8 +27,9 @@ pub fn balanced_points(cell: &Cell, points: usize) -> [usize; 2] {
 /// mean pressure and penetration, of the largest stresses, and of the passes to the first damage. Pressures and stresses that are infinite
 /// under a tip are left out.
 pub fn change(coarse: &[StepRecord], fine: &[StepRecord]) -> f64 {
+    let deepest = largest(fine.iter().map(|step| step.reading.penetration.abs()));
     let of = |(coarse, fine): (&StepRecord, &StepRecord)| {
-        [step_change(&coarse.reading, &fine.reading), stress_change(coarse, fine), life_change(coarse, fine)]
+        [step_change(coarse, fine, deepest), stress_change(coarse, fine), life_change(coarse, fine)]
     };
     largest(coarse.iter().zip(fine).flat_map(of))
 }
@@ -85,6 +86,13 @@ impl Refinement {
     /// [`TooOblong`] when not even the first grid is allowed.
     pub fn new(cell: &Cell, accuracy: f64) -> Result<Self, TooOblong> {
         Ok(Self { accuracy, grids: Self::grids(cell)?, at: 0, changes: Vec::new() })
+    }
+
+    /// The refinement without its first grids, those that are too coarse; the last one is kept.
+    pub(super) fn without(mut self, is_too_coarse: impl Fn([usize; 2]) -> bool) -> Self {
+        let first = self.grids.iter().take_while(|points| is_too_coarse(**points)).count();
+        self.grids.drain(..first.min(self.grids.len() - 1));
+        self
     }
 
     /// All grids in reach on a cell, at least one: each twice as fine as the one before, as dense along both cell vectors.
@@ -155,20 +163,50 @@ impl Refinement {
     }
 }
 
-/// Largest relative change of the contact.
-fn step_change(coarse: &Reading, fine: &Reading) -> f64 {
-    if fine.grid_peak() <= 0.0 {
+/// Largest relative change of the contact; `deepest`: the largest penetration of the path.
+fn step_change(before: &StepRecord, now: &StepRecord, deepest: f64) -> f64 {
+    let pulls = |step: &StepRecord| step.adhesion.as_ref().is_some_and(|adhesion| adhesion.adhesive_load > 0.0);
+    let bears_nothing = |step: &StepRecord| step.reading.grid_peak() <= 0.0 && !pulls(step);
+    if bears_nothing(now) {
         // A contact that vanishes is an infinite change.
-        return if coarse.grid_peak() <= 0.0 { 0.0 } else { f64::INFINITY };
+        return if bears_nothing(before) { 0.0 } else { f64::INFINITY };
     }
+    let (coarse, fine) = (&before.reading, &now.reading);
+    let Scales { pressure, force, penetration } = Scales::of(now, deepest);
     let peak = if fine.singular() { 0.0 } else { (fine.grid_peak() - coarse.grid_peak()).abs() };
-    let penetration = ((fine.penetration - coarse.penetration) / fine.penetration).abs();
-    let load = (fine.force - coarse.force).abs() / fine.force;
+    let penetration = (fine.penetration - coarse.penetration).abs() / penetration;
+    let load = (fine.force - coarse.force).abs() / force;
     let levels = coarse.levels.iter().zip(&fine.levels).flat_map(|(coarse, level)| {
         let peak = if level.singular() { 0.0 } else { (level.grid_peak() - coarse.grid_peak()).abs() };
-        [peak / fine.grid_peak(), (level.load_share - coarse.load_share).abs()]
+        [peak / pressure, (level.load_share - coarse.load_share).abs()]
     });
-    largest([peak / fine.grid_peak(), penetration, load].into_iter().chain(levels))
+    largest([peak / pressure, penetration, load].into_iter().chain(levels))
+}
+
+/// What changes are measured by.
+struct Scales {
+    pressure: f64,
+    force: f64,
+    penetration: f64,
+}
+
+impl Scales {
+    /// The values themselves of surfaces that do not adhere. Where they do, values pass through zero: net pressures are measured by the
+    /// tension too, net forces by those that press and pull, and penetrations by the largest one of the path, `deepest`.
+    fn of(step: &StepRecord, deepest: f64) -> Self {
+        let Reading { force, penetration, .. } = step.reading;
+        let peak = step.reading.grid_peak();
+        let Some(adhesion) = &step.adhesion else {
+            return Self { pressure: peak, force, penetration: penetration.abs() };
+        };
+        let total = adhesion.contact_load + adhesion.adhesive_load;
+        let pulls = adhesion.adhesive_load / (step.reading.contact_area + adhesion.cohesive_area);
+        Self {
+            pressure: if pulls.is_finite() { peak.abs().max(pulls) } else { peak.abs() },
+            force: total,
+            penetration: deepest.max(f64::MIN_POSITIVE),
+        }
+    }
 }
 
 /// Largest change of the largest τ₁, tension and von Mises, over the largest of them, and at least the excess of a rival peak of the

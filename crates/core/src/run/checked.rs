@@ -6,6 +6,9 @@ use crate::reading::{FatigueReading, Governing, LEVEL, PLASTIC, Utilisation, Ver
 use crate::spectral::{Certificate, Stop};
 use crate::stress::maxima::{CARRIED, EXTREMES};
 
+/// Check of a number under a name.
+type Bounded = fn(&str, f64) -> Result<(), String>;
+
 /// A number that is null was not finite, which is allowed only in a step with [`Stop::NotANumber`]; elsewhere a null, or a pressure
 /// below zero, shows that the file was damaged or edited.
 impl StepRecord {
@@ -19,8 +22,11 @@ impl StepRecord {
         }
         let reading = &self.reading;
         let Certificate { energy_gap, penetration, load } = self.certificate;
-        at_least_zero("force", reading.force)?;
-        self.check_cell()?;
+        // Surfaces that adhere are drawn apart by forces below zero.
+        let pulls = self.adhesion.is_some();
+        let signed = if pulls { finite } else { at_least_zero };
+        signed("force", reading.force)?;
+        self.check_cell(signed)?;
         if let Some(plastic) = &self.plastic {
             PLASTIC
                 .each()
@@ -38,7 +44,7 @@ impl StepRecord {
         }
         finite("penetration", reading.penetration)?;
         at_least_zero("contact_area", reading.contact_area)?;
-        peak("max_pressure", reading.max_pressure)?;
+        peak("max_pressure", reading.max_pressure, signed)?;
         // An iteration that could not begin has no certificate.
         if self.stop.solved() {
             finite("residual", self.residual)?;
@@ -48,9 +54,10 @@ impl StepRecord {
         }
         for level in &reading.levels {
             let name = |key: &str| format!("{key} of level {}", level.level);
-            let quantities = [&LEVEL.load, &LEVEL.load_share, &LEVEL.contact_area];
+            let quantities = [&LEVEL.load_share, &LEVEL.contact_area];
             quantities.into_iter().try_for_each(|quantity| positive(quantity, level, name))?;
-            peak(&name("max_pressure"), level.max_pressure)?;
+            signed(&name("load"), level.load)?;
+            peak(&name("max_pressure"), level.max_pressure, signed)?;
         }
         if let Some(stress) = &self.stress {
             for extremes in [&stress.overall].into_iter().chain(&stress.materials).chain(&stress.faces) {
@@ -68,10 +75,10 @@ impl StepRecord {
     }
 
     /// Refuses numbers per cell that are missing or out of range; an isolated contact has none of them.
-    fn check_cell(&self) -> Result<(), String> {
+    fn check_cell(&self, signed: Bounded) -> Result<(), String> {
         let reading = &self.reading;
         if reading.mean_pressure.or(reading.contact_fraction).is_some() {
-            at_least_zero("mean_pressure", due(reading.mean_pressure))?;
+            signed("mean_pressure", due(reading.mean_pressure))?;
             at_least_zero("contact_fraction", due(reading.contact_fraction))?;
         }
         let Some(rough) = self.rough.as_ref().and_then(|rough| reading.surroundings().per_cell(rough)) else {
@@ -156,6 +163,6 @@ fn at_least_zero_or_infinite(name: &str, value: f64) -> Result<(), String> {
 }
 
 /// A largest pressure, which may be infinite.
-fn peak(name: &str, value: f64) -> Result<(), String> {
-    if value == f64::INFINITY { Ok(()) } else { at_least_zero(name, value) }
+fn peak(name: &str, value: f64, bounded: Bounded) -> Result<(), String> {
+    if value == f64::INFINITY { Ok(()) } else { bounded(name, value) }
 }

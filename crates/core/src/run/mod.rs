@@ -18,10 +18,12 @@
 //! ```
 
 mod accuracy;
+mod adhering;
 mod alone;
 mod checked;
 mod earlier_run;
 mod ended;
+mod grid_start;
 mod limit;
 mod outcome;
 pub mod places;
@@ -40,6 +42,7 @@ pub mod words;
 pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change};
 pub use alone::alone;
 pub use earlier_run::{EarlierRun, LastLoad};
+pub use grid_start::GridStart;
 pub use limit::{At, EVENTS, Limit, LimitStep, Limits, SearchEnd, first, rivals};
 pub use outcome::{AllAtHardness, BeyondFullContact, BeyondHardness, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
@@ -58,7 +61,7 @@ use crate::lattice::Grid;
 use crate::load::{Control, Load, LoadQuantity};
 use crate::problem::Problem;
 use crate::reading::{self, Criterion, Pass, PathReading, StressReading};
-use crate::spectral::{OtherGrids, Settings, Solver, Step};
+use crate::spectral::{AdhesiveError, OtherGrids, Settings, Solver, Step, check_adhesive_grid};
 use crate::stress::{PathSought, StressFields, Tables};
 use std::cell::Cell;
 use std::convert::Infallible;
@@ -136,6 +139,7 @@ impl Run {
             return Err(RunError::NoLoads);
         }
         let points = self.checked_sampling()?;
+        self.check_adhesion()?;
         let kind = self.problem.kind();
         let hardness = self.problem.largest_hardness().filter(|_| !kind.is_given).map(|(hardness, _)| hardness);
         for load in &self.loads {
@@ -152,6 +156,7 @@ impl Run {
         let surface = self.problem.loaded_by().surface(points)?;
         let deepest = self.loads.iter().filter_map(|load| match *load {
             Load::Penetration(penetration) => Some(penetration),
+            Load::Grip { position, stiffness } if stiffness.is_infinite() => Some(position),
             _ => None,
         });
         let beyond = |limit: f64| deepest.clone().find(|penetration| *penetration >= limit);
@@ -167,6 +172,35 @@ impl Run {
         match beyond(complete).filter(|_| compliance == 0.0) {
             Some(penetration) => Err(BeyondFullContact { penetration, complete }.into()),
             None => Ok(()),
+        }
+    }
+
+    /// Refinement to an accuracy, from the first grid on that resolves the zone in which surfaces that adhere pull beside contact.
+    fn refinement<E: Error + 'static>(&self, accuracy: f64) -> Result<Refinement, RunError<E>> {
+        let cell = self.problem.cell();
+        let resolves =
+            |points| Grid::new(cell, points).is_ok_and(|grid| check_adhesive_grid(&self.problem, &grid).is_ok());
+        Ok(Refinement::new(&cell, accuracy)?.without(|points| !resolves(points)))
+    }
+
+    /// Checks that surfaces adhere where loads or motions need or exclude that, and that the finest grid resolves the zone that pulls.
+    fn check_adhesion<E: Error + 'static>(&self) -> Result<(), RunError<E>> {
+        let (cell, adheres) = (self.problem.cell(), self.problem.adhesion().is_some());
+        if adheres && self.motions.is_some() {
+            return Err(AdhesiveError::Sticks.into());
+        }
+        for load in &self.loads {
+            match *load {
+                Load::Grip { .. } if !adheres => return Err(AdhesiveError::Grip.into()),
+                Load::Grip { stiffness, .. } if stiffness.is_nan() || stiffness <= 0.0 => {
+                    return Err(AdhesiveError::Stiffness(stiffness).into());
+                }
+                _ => {}
+            }
+        }
+        match self.sampling.grids(&cell)?.last() {
+            Some(finest) if adheres => Ok(check_adhesive_grid(&self.problem, &Grid::new(cell, *finest)?)?),
+            _ => Ok(()),
         }
     }
 
@@ -195,7 +229,7 @@ impl Run {
                 (steps, last, points, None, None)
             }
             Sampling::Accuracy(accuracy) => {
-                let mut refinement = Refinement::new(&self.problem.cell(), accuracy)?;
+                let mut refinement = self.refinement(accuracy)?;
                 let mut coarse = None;
                 if let Some(finished) = &mut finished {
                     refinement.go_on(finished.points, &finished.changes)?;
@@ -232,7 +266,7 @@ impl Run {
         self.stress.as_ref().map(|request| request.mean).or_else(|| are_judged().then(MeanStress::default))
     }
 
-    /// Solves all loads on one grid, after those of the earlier run `finished`: with partial slip where there are drives.
+    /// Solves all loads on one grid, after those of the earlier run `finished`: with partial slip where there are drives, or with adhesion.
     fn steps_on<R: Recorder>(
         &self,
         points: [usize; 2],
@@ -241,6 +275,7 @@ impl Run {
     ) -> Result<Solved, RunError<R::Error>> {
         match &self.motions {
             Some(motions) => self.slip_on_grid(motions, points, finished, recorder),
+            None if self.problem.adhesion().is_some() => self.adhesive_on_grid(points, finished, recorder),
             None => self.on_grid(points, finished, recorder),
         }
     }
@@ -253,7 +288,7 @@ impl Run {
         recorder: &mut R,
     ) -> Result<Solved, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&self.problem), points, self.settings)?;
-        recorder.begin(&solver).map_err(RunError::Recorder)?;
+        recorder.begin(&GridStart::from(&solver)).map_err(RunError::Recorder)?;
         let (mut records, mut saved) = finished.map_or((Vec::new(), None), |earlier| (earlier.steps, earlier.last));
         let Some(loads) = self.loads.get(records.len()..).filter(|loads| !loads.is_empty()) else {
             return Err(OtherGrids.into());
@@ -320,7 +355,7 @@ impl Run {
             let strains = self.stress.as_ref().is_some_and(|request| request.strain);
             StressFields::with_tables(step.finest(), mean, tables).with_strains(strains)
         });
-        if let Some(fields) = fields.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
+        if let Some(fields) = fields.as_ref().filter(|_| record.is_loaded()) {
             let ended = Cell::new(None);
             let goes_on = || recorder.searching().map_err(|error| ended.set(Some(error))).is_ok();
             let bodies = self.problem.bodies();

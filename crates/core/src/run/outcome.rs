@@ -5,7 +5,7 @@ use super::accuracy::{RefinementEnd, TooOblong};
 use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::notation::number;
-use crate::spectral::{OtherGrids, RollError, SlipError, Step};
+use crate::spectral::{AdhesiveError, OtherGrids, RollError, SlipError, Step};
 use std::error::Error;
 
 /// The result of a run.
@@ -107,6 +107,9 @@ pub enum RunError<E: Error + 'static> {
     /// The grid is refused.
     #[error(transparent)]
     Grid(#[from] LatticeError),
+    /// Surfaces that adhere cannot be solved for.
+    #[error(transparent)]
+    Adhesive(#[from] AdhesiveError),
     /// The cell is too oblong to be refined.
     #[error(transparent)]
     TooOblong(#[from] TooOblong),

@@ -5,7 +5,8 @@ use super::record::STEP;
 use crate::measured::Measured;
 use crate::quantity::{Named, Quantity};
 use crate::reading::{
-    LEVEL, LIFE, Life, PLASTIC, PlasticReading, READING, ROUGH, Reading, RoughReading, SLIP, SlipReading, UTILISATION,
+    ADHESION, AdhesionReading, LEVEL, LIFE, Life, PLASTIC, PlasticReading, READING, ROUGH, Reading, RoughReading, SLIP,
+    SlipReading, UTILISATION,
 };
 use crate::stress::maxima::{CARRIED, EXTREMES, Extremes};
 
@@ -55,6 +56,14 @@ impl Part<SlipReading> for StepRecord {
 
     fn part(&self) -> Option<&SlipReading> {
         self.tangential.as_ref()
+    }
+}
+
+impl Part<AdhesionReading> for StepRecord {
+    const PATH: &'static str = "adhesion.";
+
+    fn part(&self) -> Option<&AdhesionReading> {
+        self.adhesion.as_ref()
     }
 }
 
@@ -116,6 +125,7 @@ pub fn of_step() -> Vec<&'static dyn OfStep> {
         .chain(each(ROUGH.each()))
         .chain(each(PLASTIC.each()))
         .chain(each(SLIP.each()))
+        .chain(each(ADHESION.each()))
         .chain(each(EXTREMES.each()))
         .chain(each(LIFE.each()))
         .collect()
@@ -141,6 +151,7 @@ pub fn declared() -> Vec<(&'static str, &'static Named)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::adhesion::{Adhesion, AdhesionLaw};
     use crate::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Strength};
     use crate::counterbody::{Indenters, Level, Shape, Topography};
     use crate::friction::Friction;
@@ -163,8 +174,8 @@ mod tests {
         HalfSpace::new(vec![coating], substrate).with_substrate_strength(strength).unwrap()
     }
 
-    /// The last of two steps that press a ball into a window, of two that press waves, and of one that rolls.
-    fn steps() -> [StepRecord; 3] {
+    /// The last of two steps that press a ball into a window, of two that press waves, of one that rolls, and of one that adheres.
+    fn steps() -> [StepRecord; 4] {
         let last = |problem: Problem, loads: [f64; 2]| {
             let mut run = Run::new(problem, loads.map(Load::Force).to_vec(), Sampling::Points([32; 2]));
             run.stress = Some(StressRequest { strain: true, ..StressRequest::default() });
@@ -177,7 +188,18 @@ mod tests {
         let heights = ndarray::Array2::from_shape_fn((32, 32), |(i, j)| height(i) + height(j));
         let waves = Topography::new(Cell::square(1.0).unwrap(), heights).unwrap();
         let pressed = last(Problem::new(ball.clone(), body()), [0.005, 0.01]);
-        [pressed, last(Problem::new(waves, body()), [0.01, 0.02]), rolled(ball)]
+        let adheres = adhering(ball.clone());
+        [pressed, last(Problem::new(waves, body()), [0.01, 0.02]), rolled(ball), adheres]
+    }
+
+    /// A step that adheres, held by a grip.
+    fn adhering(ball: Indenters) -> StepRecord {
+        let adhesion = Adhesion::new(0.001, 0.01, AdhesionLaw::Dugdale).unwrap();
+        let problem = Problem::new(ball, HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap()));
+        let loads = [0.01, 0.005].map(|position| Load::Grip { position, stiffness: 1.0 }).to_vec();
+        let mut run = Run::new(problem.adhering(adhesion).unwrap(), loads, Sampling::Points([48; 2]));
+        run.stress = Some(StressRequest::default());
+        run.solve(&mut ()).unwrap().steps.pop().unwrap()
     }
 
     /// A step that rolls.

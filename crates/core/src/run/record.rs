@@ -7,8 +7,8 @@ use crate::numeric::serialised;
 use crate::problem::Problem;
 use crate::quantity::quantities;
 use crate::reading::{
-    Beneath, Criterion, FatigueReading, Governing, PathReading, PlasticReading, Reading, RoughReading, SlipReading,
-    StressReading, Utilisation, stiffness, within_the_errors,
+    AdhesionReading, Beneath, Criterion, FatigueReading, Governing, PathReading, PlasticReading, Reading, RoughReading,
+    SlipReading, StressReading, Utilisation, stiffness, within_the_errors,
 };
 use crate::spectral::{Certificate, Report, Route, Step, Stop};
 use serde::{Deserialize, Serialize};
@@ -62,6 +62,9 @@ quantities! {
         /// Partial slip; `None` where nothing sticks.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub tangential: Option<SlipReading>,
+        /// Adhesion; `None` of surfaces that do not pull each other.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub adhesion: Option<AdhesionReading>,
         /// Largest stresses; `None` where they are not computed, without contact, and under loads of a search for limits that are not shown.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub stress: Option<StressReading>,
@@ -140,6 +143,7 @@ impl StepRecord {
             beneath,
             friction: step.problem().friction().map(|_| sliding),
             tangential: None,
+            adhesion: None,
             stress: None,
             strength: Vec::new(),
             governing: None,
@@ -164,6 +168,17 @@ impl StepRecord {
         Self { tangential: Some(slip), stop, ..self }
     }
 
+    /// The record with adhesion.
+    #[must_use]
+    pub(super) fn with_adhesion(self, adhesion: Option<AdhesionReading>) -> Self {
+        Self { adhesion, ..self }
+    }
+
+    /// Whether anything acts on the bodies.
+    pub(super) fn is_loaded(&self) -> bool {
+        self.reading.max_pressure > 0.0 || self.adhesion.as_ref().is_some_and(|adhesion| adhesion.adhesive_load > 0.0)
+    }
+
     /// Adds the stiffness dp̄/dδ of topographies, which depends on all steps of a path; of an isolated contact dP/dδ, where its
     /// tangent has not given it.
     pub(super) fn add_stiffness(steps: &mut [Self]) {
@@ -173,6 +188,10 @@ impl StepRecord {
             let load = mean_pressure.unwrap_or(force);
             if step.converged() { [load, penetration] } else { [f64::NAN; 2] }
         };
+        // Of surfaces that adhere a load has several penetrations.
+        if steps.iter().any(|step| step.adhesion.is_some()) {
+            return;
+        }
         let path: Vec<[f64; 2]> = steps.iter().map(place).collect();
         for (step, found) in steps.iter_mut().zip(stiffness(&path)) {
             let is_wanted = step.contact_stiffness.is_none();

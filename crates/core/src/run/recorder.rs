@@ -1,8 +1,8 @@
 //! The recorder of a run, which is called during the run and may end it.
 
-use super::{EarlierRun, StepRecord};
+use super::{EarlierRun, GridStart, StepRecord};
 use crate::load::Load;
-use crate::spectral::{Checkpoint, Progress, Solver, Step};
+use crate::spectral::{Checkpoint, Progress, Step};
 use crate::stress::StressFields;
 use std::convert::Infallible;
 use std::error::Error;
@@ -26,7 +26,7 @@ pub trait Recorder: Send {
     ///
     /// # Errors
     /// Ends the run.
-    fn begin(&mut self, _solver: &Solver) -> Result<(), Self::Error> {
+    fn begin(&mut self, _start: &GridStart) -> Result<(), Self::Error> {
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! A run whose contact sticks and slips: loads, with a tangential force or shift at the end of each, or rolled at each.
 
-use super::{EarlierRun, Loading, Recorder, Run, RunError, Solved, StepRecord};
+use super::{EarlierRun, GridStart, Loading, Recorder, Run, RunError, Solved, StepRecord};
 use crate::friction::Friction;
 use crate::load::Load;
 use crate::problem::Problem;
@@ -84,7 +84,7 @@ impl Run {
     ) -> Result<Solved, RunError<R::Error>> {
         let mut solver = self.slip_solver(&self.problem, points)?;
         let cycle = cycle_of(motions, &self.loads);
-        recorder.begin(solver.normal()).map_err(RunError::Recorder)?;
+        recorder.begin(&GridStart::from(solver.normal())).map_err(RunError::Recorder)?;
         let mut records = finished.map_or_else(Vec::new, |earlier| earlier.steps);
         let known = records.len();
         if known >= self.loads.len() {

@@ -12,7 +12,7 @@ pub(super) fn beyond(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let told = levels.filter_map(|((number, level), index): ((usize, _), usize)| {
         let loads = steps.iter().filter_map(|(_, step)| step.reading.levels.get(index));
         // Merged contacts have no radius, but an area.
-        let radii = loads.filter(|level| level.load > 0.0).map(|level| (level.contact_area / PI).sqrt());
+        let radii = loads.filter(|level| level.touches()).map(|level| (level.contact_area / PI).sqrt());
         let ends = radii.fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], a| [low.min(a), high.max(a)]);
         outside(&problem.level_name(number).to_string(), level.shape(), ends)
     });

@@ -6,13 +6,14 @@
 use super::accuracy::RefinementEnd;
 use super::words::{Numbered, STEEP, list, ratio};
 use super::{StepRecord, ended, tip};
+use crate::adhesion::AdhesionLaw;
 use crate::counterbody::Shape;
 use crate::counterbody::roughness::Window;
 use crate::notation::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
-use crate::reading::{Errors, FEW_SAMPLES, Reading};
-use crate::spectral::{MIN_POINTS, Stop};
+use crate::reading::{Errors, FEW_SAMPLES, JumpKind, Reading};
+use crate::spectral::{FEW_SAMPLES as FEW_ACROSS, MIN_POINTS, Stop, soft_end};
 use std::f64::consts::PI;
 
 /// Part of load or contact on tapered heights from which on there is a warning.
@@ -49,6 +50,9 @@ pub(super) fn of_judged(
         beyond_hardness(all),
         slips_beyond_hardness(problem, all),
         coarse_path(judged),
+        detached(all),
+        coarse_zone(judged),
+        early_jumps(problem, judged),
         not_converged(all),
         at_window(problem, all),
         without_errors(judged),
@@ -110,9 +114,47 @@ fn coarse_path(steps: &[Numbered]) -> Option<String> {
     ))
 }
 
+/// Steps under a tensile force that nothing bears.
+fn detached(steps: &[Numbered]) -> Option<String> {
+    let list = list(steps, |step| step.stop == Stop::Detached)?;
+    Some(format!(
+        "nothing bears the tensile load of step {list}: the surfaces have come apart; prescribe load.penetration or load.grip to follow them beyond \
+         pull-off"
+    ))
+}
+
+/// Steps whose grid has few samples across the zone in which surfaces that adhere pull beside contact.
+fn coarse_zone(steps: &[Numbered]) -> Option<String> {
+    let samples = |step: &StepRecord| step.adhesion.as_ref().map_or(f64::INFINITY, |adhesion| adhesion.samples);
+    let list = list(steps, |step| samples(step) < FEW_ACROSS)?;
+    let least = steps.iter().map(|(_, step)| samples(step)).fold(f64::INFINITY, f64::min);
+    Some(format!(
+        "the zone in which the surfaces pull beside contact has {} samples in step {list}: forces may be a few per cent off; raise grid.points",
+        number(least)
+    ))
+}
+
+/// Jumps into contact by Dugdale's law, whose end is soft on a grid.
+fn early_jumps(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let adhesion = problem.adhesion().filter(|adhesion| adhesion.law() == AdhesionLaw::Dugdale)?;
+    let comes_together = |step: &StepRecord| {
+        let jumps = step.adhesion.iter().flat_map(|adhesion| &adhesion.jumps);
+        jumps.into_iter().any(|jump| jump.kind == JumpKind::In)
+    };
+    let list = list(steps, comes_together)?;
+    let samples =
+        steps.iter().filter_map(|(_, step)| Some(step.adhesion.as_ref()?.samples)).fold(f64::INFINITY, f64::min);
+    let early = 0.5 * soft_end(samples) * adhesion.range();
+    Some(format!(
+        "the surfaces jump together in step {list}: on this grid the tension ends softly, up to {} beyond its range, and they jump up to so much too \
+         early; a finer grid, or law = \"exponential\", has no such error",
+        number(early)
+    ))
+}
+
 /// Whether a stop has a warning of its own.
 fn is_told(stop: Stop) -> bool {
-    matches!(stop, Stop::Unresolved | Stop::AtBorder | Stop::BeyondHardness)
+    matches!(stop, Stop::Unresolved | Stop::AtBorder | Stop::BeyondHardness | Stop::Detached)
 }
 
 /// Warning of what a path presses into a softer body that slides away below the counterbody.
@@ -147,10 +189,17 @@ fn at_window(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 /// Steps that no coarser grid has solved too.
 fn without_errors(steps: &[Numbered]) -> Option<String> {
     let is_alone = |step: &StepRecord| {
-        let is_pressed = step.converged() && !step.kind().is_given && step.reading.max_pressure > 0.0;
+        let is_pressed = step.converged() && !step.kind().is_given && step.is_loaded();
         is_pressed && step.reading.errors == Errors::default()
     };
+    let adheres = steps.iter().any(|(_, step)| step.adhesion.is_some());
     let list = list(steps, is_alone)?;
+    if adheres {
+        return Some(format!(
+            "no coarser grid has solved step {list}, so the errors of the contact and of all that follows from it are unknown: half of the points do \
+             not resolve the zone in which the surfaces pull beside contact; raise grid.points"
+        ));
+    }
     Some(format!(
         "no coarser grid has solved step {list}, so the errors of the contact and of all that follows from it are unknown: solver.method = \
          \"preconditioned\" solves one from grid.points = {} along each side on, unless the load brings it to complete contact or to its \
@@ -161,7 +210,7 @@ fn without_errors(steps: &[Numbered]) -> Option<String> {
 
 fn few_samples(steps: &[Numbered]) -> Option<String> {
     let coarse =
-        |step: &StepRecord| step.reading.levels.iter().any(|level| level.load > 0.0 && level.resolution < FEW_SAMPLES);
+        |step: &StepRecord| step.reading.levels.iter().any(|level| level.touches() && level.resolution < FEW_SAMPLES);
     let list = list(steps, coarse)?;
     Some(format!(
         "a contact radius has fewer than {FEW_SAMPLES} samples in step {list}: its radius and peak pressure are rough; raise \
@@ -272,7 +321,7 @@ fn at_border(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let levels = problem.levels();
     let flanks = steps.iter().flat_map(|&(number, step)| {
-        let touching = step.reading.levels.iter().filter(|level| level.load > 0.0);
+        let touching = step.reading.levels.iter().filter(|level| level.touches());
         // Merged contacts have no radius, but an area.
         touching.map(move |level| (number, level.level, (level.contact_area / PI).sqrt()))
     });

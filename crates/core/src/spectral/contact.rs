@@ -10,6 +10,7 @@ use crate::numeric::array::view;
 use crate::numeric::sums;
 use crate::problem::Problem;
 use ndarray::ArrayView2;
+use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
 /// Partial slip in a step, sample by sample, a₂ fastest.
@@ -46,6 +47,8 @@ pub struct Contact {
     indented: Option<Arc<Vec<f64>>>,
     /// Partial slip; `None` where the traction follows from the friction.
     shear: Option<Arc<Shear>>,
+    /// Tension between surfaces that adhere, beside the pressure; `None` of others.
+    tension: Option<Arc<Vec<f64>>>,
     /// Counted at the first call of [`Self::spots`].
     spots: OnceLock<SpotCounts>,
 }
@@ -60,8 +63,8 @@ impl Contact {
         penetration: f64,
     ) -> Self {
         let (problem, surface) = (Arc::clone(problem), Arc::clone(surface));
-        let (indented, shear, spots) = (None, None, OnceLock::new());
-        Self { problem, surface, pressure, gap, penetration, indented, shear, spots }
+        let (indented, shear, tension, spots) = (None, None, None, OnceLock::new());
+        Self { problem, surface, pressure, gap, penetration, indented, shear, tension, spots }
     }
 
     /// The contact after earlier loads that have pressed in these depths, lengths, one per sample.
@@ -77,6 +80,24 @@ impl Contact {
     /// Partial slip on the samples; `None` where the tangential traction follows from the friction.
     pub fn shear(&self) -> Option<&Shear> {
         self.shear.as_deref()
+    }
+
+    /// The contact of surfaces that pull each other with a tension beside the pressure, one value per sample.
+    pub(super) fn with_tension(self, tension: Vec<f64>) -> Self {
+        Self { tension: Some(Arc::new(tension)), ..self }
+    }
+
+    /// Tension between surfaces that adhere, pressures ≥ 0 sample by sample, a₂ fastest; `None` of others.
+    pub fn tensions(&self) -> Option<&[f64]> {
+        self.tension.as_ref().map(|tension| &tension[..])
+    }
+
+    /// Pressure of contact less the tension sample by sample, a₂ fastest: what acts on the bodies.
+    pub fn net_pressures(&self) -> Cow<'_, [f64]> {
+        match &self.tension {
+            None => Cow::Borrowed(&self.pressure),
+            Some(tension) => self.pressure.iter().zip(&**tension).map(|(p, tension)| p - tension).collect(),
+        }
     }
 
     /// The contact under another pressure, closed wherever that presses.
@@ -107,7 +128,7 @@ impl Contact {
         self.surface.grid()
     }
 
-    /// Pressure p ≥ 0, in the unit of Young's modulus; axes along a₁ and a₂.
+    /// Pressure of contact p ≥ 0, in the unit of Young's modulus; axes along a₁ and a₂.
     pub fn pressure(&self) -> ArrayView2<'_, f64> {
         view(self.grid().points(), &self.pressure)
     }
@@ -146,17 +167,18 @@ impl Contact {
     /// coupled friction it is the energy stored by the pressure, without the work of the traction.
     pub fn elastic_energy(&self) -> f64 {
         // A uniform pressure does work where it displaces.
+        let pressure = self.net_pressures();
         let (mean, shift) = match self.problem.datum() {
-            Datum::MeanPlane => (sums::mean(&self.pressure), 0.0),
+            Datum::MeanPlane => (sums::mean(&pressure), 0.0),
             Datum::FarAway | Datum::Base => (0.0, self.penetration),
         };
         // w = g − f + δ; a uniform part of the pressure does no work with a displacement without mean, and would add rounding alone.
         let f = self.surface.gaps();
-        let [sum] = sums::of(f.len(), |i| [(self.pressure[i] - mean) * (self.gap[i] - f[i] + shift)]);
+        let [sum] = sums::of(f.len(), |i| [(pressure[i] - mean) * (self.gap[i] - f[i] + shift)]);
         0.5 * sum * self.grid().sample_area()
     }
 
-    /// Pressure sample by sample, a₂ fastest.
+    /// Pressure of contact sample by sample, a₂ fastest.
     pub fn pressures(&self) -> &[f64] {
         &self.pressure
     }

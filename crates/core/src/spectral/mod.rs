@@ -8,8 +8,10 @@
 //! - `grid_level`: a problem on one of its nested grids; `prolongation`: a solution carried over to the next finer one;
 //! - [`Solver`]: a problem on all of them, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid;
 //!   [`Checkpoint`]: the state from which an interrupted run continues;
+//! - `adhesive`: surfaces that pull each other, by the gap instead of the pressure;
 //! - [`Wear`]: implicit steps of wear around the operator of each grid, `sliding_mean` of the body that is swept; [`Worn`]: the depths worn off.
 
+mod adhesive;
 mod body_operator;
 mod by_rows;
 mod checkpoint;
@@ -37,6 +39,10 @@ mod wear_error;
 mod wear_state;
 mod worn;
 
+pub use adhesive::{
+    AdhesiveError, AdhesiveNumbers, AdhesiveSolver, AdhesiveStep, FEW_SAMPLES, FEWEST_SAMPLES, Jump, PullOff,
+    check_grid as check_adhesive_grid, samples as adhesive_samples, soft_end, widths as adhesive_widths, zone_law,
+};
 pub use checkpoint::{Checkpoint, OtherGrids};
 pub use contact::{Contact, Shear};
 pub use field_error::FieldError;

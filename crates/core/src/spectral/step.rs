@@ -77,7 +77,7 @@ impl Step {
 
     /// Displacement w into the body, a length, on a periodic cell with zero mean, on a rigid base from that; axes along a₁ and a₂.
     pub fn displacement(&self) -> Array2<f64> {
-        if self.pressure().iter().all(|&p| p == 0.0) {
+        if self.finest.net_pressures().iter().all(|&p| p == 0.0) {
             return Array2::zeros(self.grid().points());
         }
         &self.gap() - &self.surface().initial_gap() + self.penetration()

@@ -53,7 +53,8 @@ type FoundTouches = ([usize; 2], Vec<Option<FirstTouch>>);
 pub(super) fn touches(case: &Case, first: [usize; 2]) -> Result<Option<FoundTouches>, LatticeError> {
     // A single isolated contact touches under any load.
     let is_single = case.problem().kind().is_indentation() && case.problem().levels().len() == 1;
-    if case.problem().indenters().is_none() || is_single {
+    // Surfaces that adhere touch before any load, and part under none.
+    if case.problem().indenters().is_none() || is_single || case.problem().adhesion().is_some() {
         return Ok(None);
     }
     let [n1, n2] = balanced_points(&case.problem().cell(), POINTS);

@@ -59,6 +59,8 @@ pub struct Check {
     pub loads: Vec<f64>,
     /// Partial slip or rolling; `None` where nothing sticks.
     pub slip: Option<Slip>,
+    /// Law and regime of adhesion and what closed forms say, a sentence each; empty where surfaces do not pull.
+    pub adhesion: Vec<String>,
     /// First touches of the levels; `None` for a topography.
     pub touches: Option<Touches>,
     /// Roughness of a topography; `None` for indenters.
@@ -133,6 +135,7 @@ impl Check {
             quantity: case.load.quantity(),
             loads: case.load.values().to_vec(),
             slip,
+            adhesion: table::adhesion_words(case, &case.units()),
             touches,
             surface: Roughness::of(case)?,
             library_strengths: LibraryStrength::of_case(&json!(case)),
@@ -196,7 +199,7 @@ impl fmt::Display for Check {
         )?;
         writeln!(f, "disk: about {most}{}, {} while it runs{free}", bytes(disk), bytes(disk_while_running))?;
         let unit = match self.quantity {
-            "penetration" => self.units.length().clone(),
+            "penetration" | "grip" => self.units.length().clone(),
             "force" => self.units.force(),
             _ => self.units.pressure().clone(),
         };
@@ -211,6 +214,7 @@ impl fmt::Display for Check {
             let how = if rolls { "rolls at each load" } else { "sticks and slips" };
             writeln!(f, "tangential: the contact {how}, steps: {steps}; surfaces are elastic, a hardness is left out")?;
         }
+        self.adhesion.iter().try_for_each(|sentence| f.write_str(&table::indented(sentence, WIDTH)))?;
         let none = if self.strengths.is_empty() { " none given, failure is not checked" } else { "" };
         writeln!(f, "strengths:{none}")?;
         self.strengths.iter().try_for_each(|sentence| f.write_str(&table::indented(sentence, WIDTH)))?;

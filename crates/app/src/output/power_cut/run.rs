@@ -8,8 +8,8 @@ use crate::output::{
     write_scalars,
 };
 use percoat_case::case::{Case, Source};
-use percoat_core::run::{EarlierRun, Recorder, StepRecord};
-use percoat_core::spectral::{Checkpoint, Solver, Step};
+use percoat_core::run::{EarlierRun, GridStart, Recorder, StepRecord};
+use percoat_core::spectral::{Checkpoint, Step};
 use percoat_core::stress::StressFields;
 use std::collections::BTreeMap;
 use std::fs;
@@ -57,8 +57,8 @@ impl Recorder for Watched<'_> {
         points[0] <= ROOM
     }
 
-    fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
-        self.recording.begin(solver)
+    fn begin(&mut self, start: &GridStart) -> Result<(), OutputError> {
+        self.recording.begin(start)
     }
 
     fn solved(&mut self, checkpoint: &Checkpoint) -> Result<(), OutputError> {

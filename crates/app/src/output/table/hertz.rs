@@ -11,9 +11,12 @@ use std::f64::consts::PI;
 
 /// Contact radius and penetration of the only indenter on the bare substrates, and under a ball the peak pressure, with the force of the last
 /// converged step with contact; and the relative differences of that step from them, in two lines. `None` unless the contact is isolated and
-/// that of one indenter, where no substrate is elastic, and where a surface is pressed in.
+/// that of one indenter, where no substrate is elastic, where a surface is pressed in, and of surfaces that adhere.
 pub fn hertz(case: &Case, steps: &[StepRecord], units: &Units) -> Option<[String; 2]> {
     let problem = case.problem();
+    if problem.adhesion().is_some() {
+        return None;
+    }
     let shape = problem.lone_indenter()?.shape();
     let step = steps.iter().rev().find(|step| step.reading.touches() && step.converged())?;
     if step.plastic.as_ref().is_some_and(PlasticReading::is_pressed_in) {

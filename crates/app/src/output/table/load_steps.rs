@@ -61,7 +61,7 @@ fn detailed(steps: &[StepRecord], units: &Units) -> Table {
     let of = |quantity: &'static Quantity<LevelReading>, name| Column::of(quantity, name, units, levels());
     let several = readings().any(|reading| reading.levels.len() > 1);
     // A single level has the whole load, and a single isolated indenter the force: no columns of level, load on one and share.
-    let has_force = |reading: &Reading| (reading.levels[0].load - reading.force).abs() <= NOTHING * reading.force;
+    let has_force = |reading: &Reading| (reading.levels[0].load - reading.force).abs() <= NOTHING * reading.force.abs();
     let is_alone = |reading: &Reading| reading.surroundings() == Surroundings::FreeSpace && has_force(reading);
     let mut columns: Vec<Column<'_, LevelReading>> = Vec::new();
     if several {
@@ -96,7 +96,7 @@ fn contact_radius<'a>(all: impl Iterator<Item = &'a LevelReading>, units: &Units
     let Named { name, kind, .. } = radius.named;
     let length = units.unit(kind).suited(all.filter_map(|level| radius.of(level)).map(|found| found.value));
     Column::new(length.headed(name), move |level: &LevelReading| match radius.of(level) {
-        _ if level.load == 0.0 => "–".to_owned(),
+        _ if !level.touches() => "–".to_owned(),
         Some(found) if level.ring => match radius_inner.of(level).zip(radius_outer.of(level)) {
             Some((inner, outer)) => format!("ring {} to {}", in_unit(&length, inner), in_unit(&length, outer)),
             None => format!("ring, area of {}", number(length.shown(found.value))),

@@ -1,5 +1,6 @@
 //! Tables of results for the terminal and the report.
 
+mod adhesion;
 mod alone;
 mod assumed;
 mod by_step;
@@ -15,6 +16,7 @@ mod strains;
 mod strength;
 mod text;
 
+pub use adhesion::{adhesion, adhesion_words, adhesive_loss, adhesive_path};
 pub use alone::alone;
 pub(super) use assumed::BARS;
 pub use assumed::{Assumptions, library_strengths, scatter};
@@ -36,6 +38,7 @@ use super::{ComparisonFile, LifeFile, Timing};
 use percoat_case::case::{Case, SurfaceSection};
 use percoat_case::units::Units;
 use percoat_common::plain;
+use percoat_core::measured::Measured;
 use percoat_core::numeric::search::largest;
 use percoat_core::quantity::{Named, Quantity};
 use percoat_core::reading::{LEVEL, READING};
@@ -64,6 +67,10 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     }
     if let Some((words, table)) = slip(steps, &units) {
         text += &format!("{}{}\n\n", lines(&words, width), table.fitted(width));
+    }
+    if let Some((words, table)) = adhesion(case, steps, &units) {
+        text += &words.iter().map(|words| lines(words, width)).collect::<String>();
+        text += &format!("{}\n\n", fitted(&table));
     }
     text += &hertz(case, steps, &units).map_or(String::new(), |lines| format!("{}\n", lines.join(";\n")));
     let largest = largest_stresses(steps, &units);
@@ -210,18 +217,21 @@ fn spots(steps: &[StepRecord]) -> Option<String> {
 
 /// The largest estimated discretisation errors of all steps, in a line; `None` where there are none.
 pub fn largest_errors(steps: &[StepRecord]) -> Option<String> {
-    // Relative errors of rounding are no errors of the grid.
-    fn most<'a, R: 'static>(quantity: &Quantity<R>, all: impl Iterator<Item = &'a R>) -> Option<f64> {
-        let errors = all.filter_map(|record| quantity.finite(record)?.relative());
-        errors.filter(|error| *error > NOTHING).reduce(f64::max)
+    // Relative errors of rounding are no errors of the grid. Values of surfaces that adhere pass through zero: their errors are over the largest one.
+    fn most<'a, R: 'static>(quantity: &Quantity<R>, all: impl Iterator<Item = &'a R>, adheres: bool) -> Option<f64> {
+        let found: Vec<Measured> = all.filter_map(|record| quantity.finite(record)).collect();
+        let largest = found.iter().map(|found| found.value.abs()).fold(0.0, f64::max);
+        let relative = |found: &Measured| if adheres { Some(found.error? / largest) } else { found.relative() };
+        found.iter().filter_map(relative).filter(|error| *error > NOTHING).reduce(f64::max)
     }
+    let adheres = steps.iter().any(|step| step.adhesion.is_some());
     let readings = || steps.iter().map(|step| &step.reading);
     let is_given = steps.iter().any(|step| step.kind().is_given);
     let whole = [&READING.penetration, &READING.max_pressure];
-    let whole = whole.map(|quantity| (quantity.named.of(is_given), most(quantity, readings())));
+    let whole = whole.map(|quantity| (quantity.named.of(is_given), most(quantity, readings(), adheres)));
     let of_level = [&LEVEL.load, &LEVEL.contact_radius];
-    let of_level =
-        of_level.map(|quantity| (quantity.named.name, most(quantity, readings().flat_map(|reading| &reading.levels))));
+    let of_level = of_level
+        .map(|quantity| (quantity.named.name, most(quantity, readings().flat_map(|reading| &reading.levels), adheres)));
     let texts: Vec<String> =
         whole.into_iter().chain(of_level).filter_map(|(name, error)| Some(format!("{name} {:.1e}", error?))).collect();
     (!texts.is_empty()).then(|| format!("estimated relative discretisation errors, at most: {}", texts.join(", ")))

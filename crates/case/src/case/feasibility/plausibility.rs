@@ -1,6 +1,6 @@
 //! Warnings about a case that can be solved but is implausible: units mixed up, strains that are not small.
 
-use super::{ball, durability, si_sizes, springs, sublayers};
+use super::{adhesion, ball, durability, si_sizes, springs, sublayers};
 use crate::case::{Case, LayerSection, LevelSection};
 use percoat_core::body::{HalfSpace, Material, MeanStress};
 use percoat_core::counterbody::{Level, Shape, Topography, half_angle};
@@ -27,6 +27,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
     doubts.extend(strengths(case));
     doubts.extend(durability::doubts(case, &named));
     doubts.extend(friction(case));
+    doubts.extend(adhesion::doubts(case));
     doubts.extend(springs::drifting(case, cell));
     doubts.extend(lengths(case, cell));
     doubts.extend(ball::doubts(case));

@@ -19,8 +19,12 @@ const ROOM: f64 = 1.3;
 const CONTACT_WAVES: [f64; 2] = [1.5, 3.0];
 
 /// Warnings about steep flanks at the highest load and few samples at the lowest. `touches` are the mean pressures of first touch
-/// of the levels, where known.
+/// of the levels, where known. Closed forms without tension say nothing of surfaces that adhere.
 pub fn foreseen(case: &Case, touches: &[Option<f64>]) -> Vec<String> {
+    // The formulas are those of surfaces that do not pull.
+    if case.adhesion.is_some() {
+        return Vec::new();
+    }
     let flanks = steep_flank(case).or_else(|| steep_ball(case));
     flanks.into_iter().chain(few_samples(case, touches)).chain(narrow_window(case)).collect()
 }

@@ -38,6 +38,7 @@ impl NamedKey {
             Unit::Length => units.length().clone(),
             Unit::Pressure => units.pressure().clone(),
             Unit::Force => units.force(),
+            Unit::PressureTimesLength => units.energy_per_area(),
             Unit::PerPressure => over(&|name| format!("1/{name}"), units.pressure()),
             Unit::PressurePerLength => {
                 let length = units.length().name();

@@ -13,6 +13,8 @@ pub(in crate::case) enum Unit {
     PerPressure,
     /// Unit of stiffnesses of springs.
     PressurePerLength,
+    /// Unit of energies per area, and of forces per length.
+    PressureTimesLength,
     /// Unit of the coefficient of a power law.
     LengthToOneMinusN,
     /// Units of the coefficients of an area function.
@@ -35,6 +37,9 @@ impl Unit {
             Self::Force => "pressure times length squared: mN in a case of GPa and µm, N in one of MPa and mm",
             Self::PerPressure => "one over a pressure: 1/GPa in a case of GPa",
             Self::PressurePerLength => "pressure per length",
+            Self::PressureTimesLength => {
+                "pressure times length: kJ/m² or kN/m in a case of GPa and µm, J/m² in one of MPa and µm"
+            }
             Self::LengthToOneMinusN => "length to the power 1 − n",
             Self::AreaCoefficient => "none of C₀, length of C₁, length to the power 3/2 of C₂, …",
             Self::Degree => "degrees",
@@ -51,6 +56,7 @@ impl Unit {
             Self::Force => "force",
             Self::PerPressure => "1/pressure",
             Self::PressurePerLength => "pressure per length",
+            Self::PressureTimesLength => "energy per area or force per length",
         }
     }
 }

@@ -75,7 +75,7 @@ impl<'a, E: Send> Search<'a, E> {
         let linearised = self.linearised(t);
         self.trials += 1;
         let rms = linearised.as_ref().ok().map(|linearised| self.rms(&linearised.model.contacts));
-        match listener(Trial { number: self.trials, rms }) {
+        match listener(Trial { number: self.trials, rms, is_of_forces: false }) {
             ControlFlow::Continue(()) => linearised,
             ControlFlow::Break(()) => {
                 self.is_stopped = true;

@@ -40,7 +40,7 @@ mod words;
 pub use limits::{At, Limit, LimitStep, Limits, SearchEnd, first, rivals};
 pub use search::EVENTS;
 
-use super::{Recorder, Refinement, Run, RunError, Sampling};
+use super::{Recorder, Run, RunError, Sampling};
 use crate::reading::Criterion;
 use search::LimitSearch;
 use std::convert::Infallible;
@@ -63,7 +63,7 @@ impl Run {
             return Err(RunError::NoStrengths);
         }
         self.checked_sampling()?;
-        Ok(())
+        self.check_adhesion()
     }
 
     /// Searches the limit loads of all criteria.
@@ -108,7 +108,7 @@ impl Run {
         let mut limits = match self.sampling {
             Sampling::Points(points) => LimitSearch::on_grid(self, (points, most), recorder)?,
             Sampling::Accuracy(accuracy) => {
-                let mut refinement = Refinement::new(&self.problem.cell(), accuracy)?;
+                let mut refinement = self.refinement(accuracy)?;
                 let mut coarse: Option<Limits> = None;
                 loop {
                     let points = refinement.points();

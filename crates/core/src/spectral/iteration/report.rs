@@ -32,6 +32,8 @@ pub enum Stop {
     /// The prescribed mean pressure is not below the hardness of the surface, which no pressure exceeds; or at the prescribed penetration
     /// all of the surface is at it, as at any greater one: nothing is left that is elastic.
     BeyondHardness,
+    /// Surfaces that adhere have come apart under a tensile force, which nothing bears.
+    Detached,
     /// Contact reaches the border of the window of an isolated contact, beyond which it would go on.
     AtBorder,
     /// The progress callback has ended the step.
@@ -44,7 +46,7 @@ pub enum Stop {
 impl Stop {
     /// Whether the returned pressure solves the problem, to the tolerance or as far as double precision carries.
     pub fn solved(self) -> bool {
-        matches!(self, Self::Converged | Self::Rounding | Self::NoContact)
+        matches!(self, Self::Converged | Self::Rounding | Self::NoContact | Self::Detached)
     }
 }
 
@@ -59,6 +61,7 @@ impl fmt::Display for Stop {
             Self::Unresolved => "unresolved",
             Self::BeyondFullContact => "beyond full contact",
             Self::BeyondHardness => "beyond the hardness",
+            Self::Detached => "detached",
             Self::AtBorder => "at the border of the window",
             Self::Interrupted => "interrupted",
             Self::NotANumber => "not a number",

@@ -375,7 +375,7 @@ impl StepEnd {
         other.with_value(match other {
             Load::MeanPressure(_) => self.mean_pressure,
             Load::Force(_) => self.mean_pressure * area,
-            Load::Penetration(_) => self.penetration,
+            Load::Penetration(_) | Load::Grip { .. } => self.penetration,
         })
     }
 }

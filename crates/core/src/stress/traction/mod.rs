@@ -24,7 +24,7 @@ pub struct Traction<'a> {
     tangential: Tangential<'a>,
     /// Discs of a given pressure that the samples stand for; none of another pressure.
     discs: Vec<LoadedDisc>,
-    /// Whether the pressure is that of a contact, which vanishes at edges.
+    /// Whether the pressure is that of a contact, which vanishes at edges; between surfaces that adhere it ends with a tension.
     is_contact: bool,
     /// Axis along which nothing changes, see [`Counterbody::line`](crate::Counterbody::line).
     line: Option<usize>,
@@ -81,13 +81,15 @@ impl<'a> Traction<'a> {
         let beta = problem.bodies().dundurs_beta();
         Self {
             grid: Arc::clone(contact.grid()),
-            pressure: contact.pressures().into(),
-            tangential: match contact.shear() {
-                Some(shear) => Tangential::Fields(shear.traction.each_ref().map(|field| (&field[..]).into())),
-                None => coulomb(problem.friction(), beta),
+            pressure: contact.net_pressures(),
+            tangential: match (contact.shear(), contact.tensions()) {
+                (Some(shear), _) => Tangential::Fields(shear.traction.each_ref().map(|field| (&field[..]).into())),
+                (None, None) => coulomb(problem.friction(), beta),
+                // The tension does not rub.
+                (None, Some(_)) => rubbed(problem.friction(), contact.pressures()),
             },
             discs: discs_under(contact),
-            is_contact: problem.counterbody().is_some(),
+            is_contact: problem.counterbody().is_some() && problem.adhesion().is_none(),
             line: problem.loaded_by().line(),
         }
     }
@@ -198,10 +200,11 @@ impl<'a> Traction<'a> {
         self.pressure[sample] != 0.0 || self.fields().is_some_and(|fields| fields.iter().any(|q| q[sample] != 0.0))
     }
 
-    /// The largest pressure, or where it is larger that of the tangential tractions of fields, a pressure.
+    /// The largest pressure or tension, or where it is larger that of the tangential tractions of fields, a pressure.
     pub(super) fn largest(&self) -> f64 {
         let fields = self.fields();
-        let of = |i: usize| fields.map_or(self.pressure[i], |[x, y]| self.pressure[i].max(x[i].hypot(y[i])));
+        let size = |i: usize| self.pressure[i].abs();
+        let of = |i: usize| fields.map_or(size(i), |[x, y]| size(i).max(x[i].hypot(y[i])));
         -sums::least(self.pressure.len(), |i| -of(i))
     }
 }
@@ -210,6 +213,15 @@ impl<'a> Traction<'a> {
 fn coulomb<'a>(friction: Option<&Friction>, beta: f64) -> Tangential<'a> {
     let rubs = |friction: &&Friction| friction.traction() != [0.0; 2];
     friction.filter(rubs).map_or(Tangential::None, |&friction| Tangential::Coulomb { friction, beta })
+}
+
+/// μ p **e** as fields, sample by sample.
+fn rubbed<'a>(friction: Option<&Friction>, pressure: &[f64]) -> Tangential<'a> {
+    let rubs = |friction: &&Friction| friction.traction() != [0.0; 2];
+    friction.filter(rubs).map_or(Tangential::None, |friction| {
+        let along = |ratio: f64| pressure.iter().map(|p| ratio * p).collect::<Vec<f64>>().into();
+        Tangential::Fields(friction.traction().map(along))
+    })
 }
 
 /// The samples of a field, a₂ fastest.

@@ -68,5 +68,9 @@ pub(super) const DAMAGE_LINES: u64 = 512;
 /// 830 to 870 were measured; and its fields in files.
 pub(super) const SLIP: u64 = 950;
 pub(super) const SLIP_FIELDS: u64 = 40;
+/// Per sample of the cell, or of the torus around a window, of surfaces that adhere: the last three states of a path and those that are
+/// tried, working fields and operators, on both grids; and the tension in files.
+pub(super) const ADHESION: u64 = 300;
+pub(super) const TENSION: u64 = 8;
 /// Per sample of the stresses and step, where something tires in a cycle of partial slip: the step, and its stress fields on both grids.
 pub(super) const MOMENT: u64 = 150;

@@ -1,9 +1,9 @@
 //! Memory and disk of each job: the larger of solving and drawing, and the files that it writes.
 
 use super::constants::{
-    AGAIN, CHECKPOINTS, COMPARED, COMPARISON, CURVES, CUTS, DAMAGE, DAMAGE_LINES, DEPTHS, FIELD, KEPT, MAPS, MOMENT,
-    PICTURE, PLACES, PROGRAM, READING, SEARCH, SHOWN, SLIP, SLIP_FIELDS, SPOT_FIELDS, STATE, STEP, STRESS, STRESSES,
-    WORN,
+    ADHESION, AGAIN, CHECKPOINTS, COMPARED, COMPARISON, CURVES, CUTS, DAMAGE, DAMAGE_LINES, DEPTHS, FIELD, KEPT, MAPS,
+    MOMENT, PICTURE, PLACES, PROGRAM, READING, SEARCH, SHOWN, SLIP, SLIP_FIELDS, SPOT_FIELDS, STATE, STEP, STRESS,
+    STRESSES, TENSION, WORN,
 };
 use super::job::Needs;
 use super::stress_needs::{of_series, of_shells, of_stress};
@@ -12,6 +12,7 @@ use percoat_core::localized::Setup;
 use percoat_core::reading::Criterion;
 use percoat_core::run::places::{MOST_ROWS, SECTION};
 use percoat_core::run::{EVENTS, Sampling};
+use percoat_core::spectral::adhesive_widths;
 
 /// Whether a surface has a hardness.
 pub(super) fn yields(case: &Case) -> bool {
@@ -48,8 +49,9 @@ pub(super) fn of_solving(
     let drawing = PROGRAM + KEPT * samples + heights + sheets;
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
     let sticks = case.tangential.is_some();
-    let depths = if yields(case) { DEPTHS } else { 0 } + if sticks { SLIP_FIELDS } else { 0 };
-    let slip = of_slip(case, samples, series, stress > 0);
+    let tension = if case.adhesion.is_some() { TENSION } else { 0 };
+    let depths = if yields(case) { DEPTHS } else { 0 } + if sticks { SLIP_FIELDS } else { 0 } + tension;
+    let slip = of_slip(case, samples, series, stress > 0) + of_adhesion(case, samples);
     let (fields, written, volume) =
         if fields { (steps * (24 + depths) * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
     let drawn = 3 + 2 * u64::from(case.has_cut()) + u64::from(steps > 1) + u64::from(sticks);
@@ -70,6 +72,13 @@ fn of_slip(case: &Case, samples: u64, series: u64, stressed: bool) -> u64 {
     let bodies = case.problem().bodies();
     let tires = stressed && (bodies.tire() || bodies.have_endurance());
     SLIP * samples + if tires { case.step_count() as u64 * MOMENT * series } else { 0 }
+}
+
+/// States of surfaces that adhere; nothing of others.
+fn of_adhesion(case: &Case, samples: u64) -> u64 {
+    let is_isolated = case.problem().kind().is_indentation();
+    let torus = if is_isolated { adhesive_widths(&case.problem().cell()).iter().product::<usize>() as u64 } else { 1 };
+    if case.adhesion.is_some() { ADHESION * torus * samples } else { 0 }
 }
 
 /// Steps that stay in memory, without files.
@@ -109,7 +118,7 @@ pub(super) fn of_limits(case: &Case, samples: u64, [grids, working, heights]: [u
     // The steps that are shown stay in memory while those at higher limits are solved.
     let shown = Criterion::all(case.problem().bodies()).len().clamp(1, EVENTS) as u64 - 1;
     let stress = of_bodies + SEARCH * series + of_shells(case, series) + shown * SHOWN * samples;
-    let slip = of_slip(case, samples, series, true);
+    let slip = of_slip(case, samples, series, true) + of_adhesion(case, samples);
     let solving = PROGRAM + grids + heights + slip + working.max(READING * samples).max(stress);
     let disk = COMPARISON + if pictures { (1 + EVENTS as u64) * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: disk }

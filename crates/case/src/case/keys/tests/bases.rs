@@ -62,6 +62,20 @@ fn slipping(case: String) -> impl Iterator<Item = String> {
     keys.into_iter().map(move |keys| format!("{case}friction = {{ coefficient = 0.1 }}\ntangential = {{ {keys} }}\n"))
 }
 
+/// Cases that adhere, with each key of `[adhesion]` and the loads that they alone have: a grip, and every load below 0.
+fn adhering(head: &str) -> [String; 6] {
+    let range = "{ from = 1e-3, to = 2e-3, steps = 3 }";
+    let loads =
+        ["mean_pressure", "force", "penetration", "grip"].map(|key| (format!("{key} = {range}"), "range = 0.1"));
+    let others = [("grip = 1e-3, machine_stiffness = 2.0", "range = 0.1"), ("force = 1e-3", "strength = 0.1")];
+    let [first, second] = others.map(|(load, keys)| (load.to_owned(), keys));
+    let [mean, force, penetration, grip] = loads;
+    [mean, force, penetration, grip, first, second].map(|(load, keys)| {
+        let body = BODY.replace("mean_pressure = 1e-3", &load);
+        format!("{head}{body}adhesion = {{ work = 1e-3, {keys} }}\n")
+    })
+}
+
 /// A case under a counterbody with layers.
 fn below_layers(case: &Table, layers: Value) -> String {
     let mut counterbody: Table =
@@ -137,7 +151,7 @@ impl Bases {
             ),
             BODY.to_owned(),
         ];
-        let texts = slipping(format!("{plain}{BODY}{uniform}")).chain(texts);
+        let texts = adhering(plain).into_iter().chain(slipping(format!("{plain}{BODY}{uniform}"))).chain(texts);
         Self { folder: folder(), cases: texts.map(|text| text.parse().unwrap()).collect() }
     }
 

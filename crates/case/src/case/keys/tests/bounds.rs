@@ -164,7 +164,7 @@ fn every_word_means_what_is_written_again() {
         }
     }
     // A range is written as its values.
-    let ranges = ["mean_pressure", "force", "penetration"];
+    let ranges = ["mean_pressure", "force", "penetration", "grip"];
     let expected = ranges.iter().flat_map(|key| ["linear", "log"].map(|word| format!("load.{key}.spacing = {word}")));
     assert_eq!(unwritten, expected.collect::<Vec<_>>());
 }

@@ -12,8 +12,8 @@ use super::{At, Limit, LimitStep, Limits, SearchEnd};
 use crate::load::LoadQuantity;
 use crate::problem::Problem;
 use crate::reading::{Criterion, Utilisation};
-use crate::run::{Loading, Recorder, Run, RunError, StepRecord};
-use crate::spectral::{SlipSolver, Solver, Step};
+use crate::run::{GridStart, Loading, Recorder, Run, RunError, StepRecord};
+use crate::spectral::{AdhesiveSolver, SlipSolver, Solver, Step};
 use crate::stress::Tables;
 use std::error::Error;
 use std::sync::Arc;
@@ -33,20 +33,25 @@ enum Loaded {
     Sliding(Box<Solver>),
     /// A counterbody that sticks and slips, with its history.
     Sticking(Box<SlipSolver>),
+    /// Surfaces that adhere, and the solver of the same contact without tension.
+    Adhering(Box<AdhesiveSolver>, Box<Solver>),
 }
 
 impl Loaded {
     fn new<E: Error + 'static>(run: &Run, problem: &Arc<Problem>, points: [usize; 2]) -> Result<Self, RunError<E>> {
+        let normal = || Ok::<_, RunError<E>>(Box::new(Solver::new(Arc::clone(problem), points, run.settings)?));
         Ok(if run.motions.is_some() {
             Self::Sticking(Box::new(run.slip_solver(problem, points)?))
+        } else if problem.adhesion().is_some() {
+            Self::Adhering(Box::new(AdhesiveSolver::new(Arc::clone(problem), points, run.settings)?), normal()?)
         } else {
-            Self::Sliding(Box::new(Solver::new(Arc::clone(problem), points, run.settings)?))
+            Self::Sliding(normal()?)
         })
     }
 
     fn full_contact_pressure(&mut self) -> f64 {
         match self {
-            Self::Sliding(solver) => solver.full_contact_pressure(),
+            Self::Sliding(solver) | Self::Adhering(_, solver) => solver.full_contact_pressure(),
             Self::Sticking(solver) => solver.full_contact_pressure(),
         }
     }
@@ -54,7 +59,7 @@ impl Loaded {
     /// The solver of the normal contact.
     fn normal(&self) -> &Solver {
         match self {
-            Self::Sliding(solver) => solver,
+            Self::Sliding(solver) | Self::Adhering(_, solver) => solver,
             Self::Sticking(solver) => solver.normal(),
         }
     }
@@ -91,7 +96,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     /// A search for the limits of a run up to the load `most` on a grid of `points`, before its first load.
     fn new(run: &'a Run, (points, most): ([usize; 2], f64), recorder: &'a mut R) -> Result<Self, RunError<R::Error>> {
         let mut solver = Loaded::new(run, &run.problem, points)?;
-        recorder.begin(solver.normal()).map_err(RunError::Recorder)?;
+        recorder.begin(&GridStart::from(solver.normal())).map_err(RunError::Recorder)?;
         // A flat surface is in complete contact at zero pressure, which does not end the search: its stresses grow with the load.
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
         let (quantity, area) = (run.quantity(), run.problem.cell().area());
@@ -102,7 +107,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let kind = run.problem.kind();
         let complete = if kind.may_be_complete() && filling < borne { filling } else { f64::INFINITY };
         let hardness_load = if kind.is_indentation() { f64::INFINITY } else { borne };
-        let windows = Windows::new(Arc::clone(&run.problem), complete.min(hardness_load).min(most));
+        let windows = Windows::new(Arc::clone(&run.problem), complete.min(hardness_load).min(most), points);
         let (tables, steps) = (Arc::default(), Vec::new());
         Ok(Self {
             run,
@@ -194,6 +199,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
         let (run, tables) = (self.run, &self.tables);
         let (record, step) = match &mut self.solver {
             Loaded::Sliding(solver) => run.solve_load(solver, tables, prescribed, (loading, None), self.recorder)?,
+            Loaded::Adhering(solver, _) => run.adhering_at(solver, prescribed, (loading, tables), self.recorder)?,
             Loaded::Sticking(solver) => run.worst_of_history(solver, prescribed, (limit, tables), self.recorder)?,
         };
         self.last = Some(step);
@@ -223,7 +229,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
             self.tables = Arc::default();
             self.solver = Loaded::new(self.run, &problem, points)?;
             self.window = window;
-            self.recorder.begin(self.solver.normal()).map_err(RunError::Recorder)?;
+            self.recorder.begin(&GridStart::from(self.solver.normal())).map_err(RunError::Recorder)?;
         }
         Ok(())
     }
