@@ -239,7 +239,7 @@ except (percoat.CaseError, MemoryError) as error:
 def test_there_is_no_such_case(tmp_path: Path) -> None:
     for call in (percoat.case, *CALLS.values(), percoat.HalfSpace.of, lambda case: percoat.kernel(case, 1.0)):
         message = refusal(lambda: call("fig22"))
-        assert message.startswith("fig22 is neither a file nor an embedded case (ball-on-disc, dlc-on-steel, fig2, ")
+        assert message.startswith("fig22 is neither a file nor an embedded case (afm-pull-off, ball-on-disc, dlc-on-steel, ")
         with pytest.raises(FileNotFoundError) as caught:
             call(tmp_path / "none.toml")
         assert caught.value.filename == str(tmp_path / "none.toml") and "none.toml" in str(caught.value)
