@@ -158,7 +158,9 @@ mod tests {
             let read = Summary::read(&serde_json::from_str(&written.to_json()).unwrap()).unwrap();
             // Names do not count in equality: the text has them.
             assert!(read == written && read.to_json() == written.to_json(), "{name}");
-            let substrate = &json!(steps)[steps.len() - 1]["stress"]["materials"][case.half_space().layers().len()];
+            // Surfaces that are drawn apart have no stresses.
+            let last = steps.iter().rfind(|step| step.stress.is_some());
+            let substrate = &json!(last)["stress"]["materials"][case.half_space().layers().len()];
             assert_eq!(substrate["max_tau1"]["name"].as_str(), named.map(|_| "steel"), "{name}");
             // A history takes long for each load; the program's test of a ball that is shaken reads its limits back.
             if case.tangential.is_none() && case.run().check_limits().is_ok() {
