@@ -40,7 +40,7 @@ section! {
                 .rule(NOT_NEGATIVE)
                 .instead_of("force")
                 .and_of(&["mean_pressure"]),
-        /// the position of a grip that holds the counterbody by a spring, the penetration and what the force stretches it by; with [adhesion]
+        /// the position of a grip that holds the counterbody by a spring, the penetration and what the force stretches it by, of surfaces that adhere
         pub grip: Option<Steps> = Key::new(&[SIGNED, LOADS, Form::Table(&PENETRATIONS)], "{ from = 0.01, to = -0.02, steps = 40 }")
             .unit(Unit::Length)
             .instead_of("penetration")

@@ -29,7 +29,7 @@ pub(super) enum Hold {
 }
 
 /// Widths of the torus of a window over those of the window: 2, and of a window that is oblong as many along its short side as make the torus at
-/// most [`OBLONG`] times as long as wide. (The images of a longer one displace its middle the other way, and its mean compliance would be negative.)
+/// most three times as long as wide. (The images of a longer one displace its middle the other way, and its mean compliance would be negative.)
 pub fn widths(window: &Cell) -> [usize; 2] {
     let lengths = window.vectors().map(|a| a[0].hypot(a[1]));
     let least = 2.0 * lengths[0].max(lengths[1]) / OBLONG;
