@@ -189,7 +189,8 @@ fn work_and_modulus_are_found_from_a_curve_of_drawing_off() {
     assert_eq!(pressed, Err(RetractionError::NoTension));
 }
 
-/// Three levels on a soft coating that are drawn apart: each lets go in a jump of its own, the lowest first, and each loses about the same.
+/// Indenters of three heights on a soft coating, drawn apart under a prescribed penetration: each level jumps apart at a penetration of its own, the
+/// lowest level first, and the three jumps lose the same energy within 15 %.
 #[test]
 fn levels_let_go_one_after_another() {
     let case = Case::read(&embedded::source("textured").unwrap(), &[]).unwrap();

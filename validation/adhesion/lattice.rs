@@ -1,6 +1,7 @@
 //! Balls of low density on a lattice: each is alone but for the mean displacement by all others.
 
 use super::setup::{adhering, advance, solver, unit};
+use super::spheres;
 use crate::exact::lattice_sums::TRIANGULAR;
 use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use percoat_core::adhesion::MaugisState;
@@ -33,12 +34,7 @@ pub fn add(outcome: &mut Outcome) -> Result<(), StudyError> {
             let shifted = place - 4.0 / 3.0 * alone.force * sum / (PI * PERIOD);
             if alone.penetration < shifted { low = middle } else { high = middle }
         }
-        let [mut from, mut to] = [MaugisState::pull_off(lambda).radius, 3.0];
-        for _ in 0..100 {
-            let middle = 0.5 * (from + to);
-            if MaugisState::at(middle, lambda).penetration < place { from = middle } else { to = middle }
-        }
-        let free = MaugisState::at(from, lambda).force;
+        let free = spheres::at(lambda, place, MaugisState::pull_off(lambda).radius).force;
         data.rows.push(vec![place, step.numbers.force * 0.75, alone.force, free]);
     }
     // The next term of the sum is (a/l)² = 1/250 of it, and the grid has nine samples across the zone that pulls.

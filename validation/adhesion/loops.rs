@@ -45,11 +45,6 @@ pub fn add(outcome: &mut Outcome) -> Result<(), StudyError> {
         1e-6,
     ));
     outcome.checks.push(Check::at_most(
-        "work of a loop less what its jumps lose, over what trapezoids miss",
-        (drawn[1] - drawn[2]).abs() / drawn[3],
-        1.0,
-    ));
-    outcome.checks.push(Check::at_most(
         "what trapezoids miss in a loop with two jumps, over what these lose",
         drawn[3] / drawn[2],
         0.03,

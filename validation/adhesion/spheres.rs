@@ -87,7 +87,7 @@ pub fn add(outcome: &mut Outcome, quick: bool) -> Result<(), StudyError> {
 }
 
 /// The state of Maugis' theory at a penetration above that of pull-off with a contact radius.
-fn at(lambda: f64, penetration: f64, radius: f64) -> MaugisState {
+pub fn at(lambda: f64, penetration: f64, radius: f64) -> MaugisState {
     let [mut low, mut high] = [radius, 4.0];
     for _ in 0..100 {
         let middle = 0.5 * (low + high);

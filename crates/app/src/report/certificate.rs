@@ -15,7 +15,7 @@ struct Condition {
     means: &'static str,
 }
 
-/// What the quantities mean.
+/// Meanings of the quantities, a sentence each, and whether the surfaces adhere.
 struct Words {
     adheres: bool,
     energy_gap: &'static str,
@@ -71,7 +71,7 @@ pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Marku
     let at_rounding = solved.iter().any(|step| step.stop == Stop::Rounding);
     let most = |of: fn(&StepRecord) -> f64| largest(solved.iter().map(|&step| of(step)));
     let words = Words::of(&solved);
-    // What the solver of surfaces that adhere ends by is the residual alone.
+    // The solver of surfaces that adhere ends by the residual alone.
     let tested = |limit: f64| tolerance.filter(|_| !words.adheres).map(|tolerance| limit * tolerance);
     let conditions = [
         Condition {

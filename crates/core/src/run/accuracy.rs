@@ -183,7 +183,7 @@ fn step_change(before: &StepRecord, now: &StepRecord, deepest: f64) -> f64 {
     largest([peak / pressure, penetration, load].into_iter().chain(levels))
 }
 
-/// What changes are measured by.
+/// Pressure, force and penetration by which changes between two grids are divided.
 struct Scales {
     pressure: f64,
     force: f64,

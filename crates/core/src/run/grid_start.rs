@@ -1,4 +1,4 @@
-//! What a recorder is told when a run begins on a grid.
+//! The grid that a recorder is told of when a run begins on it: problem, surface, and the grids in words.
 
 use crate::counterbody::Surface;
 use crate::lattice::Grid;

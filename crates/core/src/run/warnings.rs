@@ -13,7 +13,7 @@ use crate::notation::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
 use crate::reading::{Errors, FEW_SAMPLES, JumpKind, Reading};
-use crate::spectral::{FEW_SAMPLES as FEW_ACROSS, MIN_POINTS, Stop, soft_end};
+use crate::spectral::{FEW_ACROSS, MIN_POINTS, Stop, soft_end};
 use std::f64::consts::PI;
 
 /// Part of load or contact on tapered heights from which on there is a warning.

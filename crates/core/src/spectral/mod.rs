@@ -40,7 +40,7 @@ mod wear_state;
 mod worn;
 
 pub use adhesive::{
-    AdhesiveError, AdhesiveNumbers, AdhesiveSolver, AdhesiveStep, FEW_SAMPLES, FEWEST_SAMPLES, Jump, PullOff,
+    AdhesiveError, AdhesiveNumbers, AdhesiveSolver, AdhesiveStep, FEW_ACROSS, FEWEST_ACROSS, Jump, PullOff,
     check_grid as check_adhesive_grid, samples as adhesive_samples, soft_end, widths as adhesive_widths, zone_law,
 };
 pub use checkpoint::{Checkpoint, OtherGrids};

@@ -19,7 +19,7 @@ const SHOWN: usize = 12;
 /// A step by its number, with its adhesion.
 type Told<'a> = (usize, &'a StepRecord, &'a AdhesionReading);
 
-/// What the path has met: pull-off, jumps and what a closed path loses, a sentence each.
+/// Pull-off, jumps and the loss of a closed path, a sentence each.
 pub fn adhesive_path(steps: &[StepRecord], units: &Units) -> Vec<String> {
     let readings = || steps.iter().filter_map(|step| step.adhesion.as_ref());
     let (force, length) = (units.force(), units.length());
@@ -46,7 +46,7 @@ pub fn adhesive_path(steps: &[StepRecord], units: &Units) -> Vec<String> {
     pulled.into_iter().chain(jumps).chain(lost).collect()
 }
 
-/// What a closed path loses; `None` of others.
+/// Energy that a closed path loses; `None` of other paths.
 pub fn adhesive_loss(steps: &[StepRecord]) -> Option<Measured> {
     loss(
         steps.iter().filter_map(|step| Some(([step.reading.force, step.reading.penetration], step.adhesion.as_ref()?))),

@@ -66,7 +66,7 @@ struct Working {
     image: Vec<f64>,
 }
 
-/// What a look at a state finds.
+/// Residual of a state, with the size of F and whether the surfaces have come apart.
 struct Look {
     /// Samples of F.
     free: f64,
@@ -255,7 +255,7 @@ impl Minimiser<'_> {
         let Fields { gap, displacement, pressure } = fields;
         let elastic = &*self.elastic;
         sums::update(pressure, |i, p| p - length * image[i]);
-        // Afterwards the image holds what is added to the step.
+        // From here on `image` holds the clipped gap less the unclipped one, lengths that are added to the step.
         let stepped = |i: usize| gap[i] - length * direction[i];
         let clip = |i: usize| if elastic.is_inside(i) { (-stepped(i)).max(0.0) } else { 0.0 };
         let [clipped, sum, all] = sums::of(gap.len(), |i| [clip(i), stepped(i) + clip(i), gap[i]]);

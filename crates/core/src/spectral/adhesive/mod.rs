@@ -19,7 +19,7 @@ mod walk;
 
 pub use elastic::widths;
 pub use solver::{
-    AdhesiveError, AdhesiveSolver, AdhesiveStep, FEW_SAMPLES, FEWEST_SAMPLES, check_grid, samples, zone_law,
+    AdhesiveError, AdhesiveSolver, AdhesiveStep, FEW_ACROSS, FEWEST_ACROSS, check_grid, samples, zone_law,
 };
 pub use tension::soft_end;
 pub use track::Numbers as AdhesiveNumbers;

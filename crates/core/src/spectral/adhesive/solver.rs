@@ -18,9 +18,9 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// Fewest samples across the zone that pulls, below which its border locks on the grid.
-pub const FEWEST_SAMPLES: f64 = 1.5;
+pub const FEWEST_ACROSS: f64 = 1.5;
 /// Samples across the zone that pulls below which forces are several per cent off.
-pub const FEW_SAMPLES: f64 = 3.0;
+pub const FEW_ACROSS: f64 = 3.0;
 
 /// Relative error of a grid with so many samples across the zone that pulls: spheres on bare half-spaces against Maugis' theory, 1.4 to 20
 /// samples.
@@ -131,7 +131,7 @@ impl AdhesiveSolver {
         let line = problem.loaded_by().line();
         let coarse = nested_points(points, Method::Preconditioned, line).get(1).copied();
         let coarser = match coarse {
-            Some(points) if samples(&problem, &Grid::new(problem.cell(), points)?) >= FEWEST_SAMPLES => {
+            Some(points) if samples(&problem, &Grid::new(problem.cell(), points)?) >= FEWEST_ACROSS => {
                 Some(followed(points)?)
             }
             _ => None,
@@ -216,7 +216,7 @@ impl AdhesiveSolver {
         let convolutions = self.convolutions() - before;
         let mut contact = self.fine.track.step(&state, load, convolutions);
         contact.report.iterations = iterations;
-        let samples = samples(&self.problem, self.grid());
+        let samples = self.samples_across();
         let (coarser, coarser_pull_off) = match coarse {
             Some((step, numbers, pull_off)) => {
                 contact = contact.with_coarser(step);
@@ -262,10 +262,10 @@ pub fn samples(problem: &Problem, grid: &Grid) -> f64 {
 pub fn check_grid(problem: &Problem, grid: &Grid) -> Result<(), AdhesiveError> {
     let Some(adhesion) = problem.adhesion() else { return Ok(()) };
     let samples = samples(problem, grid);
-    if samples >= FEWEST_SAMPLES {
+    if samples >= FEWEST_ACROSS {
         return Ok(());
     }
     let zone = adhesion.cohesive_zone(problem.bodies().contact_modulus());
-    let factor = FEWEST_SAMPLES / samples;
+    let factor = FEWEST_ACROSS / samples;
     Err(AdhesiveError::Unresolved { zone, samples, factor, range: adhesion.range() * factor.sqrt() })
 }

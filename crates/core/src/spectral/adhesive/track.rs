@@ -38,7 +38,7 @@ pub(super) struct Track {
     settings: Settings,
 }
 
-/// What is prescribed.
+/// The prescribed quantity of a state: a force, or the position of a grip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Aim {
     /// The force on the cell, or on the isolated contact.

@@ -72,7 +72,7 @@ pub(super) struct Way {
     pub pull_off: Option<PullOff>,
 }
 
-/// What a step of a way has met.
+/// Jumps, work and iterations of a step.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Met {
     pub jumps: Vec<Jump>,
