@@ -48,6 +48,8 @@ mod limit_paths;
 mod limits;
 #[path = "library/lines.rs"]
 mod lines;
+#[path = "library/moving.rs"]
+mod moving;
 #[path = "library/operator.rs"]
 mod operator;
 #[path = "library/rigid_base.rs"]

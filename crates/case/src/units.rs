@@ -23,6 +23,7 @@ pub use percoat_common::unit::{CARRIED, Prefixed, Unit, is_force, is_length, is_
 pub struct Units {
     length: Unit,
     pressure: Unit,
+    time: Unit,
     quantity: LoadQuantity,
 }
 
@@ -45,12 +46,12 @@ impl Units {
         let pressure = is_one(reference.young()).then(|| format!("E{}", reference_index(half_space)));
         let relative = |symbol: Option<String>| symbol.map_or(Unit::None, Unit::Relative);
         let quantity = problem.kind().load_quantity();
-        Self { length: relative(length.map(str::to_owned)), pressure: relative(pressure), quantity }
+        Self { length: relative(length.map(str::to_owned)), pressure: relative(pressure), time: Unit::None, quantity }
     }
 
     /// Unknown units.
     pub fn unknown() -> Self {
-        Self { length: Unit::None, pressure: Unit::None, quantity: LoadQuantity::MeanPressure }
+        Self { length: Unit::None, pressure: Unit::None, time: Unit::None, quantity: LoadQuantity::MeanPressure }
     }
 
     /// The units with names for lengths, for pressures or for both.
@@ -59,8 +60,25 @@ impl Units {
         Self {
             length: length.map_or(self.length, |name| Unit::called(name, "m")),
             pressure: pressure.map_or(self.pressure, |name| Unit::called(name, "Pa")),
-            quantity: self.quantity,
+            ..self
         }
+    }
+
+    /// The units with a name for times.
+    #[must_use]
+    pub fn with_time(self, time: Option<&str>) -> Self {
+        Self { time: time.map_or(self.time, |name| Unit::Named(name.to_owned())), ..self }
+    }
+
+    /// Unit of times.
+    pub fn time(&self) -> &Unit {
+        &self.time
+    }
+
+    /// Unit of velocities: a length per time; [`Unit::None`] where one of both has no name.
+    pub fn velocity(&self) -> Unit {
+        let names = self.length.name().zip(self.time.name());
+        names.map_or(Unit::None, |(length, time)| Unit::Named(format!("{length}/{time}")))
     }
 
     /// The units with loads stated in this quantity.
@@ -129,7 +147,7 @@ impl Units {
             Kind::Energy => self.energy(),
             Kind::Stiffness => per(&self.force(), &self.length),
             Kind::PressurePerLength => per(&self.pressure, &self.length),
-            Kind::Fraction | Kind::Passes | Kind::Utilisation => Unit::None,
+            Kind::Fraction | Kind::Ratio | Kind::Passes | Kind::Utilisation => Unit::None,
             Kind::Strain => Unit::Strain,
         }
     }

@@ -21,12 +21,12 @@
 //! stands to its left:
 //!
 //! ```text
-//! numeric → notation → measured → quantity → lattice → load → kind → body → counterbody → friction → adhesion → problem → spectral → stress
+//! numeric → notation → measured → quantity → lattice → load → kind → body → counterbody → friction → steady_motion → adhesion → problem → spectral → stress
 //! → reading → identification → localized → run → life → comparison
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
-//! - [`load`], [`kind`], [`friction`], [`adhesion`], [`problem`]: loads, friction, tension, bodies and counterbody of a problem;
+//! - [`load`], [`kind`], [`friction`], [`steady_motion`], [`adhesion`], [`problem`]: loads, friction, motion, tension, bodies and counterbody of a problem;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`measured`]: values with their errors; [`quantity`]: names, symbols and kinds of what is read off a step, declared once;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
@@ -73,6 +73,7 @@ pub mod quantity;
 pub mod reading;
 pub mod run;
 pub mod spectral;
+pub mod steady_motion;
 pub mod stress;
 
 pub use adhesion::{Adhesion, AdhesionLaw};
@@ -96,6 +97,7 @@ pub use spectral::{
     AdhesiveSolver, AdhesiveStep, Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver,
     Step, Stop, Tangent, Wear, WearError, Worn,
 };
+pub use steady_motion::{MotionError, SteadyMotion};
 pub use stress::{
     DepthPlane, SlidingPath, StressField, StressFields, StressState, SurfaceLine, Traction, VerticalSection,
 };

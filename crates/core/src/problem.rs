@@ -6,6 +6,7 @@ use crate::counterbody::{Counterbody, GivenPressure, Indenters, Level, LevelName
 use crate::friction::{Friction, FrictionError};
 use crate::kind::{ContactKind, Datum};
 use crate::lattice::{Cell, Surroundings};
+use crate::steady_motion::{MotionError, SteadyMotion};
 use std::fmt;
 
 /// A half-space and what loads it, with or without friction. Both parts are checked at construction: every problem is valid.
@@ -15,6 +16,7 @@ pub struct Problem {
     bodies: Bodies,
     friction: Option<Friction>,
     adhesion: Option<Adhesion>,
+    motion: Option<SteadyMotion>,
     composite: Option<CompositeHardness>,
 }
 
@@ -24,7 +26,7 @@ impl Problem {
     /// one unit of length.
     pub fn new(loaded_by: impl Into<LoadedBy>, bodies: impl Into<Bodies>) -> Self {
         let (loaded_by, bodies) = (loaded_by.into(), bodies.into());
-        Self { loaded_by, bodies, friction: None, adhesion: None, composite: None }
+        Self { loaded_by, bodies, friction: None, adhesion: None, motion: None, composite: None }
     }
 
     /// The problem with friction.
@@ -61,6 +63,34 @@ impl Problem {
             () if self.friction.is_some_and(|friction| friction.couples()) => Err(AdhesionError::Coupled),
             () => Ok(()),
         }
+    }
+
+    /// The problem with a counterbody, or a given pressure, that moves steadily over the body, in the [direction](Self::direction) of the
+    /// friction.
+    ///
+    /// # Errors
+    /// [`MotionError`] where no material of the body relaxes, in the window of an isolated contact, and with hardness,
+    /// adhesion or a life by strain.
+    pub fn moving(self, motion: SteadyMotion) -> Result<Self, MotionError> {
+        match () {
+            () if !self.half_space().relaxes() => Err(MotionError::Elastic),
+            () if self.cell().surroundings() == Surroundings::FreeSpace => Err(MotionError::Isolated),
+            () if self.largest_hardness().is_some() => Err(MotionError::Hardness),
+            () if self.adhesion.is_some() => Err(MotionError::Adhesion),
+            () if self.bodies.last_by_strain() => Err(MotionError::Strain),
+            () => Ok(Self { motion: Some(motion), ..self }),
+        }
+    }
+
+    /// Steady motion; `None` at rest, and of elastic bodies.
+    pub fn motion(&self) -> Option<&SteadyMotion> {
+        self.motion.as_ref()
+    }
+
+    /// Velocity **v** of the counterbody, or of the given pressure, over the body, lengths per time; zero at rest, and of elastic bodies.
+    pub fn velocity(&self) -> [f64; 2] {
+        let speed = self.motion.map_or(0.0, |motion| motion.velocity());
+        self.direction().map(|e| speed * e)
     }
 
     /// Adhesion of the surfaces; `None` where they do not pull each other.
@@ -231,6 +261,7 @@ impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}\n{}", self.loaded_by, self.bodies)?;
         self.friction.iter().try_for_each(|friction| write!(f, "\n{friction}"))?;
+        self.motion.iter().try_for_each(|motion| write!(f, "\n{motion}"))?;
         self.adhesion.iter().try_for_each(|adhesion| write!(f, "\n{adhesion}"))
     }
 }

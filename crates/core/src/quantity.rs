@@ -36,6 +36,8 @@ pub enum Kind {
     PressurePerLength,
     /// A part of a whole.
     Fraction,
+    /// A ratio, as a coefficient of friction.
+    Ratio,
     /// A number of passes.
     Passes,
     /// A stress over a strength.
@@ -57,6 +59,7 @@ impl Kind {
             Self::Stiffness => "force per length",
             Self::PressurePerLength => "pressure per length",
             Self::Fraction => "fraction",
+            Self::Ratio => "ratio",
             Self::Passes => "passes",
             Self::Utilisation => "utilisation",
             Self::Strain => "strain",

@@ -37,7 +37,7 @@ impl Labels for Units {
     fn label(&self, named: &Named) -> Label {
         let Named { name, symbol, kind, .. } = *named;
         let unknown = match kind {
-            Kind::Fraction | Kind::Passes | Kind::Utilisation => return name.into(),
+            Kind::Fraction | Kind::Ratio | Kind::Passes | Kind::Utilisation => return name.into(),
             // The unit of a strain is known in every case.
             Kind::Strain => "",
             Kind::Pressure => "unit\u{a0}of\u{a0}E",

@@ -57,6 +57,14 @@ fn stresses(case: &Value, steps: &[StepRecord], units: &Units) -> Option<Section
     Some(section("stresses", "Largest stresses", vec![stresses, strains, assumed(case, false)]))
 }
 
+/// Friction by hysteresis of a moving load; `None` at rest.
+fn hysteresis(case: &Case, steps: &[StepRecord], units: &Units) -> Option<Section> {
+    let (words, found) = tables::hysteresis(case.problem(), steps, units)?;
+    let caption = "Friction by hysteresis; ± is the estimated error";
+    let words = words.iter().map(|words| tag("p", upper(words)));
+    Some(section("hysteresis", "Friction by hysteresis", words.chain([table(caption, &found)]).collect()))
+}
+
 /// The section of adhesion; `None` where surfaces do not pull each other.
 fn adhesion(case: &Case, steps: &[StepRecord], units: &Units) -> Option<Section> {
     let (words, all) = tables::adhesion(case, steps, units)?;
@@ -104,6 +112,7 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         let pressed = pressed.map(|pressed| table(caption, &pressed)).unwrap_or_default();
         sections.push(section("hardness", "Hardness", vec![tag("p", upper(&words)), pressed]));
     }
+    sections.extend(read.as_ref().and_then(|case| hysteresis(case, steps, &units)));
     if let Some((words, slip)) = tables::slip(steps, &units) {
         let caption = "Partial slip; ± is the estimated error of the grid and of steps in which the load changes";
         sections.push(section("slip", "Partial slip", vec![tag("p", upper(&words)), table(caption, &slip)]));

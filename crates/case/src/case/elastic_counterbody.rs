@@ -81,6 +81,7 @@ impl CounterbodySection {
             name: self.name.clone(),
             young: self.young,
             poisson: self.poisson,
+            relaxation: self.relaxation.clone(),
             yield_strength: self.yield_strength,
             tensile_strength: self.tensile_strength,
             hardness: self.hardness,

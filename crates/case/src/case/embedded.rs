@@ -5,7 +5,7 @@ use super::Source;
 /// Name of the case that runs when none is given.
 pub const DEFAULT: &str = "fig2";
 
-const CASES: [(&str, &str); 23] = [
+const CASES: [(&str, &str); 24] = [
     ("afm-pull-off", include_str!("../../../../cases/afm-pull-off.toml")),
     ("ball-on-disc", include_str!("../../../../cases/ball-on-disc.toml")),
     ("dlc-on-steel", include_str!("../../../../cases/dlc-on-steel.toml")),
@@ -24,6 +24,7 @@ const CASES: [(&str, &str); 23] = [
     ("rolling", include_str!("../../../../cases/rolling.toml")),
     ("rough", include_str!("../../../../cases/rough.toml")),
     ("rough-metal", include_str!("../../../../cases/rough-metal.toml")),
+    ("rubber-sliding", include_str!("../../../../cases/rubber-sliding.toml")),
     ("running-in", include_str!("../../../../cases/running-in.toml")),
     ("scratch", include_str!("../../../../cases/scratch.toml")),
     ("textured", include_str!("../../../../cases/textured.toml")),

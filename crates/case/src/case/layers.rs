@@ -8,9 +8,12 @@ use super::keys::{Form, Key, Range, Unit};
 use super::material_keys::material_section;
 use super::material_names::distinct;
 use super::reader::TableAt;
+use super::relaxation::RelaxationSection;
 use super::section::{KeyValue, ReadTable, demanded};
 use super::value::ValueAt;
-use percoat_core::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Name, Strength};
+use percoat_core::body::{
+    HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Name, Relaxation, Strength,
+};
 use serde::Serialize;
 
 pub(super) const SIZE: Form = Form::Number(Range::Size);
@@ -21,6 +24,7 @@ const BELOW: &[&str] = &[
     "poisson",
     "material",
     "name",
+    "relaxation",
     "yield_strength",
     "tensile_strength",
     "fatigue",
@@ -143,7 +147,7 @@ fn consistent(layer: &LayerSection, section: &TableAt<'_>) -> Result<(), Refusal
         );
     }
     if layer.graded.is_some() {
-        let uniform = ["shear_ratio", "young", "poisson"];
+        let uniform = ["shear_ratio", "young", "poisson", "relaxation"];
         let other = uniform.into_iter().find_map(|key| Some((key, section.optional(key)?)));
         return other.map_or(Ok(()), |(key, value)| Err(section.both(["graded", key], value.node.span)));
     }
@@ -154,7 +158,9 @@ fn consistent(layer: &LayerSection, section: &TableAt<'_>) -> Result<(), Refusal
 impl SubstrateSection {
     /// Material without a name; `None` for a rigid base.
     fn material(&self) -> Option<Result<Material, MaterialError>> {
-        (!self.rigid.0).then(|| Material::from_young(demanded(self.young), demanded(self.poisson)))
+        let relaxation = relaxed(self.relaxation.as_ref());
+        let material = || Material::from_young(demanded(self.young), demanded(self.poisson));
+        (!self.rigid.0).then(|| Ok(material()?.with_relaxation(relaxation)))
     }
 
     /// The half-space of these layers on its material.
@@ -212,6 +218,7 @@ impl LayerSection {
                 1 => Name::new(name),
                 _ => Name::new(&format!("{name}, sublayer {} of {count}", index + 1)),
             });
+            let material = material.with_relaxation(relaxed(self.relaxation.as_ref()));
             Layer::new(material.with_name(name), self.thickness / count as f64, interface)?
                 .with_residual_stress(self.residual_stress)?
                 .with_strengths(layer_strength, strength)?
@@ -224,6 +231,11 @@ impl LayerSection {
     fn refined(&self) -> Self {
         Self { graded: self.graded.map(|graded| graded.of(2 * graded.sublayers)), ..self.clone() }
     }
+}
+
+/// The relaxation of a section, which has been checked; `None` of an elastic material.
+fn relaxed(section: Option<&RelaxationSection>) -> Option<Relaxation> {
+    section.and_then(|section| section.relaxation().ok())
 }
 
 /// The body of a case, and the sections of its layers.

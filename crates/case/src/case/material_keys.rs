@@ -33,6 +33,8 @@ macro_rules! material_section {
                 /// name of the material, used in place of its number in tables and pictures
                 pub name: Option<String> = $crate::case::material_keys::NAME,
                 $($first)*
+                /// relaxation of the shear modulus to that of `young` and `poisson`
+                pub relaxation: Option<$crate::case::relaxation::RelaxationSection> = $crate::case::relaxation::RELAXES,
                 /// yield strength, compared with the von Mises stress
                 pub yield_strength: Option<f64> = $crate::case::material_keys::YIELD,
                 /// tensile strength, compared with the largest principal stress

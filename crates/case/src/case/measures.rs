@@ -146,6 +146,10 @@ impl CaseUnits {
                 let help = "write the number alone".to_owned();
                 return Err(fault(format!("it has no unit, and {unit} is written behind it"), "a unit", help));
             }
+            Unit::Time | Unit::Velocity => {
+                let help = "write the number alone, in the unit that units.time names".to_owned();
+                return Err(fault("times and velocities are not converted".to_owned(), "a unit", help));
+            }
             Unit::Length => "units.length",
             Unit::Pressure | Unit::PerPressure => "units.pressure",
             Unit::Force | Unit::PressurePerLength | Unit::PressureTimesLength => "units.length and units.pressure",
@@ -166,6 +170,7 @@ impl CaseUnits {
         let Self { length, pressure } = self;
         match of {
             Unit::Pure | Unit::LengthToOneMinusN | Unit::AreaCoefficient | Unit::Degree => None,
+            Unit::Time | Unit::Velocity => None,
             Unit::Length => length,
             Unit::Pressure => pressure,
             Unit::Force => Some(pressure?.by(length?, 2)),

@@ -4,7 +4,7 @@
 //! and the run that solves it. Faults are refused with their line ([`CaseError`]).
 //!
 //! One file a section: lattice, levels (with `area_function`), surface, layers (with the substrate, `durability`, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
-//! friction, tangential, adhesion, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
+//! friction, tangential, adhesion, motion, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
 //! makes of them the texts of `percoat explain` and the schema; `identification` lets numbers be free; `materials` is the library. A [`Document`] is parsed to a tree (`node`) once, changed by `overrides`,
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
 //!
@@ -46,12 +46,14 @@ mod material_names;
 mod materials;
 mod measures;
 mod model;
+mod motion;
 mod named_pipes;
 mod node;
 mod number;
 mod overrides;
 mod plain_toml;
 mod reader;
+mod relaxation;
 mod section;
 mod solver;
 mod source;
@@ -97,9 +99,11 @@ pub use materials::{
 };
 pub use measures::NoLoad;
 pub use model::Case;
+pub use motion::MotionSection;
 pub use named_pipes::Pipes;
 pub use number::NoRange;
 pub use overrides::{given_twice, parts};
+pub use relaxation::{ConstantWord, RelaxationSection};
 pub use source::{PhysicalSizes, Source};
 pub use stress::{CutSection, Origin, StressSection, Toward};
 pub use surface::{ORIENTATION, RandomSection, Sides, Stage, SurfaceSection, Taper, Treated, WantedChannel};

@@ -18,6 +18,7 @@ use super::load::{self, LOAD};
 use super::localized::LOCALIZED;
 use super::materials;
 use super::measures::{self, NoLoad};
+use super::motion::{MOTION, MotionSection};
 use super::node::Table;
 use super::reader::TableAt;
 use super::section::{KeyValue, ReadTable, section};
@@ -96,6 +97,9 @@ section! { whole
         /// how the two surfaces pull each other
         pub adhesion: Option<AdhesionSection> =
             Key::new(&[Form::Table(&ADHESION)], "{ work = 0.05, range = 0.001 }").otherwise("surfaces do not pull"),
+        /// velocity of a counterbody, or of a given pressure, that moves steadily over a body that relaxes
+        pub motion: Option<MotionSection> =
+            Key::new(&[Form::Table(&MOTION)], "{ velocity = 1.0 }").otherwise("materials that relax are relaxed"),
         /// hardness of a coating and its substrate together
         pub composite_hardness: Option<CompositeHardnessSection> =
             Key::new(&[Form::Table(&COMPOSITE_HARDNESS)], "{ law = \"area\", constant = 0.5 }")
@@ -140,7 +144,9 @@ impl Case {
     pub fn units(&self) -> Units {
         let name =
             |of: fn(&UnitsSection) -> &Option<String>| self.units.as_ref().and_then(|units| of(units).as_deref());
-        let units = Units::of(&self.problem).named(name(|units| &units.length), name(|units| &units.pressure));
+        let units = Units::of(&self.problem)
+            .named(name(|units| &units.length), name(|units| &units.pressure))
+            .with_time(name(|units| &units.time));
         if self.load.force.is_some() { units.with_loads_in(LoadQuantity::Force) } else { units }
     }
 
@@ -203,6 +209,9 @@ impl Case {
         };
         if self.adhesion.is_some() {
             return Err("a life has no adhesion: wear and fatigue pass after pass are those of surfaces that do not pull; leave [adhesion] out".to_owned());
+        }
+        if self.motion.is_some() {
+            return Err("a life has no steady motion: wear and passes of bodies that relax are not followed; leave [motion] out".to_owned());
         }
         if self.problem.kind().is_given {
             return Err(
@@ -293,7 +302,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
     let settings = Settings::read_table(&solver_section)?;
     let problem = Problem::new(loaded_by, bodies);
     let places = [body.places(), above.iter().flat_map(|above| &above.body).flat_map(Body::places).collect()];
-    let Surfaces { mut problem, friction, adhesion } =
+    let Surfaces { mut problem, friction, adhesion, motion } =
         Surfaces::read(&root, &places, (problem, settings), &solver_section)?;
     let mut composite_hardness = None;
     if let Some(section) = root.section("composite_hardness")? {
@@ -312,6 +321,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         friction,
         tangential,
         adhesion,
+        motion,
         composite_hardness,
         units: root.section("units")?.as_ref().map(UnitsSection::read_table).transpose()?,
         stress: root
@@ -336,17 +346,18 @@ struct Surfaces {
     problem: Problem,
     friction: Option<FrictionSection>,
     adhesion: Option<AdhesionSection>,
+    motion: Option<MotionSection>,
 }
 
 impl Surfaces {
-    /// Reads the sections `[friction]` and `[adhesion]`; `places` are the layers of both bodies.
+    /// Reads the sections `[friction]`, `[adhesion]` and `[motion]`; `places` are the layers of both bodies.
     fn read(
         root: &TableAt<'_>,
         places: &[Vec<&TableAt<'_>>; 2],
         (problem, settings): (Problem, Settings),
         solver: &TableAt<'_>,
     ) -> Result<Self, Refusal> {
-        let mut all = Self { problem, friction: None, adhesion: None };
+        let mut all = Self { problem, friction: None, adhesion: None, motion: None };
         if let Some(section) = root.section("friction")? {
             let keys = FrictionSection::read_table(&section)?;
             all.problem = keys.slide(&section, places, (all.problem, settings), solver)?;
@@ -356,6 +367,11 @@ impl Surfaces {
             let keys = AdhesionSection::read_table(&section)?;
             all.problem = keys.adhere(&section, root, (all.problem, settings))?;
             all.adhesion = Some(keys);
+        }
+        if let Some(section) = root.section("motion")? {
+            let keys = MotionSection::read_table(&section)?;
+            all.problem = keys.moving(&section, root, (all.problem, settings))?;
+            all.motion = Some(keys);
         }
         Ok(all)
     }

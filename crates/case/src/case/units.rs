@@ -15,5 +15,7 @@ section! {
         pub length: Option<String> = Key::new(&[NAME], "\"µm\"").otherwise("not named"),
         /// unit of all pressures
         pub pressure: Option<String> = Key::new(&[NAME], "\"GPa\"").otherwise("not named"),
+        /// unit of all times; numbers are not converted to it
+        pub time: Option<String> = Key::new(&[NAME], "\"s\"").otherwise("not named"),
     }
 }

@@ -103,7 +103,7 @@ pub(super) fn amplitudes<N: Number>(strata: &Strata<N>, wavenumber: f64, depth: 
 
 /// Amplitudes at the upper and the lower face of each material under a shear traction across the wavevector, of the wavenumber q > 0
 /// (1/length), from one passage through the layers; zero at the infinite depth of a substrate.
-pub(super) fn at_faces(strata: &Strata, wavenumber: f64) -> Vec<[Antiplane; 2]> {
+pub(super) fn at_faces<N: Number>(strata: &Strata<N>, wavenumber: f64) -> Vec<[Antiplane<N>; 2]> {
     let (wave, mut is_reached) = (Wave::new(strata, wavenumber), true);
     let of = |index: usize| {
         let layer = strata.layers.get(index);

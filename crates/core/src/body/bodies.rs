@@ -145,6 +145,11 @@ impl Bodies {
         self.counterbody.as_ref().filter(|_| side == Some(Side::Counterbody)).unwrap_or(&self.body)
     }
 
+    /// Whether a material of either relaxes.
+    pub fn relax(&self) -> bool {
+        self.each().any(HalfSpace::relaxes)
+    }
+
     /// Whether neither has layers.
     pub fn is_bare(&self) -> bool {
         self.each().all(|body| body.layers().is_empty())

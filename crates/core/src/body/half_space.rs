@@ -84,6 +84,16 @@ impl HalfSpace {
         LayeredResponse::new(&self.layers, self.substrate, moduli)
     }
 
+    /// Response to a load e^{st} with the Laplace variable s, one over a time: s = iω of a load e^{iωt} on materials that relax.
+    pub fn response_at<N: Number>(&self, s: N) -> LayeredResponse<N> {
+        self.response_of(|_, material| material.moduli_at(s))
+    }
+
+    /// Whether a material relaxes.
+    pub fn relaxes(&self) -> bool {
+        self.materials().any(|material| material.relaxation().is_some())
+    }
+
     /// Layers from the surface down.
     pub fn layers(&self) -> &[Layer] {
         &self.layers

@@ -11,6 +11,7 @@ use super::minors::PlaneStrain;
 use super::strata::{Strata, Stratum};
 use super::stress_function::{Derivatives, amplitudes_of, coefficients, decay, derivatives, derivatives_of};
 use super::{Amplitudes, Antiplane, Depth, InPlane, Interface, LayeredResponse};
+use crate::numeric::number::Number;
 use crate::numeric::parallel;
 use std::sync::Arc;
 
@@ -32,11 +33,7 @@ pub struct InteriorTable {
 /// Coefficients of the waves in one material, by the number of the wavenumber.
 #[derive(Debug)]
 struct MaterialTable {
-    /// Depth of the upper face and thickness, lengths; the substrate's is infinite.
-    top: f64,
-    thickness: f64,
-    /// The upper and the lower face.
-    faces: [Face; 2],
+    extent: Extent,
     shear: f64,
     poisson: f64,
     /// a, b, c, d of F under a pressure, and under a shear traction along the wavevector.
@@ -46,9 +43,19 @@ struct MaterialTable {
     across: Vec<[f64; 2]>,
 }
 
+/// Where a material lies, and what its faces transmit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent {
+    /// Depth of the upper face and thickness, lengths; the substrate's is infinite.
+    pub top: f64,
+    pub thickness: f64,
+    /// The upper and the lower face.
+    faces: [Face; 2],
+}
+
 /// Traction that a face of a material transmits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Face {
+pub(super) enum Face {
     /// The traction of the surface.
     Surface,
     /// No shear.
@@ -62,22 +69,9 @@ impl InteriorTable {
     /// shear tractions.
     pub fn new(response: Arc<LayeredResponse>, wavenumbers: &[f64], slides: bool) -> Self {
         let strata = response.strata();
-        let mut tops = vec![0.0];
-        tops.extend(strata.layers.iter().scan(0.0, |depth, layer| {
-            *depth += layer.thickness;
-            Some(*depth)
-        }));
-        tops.truncate(strata.materials().count());
+        let (tops, reached) = reached(strata, wavenumbers);
         let most = MAX_BYTES / bytes(tops.len(), slides);
-        let count = |material: usize| {
-            let reaches = |&q: &f64| match material {
-                // Shorter waves do not reach the lower face of the surface material.
-                0 => strata.layers.first().is_some_and(|layer| q * layer.thickness < SHIELDING),
-                _ => q * tops[material] <= REACH,
-            };
-            wavenumbers.partition_point(reaches).min(most)
-        };
-        let counts: Vec<usize> = (0..tops.len()).map(count).collect();
+        let counts: Vec<usize> = reached.into_iter().map(|count| count.min(most)).collect();
         let normal = in_plane(&response, InPlane::Normal, wavenumbers, &counts);
         let along = if slides {
             in_plane(&response, InPlane::Along, wavenumbers, &counts)
@@ -109,11 +103,11 @@ impl InteriorTable {
     pub fn amplitudes(&self, traction: InPlane, wavenumbers: &[f64], depth: Depth) -> Vec<Amplitudes> {
         let material = &self.materials[depth.material - 1];
         let coefficients = material.coefficients(traction);
-        let below = (depth.z - material.top).clamp(0.0, material.thickness);
+        let below = material.extent.below(depth);
         let of = |number: usize| {
             let q = wavenumbers[number];
             let Some(row) = coefficients.get(number) else { return self.response.amplitudes(traction, q, depth) };
-            amplitudes_of(traction, material.functions(traction, row, below, q), material.elasticity(), q)
+            amplitudes_of(traction, material.extent.functions(traction, row, below, q), material.elasticity(), q)
         };
         parallel::map_by(MIN_PARALLEL, wavenumbers.len(), of)
     }
@@ -126,11 +120,11 @@ impl InteriorTable {
     pub fn functions(&self, traction: InPlane, wavenumbers: &[f64], depth: Depth) -> Vec<Derivatives> {
         let material = &self.materials[depth.material - 1];
         let coefficients = material.coefficients(traction);
-        let below = (depth.z - material.top).clamp(0.0, material.thickness);
+        let below = material.extent.below(depth);
         let of = |number: usize| {
             let q = wavenumbers[number];
             match coefficients.get(number) {
-                Some(row) => material.functions(traction, row, below, q),
+                Some(row) => material.extent.functions(traction, row, below, q),
                 None => {
                     derivatives_of(&self.response.amplitudes(traction, q, depth), traction, material.elasticity(), q)
                 }
@@ -146,20 +140,35 @@ impl InteriorTable {
     /// When there is no such material.
     pub fn antiplane(&self, wavenumbers: &[f64], depth: Depth) -> Vec<Antiplane> {
         let material = &self.materials[depth.material - 1];
-        let below = (depth.z - material.top).clamp(0.0, material.thickness);
+        let below = material.extent.below(depth);
         let of = |number: usize| {
             let q = wavenumbers[number];
             let Some(&[down, up]) = material.across.get(number) else { return self.response.antiplane(q, depth) };
-            let [down, up] = [down * decay(q * below), up * decay(q * (material.thickness - below))];
-            let stz = match material.face_at(below) {
-                Face::Surface => -1.0,
-                Face::Frictionless => 0.0,
-                Face::Joined => up - down,
-            };
-            Antiplane { stz, sqt: -(up + down), ut: (up + down) / (material.shear * q) }
+            let [down, up] = [down * decay(q * below), up * decay(q * (material.extent.thickness - below))];
+            material.extent.antiplane([down, up], below, material.shear * q)
         };
         parallel::map_by(MIN_PARALLEL, wavenumbers.len(), of)
     }
+}
+
+/// Depths of the upper faces of all materials, lengths, and how many of the ascending `wavenumbers` count there.
+pub(super) fn reached<N: Number>(strata: &Strata<N>, wavenumbers: &[f64]) -> (Vec<f64>, Vec<usize>) {
+    let mut tops = vec![0.0];
+    tops.extend(strata.layers.iter().scan(0.0, |depth, layer| {
+        *depth += layer.thickness;
+        Some(*depth)
+    }));
+    tops.truncate(strata.materials().count());
+    let count = |material: usize| {
+        let reaches = |&q: &f64| match material {
+            // Shorter waves do not reach the lower face of the surface material.
+            0 => strata.layers.first().is_some_and(|layer| q * layer.thickness < SHIELDING),
+            _ => q * tops[material] <= REACH,
+        };
+        wavenumbers.partition_point(reaches)
+    };
+    let counts = (0..tops.len()).map(count).collect();
+    (tops, counts)
 }
 
 /// a, b, c, d of F under a traction in each material, of as many of the `wavenumbers` as `counts` has for it.
@@ -189,21 +198,14 @@ fn across(response: &LayeredResponse, wavenumbers: &[f64], counts: &[usize]) -> 
     counts.iter().enumerate().map(table).collect()
 }
 
-impl MaterialTable {
-    fn new(
-        strata: &Strata,
-        material: usize,
-        top: f64,
-        normal: Vec<[f64; 4]>,
-        along: Vec<[f64; 4]>,
-        across: Vec<[f64; 2]>,
-    ) -> Self {
-        let face = |above: &Stratum| match above.interface {
+impl Extent {
+    /// Extent of a material, from 0, whose upper face lies at a depth, a length.
+    pub fn new<N: Number>(strata: &Strata<N>, material: usize, top: f64) -> Self {
+        let face = |above: &Stratum<N>| match above.interface {
             Interface::Frictionless => Face::Frictionless,
             _ => Face::Joined,
         };
         let layer = strata.layers.get(material);
-        let PlaneStrain { shear, poisson, .. } = *strata.materials().nth(material).expect("a material of the body");
         Self {
             top,
             thickness: layer.map_or(f64::INFINITY, |layer| layer.thickness),
@@ -211,19 +213,12 @@ impl MaterialTable {
                 if material == 0 { Face::Surface } else { face(&strata.layers[material - 1]) },
                 layer.map_or(Face::Joined, face),
             ],
-            shear,
-            poisson,
-            normal,
-            along,
-            across,
         }
     }
 
-    fn coefficients(&self, traction: InPlane) -> &[[f64; 4]] {
-        match traction {
-            InPlane::Normal => &self.normal,
-            InPlane::Along => &self.along,
-        }
+    /// Distance of a depth below the upper face, a length.
+    pub fn below(&self, depth: Depth) -> f64 {
+        (depth.z - self.top).clamp(0.0, self.thickness)
     }
 
     /// The face at a distance below the upper one; a depth inside the material is joined to what is above it.
@@ -238,13 +233,53 @@ impl MaterialTable {
 
     /// F and its derivatives at a distance below the upper face, from the coefficients of the wavenumber.
     #[inline(always)]
-    fn functions(&self, traction: InPlane, coefficients: &[f64; 4], below: f64, wavenumber: f64) -> Derivatives {
+    pub fn functions<N: Number>(
+        &self,
+        traction: InPlane,
+        coefficients: &[N; 4],
+        below: f64,
+        wavenumber: f64,
+    ) -> Derivatives<N> {
         let [f0, f1, f2, f3] = derivatives(coefficients, wavenumber * below, wavenumber * self.thickness);
+        let of = |x: f64| N::from(x);
         match (self.face_at(below), traction) {
-            (Face::Surface, InPlane::Normal) => [1.0, 0.0, f2, f3],
-            (Face::Surface, InPlane::Along) => [0.0, -1.0, f2, f3],
-            (Face::Frictionless, _) => [f0, 0.0, f2, f3],
+            (Face::Surface, InPlane::Normal) => [of(1.0), of(0.0), f2, f3],
+            (Face::Surface, InPlane::Along) => [of(0.0), of(-1.0), f2, f3],
+            (Face::Frictionless, _) => [f0, of(0.0), f2, f3],
             (Face::Joined, _) => [f0, f1, f2, f3],
+        }
+    }
+
+    /// Amplitudes under a traction across the wavevector at a distance below the upper face, from the parts of v that go down and up there,
+    /// with Gq.
+    #[inline(always)]
+    pub fn antiplane<N: Number>(&self, [down, up]: [N; 2], below: f64, stiffness: N) -> Antiplane<N> {
+        let stz = match self.face_at(below) {
+            Face::Surface => N::from(-1.0),
+            Face::Frictionless => N::from(0.0),
+            Face::Joined => up - down,
+        };
+        Antiplane { stz, sqt: -(up + down), ut: (up + down).over(stiffness) }
+    }
+}
+
+impl MaterialTable {
+    fn new(
+        strata: &Strata,
+        material: usize,
+        top: f64,
+        normal: Vec<[f64; 4]>,
+        along: Vec<[f64; 4]>,
+        across: Vec<[f64; 2]>,
+    ) -> Self {
+        let PlaneStrain { shear, poisson, .. } = *strata.materials().nth(material).expect("a material of the body");
+        Self { extent: Extent::new(strata, material, top), shear, poisson, normal, along, across }
+    }
+
+    fn coefficients(&self, traction: InPlane) -> &[[f64; 4]] {
+        match traction {
+            InPlane::Normal => &self.normal,
+            InPlane::Along => &self.along,
         }
     }
 

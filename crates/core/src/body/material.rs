@@ -2,7 +2,7 @@
 //!
 //! E* = E/(1 − ν²) = 2G/(1 − ν); χ = G₁/G₂ = E₁(1 + ν₂)/(E₂(1 + ν₁)).
 
-use super::Name;
+use super::{Name, Relaxation};
 use crate::notation::number;
 use std::fmt;
 
@@ -52,11 +52,13 @@ pub enum MaterialError {
     Stiffness(f64),
 }
 
-/// An isotropic linear elastic material, with a name if it was given one.
+/// An isotropic linear material, elastic or, with a relaxation, viscoelastic: then its moduli are the relaxed ones. With a name if it was given
+/// one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     shear: f64,
     poisson: f64,
+    relaxation: Option<Relaxation>,
     name: Option<Name>,
 }
 
@@ -72,7 +74,7 @@ impl Material {
         if !(0.0..=0.5).contains(&poisson) {
             return Err(MaterialError::Poisson(poisson));
         }
-        Ok(Self { shear, poisson, name: None })
+        Ok(Self { shear, poisson, relaxation: None, name: None })
     }
 
     /// Material with Young's modulus `young` (a pressure) and Poisson's ratio `poisson` in [0, 0.5].
@@ -89,6 +91,17 @@ impl Material {
     /// Material with this name.
     pub fn with_name(self, name: Option<Name>) -> Self {
         Self { name, ..self }
+    }
+
+    /// Material whose shear modulus relaxes to its present one.
+    #[must_use]
+    pub fn with_relaxation(self, relaxation: Option<Relaxation>) -> Self {
+        Self { relaxation, ..self }
+    }
+
+    /// Relaxation of the shear modulus; `None` of an elastic material.
+    pub fn relaxation(&self) -> Option<Relaxation> {
+        self.relaxation
     }
 
     /// Name of the material; `None` where it was given none.
@@ -133,7 +146,8 @@ impl fmt::Display for Material {
         let [young, shear, contact] = [self.young(), self.shear, self.contact_modulus()].map(number);
         // ν as it was given, without what rounding has left between the ends of a graded layer.
         let poisson = (1e9 * self.poisson).round() / 1e9;
-        write!(f, "E {young}, ν {poisson}, G {shear}, E* {contact}")
+        write!(f, "E {young}, ν {poisson}, G {shear}, E* {contact}")?;
+        self.relaxation.iter().try_for_each(|relaxation| write!(f, ", {relaxation}"))
     }
 }
 

@@ -22,12 +22,13 @@
 use super::interior::Interior;
 use super::minors::MAX_EXPONENT;
 use super::{Amplitudes, InPlane};
+use crate::numeric::number::Number;
 
 /// qh below which a layer is thin, and F is held by its derivatives at the upper face.
 const THIN_LAYER: f64 = 1.0;
 
 /// F and its first three derivatives by x.
-pub(super) type Derivatives = [f64; 4];
+pub(super) type Derivatives<N = f64> = [N; 4];
 
 /// e^{−x}.
 pub(super) fn decay(x: f64) -> f64 {
@@ -35,23 +36,23 @@ pub(super) fn decay(x: f64) -> f64 {
 }
 
 /// a, b, c, d of F in a material, from 0.
-pub(super) fn coefficients(interior: &Interior, material: usize) -> [f64; 4] {
+pub(super) fn coefficients<N: Number>(interior: &Interior<N>, material: usize) -> [N; 4] {
     let [f0, f1, f2, f3] = interior.derivatives(material, 0.0);
     let thickness = interior.thickness(material);
     if thickness.is_infinite() {
-        return [f0, f0 + f1, 0.0, 0.0];
+        return [f0, f0 + f1, N::from(0.0), N::from(0.0)];
     }
     if thickness < THIN_LAYER {
         return [f0, f1, f2 - f0, f3 - f1];
     }
     let [g0, g1, g2, g3] = interior.derivatives(material, thickness);
-    let (b, d) = (0.25 * (f3 - f2 - f1 + f0), -0.25 * (g3 + g2 - g1 - g0));
-    [0.25 * (f2 - 2.0 * f1 + f0) + b, b, 0.25 * (g2 + 2.0 * g1 + g0) + d, d]
+    let (b, d) = ((f3 - f2 - f1 + f0) * 0.25, (g3 + g2 - g1 - g0) * -0.25);
+    [(f2 - f1 * 2.0 + f0) * 0.25 + b, b, (g2 + g1 * 2.0 + g0) * 0.25 + d, d]
 }
 
 /// F and its derivatives at x in a layer of thickness X.
 #[inline(always)]
-pub(super) fn derivatives(&[a, b, c, d]: &[f64; 4], x: f64, thickness: f64) -> Derivatives {
+pub(super) fn derivatives<N: Number>(&[a, b, c, d]: &[N; 4], x: f64, thickness: f64) -> Derivatives<N> {
     if thickness < THIN_LAYER {
         // cosh, sinh, ½x sinh and ½(x cosh − sinh).
         let [cosh, sinh, rise, bend] = hyperbolic(x);
@@ -64,33 +65,33 @@ pub(super) fn derivatives(&[a, b, c, d]: &[f64; 4], x: f64, thickness: f64) -> D
     }
     let down = decay(x);
     let [a, b] = [a + b * x, b].map(|part| part * down);
-    let mut all = [a, b - a, a - 2.0 * b, 3.0 * b - a];
-    if (c, d) != (0.0, 0.0) {
+    let mut all = [a, b - a, a - b * 2.0, b * 3.0 - a];
+    if (c, d) != (N::from(0.0), N::from(0.0)) {
         let rest = thickness - x;
         let up = decay(rest);
         let [c, d] = [c + d * rest, d].map(|part| part * up);
-        all = [all[0] + c, all[1] + c - d, all[2] + c - 2.0 * d, all[3] + c - 3.0 * d];
+        all = [all[0] + c, all[1] + c - d, all[2] + c - d * 2.0, all[3] + c - d * 3.0];
     }
     all
 }
 
 /// Amplitudes from F and its derivatives, G and ν.
 #[inline(always)]
-pub(super) fn amplitudes_of(
+pub(super) fn amplitudes_of<N: Number>(
     traction: InPlane,
-    [f0, f1, f2, f3]: Derivatives,
-    [shear, poisson]: [f64; 2],
+    [f0, f1, f2, f3]: Derivatives<N>,
+    [shear, poisson]: [N; 2],
     wavenumber: f64,
-) -> Amplitudes {
-    let sign = traction.sign();
-    let per_displacement = 0.5 / (shear * wavenumber);
+) -> Amplitudes<N> {
+    let (sign, one) = (traction.sign(), N::from(1.0));
+    let per_displacement = N::from(0.5).over(shear * wavenumber);
     Amplitudes {
-        szz: sign * -f0,
+        szz: -f0 * sign,
         sqz: f1,
-        sqq: sign * f2,
-        stt: sign * poisson * (f2 - f0),
-        uz: sign * ((1.0 - poisson) * f3 - (2.0 - poisson) * f1) * per_displacement,
-        uq: ((1.0 - poisson) * f2 + poisson * f0) * per_displacement,
+        sqq: f2 * sign,
+        stt: poisson * sign * (f2 - f0),
+        uz: ((one - poisson) * f3 - (N::from(2.0) - poisson) * f1) * sign * per_displacement,
+        uq: ((one - poisson) * f2 + poisson * f0) * per_displacement,
     }
 }
 

@@ -22,10 +22,8 @@ pub enum CounterbodyError {
         /// The value given.
         value: f64,
     },
-    /// A ball under a topography whose radius is not positive and finite, or in a periodic cell.
-    #[error(
-        "a topography stands on a ball of a radius greater than 0, not {0}, in the window of an isolated contact, not in a periodic cell"
-    )]
+    /// A ball under a topography whose radius is not positive and finite.
+    #[error("a topography stands on a ball of a finite radius greater than 0, not {0}")]
     Ball(f64),
     /// A loaded disc, by its number from 1, with a radius that is not positive, a negative pressure or a number that is not finite.
     #[error("disc {0} must have a finite centre, a radius greater than 0 and a pressure of at least 0")]

@@ -57,14 +57,13 @@ impl Topography {
         Self { run_out: Some(run_out), ..self }
     }
 
-    /// The topography on a ball of the `radius` > 0, a length, whose apex is the middle of the window of an isolated contact: heights are
-    /// those above the ball, h − R + √(R² − r²).
+    /// The topography on a ball of the `radius` > 0, a length, whose apex is the middle of the window of an isolated contact, or of each cell at
+    /// its origin: heights are those above the ball, h − R + √(R² − r²).
     ///
     /// # Errors
-    /// [`CounterbodyError::Ball`] for another radius, and in a periodic cell.
+    /// [`CounterbodyError::Ball`] for another radius.
     pub fn on_ball(self, radius: f64) -> Result<Self, CounterbodyError> {
-        let is_alone = self.cell.surroundings() == Surroundings::FreeSpace;
-        if is_alone && radius > 0.0 && radius.is_finite() {
+        if radius > 0.0 && radius.is_finite() {
             Ok(Self { ball: Some(radius), apex: None, ..self })
         } else {
             Err(CounterbodyError::Ball(radius))
@@ -121,12 +120,13 @@ impl Topography {
             return Ok(on_grid.mapv_into(|height| apex - height));
         };
         // Waves hold no corner: the ball becomes a plane where the apex is not.
-        let (ball, [[width, _], [_, height]]) = (Shape::Sphere { radius }, self.cell.vectors());
-        let (border, points) = (0.5 * width.min(height), points.map(|n| n as f64));
+        let ball = Shape::Sphere { radius };
+        let (border, points) = (self.half_width(), points.map(|n| n as f64));
         let lowest = ball.profile(border);
         let (from, steepness) = PLANE_FROM;
+        let beside = self.beside_ball();
         let distance = |(i, j): (usize, usize)| {
-            let [x, y] = self.cell.point([i as f64 / points[0], j as f64 / points[1]]);
+            let [x, y] = beside([i as f64 / points[0], j as f64 / points[1]]);
             x.hypot(y)
         };
         let below = |at: (usize, usize)| {
@@ -146,10 +146,34 @@ impl Topography {
     pub fn apex_error(&self) -> f64 {
         let Some(radius) = self.ball else { return above_waves(self.heights(), |_, _| 0.0) };
         let (ball, [n1, n2]) = (Shape::Sphere { radius }, self.points().map(|n| n as f64));
+        let beside = self.beside_ball();
         above_waves(self.heights(), |i, j| {
-            let [x, y] = self.cell.point([i as f64 / n1, j as f64 / n2]);
+            let [x, y] = beside([i as f64 / n1, j as f64 / n2]);
             ball.profile(x.hypot(y))
         })
+    }
+
+    /// Vector from the nearest apex of the ball to the place at fractions of a₁ and a₂, lengths.
+    pub(crate) fn beside_ball(&self) -> impl Fn([f64; 2]) -> [f64; 2] + Sync + use<> {
+        let (cell, reduced) = (self.cell, self.cell.reduced());
+        move |s| match cell.surroundings() {
+            Surroundings::FreeSpace => cell.point(s),
+            Surroundings::Periodic => reduced.nearest(s),
+        }
+    }
+
+    /// Distance from the apex of the ball to the nearest border of its window, or to half the way to the next apex, a length.
+    fn half_width(&self) -> f64 {
+        match self.cell.surroundings() {
+            Surroundings::FreeSpace => {
+                let [[width, _], [_, height]] = self.cell.vectors();
+                0.5 * width.min(height)
+            }
+            Surroundings::Periodic => {
+                let [x, y] = self.cell.reduced().short();
+                0.5 * x.hypot(y)
+            }
+        }
     }
 }
 
@@ -240,8 +264,14 @@ mod tests {
             assert!(high - low < 1e-14 && to - from < 1e-14 && (high - to).abs() < 1e-7, "{low} {high} {from} {to}");
             assert!(high > apex && high < 1e-3, "{high}");
         }
-        let periodic = Topography::new(Cell::square(1.0).unwrap(), Array2::zeros((4, 4))).unwrap();
-        assert_eq!(periodic.on_ball(3.0), Err(CounterbodyError::Ball(3.0)));
+        let flat = |cell: Cell| Topography::new(cell, Array2::zeros((24, 24))).unwrap();
+        assert_eq!(flat(Cell::square(1.0).unwrap()).on_ball(0.0), Err(CounterbodyError::Ball(0.0)));
+        // In a periodic cell that of the indenters of a lattice.
+        let lattice = Lattice::hexagonal(1.0, 1).unwrap();
+        let depths = flat(lattice.cell()).on_ball(3.0).unwrap().depths([24; 2]).unwrap();
+        let alone = Indenters::new(lattice, vec![Level::new(ball.clone(), 0.0).unwrap()]).unwrap();
+        let surface = Surface::new(&alone.into(), [24; 2]).unwrap();
+        assert!(depths.iter().zip(surface.initial_gap()).all(|(a, b)| (a - b).abs() < 1e-7));
     }
 
     #[test]

@@ -78,6 +78,38 @@ impl Waves {
         Self { rows, step, parts, shells, wavenumbers }
     }
 
+    /// The waves in shells of one wavenumber and one |**k**·**e**| for a unit vector **e**, and that of each shell, 1/length: the response of a
+    /// body that is passed along **e** depends on both.
+    pub fn passed_along(&self, [x, y]: [f64; 2]) -> (Self, Vec<f64>) {
+        let along = |row: &WaveRow, k: usize| {
+            let [kx, ky] = row.at(k, self.step);
+            (x * kx + y * ky).abs()
+        };
+        let along: Vec<f64> = self.rows.iter().flat_map(|row| (0..row.len).map(|k| along(row, k))).collect();
+        let mut order: Vec<u32> = (0..along.len() as u32).collect();
+        let key = |number: u32| (self.shells[number as usize], along[number as usize]);
+        order.sort_unstable_by(|&a, &b| {
+            let ((one, first), (other, second)) = (key(a), key(b));
+            one.cmp(&other).then(first.total_cmp(&second))
+        });
+        let (mut shells, mut wavenumbers, mut components) = (vec![0; along.len()], Vec::new(), Vec::new());
+        let mut last = None;
+        for number in order {
+            let (shell, component) = key(number);
+            let wavenumber = self.wavenumbers[shell as usize];
+            let is_known = last
+                .is_some_and(|(of, at): (u32, f64)| of == shell && component - at <= WAVENUMBER_TOLERANCE * wavenumber);
+            if !is_known {
+                last = Some((shell, component));
+                wavenumbers.push(wavenumber);
+                components.push(component);
+            }
+            shells[number as usize] = wavenumbers.len() as u32 - 1;
+        }
+        let (rows, parts) = (self.rows.clone(), self.parts.clone());
+        (Self { rows, step: self.step, parts, shells, wavenumbers }, components)
+    }
+
     /// Wavenumbers of the shells, ascending, 1/length.
     pub fn wavenumbers(&self) -> &[f64] {
         &self.wavenumbers

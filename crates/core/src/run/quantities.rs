@@ -5,8 +5,8 @@ use super::record::STEP;
 use crate::measured::Measured;
 use crate::quantity::{Named, Quantity};
 use crate::reading::{
-    ADHESION, AdhesionReading, LEVEL, LIFE, Life, PLASTIC, PlasticReading, READING, ROUGH, Reading, RoughReading, SLIP,
-    SlipReading, UTILISATION,
+    ADHESION, AdhesionReading, HYSTERESIS, HysteresisReading, LEVEL, LIFE, Life, PLASTIC, PlasticReading, READING,
+    ROUGH, Reading, RoughReading, SLIP, SlipReading, UTILISATION,
 };
 use crate::stress::maxima::{CARRIED, EXTREMES, Extremes};
 
@@ -64,6 +64,14 @@ impl Part<AdhesionReading> for StepRecord {
 
     fn part(&self) -> Option<&AdhesionReading> {
         self.adhesion.as_ref()
+    }
+}
+
+impl Part<HysteresisReading> for StepRecord {
+    const PATH: &'static str = "hysteresis.";
+
+    fn part(&self) -> Option<&HysteresisReading> {
+        self.hysteresis.as_ref()
     }
 }
 
@@ -126,6 +134,7 @@ pub fn of_step() -> Vec<&'static dyn OfStep> {
         .chain(each(PLASTIC.each()))
         .chain(each(SLIP.each()))
         .chain(each(ADHESION.each()))
+        .chain(each(HYSTERESIS.each()))
         .chain(each(EXTREMES.each()))
         .chain(each(LIFE.each()))
         .collect()

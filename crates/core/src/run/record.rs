@@ -7,8 +7,8 @@ use crate::numeric::serialised;
 use crate::problem::Problem;
 use crate::quantity::quantities;
 use crate::reading::{
-    AdhesionReading, Beneath, Criterion, FatigueReading, Governing, PathReading, PlasticReading, Reading, RoughReading,
-    SlipReading, StressReading, Utilisation, stiffness, within_the_errors,
+    AdhesionReading, Beneath, Criterion, FatigueReading, Governing, HysteresisReading, PathReading, PlasticReading,
+    Reading, RoughReading, SlipReading, StressReading, Utilisation, stiffness, within_the_errors,
 };
 use crate::spectral::{Certificate, Report, Route, Step, Stop};
 use serde::{Deserialize, Serialize};
@@ -65,6 +65,9 @@ quantities! {
         /// Adhesion; `None` of surfaces that do not pull each other.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub adhesion: Option<AdhesionReading>,
+        /// Friction by hysteresis; `None` at rest, and where nothing relaxes.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub hysteresis: Option<HysteresisReading>,
         /// Largest stresses; `None` where they are not computed, without contact, and under loads of a search for limits that are not shown.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub stress: Option<StressReading>,
@@ -144,6 +147,7 @@ impl StepRecord {
             friction: step.problem().friction().map(|_| sliding),
             tangential: None,
             adhesion: None,
+            hysteresis: HysteresisReading::of(step),
             stress: None,
             strength: Vec::new(),
             governing: None,

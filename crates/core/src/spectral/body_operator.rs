@@ -3,6 +3,7 @@
 use super::LayeredOperator;
 use super::free_space::{bytes_per_sample, bytes_while_made};
 use crate::body::Bodies;
+use crate::friction::Friction;
 use crate::lattice::{Cell, Grid, Surroundings};
 use crate::problem::Problem;
 
@@ -35,6 +36,11 @@ impl LayeredOperator {
     /// The operator of a problem on a grid, with its friction.
     pub(super) fn of_problem(problem: &Problem, grid: &Grid) -> Self {
         let bodies = problem.bodies();
+        if problem.motion().is_some() {
+            let traction =
+                problem.friction().filter(|friction| friction.couples()).map_or([0.0; 2], Friction::traction);
+            return Self::moving(grid, bodies, problem.velocity(), traction);
+        }
         match (grid.cell().surroundings(), problem.friction()) {
             (Surroundings::Periodic, Some(friction)) => Self::sliding(grid, bodies, friction),
             (Surroundings::Periodic, None) => Self::new(grid, bodies),

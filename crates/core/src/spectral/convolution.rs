@@ -135,6 +135,19 @@ impl<T: Real> Convolution<T> {
         }))
     }
 
+    /// The multiplier Re K and the ratio T = −Im K/Re K of the values K that `fill([k₁, k₂], values)` gives the components (k₁, k₂),
+    /// (k₁, k₂ + 1), …, so that K = Re K (1 − iT).
+    ///
+    /// Values must be conjugate under (k₁, k₂) → (−k₁, −k₂), and with it real for components that are their own conjugates: then real fields
+    /// stay real. Re K must be positive.
+    pub fn complex_multiplier(&self, fill: impl Fn([usize; 2], &mut [Complex64]) + Sync) -> (Multiplier, SkewRatio) {
+        let normalisation = self.normalisation();
+        let values = self.table(Complex64::new(1.0 / normalisation, 0.0), false, fill);
+        let ratios = values.iter().map(|value| -value.im / value.re).collect();
+        let compliance = values.iter().map(|value| value.re * normalisation).collect();
+        (Multiplier::new(compliance, self.points[0], normalisation), SkewRatio::new(ratios))
+    }
+
     /// 1/(N₁N₂).
     fn normalisation(&self) -> f64 {
         let [n1, n2] = self.points;
@@ -142,7 +155,12 @@ impl<T: Real> Convolution<T> {
     }
 
     /// Values in the order of the column pass, eight columns at a time, padded to whole tiles.
-    fn table(&self, padding: f64, mirrored: bool, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> Vec<f64> {
+    fn table<V: Copy + Send + Sync>(
+        &self,
+        padding: V,
+        mirrored: bool,
+        fill: impl Fn([usize; 2], &mut [V]) + Sync,
+    ) -> Vec<V> {
         let n1 = self.points[0];
         let mut table = vec![padding; self.eights() * n1 * LANES];
         parallel::each_chunk(&mut table, n1 * LANES, |eight, table| {

@@ -11,6 +11,7 @@ use super::convolution::{Convolution, Convolved};
 use super::local_compliance::LocalCompliance;
 use super::multiplier::{Action, Multiplier, SkewPart, SkewRatio};
 use super::operator::{ElasticOperator, TractionUpdate, Workspace};
+use super::resolvent::Resolvent;
 use crate::lattice::Surroundings;
 use crate::numeric::lanes::Real;
 use crate::numeric::rows::RowBlocks;
@@ -32,11 +33,13 @@ pub struct LayeredOperator {
     unit: f64,
     mean: f64,
     softened: Softened,
+    /// Parts of the operator under a strong skew part, once they were asked for.
+    resolvent: Option<Box<Resolvent>>,
     convolutions: f64,
 }
 
 /// Transforms of a field in both precisions.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Transforms {
     pub double: Convolution<f64>,
     pub single: Convolution<f32>,
@@ -77,7 +80,8 @@ impl LayeredOperator {
     /// displacements have zero mean.
     pub(super) fn of(transforms: Transforms, compliance: Multiplier, unit: f64) -> Self {
         let (skew, repeated, softened) = (None, None, Softened::default());
-        Self { transforms, compliance, skew, coupling: 0.0, repeated, unit, mean: 0.0, softened, convolutions: 0.0 }
+        let (mean, coupling, convolutions, resolvent) = (0.0, 0.0, 0.0, None);
+        Self { transforms, compliance, skew, coupling, repeated, unit, mean, softened, resolvent, convolutions }
     }
 
     /// The operator whose displacement under a uniform pressure is `mean` times that.
@@ -97,7 +101,7 @@ impl LayeredOperator {
 
     /// Convolutions so far; one in single precision counts half.
     pub fn convolutions(&self) -> f64 {
-        self.convolutions
+        self.convolutions + self.resolvent.as_ref().map_or(0.0, |parts| parts.convolutions())
     }
 
     /// The largest part |C⁻¹(A − C)| that coupling adds to the operator A, on a periodic cell |T|, without a local
@@ -117,6 +121,14 @@ impl LayeredOperator {
     pub fn displacement_single(&mut self, field: &mut [f32], workspace: &mut Workspace) {
         self.convolutions += 0.5;
         in_place(&self.transforms.single, self.multiplied(1.0), &self.compliance, field, workspace);
+    }
+
+    /// The operator's symmetric part C in the place of the operator, for as long as `use_of` runs.
+    pub(super) fn symmetric<R>(&mut self, use_of: impl FnOnce(&mut Self) -> R) -> R {
+        let (skew, coupling) = (self.skew.take(), std::mem::take(&mut self.coupling));
+        let result = use_of(self);
+        (self.skew, self.coupling) = (skew, coupling);
+        result
     }
 
     /// w → p: the pressure that displaces so. Where displacements have zero mean it is treated like a component of the least
@@ -150,6 +162,7 @@ impl LayeredOperator {
 
     /// Takes off a local compliance: the operator is that of before, bit for bit.
     pub(super) fn restore(&mut self) {
+        self.resolvent = None;
         let Softened { ratios, .. } = std::mem::take(&mut self.softened);
         self.compliance.restore();
         if let Some((_, compliance)) = &mut self.repeated {
@@ -210,7 +223,7 @@ impl ElasticOperator for LayeredOperator {
     }
 
     fn convolutions(&self) -> f64 {
-        self.convolutions
+        self.convolutions()
     }
 
     fn split<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
@@ -254,6 +267,19 @@ impl ElasticOperator for LayeredOperator {
         let (transforms, compliance) = self.inverse();
         in_place(&transforms.double, Action::Divide(1.0), compliance, field, workspace);
     }
+
+    fn whole_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        self.pressure(field, workspace);
+    }
+
+    fn resolvent(&mut self) -> Option<&mut Resolvent> {
+        let Some(Skew::Ratio(skew)) = &self.skew else { return None };
+        if self.resolvent.is_none() {
+            let means = [self.unit(), self.mean_compliance()];
+            self.resolvent = Some(Box::new(Resolvent::new(&self.transforms, (&self.compliance, skew), means)));
+        }
+        self.resolvent.as_deref_mut()
+    }
 }
 
 /// Adds a local compliance, with that of `lines` by its components, to a multiplier of `transforms`.
@@ -263,7 +289,8 @@ fn add(local: &LocalCompliance, lines: Vec<([usize; 2], f64)>, transforms: &Tran
     compliance.add(local.uniform(), &lines.collect::<Vec<_>>());
 }
 
-fn in_place<T: Real>(
+/// Convolution of a field, in its place.
+pub(super) fn in_place<T: Real>(
     convolution: &Convolution<T>,
     action: Action<'_>,
     compliance: &Multiplier,

@@ -8,6 +8,7 @@
 //! - `grid_level`: a problem on one of its nested grids; `prolongation`: a solution carried over to the next finer one;
 //! - [`Solver`]: a problem on all of them, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid;
 //!   [`Checkpoint`]: the state from which an interrupted run continues;
+//! - `resolvent`, [`Hysteresis`]: bodies that relax below a load that moves steadily: the parts of their operator, and the friction;
 //! - `adhesive`: surfaces that pull each other, by the gap instead of the pressure;
 //! - [`Wear`]: implicit steps of wear around the operator of each grid, `sliding_mean` of the body that is swept; [`Worn`]: the depths worn off.
 
@@ -22,6 +23,7 @@ mod extension;
 mod field_error;
 mod free_space;
 mod grid_level;
+mod hysteresis;
 mod iteration;
 mod layered_operator;
 mod local_compliance;
@@ -29,6 +31,7 @@ mod multiplier;
 pub mod operator;
 mod periodic_operator;
 mod prolongation;
+mod resolvent;
 mod sliding_mean;
 mod solver;
 mod step;
@@ -47,12 +50,13 @@ pub use checkpoint::{Checkpoint, OtherGrids};
 pub use contact::{Contact, Shear};
 pub use field_error::FieldError;
 pub use free_space::{Coupling, OfWavenumber};
+pub use hysteresis::Hysteresis;
 pub use iteration::{Certificate, Method, Progress, Report, Route, Settings, Stop, Unknowns};
 pub use layered_operator::LayeredOperator;
 pub use operator::Workspace;
 pub(crate) use solver::MIN_POINTS;
 pub use solver::{Memory, Solver};
-pub use step::Step;
+pub use step::{MotionLoss, Step};
 pub use tangent::Tangent;
 pub use tangential::{
     Drive, MeasuredVector, NotAlongGrid, RollError, Rolling, RollingDrive, Slides, SlipError, SlipReport, SlipSettings,

@@ -77,6 +77,24 @@ impl Multiplier {
     pub(super) fn len(&self) -> usize {
         self.table.len()
     }
+
+    /// Whether K > 0 in all components.
+    pub(super) fn is_positive(&self) -> bool {
+        self.table.iter().all(|k| *k > 0.0)
+    }
+
+    /// The magnitude |K(1 − iT)| of the multiplier with a ratio T, real and positive.
+    pub(super) fn magnitude(&self, SkewRatio { table }: &SkewRatio) -> Self {
+        let magnitudes = self.table.iter().zip(table).map(|(k, ratio)| k * ratio.hypot(1.0));
+        Self { table: magnitudes.collect(), added: Added::default(), ..*self }
+    }
+
+    /// The sum of K(1 − iT) and its magnitude, K(1 + √(1 + T²)) with the ratio T/(1 + √(1 + T²)).
+    pub(super) fn with_magnitude(&self, SkewRatio { table }: &SkewRatio) -> (Self, SkewRatio) {
+        let sums = self.table.iter().zip(table).map(|(k, ratio)| k * (1.0 + ratio.hypot(1.0)));
+        let ratios = table.iter().map(|ratio| ratio / (1.0 + ratio.hypot(1.0))).collect();
+        (Self { table: sums.collect(), added: Added::default(), ..*self }, SkewRatio { table: ratios })
+    }
 }
 
 /// Ratio T(k₁, k₂) of the skew part to K, odd, k₂ ≤ N₂/2, in the order of the column pass.

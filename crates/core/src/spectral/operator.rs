@@ -4,6 +4,7 @@
 //! through `ByRows`.
 
 use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
+use super::resolvent::Resolvent;
 use crate::lattice::Surroundings;
 use crate::numeric::aligned::Aligned;
 use crate::numeric::lanes::Real;
@@ -93,6 +94,17 @@ pub trait ElasticOperator {
     /// w → C⁻¹ w in place, in double precision; where w has zero mean it is treated like a component of the least wavenumber. In free
     /// space it is the preconditioner.
     fn symmetric_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace);
+
+    /// w → A⁻¹ w in place, in double precision, where the operator has its [parts](Self::resolvent); where w has zero mean it is treated like a
+    /// component of the least wavenumber. Else C⁻¹.
+    fn whole_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        self.symmetric_pressure(field, workspace);
+    }
+
+    /// Magnitude and resolvent of an operator with a skew part; `None` without one, and in free space, where nothing is divided by A.
+    fn resolvent(&mut self) -> Option<&mut Resolvent> {
+        None
+    }
 
     /// p → w = A p in place.
     fn displace(&mut self, field: &mut [f64], workspace: &mut Workspace) {

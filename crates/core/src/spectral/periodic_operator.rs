@@ -8,6 +8,9 @@
 //! θ between **q** and **e**: a skew part, which is odd in **q**, so that tied aliases are averaged and a component
 //! that is its own conjugate has none.
 //!
+//! Below a load that moves steadily over bodies that relax ŵ = K̂ p̂ with the complex [K̂](Bodies::moving_compliance) = C(1 − iT): what is lost
+//! is a skew part too.
+//!
 //! The mean displacement of a half-space is infinite and left out; that of layers on a rigid base is the mean pressure times
 //! [`Bodies::mean_compliance`].
 
@@ -15,6 +18,8 @@ use super::layered_operator::{LayeredOperator, Skew, Transforms};
 use crate::body::{Bodies, Compliances};
 use crate::friction::Friction;
 use crate::lattice::Grid;
+use crate::lattice::waves::WAVENUMBER_TOLERANCE;
+use rustfft::num_complex::Complex64;
 
 impl LayeredOperator {
     /// Operator of the bodies on a periodic grid, without friction.
@@ -48,6 +53,30 @@ impl LayeredOperator {
         });
         let largest = skew.largest();
         Self::with(grid, transforms, &[(1.0, compliances)]).coupled(Skew::Ratio(skew), largest)
+    }
+
+    /// Operator of the bodies on a periodic grid below a load that moves steadily with a `velocity`, with the `traction` over the pressure that
+    /// couples; of infinite coupling where the real part of a wave is not positive, and no steady state is unique.
+    pub(super) fn moving(grid: &Grid, bodies: &Bodies, velocity: [f64; 2], traction: [f64; 2]) -> Self {
+        let transforms = Transforms::new(grid.points());
+        let mean = bodies.mean_compliance();
+        let at = |wavevector| bodies.moving_compliance(wavevector, velocity, traction);
+        let compliance = |component: [usize; 2]| match (component, grid.wavevector_and_ties(component)) {
+            ([0, 0], _) if mean != 0.0 => mean.into(),
+            ([0, 0], _) => bodies.compliance(grid.least_wavenumber()).into(),
+            (_, (wavevector, 1)) => at(wavevector),
+            _ => {
+                let tied = grid.tied_wavevectors(component, WAVENUMBER_TOLERANCE);
+                tied.iter().map(|&(_, wavevector)| at(wavevector)).sum::<Complex64>() / tied.len() as f64
+            }
+        };
+        let (multiplier, skew) = transforms.double.complex_multiplier(|[k1, k2], values| {
+            values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = compliance([k1, k2]));
+        });
+        let multiplier = if mean != 0.0 { multiplier } else { multiplier.dropping_mean() };
+        let largest = if multiplier.is_positive() { skew.largest() } else { f64::INFINITY };
+        let unit = bodies.compliance(grid.least_wavenumber());
+        Self::of(transforms, multiplier, unit).with_mean(mean).coupled(Skew::Ratio(skew), largest)
     }
 
     /// Σ wᵢ Cᵢ of several compliances.

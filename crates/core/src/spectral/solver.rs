@@ -229,11 +229,13 @@ impl Solver {
     }
 
     /// The step just solved, with the contact on the next `coarser` grids.
-    pub(super) fn step(&self, load: Load, report: Report, convolutions: f64, coarser: usize) -> Step {
+    pub(super) fn step(&mut self, load: Load, report: Report, convolutions: f64, coarser: usize) -> Step {
         let contact = |level: &GridLevel| level.contact(&self.problem);
-        let (finest, coarser) = (contact(&self.levels[0]), self.levels[1..=coarser].iter().map(contact).collect());
+        let finest = contact(&self.levels[0]);
+        let coarser: Vec<Contact> = self.levels[1..=coarser].iter().map(contact).collect();
+        let motion = self.problem.motion().and_then(|_| self.levels[0].motion_loss(&finest, &coarser));
         let certificate = self.levels[0].unknowns().certificate;
-        Step { load, report, certificate, convolutions, finest, coarser }
+        Step { load, report, certificate, convolutions, motion, finest, coarser }
     }
 
     /// Keeps what the last load has pressed in, where its pressure is that of the hardness: the depths −g are in the initial gap of the

@@ -1,6 +1,7 @@
 //! One load step, solved.
 
 use super::contact::{Contact, Shear};
+use super::hysteresis::Hysteresis;
 use super::iteration::{Certificate, Report};
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
@@ -11,6 +12,17 @@ use crate::problem::Problem;
 use ndarray::{Array2, ArrayView2};
 use std::fmt;
 use std::sync::Arc;
+
+/// Friction by hysteresis of a load step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionLoss {
+    /// Friction on the finest grid, then on the coarser ones that the step keeps.
+    pub grids: Vec<Hysteresis>,
+    /// Bound on the error of the coefficient by that of the solution on the finest grid.
+    pub bound: f64,
+    /// Largest ratio of lost to stored work among the waves of the finest grid, tan δ; with friction that couples, of the skew part.
+    pub loss_tangent: f64,
+}
 
 /// A solved load step. It shares grid, surface and problem, and its fields never change: it can be kept, sent to another
 /// thread, and read after the solver is gone.
@@ -24,6 +36,8 @@ pub struct Step {
     pub certificate: Certificate,
     /// Convolutions on all grids, as equivalents of the finest one.
     pub convolutions: f64,
+    /// Friction by hysteresis below a load that moves steadily; `None` at rest, and without contact.
+    pub motion: Option<MotionLoss>,
     pub(super) finest: Contact,
     pub(super) coarser: Vec<Contact>,
 }

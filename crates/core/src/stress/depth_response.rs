@@ -1,6 +1,7 @@
 //! Stresses and displacements at one depth by the waves of a traction.
 
 use super::far_plane::FarPlane;
+use super::passed::Passed;
 use super::series::Response;
 use super::tensor::StressState;
 use super::traction::ShearForm;
@@ -24,6 +25,17 @@ pub(super) struct DepthResponse {
     pub is_deep: bool,
     /// Difference of the free and the periodic field; `None` where the system is periodic.
     pub far: Option<FarPlane<9>>,
+    /// What lags behind below a load that moves over a body that relaxes; `None` of others.
+    lost: Option<Lost>,
+}
+
+/// Imaginary parts of the amplitudes of waves whose component along the motion is positive; the other waves have the opposite ones.
+#[derive(Debug)]
+struct Lost {
+    /// Unit vector of the motion.
+    direction: [f64; 2],
+    normal: Vec<Amplitudes>,
+    tangential: Option<Tangential>,
 }
 
 /// Amplitudes at one depth under the shear traction.
@@ -70,6 +82,34 @@ impl DepthResponse {
             mean,
             is_deep: false,
             far: None,
+            lost: None,
+        }
+    }
+
+    /// Response of a body that a load passes.
+    pub fn passed(passed: &Passed, depth: Depth, wavenumbers: &[f64], form: ShearForm, mean: StressState) -> Self {
+        let [normal, lost] = passed.amplitudes(InPlane::Normal, wavenumbers.len(), depth);
+        let sheared = (form != ShearForm::None).then(|| {
+            let along = passed.amplitudes(InPlane::Along, wavenumbers.len(), depth);
+            let across = passed.antiplane(wavenumbers.len(), depth);
+            let of = |(along, across)| Tangential {
+                ratio: form.ratio().unwrap_or_default(),
+                is_field: form.ratio().is_none(),
+                along,
+                across,
+            };
+            let mut parts = along.into_iter().zip(across).map(of);
+            (parts.next(), parts.next())
+        });
+        let (stored, late) = sheared.unwrap_or_default();
+        Self {
+            normal,
+            tangential: stored,
+            lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(),
+            mean,
+            is_deep: false,
+            far: None,
+            lost: Some(Lost { direction: passed.direction(), normal: lost, tangential: late }),
         }
     }
 
@@ -118,6 +158,30 @@ fn antiplane([nx, ny]: [f64; 2], amplitudes: &Antiplane) -> [f64; 9] {
     ]
 }
 
+/// The nine components of a wave along the unit vector **n** by the amplitudes of its shell.
+#[inline(always)]
+fn components<W: Wave>(
+    n: [f64; 2],
+    shell: usize,
+    wave: W,
+    normal: &[Amplitudes],
+    tangential: Option<&Tangential>,
+) -> [Complex64; 9] {
+    let c = wave.pressure();
+    // −ic.
+    let turn = |c: Complex64| Complex64::new(c.im, -c.re);
+    let turned = turn(c);
+    let normal = in_plane(n, &normal[shell]);
+    let waves = std::array::from_fn(|k| normal[k] * if ODD[k] { turned } else { c });
+    let Some(tangential) = tangential else { return waves };
+    if !W::HAS_SHEAR {
+        let factors = tangential.factors(n, shell);
+        return std::array::from_fn(|k| waves[k] + factors[k] * if ODD[k] { c } else { turned });
+    }
+    let shear = tangential.waves(wave.shear(), n, shell);
+    std::array::from_fn(|k| waves[k] + if ODD[k] { shear[k] } else { turn(shear[k]) })
+}
+
 impl Tangential {
     /// Factors of the nine components of a wave along **n** under the traction that follows from the pressure; those even under a
     /// pressure are to be multiplied by −i.
@@ -145,21 +209,15 @@ impl Response<9> for DepthResponse {
     }
 
     #[inline(always)]
-    fn times<W: Wave>(&self, [x, y]: [f64; 2], shell: usize, wave: W) -> [Complex64; 9] {
-        let (c, length) = (wave.pressure(), self.lengths[shell]);
+    fn times<W: Wave>(&self, q @ [x, y]: [f64; 2], shell: usize, wave: W) -> [Complex64; 9] {
+        let length = self.lengths[shell];
         let n = [x * length, y * length];
-        // −ic.
-        let turn = |c: Complex64| Complex64::new(c.im, -c.re);
-        let turned = turn(c);
-        let normal = in_plane(n, &self.normal[shell]);
-        let waves = std::array::from_fn(|k| normal[k] * if ODD[k] { turned } else { c });
-        let Some(tangential) = &self.tangential else { return waves };
-        if !W::HAS_SHEAR {
-            let factors = tangential.factors(n, shell);
-            return std::array::from_fn(|k| waves[k] + factors[k] * if ODD[k] { c } else { turned });
-        }
-        let shear = tangential.waves(wave.shear(), n, shell);
-        std::array::from_fn(|k| waves[k] + if ODD[k] { shear[k] } else { turn(shear[k]) })
+        let stored = components(n, shell, wave, &self.normal, self.tangential.as_ref());
+        let Some(Lost { direction, normal, tangential }) = &self.lost else { return stored };
+        // i for a positive component along the motion, −i for a negative one.
+        let turn = Complex64::new(0.0, (q[0] * direction[0] + q[1] * direction[1]).signum());
+        let lost = components(n, shell, wave * turn, normal, tangential.as_ref());
+        std::array::from_fn(|k| stored[k] + lost[k])
     }
 
     fn mean(&self) -> [f64; 9] {

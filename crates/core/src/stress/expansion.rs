@@ -8,7 +8,7 @@
 
 use super::eight_waves::{EightWaves, STRESSES, TERMS, TaylorTerms};
 use super::far_plane::FarPlane;
-use super::field::StressField;
+use super::field::{Interiors, StressField};
 use super::phases::Phases;
 use super::plane_search::SEARCH_REACH;
 use super::series::PARALLEL_WAVES;
@@ -65,9 +65,9 @@ impl StressField {
     }
 
     fn expand(&self, depth: Depth, place: [f64; 2]) -> Expansion {
+        let Interiors::Resting(interiors) = self.interiors() else { return self.expand_by_sums(depth, place) };
         let waves = &self.series.waves;
         let wavenumbers = self.wavenumbers_within(depth, SEARCH_REACH);
-        let interiors = self.interiors();
         let tangential = if self.slides() {
             let across = interiors.antiplane(wavenumbers, depth);
             let across = across.iter().map(|shear| [-shear.sqt, -shear.stz]);

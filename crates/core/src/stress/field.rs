@@ -6,6 +6,7 @@ use super::far_field::FarField;
 use super::far_plane::FarPlane;
 use super::loaded_window::{LoadedWindow, MOST_WINDOWS};
 use super::mean_states::{across, mean_states};
+use super::passed::Passed;
 use super::regions::Regions;
 use super::series::{Response, Series};
 use super::series_grid::spread;
@@ -20,12 +21,22 @@ use crate::lattice::{Cell, Grid, NotOnGrid, Surroundings};
 use crate::load::Load;
 use crate::spectral::Contact;
 use ndarray::ArrayView2;
+use rustfft::num_complex::Complex64;
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 
 pub(super) use crate::body::REACH;
+
+/// Amplitudes of the waves inside a body.
+#[derive(Debug)]
+pub(super) enum Interiors {
+    /// Amplitudes of a body at rest below its load, or elastic.
+    Resting(Arc<InteriorTable>),
+    /// Amplitudes of a body that relaxes below a load that moves.
+    Passed(Arc<Passed>),
+}
 
 /// The stress field of one body in a load step.
 #[derive(Debug)]
@@ -47,7 +58,7 @@ pub struct StressField {
     /// The window inside of which the field does not hold, of one around the window of the contact.
     hole: Option<Cell>,
     half_space: HalfSpace,
-    interiors: Arc<InteriorTable>,
+    interiors: Interiors,
     tables: Arc<Tables>,
     /// State under the mean pressure at the upper face of each material, and the derivative of its displacement by depth.
     mean: Vec<(StressState, [f64; 3])>,
@@ -111,6 +122,14 @@ impl StressField {
         let series_grid = tables.series_grid(grid);
         let spread = spread(grid, traction.pressure());
         let (mut series, mean_shear) = Series::under(&series_grid, grid, traction, &spread);
+        let (velocity, slides) = (traction.velocity(), form != ShearForm::None);
+        let interiors = if velocity != [0.0; 2] && half_space.relaxes() {
+            let passed = tables.passed(&series_grid, half_space, (velocity, slides));
+            series = series.in_shells_of(passed.waves());
+            Interiors::Passed(passed)
+        } else {
+            Interiors::Resting(tables.interiors(&series_grid, half_space, slides))
+        };
         let (load, far, loaded) = match grid.cell().surroundings() {
             Surroundings::Periodic => (Load::MeanPressure(series.mean), None, None),
             Surroundings::FreeSpace => {
@@ -135,7 +154,7 @@ impl StressField {
             hole: None,
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
-            interiors: tables.interiors(&series_grid, half_space, form != ShearForm::None),
+            interiors,
             far,
             mean: mean_states(half_space, (mean, across(grid, line)), series.mean, mean_traction),
             mean_stress: mean,
@@ -179,7 +198,7 @@ impl StressField {
             expansions: Mutex::default(),
             hole: Some(hole),
             half_space: self.half_space.clone(),
-            interiors: tables.interiors(&series_grid, &self.half_space, self.slides()),
+            interiors: Interiors::Resting(tables.interiors(&series_grid, &self.half_space, self.slides())),
             far: Some(far),
             mean: self.mean.clone(),
             regions: Regions::new(&series_grid, &vec![0.0; series_grid.len()], None),
@@ -209,9 +228,16 @@ impl StressField {
         &self.half_space
     }
 
-    /// Poisson's ratio ν of the material at the surface.
+    /// Poisson's ratio ν of the material at the surface; below a load that moves that of waves of four samples.
     pub fn surface_poisson(&self) -> f64 {
-        self.half_space.surface_material().poisson()
+        let material = self.half_space.surface_material();
+        match &self.interiors {
+            Interiors::Resting(_) => material.poisson(),
+            Interiors::Passed(passed) => {
+                let frequency = 0.5 * self.least_aliased() * passed.speed();
+                material.moduli_at(Complex64::new(0.0, frequency)).poisson.re
+            }
+        }
     }
 
     /// The mean pressure over the cell of the series: around an isolated contact that of twice its window.
@@ -255,7 +281,7 @@ impl StressField {
     }
 
     /// Amplitudes of the grid's waves in the half-space.
-    pub(super) fn interiors(&self) -> &InteriorTable {
+    pub(super) fn interiors(&self) -> &Interiors {
         &self.interiors
     }
 
@@ -324,8 +350,12 @@ impl StressField {
 
     /// Response at a depth of the waves with qz up to `reach`.
     pub(super) fn depth_response(&self, depth: Depth, reach: f64) -> DepthResponse {
-        DepthResponse::new(&self.interiors, depth, self.wavenumbers_within(depth, reach), self.form, self.mean(depth))
-            .in_field(self.is_deep(depth), self.far.as_ref().map(|far| far.plane(depth)))
+        let (wavenumbers, mean) = (self.wavenumbers_within(depth, reach), self.mean(depth));
+        let response = match &self.interiors {
+            Interiors::Resting(table) => DepthResponse::new(table, depth, wavenumbers, self.form, mean),
+            Interiors::Passed(passed) => DepthResponse::passed(passed, depth, wavenumbers, self.form, mean),
+        };
+        response.in_field(self.is_deep(depth), self.far.as_ref().map(|far| far.plane(depth)))
     }
 
     /// State under the mean pressure at a depth.

@@ -96,6 +96,11 @@ impl Series {
         Self { mean: 0.0, waves, sampled: coefficients, exact: None, work: Arc::default() }
     }
 
+    /// The series with the same waves in other shells.
+    pub fn in_shells_of(self, waves: &Arc<Waves>) -> Self {
+        Self { waves: Arc::clone(waves), ..self }
+    }
+
     /// The series, whose planes are counted by `work`.
     pub fn counted_by(self, work: &Arc<WorkCounter>) -> Self {
         Self { work: Arc::clone(work), ..self }

@@ -1,6 +1,7 @@
 //! Tables of the interior on the grids of a run, set up once for all loads.
 
 use super::far_tables::FarTables;
+use super::passed::Passed;
 use super::series_grid::series_grid;
 use super::smoothed_edge::SmoothedEdge;
 use super::traction::ShearForm;
@@ -23,6 +24,7 @@ pub(crate) struct Tables {
     /// Tables of the windows around that of an isolated contact.
     around: OnceLock<Arc<Tables>>,
     interiors: Mutex<Vec<Entry>>,
+    passed: Mutex<Vec<Arc<Passed>>>,
     far: Mutex<Vec<Arc<FarTables>>>,
     /// Tables of smoothed edges by η of their exponents.
     edges: Mutex<Vec<(f64, Arc<SmoothedEdge>)>>,
@@ -48,8 +50,8 @@ impl Default for Tables {
 
 impl Tables {
     fn keeping(kept: usize, work: Arc<WorkCounter>) -> Self {
-        let (around, interiors, far, edges, grids) = Default::default();
-        Self { kept, around, interiors, far, edges, grids, work }
+        let (around, interiors, passed, far, edges, grids) = Default::default();
+        Self { kept, around, interiors, passed, far, edges, grids, work }
     }
 
     /// Counters of the work of all fields that share the tables.
@@ -75,6 +77,23 @@ impl Tables {
         let table = Arc::new(InteriorTable::new(Arc::clone(&response), grid.waves().wavenumbers(), slides));
         keep(self.kept, &mut entries, Entry { grid, response, slides, table: Arc::clone(&table) });
         table
+    }
+
+    /// Table of a half-space that a load passes with a velocity, for the waves of a grid, set up unless there is one already.
+    pub(super) fn passed(
+        &self,
+        grid: &Arc<Grid>,
+        half_space: &HalfSpace,
+        (velocity, slides): ([f64; 2], bool),
+    ) -> Arc<Passed> {
+        let mut entries = self.passed.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_known = |entry: &&Arc<Passed>| is_same(entry.grid(), grid) && entry.is_of(half_space, velocity, slides);
+        if let Some(entry) = entries.iter().find(is_known) {
+            return Arc::clone(entry);
+        }
+        let passed = Arc::new(Passed::new(grid, half_space, (velocity, slides)));
+        keep(self.kept, &mut entries, Arc::clone(&passed));
+        passed
     }
 
     /// The grid of the series of a pressure on `grid`, see [`series_grid`], set up unless there is one already.

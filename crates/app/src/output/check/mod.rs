@@ -59,6 +59,8 @@ pub struct Check {
     pub loads: Vec<f64>,
     /// Partial slip or rolling; `None` where nothing sticks.
     pub slip: Option<Slip>,
+    /// Motion over a body that relaxes, a sentence each; empty at rest.
+    pub motion: Vec<String>,
     /// Law and regime of adhesion and what closed forms say, a sentence each; empty where surfaces do not pull.
     pub adhesion: Vec<String>,
     /// First touches of the levels; `None` for a topography.
@@ -135,6 +137,7 @@ impl Check {
             quantity: case.load.quantity(),
             loads: case.load.values().to_vec(),
             slip,
+            motion: table::motion_words(case.problem(), &case.units()),
             adhesion: table::adhesion_words(case, &case.units()),
             touches,
             surface: Roughness::of(case)?,
@@ -214,7 +217,8 @@ impl fmt::Display for Check {
             let how = if rolls { "rolls at each load" } else { "sticks and slips" };
             writeln!(f, "tangential: the contact {how}, steps: {steps}; surfaces are elastic, a hardness is left out")?;
         }
-        self.adhesion.iter().try_for_each(|sentence| f.write_str(&table::indented(sentence, WIDTH)))?;
+        let told = self.motion.iter().chain(&self.adhesion);
+        told.into_iter().try_for_each(|sentence| f.write_str(&table::indented(sentence, WIDTH)))?;
         let none = if self.strengths.is_empty() { " none given, failure is not checked" } else { "" };
         writeln!(f, "strengths:{none}")?;
         self.strengths.iter().try_for_each(|sentence| f.write_str(&table::indented(sentence, WIDTH)))?;

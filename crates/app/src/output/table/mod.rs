@@ -7,6 +7,7 @@ mod by_step;
 mod comparison;
 mod fatigue;
 mod hertz;
+mod hysteresis;
 mod largest;
 mod life;
 mod load_steps;
@@ -23,6 +24,7 @@ pub use assumed::{Assumptions, library_strengths, scatter};
 pub use comparison::{differences, readings, stresses};
 pub use fatigue::lives;
 pub use hertz::hertz;
+pub use hysteresis::{hysteresis, motion_words};
 pub use largest::largest_stresses;
 pub use life::{events, headline, left};
 pub use load_steps::{DETAILED, steps};
@@ -69,6 +71,10 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
         text += &format!("{}{}\n\n", lines(&words, width), table.fitted(width));
     }
     if let Some((words, table)) = adhesion(case, steps, &units) {
+        text += &words.iter().map(|words| lines(words, width)).collect::<String>();
+        text += &format!("{}\n\n", fitted(&table));
+    }
+    if let Some((words, table)) = hysteresis(case.problem(), steps, &units) {
         text += &words.iter().map(|words| lines(words, width)).collect::<String>();
         text += &format!("{}\n\n", fitted(&table));
     }

@@ -36,6 +36,8 @@ impl NamedKey {
             Unit::Pure | Unit::LengthToOneMinusN | Unit::AreaCoefficient => units::Unit::None,
             Unit::Degree => units::Unit::Named("°".to_owned()),
             Unit::Length => units.length().clone(),
+            Unit::Time => units.time().clone(),
+            Unit::Velocity => units.velocity(),
             Unit::Pressure => units.pressure().clone(),
             Unit::Force => units.force(),
             Unit::PressureTimesLength => units.energy_per_area(),

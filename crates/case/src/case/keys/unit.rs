@@ -21,12 +21,18 @@ pub(in crate::case) enum Unit {
     AreaCoefficient,
     /// Degrees of an angle.
     Degree,
+    Time,
+    /// Length per time.
+    Velocity,
 }
 
 impl Unit {
     /// Whether a unit may stand behind its numbers, which are then converted to that of the case.
     pub(in crate::case) fn is_converted(self) -> bool {
-        !matches!(self, Self::Pure | Self::LengthToOneMinusN | Self::AreaCoefficient | Self::Degree)
+        !matches!(
+            self,
+            Self::Pure | Self::LengthToOneMinusN | Self::AreaCoefficient | Self::Degree | Self::Time | Self::Velocity
+        )
     }
 
     pub(super) fn name(self) -> &'static str {
@@ -43,6 +49,8 @@ impl Unit {
             Self::LengthToOneMinusN => "length to the power 1 − n",
             Self::AreaCoefficient => "none of C₀, length of C₁, length to the power 3/2 of C₂, …",
             Self::Degree => "degrees",
+            Self::Time => "time, the same in the whole case; units.time names it",
+            Self::Velocity => "length per time",
         }
     }
 
@@ -51,6 +59,8 @@ impl Unit {
         match self {
             Self::Pure | Self::LengthToOneMinusN | Self::AreaCoefficient => "number",
             Self::Degree => "angle",
+            Self::Time => "time",
+            Self::Velocity => "velocity",
             Self::Length => "length",
             Self::Pressure => "pressure",
             Self::Force => "force",

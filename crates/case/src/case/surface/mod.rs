@@ -276,8 +276,7 @@ fn topography(
     let Some(radius) = radius else { return Ok(plane) };
     plane.on_ball(radius).map_err(|error| {
         let span = section.optional("radius").map_or(section.span, |key| key.node.span);
-        Refusal::new(span, format!("`surface.radius`: {error}"), "a ball is one contact")
-            .help("give [lattice] kind = \"isolated\" with its size, or leave the radius out")
+        Refusal::new(span, format!("`surface.radius`: {error}"), "no ball")
     })
 }
 

@@ -404,6 +404,7 @@ impl Track {
         let pressure: Vec<f64> = (0..gap.len()).map(touching).collect();
         let contact = Contact::new(&self.problem, &self.surface, Arc::new(pressure), Arc::new(gap), penetration);
         let State { report, certificate, .. } = *state;
-        Step { load, report, certificate, convolutions, finest: contact.with_tension(tension), coarser: Vec::new() }
+        let (finest, coarser) = (contact.with_tension(tension), Vec::new());
+        Step { load, report, certificate, convolutions, motion: None, finest, coarser }
     }
 }

@@ -5,9 +5,10 @@
 mod given_pressure;
 mod load_step;
 
+use super::hysteresis::bound;
 use super::iteration::{AdmissibleSet, Bounds, Unknowns, Working};
 use super::operator::Workspace;
-use super::{Contact, LayeredOperator, Tangent};
+use super::{Contact, Hysteresis, LayeredOperator, MotionLoss, Tangent};
 use crate::body::CompositeHardness;
 use crate::counterbody::Surface;
 use crate::kind::ContactKind;
@@ -218,6 +219,22 @@ impl GridLevel {
     /// The tangent of a contact on this grid; `None` without contact.
     pub fn tangent_of(&mut self, contact: &Contact) -> Option<Tangent> {
         Tangent::new(&mut self.operator, contact)
+    }
+
+    /// Friction by hysteresis of the last load, on this grid and on `coarser` ones; `None` without contact. The certificate becomes the sharper one
+    /// of a monotone problem.
+    pub fn motion_loss(&mut self, contact: &Contact, coarser: &[Contact]) -> Option<MotionLoss> {
+        let finest = Hysteresis::of(contact)?;
+        let grids = std::iter::once(finest).chain(coarser.iter().map_while(Hysteresis::of)).collect();
+        let loss_tangent = self.operator.coupling();
+        if self.given.is_some() {
+            return Some(MotionLoss { grids, bound: 0.0, loss_tangent });
+        }
+        let (working, mask) = (&mut self.working_memory(), self.mask.as_deref());
+        let [bound, part] = bound(&mut self.operator, working, mask, (contact, &self.unknowns));
+        let gap = &mut self.unknowns.certificate.energy_gap;
+        *gap = gap.min(part);
+        Some(MotionLoss { grids, bound, loss_tangent })
     }
 
     /// Whether an isolated contact reaches the border of its window; a given pressure may.

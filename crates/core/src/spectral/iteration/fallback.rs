@@ -1,8 +1,9 @@
 //! The iteration of the settings and, where it stalls, a more robust one: the preconditioned iteration without the
 //! continuation of the residual, then the baseline.
 //!
-//! Under coupled friction the traction is updated in every step while it displaces little; it lags behind, for whole outer
-//! iterations, where it displaces much or where the updated one stalls. The baseline, made for a symmetric operator, is no
+//! Under coupled friction, or with materials that relax, what is skew is updated in every step while it displaces little. Where it displaces
+//! much the operator is [split](super::splitting) on a periodic cell; in a window, and where the updated one stalls, it lags behind, for whole
+//! outer iterations. The baseline, made for a symmetric operator, is no
 //! fallback there.
 
 use super::fields::Unknowns;
@@ -12,7 +13,7 @@ use super::inner_iteration::Variant;
 use super::problem::{ContactProblem, Method};
 use super::report::{Report, Route, Stop};
 use super::stopping::unless_rounding;
-use super::{polonsky_keer, preconditioned};
+use super::{polonsky_keer, preconditioned, splitting};
 use crate::spectral::operator::ElasticOperator;
 use crate::spectral::operator::TractionUpdate::{Lagged, Updated};
 
@@ -34,6 +35,17 @@ fn variants(coupling: f64) -> &'static [(Variant, Route)] {
     }
 }
 
+/// Splitting of an operator with its parts; under a given penetration it stalls, and leaves the rest to a search for the load.
+fn split<O: ElasticOperator>(
+    problem: &mut ContactProblem<'_, O>,
+    iterations: usize,
+    unknowns: &mut Unknowns,
+) -> Report {
+    let report = splitting::solve(problem, iterations, unknowns);
+    let report = report.unwrap_or_else(|| Report::new(Stop::Stalled, Route::Splitting, iterations, f64::INFINITY));
+    Report { stop: unless_rounding(problem, unknowns, report.stop), ..report }
+}
+
 /// Iterates from and into `unknowns`, with a hardness after [full steps](super::full_step); `iterations` are those before.
 pub(super) fn iterate<O: ElasticOperator>(
     problem: &mut ContactProblem<'_, O>,
@@ -46,6 +58,9 @@ pub(super) fn iterate<O: ElasticOperator>(
         return Report { stop: unless_rounding(problem, unknowns, report.stop), ..report };
     }
     let coupling = problem.operator.coupling();
+    if coupling > MAX_UPDATED_COUPLING && problem.operator.resolvent().is_some() {
+        return split(problem, iterations, unknowns);
+    }
     let mut report = Report::new(Stop::Stalled, Route::Direct, iterations, f64::INFINITY);
     for &(variant, route) in variants(coupling) {
         report = Report { route, ..preconditioned::solve(problem, variant, report.iterations, unknowns) };

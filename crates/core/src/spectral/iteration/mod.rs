@@ -14,9 +14,11 @@
 //!            full_step        pressures of zero and the hardness alone
 //! step       preconditioned   the method, by inner_iteration; direction and update are its fused loops
 //!            plain            its twin in plain lines
+//!            splitting        under a strong skew part: splitting around the method, set_system for its trials
 //!            polonsky_keer    the baseline
 //! terminate  check            criteria of convergence from one convolution, with the certificate
 //!            stopping         no progress, or nothing but rounding
+//!            monotone_bound   the error under a skew part, sharply
 //!            report           reason and route
 //! ```
 //!
@@ -44,6 +46,7 @@ mod fallback;
 mod fields;
 mod full_step;
 mod inner_iteration;
+mod monotone_bound;
 #[cfg(test)]
 mod plain;
 mod polonsky_keer;
@@ -52,6 +55,8 @@ mod problem;
 mod projection;
 mod report;
 mod route;
+mod set_system;
+mod splitting;
 mod stopping;
 mod update;
 
@@ -59,5 +64,6 @@ pub use admissible::AdmissibleSet;
 pub use bounds::Bounds;
 pub use certificate::Certificate;
 pub use fields::{Unknowns, Working};
+pub use monotone_bound::ErrorNorm;
 pub use problem::{ContactProblem, Method, Settings};
 pub use report::{Progress, Report, Route, Stop};

@@ -34,6 +34,8 @@ pub enum Stop {
     BeyondHardness,
     /// Surfaces that adhere have come apart under a tensile force, which nothing bears.
     Detached,
+    /// A wave of the surface gives back more work than it takes: no steady state is unique, and none is sought.
+    NotUnique,
     /// Contact reaches the border of the window of an isolated contact, beyond which it would go on.
     AtBorder,
     /// The progress callback has ended the step.
@@ -62,6 +64,7 @@ impl fmt::Display for Stop {
             Self::BeyondFullContact => "beyond full contact",
             Self::BeyondHardness => "beyond the hardness",
             Self::Detached => "detached",
+            Self::NotUnique => "no unique steady state",
             Self::AtBorder => "at the border of the window",
             Self::Interrupted => "interrupted",
             Self::NotANumber => "not a number",
@@ -80,6 +83,8 @@ pub enum Route {
     /// Outer iterations with the lagged traction of coupled friction: it displaces much, or the iteration had stalled with the
     /// traction updated in every step.
     Outer,
+    /// Splitting in the metric of the operator's magnitude, under a strong skew part: of friction that couples, or of materials that relax.
+    Splitting,
     /// The baseline, as prescribed.
     Baseline,
     /// The baseline, after the preconditioned method had stalled.
@@ -104,6 +109,7 @@ impl Route {
         match self {
             Self::Direct => "direct",
             Self::Outer => "outer",
+            Self::Splitting => "splitting",
             Self::Baseline => "baseline",
             Self::WithoutContinuation => "without-continuation",
             Self::BaselineAfterStall => "baseline-after-stall",
@@ -170,7 +176,7 @@ impl fmt::Display for Report {
         }
         write!(f, ", ε = {:.1e}", self.residual)?;
         match self.route {
-            Route::Direct | Route::Outer | Route::Baseline | Route::Given => Ok(()),
+            Route::Direct | Route::Outer | Route::Splitting | Route::Baseline | Route::Given => Ok(()),
             Route::WithoutContinuation => write!(f, ", without continuing the residual beyond contact"),
             Route::BaselineAfterStall => write!(f, ", fell back to Polonsky–Keer"),
             Route::LoadSearch { trials } => write!(f, ", by {trials} trials of the mean pressure"),

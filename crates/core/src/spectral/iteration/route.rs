@@ -56,6 +56,10 @@ impl<O: ElasticOperator> ContactProblem<'_, O> {
             ConvergenceCheck::new(self, unknowns);
             return done(Stop::Stalled, f64::INFINITY);
         }
+        if self.operator.coupling().is_infinite() {
+            unknowns.clear();
+            return done(Stop::NotUnique, f64::INFINITY);
+        }
         if self.load.value() <= 0.0 {
             unknowns.clear();
             ConvergenceCheck::new(self, unknowns);

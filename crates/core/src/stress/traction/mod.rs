@@ -28,6 +28,8 @@ pub struct Traction<'a> {
     is_contact: bool,
     /// Axis along which nothing changes, see [`Counterbody::line`](crate::Counterbody::line).
     line: Option<usize>,
+    /// Velocity with which the traction moves over the body, lengths per time; zero at rest.
+    velocity: [f64; 2],
 }
 
 /// Tangential traction on a body.
@@ -91,6 +93,7 @@ impl<'a> Traction<'a> {
             discs: discs_under(contact),
             is_contact: problem.counterbody().is_some() && problem.adhesion().is_none(),
             line: problem.loaded_by().line(),
+            velocity: problem.velocity(),
         }
     }
 
@@ -102,7 +105,7 @@ impl<'a> Traction<'a> {
         let line = constant_axis(pressure);
         let pressure = on_grid(grid, pressure)?;
         let (tangential, discs) = (Tangential::None, Vec::new());
-        Ok(Self { grid: Arc::clone(grid), pressure, tangential, discs, is_contact: true, line })
+        Ok(Self { grid: Arc::clone(grid), pressure, tangential, discs, is_contact: true, line, velocity: [0.0; 2] })
     }
 
     /// The pressure with μ p **e** on a body that meets the counterbody with Dundurs'
@@ -136,19 +139,25 @@ impl<'a> Traction<'a> {
                 Tangential::Fields(fields.map(|field| field.iter().map(|q| -q).collect::<Vec<f64>>().into()))
             }
         };
-        Self { tangential, ..self }
+        // A counterbody rests in the frame of the traction.
+        Self { tangential, velocity: [0.0; 2], ..self }
+    }
+
+    /// Velocity with which the traction moves over the body, lengths per time; zero at rest.
+    pub(super) fn velocity(&self) -> [f64; 2] {
+        self.velocity
     }
 
     /// The traction with samples of its own.
     pub(super) fn into_owned(self) -> Traction<'static> {
-        let Self { grid, pressure, tangential, discs, is_contact, line } = self;
+        let Self { grid, pressure, tangential, discs, is_contact, line, velocity } = self;
         let owned = |field: Cow<'a, [f64]>| Cow::Owned(field.into_owned());
         let tangential = match tangential {
             Tangential::None => Tangential::None,
             Tangential::Coulomb { friction, beta } => Tangential::Coulomb { friction, beta },
             Tangential::Fields(fields) => Tangential::Fields(fields.map(owned)),
         };
-        Traction { grid, pressure: owned(pressure), tangential, discs, is_contact, line }
+        Traction { grid, pressure: owned(pressure), tangential, discs, is_contact, line, velocity }
     }
 
     /// The grid.

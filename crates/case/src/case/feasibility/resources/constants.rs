@@ -15,6 +15,11 @@ pub(super) const READING: u64 = 20;
 /// Per sample, in place of [`READING`]: waves, their coefficients and the search for maxima, and the plane that is written.
 pub(super) const STRESS: u64 = 92;
 pub(super) const PLANE: u64 = 36;
+/// Per sample, below a load that moves: parts of the operator, fields of the splitting, and the directions of its trials; and in stresses the
+/// complex coefficients of the waves in each material, and their amplitudes at a depth.
+pub(super) const MOTION: u64 = 260;
+pub(super) const PASSED: u64 = 80;
+pub(super) const LAGS: u64 = 200;
 /// Code and buffers of stresses.
 pub(super) const STRESSES: u64 = 2 * MEBIBYTE;
 /// Per sample: memory of the stresses of earlier steps that the allocator keeps, in a path and in a search for a limit; and

@@ -1,9 +1,9 @@
 //! Memory and disk of each job: the larger of solving and drawing, and the files that it writes.
 
 use super::constants::{
-    ADHESION, AGAIN, CHECKPOINTS, COMPARED, COMPARISON, CURVES, CUTS, DAMAGE, DAMAGE_LINES, DEPTHS, FIELD, KEPT, MAPS,
-    MOMENT, PICTURE, PLACES, PROGRAM, READING, SEARCH, SHOWN, SLIP, SLIP_FIELDS, SPOT_FIELDS, STATE, STEP, STRESS,
-    STRESSES, TENSION, WORN,
+    ADHESION, AGAIN, CHECKPOINTS, COMPARED, COMPARISON, CURVES, CUTS, DAMAGE, DAMAGE_LINES, DEPTHS, FIELD, KEPT, LAGS,
+    MAPS, MOMENT, MOTION, PASSED, PICTURE, PLACES, PROGRAM, READING, SEARCH, SHOWN, SLIP, SLIP_FIELDS, SPOT_FIELDS,
+    STATE, STEP, STRESS, STRESSES, TENSION, WORN,
 };
 use super::job::Needs;
 use super::stress_needs::{of_series, of_shells, of_stress};
@@ -51,7 +51,9 @@ pub(super) fn of_solving(
     let sticks = case.tangential.is_some();
     let tension = if case.adhesion.is_some() { TENSION } else { 0 };
     let depths = if yields(case) { DEPTHS } else { 0 } + if sticks { SLIP_FIELDS } else { 0 } + tension;
-    let slip = of_slip(case, samples, series, stress > 0) + of_adhesion(case, samples);
+    let slip = of_slip(case, samples, series, stress > 0)
+        + of_adhesion(case, samples)
+        + of_motion(case, samples, series, stress > 0);
     let (fields, written, volume) =
         if fields { (steps * (24 + depths) * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
     let drawn = 3 + 2 * u64::from(case.has_cut()) + u64::from(steps > 1) + u64::from(sticks);
@@ -79,6 +81,15 @@ fn of_adhesion(case: &Case, samples: u64) -> u64 {
     let is_isolated = case.problem().kind().is_indentation();
     let torus = if is_isolated { adhesive_widths(&case.problem().cell()).iter().product::<usize>() as u64 } else { 1 };
     if case.adhesion.is_some() { ADHESION * torus * samples } else { 0 }
+}
+
+/// A load that moves over a body that relaxes: its splitting, and the waves inside the body; nothing at rest.
+fn of_motion(case: &Case, samples: u64, series: u64, stressed: bool) -> u64 {
+    if case.motion.is_none() {
+        return 0;
+    }
+    let inside = PASSED * case.half_space().material_count() as u64 + LAGS;
+    MOTION * samples + if stressed { inside * series } else { 0 }
 }
 
 /// Steps that stay in memory, without files.
@@ -118,7 +129,8 @@ pub(super) fn of_limits(case: &Case, samples: u64, [grids, working, heights]: [u
     // The steps that are shown stay in memory while those at higher limits are solved.
     let shown = Criterion::all(case.problem().bodies()).len().clamp(1, EVENTS) as u64 - 1;
     let stress = of_bodies + SEARCH * series + of_shells(case, series) + shown * SHOWN * samples;
-    let slip = of_slip(case, samples, series, true) + of_adhesion(case, samples);
+    let slip =
+        of_slip(case, samples, series, true) + of_adhesion(case, samples) + of_motion(case, samples, series, true);
     let solving = PROGRAM + grids + heights + slip + working.max(READING * samples).max(stress);
     let disk = COMPARISON + if pictures { (1 + EVENTS as u64) * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
