@@ -21,12 +21,21 @@
 //! stands to its left:
 //!
 //! ```text
+<<<<<<< HEAD
 //! numeric → notation → measured → quantity → lattice → load → kind → body → counterbody → friction → steady_motion → adhesion → problem → spectral → stress
+=======
+//! numeric → notation → measured → quantity → lattice → load → kind → body → heat → counterbody → friction → adhesion → problem → spectral → stress
+>>>>>>> cb611869 (Frictional heat in layered moving bodies: temperature, swelling and thermal stress of a wave)
 //! → reading → identification → localized → run → life → comparison
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
+<<<<<<< HEAD
 //! - [`load`], [`kind`], [`friction`], [`steady_motion`], [`adhesion`], [`problem`]: loads, friction, motion, tension, bodies and counterbody of a problem;
+=======
+//! - [`heat`]: temperature, swelling and thermal stress of layered bodies under a heat source that moves, wave by wave;
+//! - [`load`], [`kind`], [`friction`], [`adhesion`], [`problem`]: loads, friction, tension, bodies and counterbody of a problem;
+>>>>>>> cb611869 (Frictional heat in layered moving bodies: temperature, swelling and thermal stress of a wave)
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`measured`]: values with their errors; [`quantity`]: names, symbols and kinds of what is read off a step, declared once;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
@@ -59,6 +68,7 @@ pub mod body;
 pub mod comparison;
 pub mod counterbody;
 pub mod friction;
+pub mod heat;
 pub mod identification;
 pub mod kind;
 pub mod lattice;
@@ -86,6 +96,7 @@ pub use counterbody::{
     Shape, Surface, Topography,
 };
 pub use friction::{Friction, FrictionError};
+pub use heat::{Conduction, HeatError, HeatedBody};
 pub use kind::{ContactKind, Datum};
 pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid, Surroundings};
 pub use load::{Load, LoadQuantity};

@@ -138,12 +138,12 @@ impl<N: Number> Interior<N> {
     }
 
     /// q times the thickness of a material, from 0; infinite in the substrate.
-    pub(super) fn thickness(&self, material: usize) -> f64 {
+    pub(crate) fn thickness(&self, material: usize) -> f64 {
         self.stretches[material].thickness
     }
 
     /// F and its first three derivatives at `x` = q · (depth below the upper face) in a material, from 0.
-    pub(super) fn derivatives(&self, material: usize, x: f64) -> [N; 4] {
+    pub(crate) fn derivatives(&self, material: usize, x: f64) -> [N; 4] {
         let stretch = &self.stretches[material];
         let [u, w, t, p] = stretch.state(x);
         let PlaneStrain { poisson, e, r, .. } = stretch.material;

@@ -74,6 +74,7 @@ pub use relaxation::{ConstantModulus, Relaxation, RelaxationError, RelaxationTer
 pub use response::{LayeredResponse, SurfaceResponse};
 pub use strain_life::{StrainDirection, StrainLife};
 pub use strength::{InterfaceStrength, Strength};
+pub(crate) use stress_function::derivatives as stress_function_derivatives;
 pub use substrate::Substrate;
 
 pub use crate::numeric::number::Number;

@@ -28,7 +28,7 @@ use crate::numeric::number::Number;
 const THIN_LAYER: f64 = 1.0;
 
 /// F and its first three derivatives by x.
-pub(super) type Derivatives<N = f64> = [N; 4];
+pub(crate) type Derivatives<N = f64> = [N; 4];
 
 /// e^{−x}.
 pub(super) fn decay(x: f64) -> f64 {
@@ -52,7 +52,7 @@ pub(super) fn coefficients<N: Number>(interior: &Interior<N>, material: usize) -
 
 /// F and its derivatives at x in a layer of thickness X.
 #[inline(always)]
-pub(super) fn derivatives<N: Number>(&[a, b, c, d]: &[N; 4], x: f64, thickness: f64) -> Derivatives<N> {
+pub(crate) fn derivatives<N: Number>(&[a, b, c, d]: &[N; 4], x: f64, thickness: f64) -> Derivatives<N> {
     if thickness < THIN_LAYER {
         // cosh, sinh, ½x sinh and ½(x cosh − sinh).
         let [cosh, sinh, rise, bend] = hyperbolic(x);
