@@ -4,12 +4,6 @@
 //! four numbers in a layer and two in the substrate (`expanding_material`). They follow from what holds at the free surface and at the
 //! interfaces (`conditions`). At rest a homogeneous body has no stress in the plane of **k** and z.
 //!
-//! **Phase.** For the flux q̂e^{ikξ}, ξ along **k**, with the complex amplitudes of [`Amplitudes`] over q̂,
-//!
-//! (σ_zz, σ_qq, σ_tt, u_z) = (szz, sqq, stt, uz) q̂e^{ikξ},  (σ_qz, u_q) = −i (sqz, uq) q̂e^{ikξ}:
-//!
-//! of real amplitudes, under a flux cos kξ, the former are of cos kξ and the latter of sin kξ.
-//!
 //! The wave **k** = 0, a uniform rise of temperature in each material, is [`HeatedBody::confined_stress`].
 
 use super::HeatedBody;
@@ -20,6 +14,12 @@ use crate::body::{Amplitudes, Depth, Moduli};
 use rustfft::num_complex::Complex64;
 
 /// Thermal stress in a layered body for one wave of the flux into its surface.
+///
+/// **Phase.** Under the flux q̂e^{ikξ}, ξ along **k**, with the complex [`Amplitudes`] over q̂,
+///
+/// (σ_zz, σ_qq, σ_tt, u_z) = (szz, sqq, stt, uz) q̂e^{ikξ},  (σ_qz, u_q) = −i (sqz, uq) q̂e^{ikξ}:
+///
+/// where the amplitudes are real and the flux is cos kξ, the former are of cos kξ and the latter of sin kξ, as under a pressure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ThermalStress {
     temperature: TemperatureWave,
@@ -52,8 +52,8 @@ impl ThermalStress {
         &self.temperature
     }
 
-    /// Amplitudes at a depth over the flux into the surface: stresses in pressures, displacements in lengths per power and area, in the
-    /// phases of the module's head. Depths outside their material are brought back to its faces.
+    /// Amplitudes at a depth over the flux into the surface, in the phases of [`ThermalStress`]: stresses in pressures, displacements in
+    /// lengths per power and area. Depths outside their material are brought back to its faces.
     ///
     /// # Panics
     /// When there is no such material.

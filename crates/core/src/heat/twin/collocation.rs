@@ -180,6 +180,25 @@ impl<'a> Collocation<'a> {
         nodes
     }
 
+    /// Sums of rows and of heat that are zero in equilibrium inside an element.
+    fn equilibrium(&self, number: usize, temperatures: &[Complex64]) -> Vec<(Row, Complex64)> {
+        let (element, ik) = (&self.elements[number], Complex64::new(0.0, self.k));
+        let heat = |node: usize| temperatures[number * (DEGREE + 1) + node] * self.beta(element);
+        let all: Vec<[Row; 5]> = (0..=DEGREE).map(|j| self.elastic(number, j)).collect();
+        let at = |node: usize| {
+            let (mut down, mut along) = (times(&all[node][3], ik), times(&all[node][4], ik));
+            let mut down_heat = Complex64::default();
+            for j in 0..=DEGREE {
+                let slope = Complex64::from(element.slope[node][j]);
+                down = plus(&down, &all[j][2], slope);
+                along = plus(&along, &all[j][3], slope);
+                down_heat += slope * heat(j);
+            }
+            [(down, down_heat), (along, ik * heat(node))]
+        };
+        (1..DEGREE).flat_map(at).collect()
+    }
+
     fn displacements(&self, temperatures: &[Complex64]) -> Vec<Complex64> {
         let (mut rows, mut right) = (Vec::new(), Vec::new());
         let scale = self.material(&self.elements[0]).shear() * self.k;
@@ -191,25 +210,14 @@ impl<'a> Collocation<'a> {
         let heat = |element: usize, node: usize| {
             temperatures[element * (DEGREE + 1) + node] * self.beta(&self.elements[element])
         };
-        let ik = Complex64::new(0.0, self.k);
         let [_, _, szz, sqz, _] = self.elastic(0, 0);
         hold(szz, heat(0, 0));
         hold(sqz, 0.0.into());
         for (number, element) in self.elements.iter().enumerate() {
-            let all: Vec<[Row; 5]> = (0..=DEGREE).map(|j| self.elastic(number, j)).collect();
-            for node in 1..DEGREE {
-                let (mut down, mut along) = (times(&all[node][3], ik), times(&all[node][4], ik));
-                let (mut down_heat, along_heat) = (Complex64::default(), ik * heat(number, node));
-                for j in 0..=DEGREE {
-                    let slope = Complex64::from(element.slope[node][j]);
-                    down = plus(&down, &all[j][2], slope);
-                    along = plus(&along, &all[j][3], slope);
-                    down_heat += slope * heat(number, j);
-                }
-                hold(down, down_heat);
-                hold(along, along_heat);
+            for (row, heat) in self.equilibrium(number, temperatures) {
+                hold(row, heat);
             }
-            let [w, u, szz, sqz, _] = &all[DEGREE];
+            let [w, u, szz, sqz, _] = &self.elastic(number, DEGREE);
             let above = heat(number, DEGREE);
             let next = self.elements.get(number + 1).map(|_| (self.elastic(number + 1, 0), heat(number + 1, 0)));
             let changes = self.elements.get(number + 1).is_none_or(|next| next.material != element.material);
