@@ -21,21 +21,14 @@
 //! stands to its left:
 //!
 //! ```text
-<<<<<<< HEAD
-//! numeric → notation → measured → quantity → lattice → load → kind → body → counterbody → friction → steady_motion → adhesion → problem → spectral → stress
-=======
-//! numeric → notation → measured → quantity → lattice → load → kind → body → heat → counterbody → friction → adhesion → problem → spectral → stress
->>>>>>> cb611869 (Frictional heat in layered moving bodies: temperature, swelling and thermal stress of a wave)
-//! → reading → identification → localized → run → life → comparison
+//! numeric → notation → measured → quantity → lattice → load → kind → body → heat → creep → counterbody → friction → steady_motion → adhesion → problem
+//! → spectral → stress → reading → identification → localized → run → life → comparison
 //! ```
 //!
-//! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space;
-<<<<<<< HEAD
-//! - [`load`], [`kind`], [`friction`], [`steady_motion`], [`adhesion`], [`problem`]: loads, friction, motion, tension, bodies and counterbody of a problem;
-=======
+//! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space; [`creep`]: its
+//!   retardation in time;
 //! - [`heat`]: temperature, swelling and thermal stress of layered bodies under a heat source that moves, wave by wave;
-//! - [`load`], [`kind`], [`friction`], [`adhesion`], [`problem`]: loads, friction, tension, bodies and counterbody of a problem;
->>>>>>> cb611869 (Frictional heat in layered moving bodies: temperature, swelling and thermal stress of a wave)
+//! - [`load`], [`kind`], [`friction`], [`steady_motion`], [`adhesion`], [`problem`]: loads, friction, motion, tension, bodies and counterbody of a problem;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`measured`]: values with their errors; [`quantity`]: names, symbols and kinds of what is read off a step, declared once;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
@@ -67,6 +60,7 @@ pub mod adhesion;
 pub mod body;
 pub mod comparison;
 pub mod counterbody;
+pub mod creep;
 pub mod friction;
 pub mod heat;
 pub mod identification;

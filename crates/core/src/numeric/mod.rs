@@ -1,4 +1,4 @@
-//! General numerics that the physics rests on: real or complex moduli, sums in a fixed order, small systems of equations,
+//! General numerics that the physics rests on: real or complex moduli, dual numbers, eigenvalues, sums in a fixed order, small systems of equations,
 //! quadrature, Chebyshev series, maxima, closed lines around an axis with Fourier series in the angle, fields as arrays, and transforms and passes over rows
 //! with eight samples at a time.
 
@@ -6,6 +6,8 @@ pub(crate) mod aligned;
 pub mod array;
 pub(crate) mod chebyshev;
 pub(crate) mod closed_line;
+pub(crate) mod dual;
+pub(crate) mod eigen;
 pub mod fourier;
 pub(crate) mod lanes;
 pub mod least_squares;

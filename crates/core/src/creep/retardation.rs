@@ -1,0 +1,213 @@
+//! Retardation of layered bodies: the modes of their compliance, wave by wave.
+//!
+//! The compliance C(k, s) of a wave is rational in s. Its poles lie where the layers can move without a load: at s = −1/θ with θ between
+//! the shortest relaxation time τ of a material and the longest τ G(∞)/G(0), since beyond these all moduli are positive. C and ∂C/∂s are
+//! computed from the layers at some iω a decade around these times, with [dual numbers](Dual) for moduli, and the [modes](RetardationModes)
+//! from them. Waves do not share anything but the places, so that any number of materials and terms is possible, and modes of one wave may
+//! cross from one to the next.
+//!
+//! Two elastic bodies have the modes of the sum of their compliances.
+
+use super::modes::RetardationModes;
+use super::relaxation::Relaxations;
+use super::states::Sample;
+use crate::body::{Bodies, HalfSpace, Interface, Layer, LayeredResponse, Moduli};
+use crate::numeric::dual::Dual;
+use crate::numeric::number::Number;
+use rayon::prelude::*;
+use rustfft::num_complex::Complex64;
+
+/// Frequencies a decade, and decades of them beyond the shortest and the longest time.
+const PER_DECADE: f64 = 4.0;
+const BEYOND: f64 = 0.5;
+/// Laplace variable, over the shortest rate, at which no relaxation has begun.
+const GLASSY: f64 = 1e20;
+
+/// Bodies at the frequencies at which their compliance is sampled.
+#[derive(Debug, Clone)]
+pub struct Retardation<'a> {
+    bodies: &'a Bodies,
+    relaxations: &'a Relaxations,
+    /// Places s = iω, ascending, each with the responses of the bodies; none where all materials are elastic.
+    places: Vec<(Dual, Vec<LayeredResponse<Dual>>)>,
+    /// Laplace variable of bodies that have not begun to relax, with their responses.
+    glassy: (f64, Vec<LayeredResponse>),
+}
+
+impl<'a> Retardation<'a> {
+    /// Retardation of bodies whose materials relax.
+    pub fn new(bodies: &'a Bodies, relaxations: &'a Relaxations) -> Self {
+        let times = relaxations.times(bodies);
+        let frequencies = times.map_or(Vec::new(), |times| frequencies(times, PER_DECADE, BEYOND));
+        let at = |frequency: f64| {
+            let place = Dual::variable(Complex64::new(0.0, frequency));
+            (place, relaxations.responses_at(bodies, place))
+        };
+        let glassy = times.map_or(0.0, |[shortest, _]| GLASSY / shortest);
+        Self {
+            bodies,
+            relaxations,
+            places: frequencies.into_iter().map(at).collect(),
+            glassy: (glassy, relaxations.responses_at(bodies, glassy)),
+        }
+    }
+
+    /// Modes of the wavenumber k > 0, one over a length.
+    pub fn modes(&self, wavenumber: f64) -> RetardationModes {
+        let sampled =
+            |(place, responses): &(Dual, Vec<LayeredResponse<Dual>>)| sample(*place, compliance(responses, wavenumber));
+        let samples: Vec<Sample> = self.places.iter().map(sampled).collect();
+        RetardationModes::through(compliance(&self.glassy.1, wavenumber), &samples)
+    }
+
+    /// Modes of many wavenumbers k > 0, each one over a length.
+    pub fn modes_of(&self, wavenumbers: &[f64]) -> Vec<RetardationModes> {
+        wavenumbers.par_iter().map(|&wavenumber| self.modes(wavenumber)).collect()
+    }
+
+    /// Modes of a uniform pressure without mean lateral strain: Σ h/M(s) of layers on a rigid base. Zero where all substrates are elastic,
+    /// whose infinite mean displacement is left out.
+    pub fn mean_modes(&self) -> RetardationModes {
+        if !self.bodies.has_rigid_base() {
+            return RetardationModes::default();
+        }
+        let samples: Vec<Sample> = self.places.iter().map(|&(place, _)| sample(place, self.mean(place))).collect();
+        RetardationModes::through(self.mean(self.glassy.0), &samples)
+    }
+
+    /// Mean compliance at the Laplace variable s.
+    fn mean<N: Number>(&self, place: N) -> N {
+        let moduli = self.relaxations.moduli_at(self.bodies, place);
+        self.bodies.each().zip(moduli).fold(N::default(), |sum, (body, moduli)| sum + mean(body, &moduli))
+    }
+
+    /// Largest relative error of modes of the wavenumber k > 0, one over a length, against the layers themselves: at real s and at iω, ten a
+    /// decade from three decades before the shortest to three beyond the longest time.
+    pub fn misfit(&self, wavenumber: f64, modes: &RetardationModes) -> f64 {
+        let places = self.relaxations.times(self.bodies).map_or(Vec::new(), |times| frequencies(times, 10.0, 3.0));
+        let all = places.into_iter().flat_map(|s| [Complex64::new(s, 0.0), Complex64::new(0.0, s)]);
+        let error = |s: Complex64| {
+            let exact = compliance(&self.relaxations.responses_at(self.bodies, s), wavenumber);
+            (modes.at(s) - exact).norm() / exact.norm()
+        };
+        all.map(error).fold(0.0, f64::max)
+    }
+}
+
+/// Frequencies between one over the longest and one over the shortest time and some decades beyond, ascending.
+fn frequencies([shortest, longest]: [f64; 2], per_decade: f64, beyond: f64) -> Vec<f64> {
+    let decades = (longest / shortest).log10() + 2.0 * beyond;
+    let count = (decades * per_decade).ceil();
+    let frequency = |k: usize| 10f64.powf(decades * k as f64 / count - beyond) / longest;
+    (0..=count as usize).map(frequency).collect()
+}
+
+fn sample(place: Dual, compliance: Dual) -> Sample {
+    Sample { place: place.value, value: compliance.value, slope: compliance.slope }
+}
+
+/// Compliance of bodies together.
+pub(super) fn compliance<N: Number>(responses: &[LayeredResponse<N>], wavenumber: f64) -> N {
+    responses.iter().fold(N::default(), |sum, response| sum + response.compliance(wavenumber))
+}
+
+/// [Mean compliance](HalfSpace::mean_compliance) of a body with other moduli of its materials.
+fn mean<N: Number>(body: &HalfSpace, moduli: &[Moduli<N>]) -> N {
+    if !body.substrate().is_rigid() {
+        return N::default();
+    }
+    let add = |sum: N, (layer, &Moduli { shear, poisson }): (&Layer, &Moduli<N>)| {
+        let one = N::from(1.0);
+        let compression = (one - poisson * 2.0).over(shear * (one - poisson) * 2.0) * layer.thickness();
+        match layer.interface() {
+            Interface::Spring { normal, .. } => sum + compression + N::from(normal.recip()),
+            Interface::Bonded | Interface::Frictionless => sum + compression,
+        }
+    };
+    body.layers().iter().zip(moduli).fold(N::default(), add)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::relaxation::{Constant, Relaxation};
+    use super::super::tests::{SPRING, layer, material, one};
+    use super::*;
+
+    /// Two times of C = (1−ν)/(Gk) = [1/G + 3/(3K+G)]/(2k): of 1/G and of 3/(3K+G); one where ν is constant.
+    #[test]
+    fn a_homogeneous_half_space_has_its_known_times() {
+        for (ratio, nu) in [(1.01, 0.3), (2.0, 0.0), (10.0, 0.3), (1e3, 0.45), (10.0, 0.5)] {
+            let (shear, k) = (3.0, 0.7);
+            let bodies = Bodies::from(HalfSpace::new(vec![], material(shear, nu)));
+            // Times that are nearly the same are told apart less well.
+            let near =
+                |found: f64, expected: f64| (found / expected - 1.0).abs() < if ratio < 1.1 { 1e-7 } else { 1e-11 };
+
+            let relaxations = Relaxations(vec![vec![one(shear, ratio, Constant::Poisson)]]);
+            let retardation = Retardation::new(&bodies, &relaxations);
+            let found = retardation.modes(k);
+            let relaxed = (1.0 - nu) / (shear * k);
+            assert!(found.modes.len() == 1 && near(found.modes[0].time, ratio), "{ratio}, ν {nu}: {found:?}");
+            assert!(
+                near(found.modes[0].amplitude, relaxed * (1.0 - 1.0 / ratio)) && near(found.glassy, relaxed / ratio)
+            );
+            assert!(retardation.misfit(k, &found) < 1e-13);
+
+            let relaxations = Relaxations(vec![vec![one(shear, ratio, Constant::Bulk)]]);
+            let retardation = Retardation::new(&bodies, &relaxations);
+            let found = retardation.modes(k);
+            let bulk = 2.0 * shear * (1.0 + nu) / (1.0 - 2.0 * nu);
+            let time = (bulk + ratio * shear) / (bulk + shear);
+            let amplitude = 1.5 / k * (1.0 / (bulk + shear) - 1.0 / (bulk + ratio * shear));
+            let first = (1.0 / shear - 1.0 / (ratio * shear)) / (2.0 * k);
+            assert!(near(found.modes[0].time, ratio) && near(found.modes[0].amplitude, first), "{found:?}");
+            if nu == 0.5 {
+                assert_eq!(found.modes.len(), 1, "incompressible: {found:?}");
+            } else {
+                // What little amplitude there is has the rounding of the whole.
+                let tolerance = if ratio < 1.1 { 1e-6 } else { 1e-11 * found.at(1.0) / amplitude };
+                assert!(
+                    (found.modes[1].time / time - 1.0).abs() < tolerance && found.modes.len() == 2,
+                    "{found:?}, {time}"
+                );
+                assert!((found.modes[1].amplitude / amplitude - 1.0).abs() < tolerance, "{found:?}, {amplitude}");
+            }
+            assert!(retardation.misfit(k, &found) < 1e-12, "{:e}", retardation.misfit(k, &found));
+        }
+    }
+
+    /// M = K + 4G/3 relaxes by (K + 4G(∞)/3)/(K + 4G(0)/3) to 1; springs and elastic layers add to the glassy compliance.
+    #[test]
+    fn layers_on_a_rigid_base_creep_under_a_uniform_pressure() {
+        let layers = vec![layer(2.0, 0.3, 0.5, SPRING), layer(7.0, 0.2, 0.1, Interface::Bonded)];
+        let bodies = Bodies::from(HalfSpace::on_rigid_base(layers).unwrap());
+        let relaxations = Relaxations(vec![vec![one(2.0, 10.0, Constant::Bulk), Relaxation::default()]]);
+        let found = Retardation::new(&bodies, &relaxations).mean_modes();
+        let moduli = [2.0, 20.0].map(|shear| 2.0 * 2.0 * 1.3 / (3.0 * 0.4) + 4.0 * shear / 3.0);
+        assert!((found.relaxed() / bodies.mean_compliance() - 1.0).abs() < 1e-13);
+        assert!(
+            found.modes.len() == 1 && (found.modes[0].time * moduli[0] / moduli[1] - 1.0).abs() < 1e-11,
+            "{found:?}"
+        );
+        assert!((found.modes[0].amplitude / (0.5 / moduli[0] - 0.5 / moduli[1]) - 1.0).abs() < 1e-11);
+        let elastic = Bodies::from(HalfSpace::new(vec![], material(2.0, 0.3)));
+        let relaxations = Relaxations(vec![vec![one(2.0, 10.0, Constant::Bulk)]]);
+        assert_eq!(Retardation::new(&elastic, &relaxations).mean_modes(), RetardationModes::default());
+    }
+
+    /// Waves far shorter than the layer is thick know its material alone, far longer ones the substrate's.
+    #[test]
+    fn short_and_long_waves_have_the_times_of_one_material() {
+        for interface in [Interface::Bonded, Interface::Frictionless, SPRING] {
+            let bodies = Bodies::from(HalfSpace::new(vec![layer(5.0, 0.4, 1.0, interface)], material(1.0, 0.3)));
+            let relaxing = [one(5.0, 4.0, Constant::Poisson), one(1.0, 9.0, Constant::Poisson)];
+            let relaxations = Relaxations(vec![relaxing.to_vec()]);
+            let retardation = Retardation::new(&bodies, &relaxations);
+            let short = retardation.modes(100.0);
+            assert!(short.modes.len() == 1 && (short.modes[0].time - 4.0).abs() < 1e-10, "{short:?}");
+            let long = retardation.modes(1e-6);
+            let greatest = long.modes.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)).unwrap();
+            assert!((greatest.time - 9.0).abs() < 1e-4 && greatest.amplitude > 0.999 * (long.relaxed() - long.glassy));
+        }
+    }
+}
