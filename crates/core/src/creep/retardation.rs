@@ -3,8 +3,8 @@
 //! The compliance C(k, s) of a wave is rational in s. Its poles lie where the layers can move without a load: at s = −1/θ with θ between
 //! the shortest relaxation time τ of a material and the longest τ G(∞)/G(0), since beyond these all moduli are positive. C and ∂C/∂s are
 //! computed from the layers at some iω a decade around these times, with [dual numbers](Dual) for moduli, and the [modes](RetardationModes)
-//! from them. Waves do not share anything but the places, so that any number of materials and terms is possible, and modes of one wave may
-//! cross from one to the next.
+//! from them. Waves share nothing but the frequencies: there are any number of materials and terms, and times may cross from one wave to
+//! the next.
 //!
 //! Two elastic bodies have the modes of the sum of their compliances.
 
@@ -20,7 +20,7 @@ use rustfft::num_complex::Complex64;
 /// Frequencies a decade, and decades of them beyond the shortest and the longest time.
 const PER_DECADE: f64 = 4.0;
 const BEYOND: f64 = 0.5;
-/// Laplace variable, over the shortest rate, at which no relaxation has begun.
+/// Laplace variable times the shortest time at which no relaxation has begun.
 const GLASSY: f64 = 1e20;
 
 /// Bodies at the frequencies at which their compliance is sampled.

@@ -10,7 +10,7 @@
 
 use rustfft::num_complex::Complex64;
 
-/// Square of what is left of a state outside the span, in units in which none is longer than one, below which it counts as rounding.
+/// Square of what is left of a state outside the span, below which it counts as rounding; no state is much longer than one.
 const LEFT: f64 = 1e-12;
 /// Frequency, over the least one, below which states are measured as at it: they are then those of a load held for long.
 const SLOW: f64 = 10.0;
@@ -26,7 +26,7 @@ pub struct Sample {
     pub slope: Complex64,
 }
 
-/// Real or imaginary part of the state at a sample, in a unit in which it is not longer than one.
+/// Real or imaginary part of the state at a sample, in a unit in which it is not much longer than one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct State {
     sample: Sample,

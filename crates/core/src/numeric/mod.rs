@@ -1,6 +1,6 @@
-//! General numerics that the physics rests on: real or complex moduli, dual numbers, eigenvalues, sums in a fixed order, small systems of equations,
-//! quadrature, Chebyshev series, maxima, closed lines around an axis with Fourier series in the angle, fields as arrays, and transforms and passes over rows
-//! with eight samples at a time.
+//! General numerics that the physics rests on: real or complex moduli, dual numbers, sums in a fixed order, small systems of equations and
+//! eigenvalues, quadrature, Chebyshev series, maxima, closed lines around an axis with Fourier series in the angle, fields as arrays, and
+//! transforms and passes over rows with eight samples at a time.
 
 pub(crate) mod aligned;
 pub mod array;

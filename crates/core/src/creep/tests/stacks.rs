@@ -1,7 +1,7 @@
 //! Modes of layered bodies of all kinds against the layers themselves.
 
-use super::super::{Constant, Relaxation, Relaxations, Retardation};
 use super::super::retardation::compliance;
+use super::super::{Constant, Relaxation, Relaxations, Retardation};
 use super::{SPRING, layer, material, one};
 use crate::body::{Bodies, HalfSpace, Interface, LayeredResponse};
 use rayon::prelude::*;
