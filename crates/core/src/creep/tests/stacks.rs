@@ -93,7 +93,7 @@ fn displacements_under_a_held_pressure_are_those_of_an_inverse_laplace_transform
                 let displacement = contour.iter().zip(&responses).map(term).sum::<f64>() * 2.0 / places;
                 let found = retardation.modes(kh).after(time);
                 assert!(
-                    (found / displacement - 1.0).abs() < 1e-8,
+                    (found / displacement - 1.0).abs() < MISFIT,
                     "{bodies}, t {time}, kh {kh}: {found} {displacement}"
                 );
             }
