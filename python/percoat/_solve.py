@@ -286,6 +286,14 @@ class Step(Sampled):
         return tension
 
     @cached_property
+    def surface_temperature(self) -> Optional[Array]:
+        """Temperature of the body's surface by frictional heat (n₁, n₂), an array that counts from its mean and its bulk temperature; None where nothing heats."""
+        temperature = self._core.surface_temperature()
+        if temperature is not None:
+            temperature.flags.writeable = False
+        return temperature
+
+    @cached_property
     def _shear(self) -> Optional[tuple[Array, Array, Array]]:
         shear = self._core.shear()
         for field in shear or ():

@@ -109,6 +109,13 @@ impl Step {
         Some(Array2::from_shape_fn((n1, n2), |(i, j)| tension[i * n2 + j]).into_pyarray(py))
     }
 
+    /// Temperature (n₁, n₂) of the body's surface; `None` where nothing heats.
+    fn surface_temperature<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<f64>>> {
+        let [n1, n2] = self.0.step.grid().points();
+        let heat = self.0.step.finest().heat()?;
+        Some(Array2::from_shape_fn((n1, n2), |(i, j)| heat.body[i * n2 + j]).into_pyarray(py))
+    }
+
     /// Stresses (n, 6) at points (n, 3), or their strains; on an interface in the material of this number, from 1.
     #[pyo3(signature = (points, material = None, body = "body", strain = false))]
     fn at_points<'py>(

@@ -52,7 +52,8 @@ pub fn of_case(case: &Case, steps: usize) -> Vec<Declared<Pictured>> {
     let is_cut = case.has_cut();
     let is_indented = case.problem().bodies().hardness().is_some();
     let (sticks, adheres) = (case.tangential.is_some(), case.adhesion.is_some());
-    let pictures: [(bool, Declared<Pictured>); 10] = [
+    let heats = case.problem().heating().is_some();
+    let pictures: [(bool, Declared<Pictured>); 11] = [
         (true, Picture("pressure", |solved| solved.touches().then(|| picture::pressure(&solved.last)))),
         (true, Picture("contact", Pictured::contact)),
         (true, Picture("profiles", Pictured::profiles)),
@@ -61,6 +62,7 @@ pub fn of_case(case: &Case, steps: usize) -> Vec<Declared<Pictured>> {
         (is_cut, Picture("lines", |solved| Some(picture::lines(&solved.last, solved.cut()?)))),
         (sticks, Picture("slip", |solved| picture::slip(&solved.last))),
         (sticks && steps > 1, Picture("loop", Pictured::slip_loop)),
+        (heats, Picture("temperature", |solved| picture::temperature(&solved.last))),
         (adheres && steps > 1, Picture("approach", Pictured::approach)),
         (steps > 1 && !sticks && !adheres, Picture("curve", Pictured::curve)),
     ];

@@ -24,6 +24,7 @@ pub struct Units {
     length: Unit,
     pressure: Unit,
     time: Unit,
+    temperature: Unit,
     quantity: LoadQuantity,
 }
 
@@ -46,12 +47,24 @@ impl Units {
         let pressure = is_one(reference.young()).then(|| format!("E{}", reference_index(half_space)));
         let relative = |symbol: Option<String>| symbol.map_or(Unit::None, Unit::Relative);
         let quantity = problem.kind().load_quantity();
-        Self { length: relative(length.map(str::to_owned)), pressure: relative(pressure), time: Unit::None, quantity }
+        Self {
+            length: relative(length.map(str::to_owned)),
+            pressure: relative(pressure),
+            time: Unit::None,
+            temperature: Unit::None,
+            quantity,
+        }
     }
 
     /// Unknown units.
     pub fn unknown() -> Self {
-        Self { length: Unit::None, pressure: Unit::None, time: Unit::None, quantity: LoadQuantity::MeanPressure }
+        Self {
+            length: Unit::None,
+            pressure: Unit::None,
+            time: Unit::None,
+            temperature: Unit::None,
+            quantity: LoadQuantity::MeanPressure,
+        }
     }
 
     /// The units with names for lengths, for pressures or for both.
@@ -68,6 +81,17 @@ impl Units {
     #[must_use]
     pub fn with_time(self, time: Option<&str>) -> Self {
         Self { time: time.map_or(self.time, |name| Unit::Named(name.to_owned())), ..self }
+    }
+
+    /// The units with a name for temperatures.
+    #[must_use]
+    pub fn with_temperature(self, temperature: Option<&str>) -> Self {
+        Self { temperature: temperature.map_or(self.temperature, |name| Unit::Named(name.to_owned())), ..self }
+    }
+
+    /// Unit of temperatures.
+    pub fn temperature(&self) -> &Unit {
+        &self.temperature
     }
 
     /// Unit of times.
@@ -147,6 +171,7 @@ impl Units {
             Kind::Energy => self.energy(),
             Kind::Stiffness => per(&self.force(), &self.length),
             Kind::PressurePerLength => per(&self.pressure, &self.length),
+            Kind::Temperature => self.temperature.clone(),
             Kind::Fraction | Kind::Ratio | Kind::Passes | Kind::Utilisation => Unit::None,
             Kind::Strain => Unit::Strain,
         }

@@ -21,14 +21,14 @@
 //! stands to its left:
 //!
 //! ```text
-//! numeric → notation → measured → quantity → lattice → load → kind → body → heat → creep → counterbody → friction → steady_motion → adhesion → problem
+//! numeric → notation → measured → quantity → lattice → load → kind → body → heat → creep → counterbody → friction → steady_motion → heating → adhesion → problem
 //! → spectral → stress → reading → identification → localized → run → life → comparison
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters, topographies and given pressures; [`body`]: the layered half-space; [`creep`]: its
 //!   retardation in time;
 //! - [`heat`]: temperature, swelling and thermal stress of layered bodies under a heat source that moves, wave by wave;
-//! - [`load`], [`kind`], [`friction`], [`steady_motion`], [`adhesion`], [`problem`]: loads, friction, motion, tension, bodies and counterbody of a problem;
+//! - [`load`], [`kind`], [`friction`], [`steady_motion`], [`heating`], [`adhesion`], [`problem`]: loads, friction, motion, heat, tension, bodies and counterbody of a problem;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`measured`]: values with their errors; [`quantity`]: names, symbols and kinds of what is read off a step, declared once;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
@@ -63,6 +63,7 @@ pub mod counterbody;
 pub mod creep;
 pub mod friction;
 pub mod heat;
+pub mod heating;
 pub mod identification;
 pub mod kind;
 pub mod lattice;
@@ -90,7 +91,8 @@ pub use counterbody::{
     Shape, Surface, Topography,
 };
 pub use friction::{Friction, FrictionError};
-pub use heat::{Conduction, HeatError, HeatedBody};
+pub use heat::{HeatError, HeatedBody};
+pub use heating::{Heating, HeatingError, Partition};
 pub use kind::{ContactKind, Datum};
 pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid, Surroundings};
 pub use load::{Load, LoadQuantity};

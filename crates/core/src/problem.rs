@@ -4,6 +4,7 @@ use crate::adhesion::{Adhesion, AdhesionError};
 use crate::body::{Bodies, CompositeError, CompositeHardness, HalfSpace, Interface, Side};
 use crate::counterbody::{Counterbody, GivenPressure, Indenters, Level, LevelName, LoadedBy, Topography};
 use crate::friction::{Friction, FrictionError};
+use crate::heating::{HeatedBodies, Heating, HeatingError};
 use crate::kind::{ContactKind, Datum};
 use crate::lattice::{Cell, Surroundings};
 use crate::steady_motion::{MotionError, SteadyMotion};
@@ -17,6 +18,7 @@ pub struct Problem {
     friction: Option<Friction>,
     adhesion: Option<Adhesion>,
     motion: Option<SteadyMotion>,
+    heating: Option<Heating>,
     composite: Option<CompositeHardness>,
 }
 
@@ -26,7 +28,7 @@ impl Problem {
     /// one unit of length.
     pub fn new(loaded_by: impl Into<LoadedBy>, bodies: impl Into<Bodies>) -> Self {
         let (loaded_by, bodies) = (loaded_by.into(), bodies.into());
-        Self { loaded_by, bodies, friction: None, adhesion: None, motion: None, composite: None }
+        Self { loaded_by, bodies, friction: None, adhesion: None, motion: None, heating: None, composite: None }
     }
 
     /// The problem with friction.
@@ -69,17 +71,54 @@ impl Problem {
     /// friction.
     ///
     /// # Errors
-    /// [`MotionError`] where no material of the body relaxes, in the window of an isolated contact, and with hardness,
+    /// [`MotionError`] where no material of the body relaxes and not all conduct heat, in the window of an isolated contact, and with hardness,
     /// adhesion or a life by strain.
     pub fn moving(self, motion: SteadyMotion) -> Result<Self, MotionError> {
         match () {
-            () if !self.half_space().relaxes() => Err(MotionError::Elastic),
+            () if !self.half_space().relaxes() && !self.half_space().conducts() => Err(MotionError::Elastic),
             () if self.cell().surroundings() == Surroundings::FreeSpace => Err(MotionError::Isolated),
             () if self.largest_hardness().is_some() => Err(MotionError::Hardness),
             () if self.adhesion.is_some() => Err(MotionError::Adhesion),
             () if self.bodies.last_by_strain() => Err(MotionError::Strain),
             () => Ok(Self { motion: Some(motion), ..self }),
         }
+    }
+
+    /// The problem with frictional heat, of a counterbody that slides with friction and moves steadily.
+    ///
+    /// # Errors
+    /// [`HeatingError`] without friction or motion, and where a material has no conduction.
+    pub fn heated(self, heating: Heating) -> Result<Self, HeatingError> {
+        if self.motion.is_none() {
+            return Err(HeatingError::Rest);
+        }
+        if self.friction.is_none_or(|friction| friction.coefficient() <= 0.0) {
+            return Err(HeatingError::Smooth);
+        }
+        let heated = Self { heating: Some(heating), ..self };
+        heated.heated_bodies()?;
+        Ok(heated)
+    }
+
+    /// Frictional heat; `None` where nothing heats.
+    pub fn heating(&self) -> Option<&Heating> {
+        self.heating.as_ref()
+    }
+
+    /// Conducting bodies of the problem.
+    ///
+    /// # Errors
+    /// [`HeatingError::Material`] for a material without conduction.
+    pub(crate) fn heated_bodies(&self) -> Result<HeatedBodies, HeatingError> {
+        let speed = self.motion.map_or(0.0, |motion| motion.velocity());
+        HeatedBodies::new(self.half_space(), self.bodies.counterbody(), (speed, self.direction()))
+    }
+
+    /// Frictional heat over the pressure, μ v: a power per area and pressure; 0 where nothing heats.
+    pub(crate) fn heat_over_pressure(&self) -> f64 {
+        let heats = self.heating.is_some();
+        let friction = self.friction.filter(|_| heats).map_or(0.0, |friction| friction.coefficient());
+        friction * self.motion.map_or(0.0, |motion| motion.velocity())
     }
 
     /// Steady motion; `None` at rest, and of elastic bodies.
@@ -251,6 +290,11 @@ impl Problem {
         self.friction.map_or([1.0, 0.0], |friction| friction.direction())
     }
 
+    /// Direction in which the counterbody, or the given pressure, slides or moves over the body, a unit vector; `None` at rest without friction.
+    pub fn sliding_direction(&self) -> Option<[f64; 2]> {
+        (self.friction.is_some() || self.motion.is_some()).then(|| self.direction())
+    }
+
     /// The unit cell.
     pub fn cell(&self) -> Cell {
         self.loaded_by.cell()
@@ -262,6 +306,7 @@ impl fmt::Display for Problem {
         write!(f, "{}\n{}", self.loaded_by, self.bodies)?;
         self.friction.iter().try_for_each(|friction| write!(f, "\n{friction}"))?;
         self.motion.iter().try_for_each(|motion| write!(f, "\n{motion}"))?;
+        self.heating.iter().try_for_each(|heating| write!(f, "\n{heating}"))?;
         self.adhesion.iter().try_for_each(|adhesion| write!(f, "\n{adhesion}"))
     }
 }

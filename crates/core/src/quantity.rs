@@ -38,6 +38,8 @@ pub enum Kind {
     Fraction,
     /// A ratio, as a coefficient of friction.
     Ratio,
+    /// A temperature.
+    Temperature,
     /// A number of passes.
     Passes,
     /// A stress over a strength.
@@ -60,6 +62,7 @@ impl Kind {
             Self::PressurePerLength => "pressure per length",
             Self::Fraction => "fraction",
             Self::Ratio => "ratio",
+            Self::Temperature => "temperature",
             Self::Passes => "passes",
             Self::Utilisation => "utilisation",
             Self::Strain => "strain",

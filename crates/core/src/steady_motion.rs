@@ -16,9 +16,9 @@ pub enum MotionError {
     /// A velocity that is not above 0, or not finite.
     #[error("a velocity must be finite and greater than 0, not {0}")]
     Velocity(f64),
-    /// An elastic body, in which nothing depends on a velocity.
+    /// An elastic body that conducts no heat, in which nothing depends on a velocity.
     #[error(
-        "nothing depends on a velocity here: no material of the body relaxes, and a counterbody rests in the frame that moves with it"
+        "nothing depends on a velocity here: no material of the body relaxes, nor do all conduct heat, and a counterbody rests in the frame that moves with it"
     )]
     Elastic,
     /// An isolated contact.

@@ -49,6 +49,10 @@ impl ContactArchive {
         if let Some(tension) = step.finest().tensions() {
             self.arrays.add("tension", &step.grid().points(), tension.iter().copied())?;
         }
+        if let Some(heat) = step.finest().heat() {
+            self.arrays.add("temperature", &step.grid().points(), heat.body.iter().copied())?;
+            self.arrays.add("heat", &step.grid().points(), heat.flux.iter().copied())?;
+        }
         Ok(self.arrays.left())
     }
 

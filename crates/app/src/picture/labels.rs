@@ -38,6 +38,7 @@ impl Labels for Units {
         let Named { name, symbol, kind, .. } = *named;
         let unknown = match kind {
             Kind::Fraction | Kind::Ratio | Kind::Passes | Kind::Utilisation => return name.into(),
+            Kind::Temperature => "unit\u{a0}of\u{a0}temperature",
             // The unit of a strain is known in every case.
             Kind::Strain => "",
             Kind::Pressure => "unit\u{a0}of\u{a0}E",

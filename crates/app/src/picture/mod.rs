@@ -17,6 +17,7 @@
 //! - The part of the surface that a map shows: [`view`].
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles());
 //!   what hardness has pressed in: [`indentation`](indentation()).
+//! - Its surfaces under frictional heat: [`temperature`](temperature()).
 //! - Its partial slip: [`slip`](slip()), and the loop of all steps: [`slip_loop`].
 //! - Surfaces that adhere: [`approach`], force and area over the penetration.
 //! - Its stresses under a line ([sections](percoat_core::stress::VerticalSection)): [`section`](section()), [`lines`](lines()).
@@ -50,6 +51,7 @@ mod slip;
 mod snapshot;
 mod spectrum;
 mod sweep;
+mod temperature;
 mod tiling;
 mod uncertainty;
 mod unloading;
@@ -76,6 +78,7 @@ pub use slip::{slip, slip_loop};
 pub use snapshot::Snapshot;
 pub use spectrum::spectrum;
 pub use sweep::sweep;
+pub use temperature::temperature;
 pub use uncertainty::uncertainty;
 pub use unloading::unloading;
 pub use utilisations::utilisations;

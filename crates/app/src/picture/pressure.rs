@@ -60,16 +60,16 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     sheet(&snapshot.caption(&words), &panels)
 }
 
-/// An arrow along the sliding, where there is friction.
+/// An arrow along the sliding, where there is any.
 pub fn sliding_arrow(snapshot: &Snapshot, view: View) -> Option<Over> {
-    let [x, y] = snapshot.step.problem().friction()?.direction();
+    let [x, y] = snapshot.step.problem().sliding_direction()?;
     let y = view.stretch() * y;
     Some(Over::Arrow { direction: [x, y].map(|part| part / x.hypot(y)) })
 }
 
 /// Text of the caption on the arrow.
 pub fn sliding_words(snapshot: &Snapshot) -> &'static str {
-    snapshot.step.problem().friction().map_or("", |_| " Arrow: direction of sliding.")
+    snapshot.step.problem().sliding_direction().map_or("", |_| " Arrow: direction of sliding.")
 }
 
 /// Axes along the surface.

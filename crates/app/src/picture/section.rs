@@ -7,7 +7,6 @@ use super::window::Window;
 use crate::picture::labels::Labels;
 use percoat_case::words::Words;
 use percoat_core::body::{HalfSpace, Side};
-use percoat_core::friction::Friction;
 use percoat_core::reading::{Criterion, LargestInSection, SectionMeasure, Utilisation, Verdict, tears, tips};
 use percoat_core::stress::{SurfaceLine, VerticalSection};
 use percoat_draw::axis::Axis;
@@ -158,7 +157,7 @@ impl<'a> SectionPicture<'a> {
             "Section along {} from the x axis{}{bodies}; level lines: interfaces; curved lines: \
              {}{apart}.{to_scale}{residual} Crosses: the largest values here, {}.{}",
             degrees(direction),
-            sliding_words(problem.friction(), direction),
+            sliding_words(problem.sliding_direction(), direction),
             equals("σₛ", &[0.0]),
             self.largest_words(),
             self.failure_words()
@@ -223,8 +222,8 @@ fn is_singular(snapshot: &Snapshot, measure: SectionMeasure) -> bool {
 }
 
 /// Text on a section along the direction of sliding, or against it; empty for others.
-fn sliding_words(friction: Option<&Friction>, [dx, dy]: [f64; 2]) -> &'static str {
-    match friction.map(Friction::direction).map(|[x, y]| x * dx + y * dy) {
+fn sliding_words(along: Option<[f64; 2]>, [dx, dy]: [f64; 2]) -> &'static str {
+    match along.map(|[x, y]| x * dx + y * dy) {
         Some(part) if part > 0.999 * dx.hypot(dy) => ", along which the indenters slide",
         Some(part) if part < -0.999 * dx.hypot(dy) => ", against which the indenters slide",
         _ => "",

@@ -100,6 +100,7 @@ pub fn caption(title: &str, problem: &Problem, units: &Units, more: &[String]) -
         .chain(geometry(problem, units))
         .chain(problem.bodies().hardness().map(|(hardness, _)| units.pressure_equals("H", &[hardness])))
         .chain(problem.friction().map(sliding))
+        .chain(problem.motion().map(|motion| format!("v = {}", units.velocity().with_unit(motion.velocity(), short))))
         .chain(more.iter().cloned());
     format!("{title}{}.", parts.collect::<Vec<_>>().join("; "))
 }

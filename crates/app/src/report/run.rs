@@ -19,7 +19,7 @@ use percoat_core::run::StepRecord;
 use serde_json::Value;
 
 /// The pictures of a run; those of an isolated contact have no neighbours.
-fn pictures(words: &AroundWords) -> [PictureText; 8] {
+fn pictures(words: &AroundWords) -> [PictureText; 9] {
     let [pressure, contact, profiles] = words.pictures;
     [
         ("pressure", pressure[0], pressure[1]),
@@ -30,6 +30,7 @@ fn pictures(words: &AroundWords) -> [PictureText; 8] {
             "Map of the depths pressed in, and a profile through the deepest place",
             "What the hardness has pressed in for good, without the elastic displacement.",
         ),
+        ("temperature", "Maps of the temperature of both surfaces", "Temperature of the surfaces by frictional heat."),
         (
             "approach",
             "Curves of force and contact area over the penetration, with jumps and pull-off",
@@ -55,6 +56,14 @@ fn stresses(case: &Value, steps: &[StepRecord], units: &Units) -> Option<Section
     let strains = tables::largest_strains(steps, units);
     let strains = strains.map(|strains| table("Largest strains and their places", &strains)).unwrap_or_default();
     Some(section("stresses", "Largest stresses", vec![stresses, strains, assumed(case, false)]))
+}
+
+/// Temperatures by frictional heat; `None` where nothing heats.
+fn temperature(case: &Case, steps: &[StepRecord], units: &Units) -> Option<Section> {
+    let (words, found) = tables::temperature(case.problem(), steps, units)?;
+    let caption = "Largest temperature of each material; ± is the estimated error of the grid";
+    let words = words.iter().map(|words| tag("p", upper(words)));
+    Some(section("temperature", "Frictional heat", words.chain([table(caption, &found)]).collect()))
 }
 
 /// Friction by hysteresis of a moving load; `None` at rest.
@@ -113,6 +122,7 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         sections.push(section("hardness", "Hardness", vec![tag("p", upper(&words)), pressed]));
     }
     sections.extend(read.as_ref().and_then(|case| hysteresis(case, steps, &units)));
+    sections.extend(read.as_ref().and_then(|case| temperature(case, steps, &units)));
     if let Some((words, slip)) = tables::slip(steps, &units) {
         let caption = "Partial slip; ± is the estimated error of the grid and of steps in which the load changes";
         sections.push(section("slip", "Partial slip", vec![tag("p", upper(&words)), table(caption, &slip)]));

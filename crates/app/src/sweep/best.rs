@@ -1,6 +1,6 @@
 //! The best and the worst combination of a sweep, for each result by which a designer ranks them.
 //!
-//! Best is the highest limit load and the most passes until damage, and the least utilisation, tension and pressure. A combination
+//! Best is the highest limit load and the most passes until damage, and the least utilisation, friction by hysteresis, tension and pressure. A combination
 //! that reaches no limit is better than one that does, if it was loaded at least as far. Combinations that failed or did not converge
 //! are not ranked, and counted; of several load steps the last one counts.
 
@@ -12,7 +12,7 @@ use percoat_case::units::Units;
 use percoat_core::load::LoadQuantity;
 use percoat_core::measured::Measured;
 use percoat_core::quantity::Kind;
-use percoat_core::reading::{LIFE, READING, UTILISATION};
+use percoat_core::reading::{HYSTERESIS, LIFE, READING, UTILISATION};
 use percoat_core::run::OfStep;
 use percoat_core::stress::maxima::EXTREMES;
 use std::collections::BTreeSet;
@@ -44,7 +44,7 @@ struct Ends<'a> {
 }
 
 /// The results in the order of their weight: what fails, then what strains.
-fn merits(load: LoadQuantity) -> [Merit; 6] {
+fn merits(load: LoadQuantity) -> [Merit; 7] {
     let known = |found: Measured| LimitValue::At(found.value, found.error);
     let merit = |quantity: &'static dyn OfStep, more: bool| {
         let of = move |result: &SweepResult| stated(quantity, result.step()?).map(known);
@@ -62,6 +62,7 @@ fn merits(load: LoadQuantity) -> [Merit; 6] {
             kind: UTILISATION.value.named.kind,
             of: Box::new(largest),
         },
+        merit(&HYSTERESIS.friction_coefficient, false),
         merit(&EXTREMES.tension, false),
         merit(&READING.max_pressure, false),
         merit(&EXTREMES.mises, false),

@@ -64,6 +64,8 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: impl Into<O
         friction: None,
         tangential: None,
         adhesion: None,
+        hysteresis: None,
+        temperature: None,
         stress: None,
         strength: Vec::new(),
         governing: None,

@@ -4,7 +4,9 @@ use crate::output::columns::{Cells, scalars};
 use crate::output::{FirstLimit, number, with_error};
 use percoat_core::load::LoadQuantity;
 use percoat_core::measured::Measured;
-use percoat_core::reading::{Criterion, LIFE, READING, UTILISATION, Utilisation, Verdict, within_the_errors};
+use percoat_core::reading::{
+    Criterion, HYSTERESIS, LIFE, READING, UTILISATION, Utilisation, Verdict, within_the_errors,
+};
 use percoat_core::run::{At, Limit, OfStep, StepRecord, first, rivals};
 use percoat_core::stress::maxima::EXTREMES;
 use serde::{Deserialize, Serialize};
@@ -47,13 +49,14 @@ pub enum LimitValue {
 }
 
 /// The main quantities of a load step: the load in both of its quantities, and either extent of contact.
-pub static SHOWN: [&dyn OfStep; 10] = [
+pub static SHOWN: [&dyn OfStep; 11] = [
     &READING.mean_pressure,
     &READING.force,
     &READING.penetration,
     &READING.contact_fraction,
     &READING.contact_area,
     &READING.max_pressure,
+    &HYSTERESIS.friction_coefficient,
     &EXTREMES.tau1,
     &EXTREMES.tension,
     &EXTREMES.mises,

@@ -5,7 +5,7 @@ use super::Source;
 /// Name of the case that runs when none is given.
 pub const DEFAULT: &str = "fig2";
 
-const CASES: [(&str, &str); 24] = [
+const CASES: [(&str, &str); 25] = [
     ("afm-pull-off", include_str!("../../../../cases/afm-pull-off.toml")),
     ("ball-on-disc", include_str!("../../../../cases/ball-on-disc.toml")),
     ("dlc-on-steel", include_str!("../../../../cases/dlc-on-steel.toml")),
@@ -19,6 +19,7 @@ const CASES: [(&str, &str); 24] = [
     ("fig7", include_str!("../../../../cases/fig7.toml")),
     ("fretting", include_str!("../../../../cases/fretting.toml")),
     ("pavement", include_str!("../../../../cases/pavement.toml")),
+    ("pin-on-disc-hot", include_str!("../../../../cases/pin-on-disc-hot.toml")),
     ("polymer-on-steel", include_str!("../../../../cases/polymer-on-steel.toml")),
     ("ring", include_str!("../../../../cases/ring.toml")),
     ("rolling", include_str!("../../../../cases/rolling.toml")),

@@ -3,6 +3,7 @@
 use super::durability::{FATIGUE, FatigueSection, durability};
 use super::error::Refusal;
 use super::grading::{GRADING, Grading, LAYERS};
+use super::heat;
 use super::interface::{INTERFACE_STRENGTH, InterfaceSection, InterfaceStrengthSection, SPRING};
 use super::keys::{Form, Key, Range, Unit};
 use super::material_keys::material_section;
@@ -25,6 +26,9 @@ const BELOW: &[&str] = &[
     "material",
     "name",
     "relaxation",
+    "conductivity",
+    "diffusivity",
+    "expansion",
     "yield_strength",
     "tensile_strength",
     "fatigue",
@@ -89,6 +93,8 @@ material_section! {
             Key::new(&[Form::Table(&INTERFACE_STRENGTH)], "{ normal = 0.5, shear = 0.8 }")
                 .otherwise("never reached")
                 .rule("at least one of normal and shear"),
+        /// thermal resistance of the interface below the layer, a temperature per power and area
+        pub thermal_resistance: f64 = heat::RESISTANCE,
         /// fatigue of the interface below the layer by the range of its shear stress in a pass; not of a frictionless one
         pub interface_fatigue: Option<FatigueSection> =
             Key::new(&[Form::Table(&FATIGUE)], "{ amplitude = 0.2, passes = 1e6, exponent = 8 }").otherwise("no fatigue"),
@@ -119,7 +125,8 @@ fn elastic_or_rigid(substrate: &SubstrateSection, section: &TableAt<'_>) -> Resu
 /// Refuses what is rigid with `young` or one of the `keys` of a material, and what is elastic without moduli.
 pub(super) fn modulus_or_rigid(is_rigid: bool, keys: &[&str], section: &TableAt<'_>) -> Result<(), Refusal> {
     if !is_rigid {
-        return ["young", "poisson"].into_iter().try_for_each(|key| section.value(key).map(drop));
+        ["young", "poisson"].into_iter().try_for_each(|key| section.value(key).map(drop))?;
+        return heat::consistent(section);
     }
     let Some(value) = ["young"].iter().chain(keys).find_map(|key| section.optional(key)) else { return Ok(()) };
     let message = format!("`{}` has no meaning: `{}` = true has no material", value.path, section.path("rigid"));
@@ -152,15 +159,17 @@ fn consistent(layer: &LayerSection, section: &TableAt<'_>) -> Result<(), Refusal
         return other.map_or(Ok(()), |(key, value)| Err(section.both(["graded", key], value.node.span)));
     }
     section.one_of(["shear_ratio", "young"])?;
-    section.value("poisson").map(drop)
+    section.value("poisson")?;
+    heat::consistent(section)
 }
 
 impl SubstrateSection {
     /// Material without a name; `None` for a rigid base.
     fn material(&self) -> Option<Result<Material, MaterialError>> {
         let relaxation = relaxed(self.relaxation.as_ref());
+        let conducts = heat::conduction([self.conductivity, self.diffusivity, self.expansion]).ok().flatten();
         let material = || Material::from_young(demanded(self.young), demanded(self.poisson));
-        (!self.rigid.0).then(|| Ok(material()?.with_relaxation(relaxation)))
+        (!self.rigid.0).then(|| Ok(material()?.with_relaxation(relaxation).with_conduction(conducts)))
     }
 
     /// The half-space of these layers on its material.
@@ -218,11 +227,14 @@ impl LayerSection {
                 1 => Name::new(name),
                 _ => Name::new(&format!("{name}, sublayer {} of {count}", index + 1)),
             });
-            let material = material.with_relaxation(relaxed(self.relaxation.as_ref()));
+            let conducts = heat::conduction([self.conductivity, self.diffusivity, self.expansion]).ok().flatten();
+            let material = material.with_relaxation(relaxed(self.relaxation.as_ref())).with_conduction(conducts);
+            let resistance = if index + 1 == count { self.thermal_resistance } else { 0.0 };
             Layer::new(material.with_name(name), self.thickness / count as f64, interface)?
                 .with_residual_stress(self.residual_stress)?
                 .with_strengths(layer_strength, strength)?
                 .with_durability(durability, fatigue)
+                .map(|layer| layer.with_thermal_resistance(resistance).unwrap_or(layer))
         };
         materials.into_iter().enumerate().map(layer).collect()
     }

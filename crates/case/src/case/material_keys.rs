@@ -35,6 +35,12 @@ macro_rules! material_section {
                 $($first)*
                 /// relaxation of the shear modulus to that of `young` and `poisson`
                 pub relaxation: Option<$crate::case::relaxation::RelaxationSection> = $crate::case::relaxation::RELAXES,
+                /// thermal conductivity, a power per length and temperature
+                pub conductivity: Option<f64> = $crate::case::heat::CONDUCTIVITY,
+                /// thermal diffusivity, an area per time
+                pub diffusivity: Option<f64> = $crate::case::heat::DIFFUSIVITY,
+                /// coefficient of linear thermal expansion, one over a temperature
+                pub expansion: Option<f64> = $crate::case::heat::EXPANSION,
                 /// yield strength, compared with the von Mises stress
                 pub yield_strength: Option<f64> = $crate::case::material_keys::YIELD,
                 /// tensile strength, compared with the largest principal stress

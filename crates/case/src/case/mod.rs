@@ -4,7 +4,7 @@
 //! and the run that solves it. Faults are refused with their line ([`CaseError`]).
 //!
 //! One file a section: lattice, levels (with `area_function`), surface, layers (with the substrate, `durability`, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
-//! friction, tangential, adhesion, motion, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
+//! friction, tangential, adhesion, motion, heat, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
 //! makes of them the texts of `percoat explain` and the schema; `identification` lets numbers be free; `materials` is the library. A [`Document`] is parsed to a tree (`node`) once, changed by `overrides`,
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
 //!
@@ -30,6 +30,7 @@ mod given;
 mod grading;
 mod grid;
 mod half_space;
+mod heat;
 mod identification;
 mod interface;
 mod keys;
@@ -83,6 +84,7 @@ pub use given::{DiscsSection, GivenSection, Pressures};
 pub use grading::{Grading, Law};
 pub use grid::Points;
 pub use half_space::half_space;
+pub use heat::{HeatSection, PartitionValue};
 pub use identification::{Found, IdentificationTask, Known, NotFree, NotKnown};
 pub use interface::{InterfaceSection, InterfaceStrengthSection, InterfaceWord, SpringSection};
 pub use keys::{Explanation, NamedKey, UnknownKey, explain, overview, schema, table as key_table};

@@ -9,6 +9,7 @@ use super::feasibility::{hardness, magnitude};
 use super::friction::FRICTION;
 use super::grading::LAYERS;
 use super::grid::{self, GRID};
+use super::heat::{self, HEAT, HeatSection};
 use super::keys::{Form, Key};
 use super::lattice::LATTICE;
 use super::layers::{self, Body, LAYER, SUBSTRATE};
@@ -100,6 +101,9 @@ section! { whole
         /// velocity of a counterbody, or of a given pressure, that moves steadily over a body that relaxes
         pub motion: Option<MotionSection> =
             Key::new(&[Form::Table(&MOTION)], "{ velocity = 1.0 }").otherwise("materials that relax are relaxed"),
+        /// heat of friction of a counterbody that moves steadily
+        pub heat: Option<HeatSection> =
+            Key::new(&[Form::Table(&HEAT)], "{ partition = 0.5 }").otherwise("solved, where all materials conduct"),
         /// hardness of a coating and its substrate together
         pub composite_hardness: Option<CompositeHardnessSection> =
             Key::new(&[Form::Table(&COMPOSITE_HARDNESS)], "{ law = \"area\", constant = 0.5 }")
@@ -146,7 +150,8 @@ impl Case {
             |of: fn(&UnitsSection) -> &Option<String>| self.units.as_ref().and_then(|units| of(units).as_deref());
         let units = Units::of(&self.problem)
             .named(name(|units| &units.length), name(|units| &units.pressure))
-            .with_time(name(|units| &units.time));
+            .with_time(name(|units| &units.time))
+            .with_temperature(name(|units| &units.temperature));
         if self.load.force.is_some() { units.with_loads_in(LoadQuantity::Force) } else { units }
     }
 
@@ -302,7 +307,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
     let settings = Settings::read_table(&solver_section)?;
     let problem = Problem::new(loaded_by, bodies);
     let places = [body.places(), above.iter().flat_map(|above| &above.body).flat_map(Body::places).collect()];
-    let Surfaces { mut problem, friction, adhesion, motion } =
+    let Surfaces { mut problem, friction, adhesion, motion, heat } =
         Surfaces::read(&root, &places, (problem, settings), &solver_section)?;
     let mut composite_hardness = None;
     if let Some(section) = root.section("composite_hardness")? {
@@ -322,6 +327,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         tangential,
         adhesion,
         motion,
+        heat,
         composite_hardness,
         units: root.section("units")?.as_ref().map(UnitsSection::read_table).transpose()?,
         stress: root
@@ -347,17 +353,18 @@ struct Surfaces {
     friction: Option<FrictionSection>,
     adhesion: Option<AdhesionSection>,
     motion: Option<MotionSection>,
+    heat: Option<HeatSection>,
 }
 
 impl Surfaces {
-    /// Reads the sections `[friction]`, `[adhesion]` and `[motion]`; `places` are the layers of both bodies.
+    /// Reads the sections `[friction]`, `[adhesion]`, `[motion]` and `[heat]`; `places` are the layers of both bodies.
     fn read(
         root: &TableAt<'_>,
         places: &[Vec<&TableAt<'_>>; 2],
         (problem, settings): (Problem, Settings),
         solver: &TableAt<'_>,
     ) -> Result<Self, Refusal> {
-        let mut all = Self { problem, friction: None, adhesion: None, motion: None };
+        let mut all = Self { problem, friction: None, adhesion: None, motion: None, heat: None };
         if let Some(section) = root.section("friction")? {
             let keys = FrictionSection::read_table(&section)?;
             all.problem = keys.slide(&section, places, (all.problem, settings), solver)?;
@@ -373,6 +380,9 @@ impl Surfaces {
             all.problem = keys.moving(&section, root, (all.problem, settings))?;
             all.motion = Some(keys);
         }
+        let section = root.section("heat")?;
+        all.heat = section.as_ref().map(HeatSection::read_table).transpose()?;
+        all.problem = heat::heated(section.as_ref().zip(all.heat), root, all.problem)?;
         Ok(all)
     }
 }

@@ -17,5 +17,7 @@ section! {
         pub pressure: Option<String> = Key::new(&[NAME], "\"GPa\"").otherwise("not named"),
         /// unit of all times; numbers are not converted to it
         pub time: Option<String> = Key::new(&[NAME], "\"s\"").otherwise("not named"),
+        /// unit of all temperatures; numbers are not converted to it
+        pub temperature: Option<String> = Key::new(&[NAME], "\"K\"").otherwise("not named"),
     }
 }

@@ -89,6 +89,11 @@ impl HalfSpace {
         self.response_of(|_, material| material.moduli_at(s))
     }
 
+    /// Whether all materials conduct heat.
+    pub fn conducts(&self) -> bool {
+        self.materials().all(|material| material.conduction().is_some())
+    }
+
     /// Whether a material relaxes.
     pub fn relaxes(&self) -> bool {
         self.materials().any(|material| material.relaxation().is_some())

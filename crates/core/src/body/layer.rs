@@ -1,6 +1,6 @@
 //! One layer of a coating, and how it is joined to what lies below it.
 
-use super::{Durability, Fatigue, InterfaceStrength, Material, MaterialError, Strength};
+use super::{ConductionError, Durability, Fatigue, InterfaceStrength, Material, MaterialError, Strength};
 use crate::notation::number;
 use crate::numeric::number::Number;
 use std::fmt;
@@ -56,6 +56,7 @@ pub struct Layer {
     interface_strength: InterfaceStrength,
     durability: Durability,
     interface_fatigue: Option<Fatigue>,
+    thermal_resistance: f64,
 }
 
 impl Layer {
@@ -83,6 +84,7 @@ impl Layer {
             interface_strength: InterfaceStrength::default(),
             durability: Durability::default(),
             interface_fatigue: None,
+            thermal_resistance: 0.0,
         })
     }
 
@@ -109,6 +111,23 @@ impl Layer {
     /// [`MaterialError`] for a hardness that is not positive, and for a coefficient of wear below zero.
     pub fn with_durability(self, durability: Durability, interface: Option<Fatigue>) -> Result<Self, MaterialError> {
         Ok(Self { durability: durability.check()?, interface_fatigue: interface, ..self })
+    }
+
+    /// Layer with a thermal resistance of its lower interface, a temperature per power and area; infinite: the interface insulates.
+    ///
+    /// # Errors
+    /// [`ConductionError::Resistance`] for one below zero.
+    pub fn with_thermal_resistance(self, resistance: f64) -> Result<Self, ConductionError> {
+        if resistance >= 0.0 {
+            Ok(Self { thermal_resistance: resistance, ..self })
+        } else {
+            Err(ConductionError::Resistance(resistance))
+        }
+    }
+
+    /// Thermal resistance of its lower interface, a temperature per power and area.
+    pub fn thermal_resistance(&self) -> f64 {
+        self.thermal_resistance
     }
 
     /// Durability of its material.

@@ -2,7 +2,7 @@
 //!
 //! E* = E/(1 − ν²) = 2G/(1 − ν); χ = G₁/G₂ = E₁(1 + ν₂)/(E₂(1 + ν₁)).
 
-use super::{Name, Relaxation};
+use super::{Conduction, Name, Relaxation};
 use crate::notation::number;
 use std::fmt;
 
@@ -59,6 +59,7 @@ pub struct Material {
     shear: f64,
     poisson: f64,
     relaxation: Option<Relaxation>,
+    conduction: Option<Conduction>,
     name: Option<Name>,
 }
 
@@ -74,7 +75,7 @@ impl Material {
         if !(0.0..=0.5).contains(&poisson) {
             return Err(MaterialError::Poisson(poisson));
         }
-        Ok(Self { shear, poisson, relaxation: None, name: None })
+        Ok(Self { shear, poisson, relaxation: None, conduction: None, name: None })
     }
 
     /// Material with Young's modulus `young` (a pressure) and Poisson's ratio `poisson` in [0, 0.5].
@@ -102,6 +103,17 @@ impl Material {
     /// Relaxation of the shear modulus; `None` of an elastic material.
     pub fn relaxation(&self) -> Option<Relaxation> {
         self.relaxation
+    }
+
+    /// Material that conducts heat and expands.
+    #[must_use]
+    pub fn with_conduction(self, conduction: Option<Conduction>) -> Self {
+        Self { conduction, ..self }
+    }
+
+    /// Conduction of heat; `None` where it is not known.
+    pub fn conduction(&self) -> Option<Conduction> {
+        self.conduction
     }
 
     /// Name of the material; `None` where it was given none.
@@ -147,7 +159,8 @@ impl fmt::Display for Material {
         // ν as it was given, without what rounding has left between the ends of a graded layer.
         let poisson = (1e9 * self.poisson).round() / 1e9;
         write!(f, "E {young}, ν {poisson}, G {shear}, E* {contact}")?;
-        self.relaxation.iter().try_for_each(|relaxation| write!(f, ", {relaxation}"))
+        self.relaxation.iter().try_for_each(|relaxation| write!(f, ", {relaxation}"))?;
+        self.conduction.iter().try_for_each(|conduction| write!(f, ", {conduction}"))
     }
 }
 

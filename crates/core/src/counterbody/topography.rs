@@ -57,8 +57,8 @@ impl Topography {
         Self { run_out: Some(run_out), ..self }
     }
 
-    /// The topography on a ball of the `radius` > 0, a length, whose apex is the middle of the window of an isolated contact, or of each cell at
-    /// its origin: heights are those above the ball, h − R + √(R² − r²).
+    /// The topography on a ball of the `radius` > 0, a length, whose apex is the middle of the window of an isolated contact, or of each
+    /// periodic cell: heights are those above the ball, h − R + √(R² − r²).
     ///
     /// # Errors
     /// [`CounterbodyError::Ball`] for another radius.
@@ -158,7 +158,7 @@ impl Topography {
         let (cell, reduced) = (self.cell, self.cell.reduced());
         move |s| match cell.surroundings() {
             Surroundings::FreeSpace => cell.point(s),
-            Surroundings::Periodic => reduced.nearest(s),
+            Surroundings::Periodic => reduced.nearest([s[0] - 0.5, s[1] - 0.5]),
         }
     }
 
@@ -188,6 +188,8 @@ impl fmt::Display for Topography {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::counterbody::{Indenters, Level, Surface};
+    use crate::lattice::Lattice;
     use ndarray::ShapeBuilder;
 
     #[test]
@@ -266,8 +268,8 @@ mod tests {
         }
         let flat = |cell: Cell| Topography::new(cell, Array2::zeros((24, 24))).unwrap();
         assert_eq!(flat(Cell::square(1.0).unwrap()).on_ball(0.0), Err(CounterbodyError::Ball(0.0)));
-        // In a periodic cell that of the indenters of a lattice.
-        let lattice = Lattice::hexagonal(1.0, 1).unwrap();
+        // In a periodic cell that of an indenter in the middle.
+        let lattice = Lattice::new(Cell::hexagonal(1.0).unwrap(), vec![vec![[0.5; 2]]]).unwrap();
         let depths = flat(lattice.cell()).on_ball(3.0).unwrap().depths([24; 2]).unwrap();
         let alone = Indenters::new(lattice, vec![Level::new(ball.clone(), 0.0).unwrap()]).unwrap();
         let surface = Surface::new(&alone.into(), [24; 2]).unwrap();

@@ -1,9 +1,35 @@
 //! The layered body that a heat source moves over.
 
-use super::{Conduction, HeatError};
-use crate::body::HalfSpace;
+use crate::body::{Conduction, HalfSpace, Layer};
 use crate::notation::number;
 use std::fmt;
+
+/// Why a heated body cannot be built from its values.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum HeatError {
+    /// Resistance of an interface negative or not a number.
+    #[error("the thermal resistance of an interface must not be negative (infinite: it insulates), not {0}")]
+    Resistance(f64),
+    /// Velocity of the source not finite.
+    #[error("the velocity of a heat source must be finite, not {0}")]
+    Velocity(f64),
+    /// Another number of conducting materials than the body has.
+    #[error("heat needs the conduction of each of the {needed} materials of the body, not of {given}")]
+    Materials {
+        /// Materials of which the conduction is given.
+        given: usize,
+        /// Materials of the body.
+        needed: usize,
+    },
+    /// Another number of thermal resistances than the body has interfaces.
+    #[error("heat needs the resistance of each of the {needed} interfaces of the body, not of {given}")]
+    Interfaces {
+        /// Interfaces of which the resistance is given.
+        given: usize,
+        /// Interfaces of the body.
+        needed: usize,
+    },
+}
 
 /// A layered half-space with the conduction of its materials, the thermal resistances of its interfaces, and the velocity of the heat
 /// source over it.
@@ -46,6 +72,14 @@ impl HeatedBody {
             return Err(HeatError::Velocity(velocity));
         }
         Ok(Self { half_space, conductions, resistances, velocity })
+    }
+
+    /// Heated body of a half-space, with the conductions of its materials and the resistances of its interfaces, below a source of this
+    /// velocity; `None` where a material has no conduction.
+    pub fn of(half_space: &HalfSpace, velocity: f64) -> Option<Self> {
+        let conductions = half_space.materials().map(|material| material.conduction()).collect::<Option<Vec<_>>>()?;
+        let resistances = half_space.layers().iter().map(Layer::thermal_resistance).collect();
+        Self::new(half_space.clone(), conductions, resistances, velocity).ok()
     }
 
     /// Layered half-space, of relaxed moduli.

@@ -18,7 +18,6 @@
 
 mod conditions;
 mod conducting_material;
-mod conduction;
 mod expanding_material;
 mod exponentials;
 mod goodier;
@@ -31,7 +30,6 @@ mod transfer;
 #[cfg(test)]
 mod twin;
 
-pub use conduction::{Conduction, HeatError};
-pub use heated_body::HeatedBody;
+pub use heated_body::{HeatError, HeatedBody};
 pub use stress::ThermalStress;
 pub use temperature_wave::TemperatureWave;

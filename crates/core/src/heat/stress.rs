@@ -65,10 +65,10 @@ impl ThermalStress {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Conduction;
     use super::super::twin::collocation::Collocation;
     use super::super::twin::stacks::{cases, contrast, error};
     use super::*;
+    use crate::body::Conduction;
     use crate::body::{HalfSpace, Interface, Layer, Material};
 
     type Amplitude = fn(Amplitudes<Complex64>) -> Complex64;

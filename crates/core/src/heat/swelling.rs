@@ -87,10 +87,10 @@ fn overlap(material: &ConductingMaterial, [upper, lower]: [f64; 2]) -> Complex64
 
 #[cfg(test)]
 mod tests {
-    use super::super::Conduction;
     use super::super::twin::collocation::Collocation;
     use super::super::twin::stacks::{cases, contrast, error};
     use super::*;
+    use crate::body::Conduction;
     use crate::body::{HalfSpace, Interface, Layer, Material};
     use std::f64::consts::PI;
 

@@ -8,7 +8,7 @@
 //! and with s² − k² = −iPk² the excess s − k = −iPk/(1 + √(1 − iP)) has no cancellation. H. S. Carslaw & J. C. Jaeger, *Conduction of Heat in
 //! Solids*, 2nd ed. (1959), § 10.7 have the moving sources in space.
 
-use super::Conduction;
+use crate::body::Conduction;
 use rustfft::num_complex::Complex64;
 
 /// Rate s of the decay with depth of a temperature e^{ik·x}, with what s and k have in common.

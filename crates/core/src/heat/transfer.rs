@@ -16,11 +16,12 @@
 //! Source of the recursion: composite walls under periodic temperatures, H. S. Carslaw & J. C. Jaeger, *Conduction of Heat in Solids*,
 //! 2nd ed. (1959), chapter III.
 
+use super::HeatedBody;
 use super::conducting_material::ConductingMaterial;
 use super::exponentials::{decay, tanh};
 use super::temperature_wave::TemperatureWave;
 use super::thermal_rate::ThermalRate;
-use super::{Conduction, HeatedBody};
+use crate::body::Conduction;
 use crate::numeric::number::Number;
 use rustfft::num_complex::Complex64;
 

@@ -62,6 +62,9 @@ pub struct MaterialLoss {
 impl HysteresisReading {
     /// Reading of a step; `None` at rest, and without contact.
     pub fn of(step: &Step) -> Option<Self> {
+        if !step.problem().half_space().relaxes() {
+            return None;
+        }
         let MotionLoss { grids, bound, loss_tangent } = step.motion.as_ref()?;
         let (problem, grid) = (step.problem(), step.grid());
         let Hysteresis { by_shape, by_energy } = *grids.first()?;

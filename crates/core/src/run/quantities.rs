@@ -6,7 +6,7 @@ use crate::measured::Measured;
 use crate::quantity::{Named, Quantity};
 use crate::reading::{
     ADHESION, AdhesionReading, HYSTERESIS, HysteresisReading, LEVEL, LIFE, Life, PLASTIC, PlasticReading, READING,
-    ROUGH, Reading, RoughReading, SLIP, SlipReading, UTILISATION,
+    ROUGH, Reading, RoughReading, SLIP, SlipReading, TEMPERATURE, TemperatureReading, UTILISATION,
 };
 use crate::stress::maxima::{CARRIED, EXTREMES, Extremes};
 
@@ -75,6 +75,14 @@ impl Part<HysteresisReading> for StepRecord {
     }
 }
 
+impl Part<TemperatureReading> for StepRecord {
+    const PATH: &'static str = "temperature.";
+
+    fn part(&self) -> Option<&TemperatureReading> {
+        self.temperature.as_ref()
+    }
+}
+
 impl Part<Extremes> for StepRecord {
     const PATH: &'static str = "stress.";
 
@@ -135,6 +143,7 @@ pub fn of_step() -> Vec<&'static dyn OfStep> {
         .chain(each(SLIP.each()))
         .chain(each(ADHESION.each()))
         .chain(each(HYSTERESIS.each()))
+        .chain(each(TEMPERATURE.each()))
         .chain(each(EXTREMES.each()))
         .chain(each(LIFE.each()))
         .collect()

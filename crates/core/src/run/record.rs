@@ -8,7 +8,7 @@ use crate::problem::Problem;
 use crate::quantity::quantities;
 use crate::reading::{
     AdhesionReading, Beneath, Criterion, FatigueReading, Governing, HysteresisReading, PathReading, PlasticReading,
-    Reading, RoughReading, SlipReading, StressReading, Utilisation, stiffness, within_the_errors,
+    Reading, RoughReading, SlipReading, StressReading, TemperatureReading, Utilisation, stiffness, within_the_errors,
 };
 use crate::spectral::{Certificate, Report, Route, Step, Stop};
 use serde::{Deserialize, Serialize};
@@ -68,6 +68,9 @@ quantities! {
         /// Friction by hysteresis; `None` at rest, and where nothing relaxes.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub hysteresis: Option<HysteresisReading>,
+        /// Temperatures by frictional heat; `None` where nothing heats.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub temperature: Option<TemperatureReading>,
         /// Largest stresses; `None` where they are not computed, without contact, and under loads of a search for limits that are not shown.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub stress: Option<StressReading>,
@@ -148,6 +151,7 @@ impl StepRecord {
             tangential: None,
             adhesion: None,
             hysteresis: HysteresisReading::of(step),
+            temperature: TemperatureReading::of(step),
             stress: None,
             strength: Vec::new(),
             governing: None,

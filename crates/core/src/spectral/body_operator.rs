@@ -6,6 +6,7 @@ use crate::body::Bodies;
 use crate::friction::Friction;
 use crate::lattice::{Cell, Grid, Surroundings};
 use crate::problem::Problem;
+use rustfft::num_complex::Complex64;
 
 /// Memory of the operator on a grid, bytes.
 #[derive(Debug)]
@@ -33,13 +34,20 @@ impl OperatorMemory {
 }
 
 impl LayeredOperator {
-    /// The operator of a problem on a grid, with its friction.
-    pub(super) fn of_problem(problem: &Problem, grid: &Grid) -> Self {
+    /// The operator of a problem on a grid, with its friction, and with the swelling by its heat of which the body has a `share`.
+    pub(super) fn of_problem(problem: &Problem, grid: &Grid, share: f64) -> Self {
         let bodies = problem.bodies();
         if problem.motion().is_some() {
             let traction =
                 problem.friction().filter(|friction| friction.couples()).map_or([0.0; 2], Friction::traction);
-            return Self::moving(grid, bodies, problem.velocity(), traction);
+            let heat = problem.heating().filter(|heating| heating.expands()).map(|_| problem.heat_over_pressure());
+            let heated = heat.and_then(|heat| Some((problem.heated_bodies().ok()?, heat)));
+            let swelling = |wavevector| {
+                heated
+                    .as_ref()
+                    .map_or(Complex64::default(), |(bodies, heat)| bodies.swelling(wavevector, share) * *heat)
+            };
+            return Self::moving(grid, bodies, [problem.velocity(), traction], swelling);
         }
         match (grid.cell().surroundings(), problem.friction()) {
             (Surroundings::Periodic, Some(friction)) => Self::sliding(grid, bodies, friction),

@@ -1,5 +1,6 @@
 //! A contact solved on one grid.
 
+use super::frictional_heat::SurfaceHeat;
 use super::iteration::{Bounds, Certificate, Unknowns};
 use super::tangential::sticks;
 use crate::counterbody::Surface;
@@ -49,6 +50,8 @@ pub struct Contact {
     shear: Option<Arc<Shear>>,
     /// Tension between surfaces that adhere, beside the pressure; `None` of others.
     tension: Option<Arc<Vec<f64>>>,
+    /// Frictional heat; `None` where nothing heats.
+    heat: Option<Arc<SurfaceHeat>>,
     /// Counted at the first call of [`Self::spots`].
     spots: OnceLock<SpotCounts>,
 }
@@ -63,8 +66,8 @@ impl Contact {
         penetration: f64,
     ) -> Self {
         let (problem, surface) = (Arc::clone(problem), Arc::clone(surface));
-        let (indented, shear, tension, spots) = (None, None, None, OnceLock::new());
-        Self { problem, surface, pressure, gap, penetration, indented, shear, tension, spots }
+        let (indented, shear, tension, heat, spots) = (None, None, None, None, OnceLock::new());
+        Self { problem, surface, pressure, gap, penetration, indented, shear, tension, heat, spots }
     }
 
     /// The contact after earlier loads that have pressed in these depths, lengths, one per sample.
@@ -85,6 +88,16 @@ impl Contact {
     /// The contact of surfaces that pull each other with a tension beside the pressure, one value per sample.
     pub(super) fn with_tension(self, tension: Vec<f64>) -> Self {
         Self { tension: Some(Arc::new(tension)), ..self }
+    }
+
+    /// The contact with its frictional heat.
+    pub(super) fn with_heat(self, heat: SurfaceHeat) -> Self {
+        Self { heat: Some(Arc::new(heat)), ..self }
+    }
+
+    /// Frictional heat, flux and temperatures of the surfaces; `None` where nothing heats.
+    pub fn heat(&self) -> Option<&SurfaceHeat> {
+        self.heat.as_deref()
     }
 
     /// Tension between surfaces that adhere, pressures ≥ 0 sample by sample, a₂ fastest; `None` of others.
@@ -174,7 +187,10 @@ impl Contact {
         };
         // w = g − f + δ; a uniform part of the pressure does no work with a displacement without mean, and would add rounding alone.
         let f = self.surface.gaps();
-        let [sum] = sums::of(f.len(), |i| [(pressure[i] - mean) * (self.gap[i] - f[i] + shift)]);
+        // What heat displaces stores nothing.
+        let swelling = self.heat.as_ref().map_or(&[][..], |heat| &heat.swelling);
+        let by_heat = |i: usize| swelling.get(i).copied().unwrap_or(0.0);
+        let [sum] = sums::of(f.len(), |i| [(pressure[i] - mean) * (self.gap[i] - f[i] + shift - by_heat(i))]);
         0.5 * sum * self.grid().sample_area()
     }
 

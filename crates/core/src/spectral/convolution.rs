@@ -148,6 +148,16 @@ impl<T: Real> Convolution<T> {
         (Multiplier::new(compliance, self.points[0], normalisation), SkewRatio::new(ratios))
     }
 
+    /// The multiplier H − iG of the values that `fill([k₁, k₂], values)` gives, conjugate under (k₁, k₂) → (−k₁, −k₂) as
+    /// [`complex_multiplier`](Self::complex_multiplier) has them, of any sign.
+    pub fn complex_parts(&self, fill: impl Fn([usize; 2], &mut [Complex64]) + Sync) -> (Multiplier, SkewPart) {
+        let normalisation = self.normalisation();
+        let values = self.table(Complex64::default(), false, fill);
+        let even = values.iter().map(|value| value.re * normalisation).collect();
+        let odd = values.iter().map(|value| -value.im * normalisation).collect();
+        (Multiplier::new(even, self.points[0], normalisation), SkewPart::new(odd))
+    }
+
     /// 1/(N₁N₂).
     fn normalisation(&self) -> f64 {
         let [n1, n2] = self.points;

@@ -7,14 +7,11 @@
 //! in contact w = δ − f, so that both are one number, and their difference on a grid shows what the samples miss. The error of the solution
 //! itself adds |Δμ| ≤ ‖e‖_C ‖∂w/∂e‖_{C⁻¹}/P, with the [bound](super::iteration::ErrorNorm) on ‖e‖_C.
 
-use super::convolution::Convolution;
 use super::iteration::{ErrorNorm, Unknowns, Working};
-use super::layered_operator::in_place;
-use super::multiplier::{Action, Multiplier, SkewPart};
 use super::operator::{ElasticOperator, Workspace};
+use super::wave_operator::WaveOperator;
 use super::{Contact, LayeredOperator};
 use crate::counterbody::{Shape, Surface, Topography};
-use crate::lattice::Grid;
 use crate::numeric::sums;
 
 /// Friction by hysteresis on one grid.
@@ -26,35 +23,6 @@ pub struct Hysteresis {
     pub by_energy: f64,
 }
 
-/// Derivative of fields along a direction, by their waves.
-struct Derivative {
-    transform: Convolution<f64>,
-    even: Multiplier,
-    odd: SkewPart,
-}
-
-impl Derivative {
-    /// Derivative on a grid along a unit vector.
-    fn new(grid: &Grid, [x, y]: [f64; 2]) -> Self {
-        let transform = Convolution::new(grid.points());
-        let even = transform.multiplier(false, |_, values| values.fill(0.0));
-        let along = |component: [usize; 2]| {
-            let [nx, ny] = grid.mean_direction(component);
-            (x * nx + y * ny) * grid.wavenumber(component)
-        };
-        // H − iG = i k.
-        let odd = transform.skew_part(|[k1, k2], values| {
-            values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = -along([k1, k2]));
-        });
-        Self { transform, even, odd }
-    }
-
-    /// The derivative of a field, in its place.
-    fn apply(&self, field: &mut [f64], workspace: &mut Workspace) {
-        in_place(&self.transform, Action::MultiplyComplex(1.0, &self.odd), &self.even, field, workspace);
-    }
-}
-
 impl Hysteresis {
     /// Friction of a contact; `None` without a force.
     pub(super) fn of(contact: &Contact) -> Option<Self> {
@@ -64,7 +32,7 @@ impl Hysteresis {
             return None;
         }
         let direction = contact.problem().direction();
-        let derivative = Derivative::new(grid, direction);
+        let derivative = WaveOperator::derivative(grid, direction);
         let workspace = &mut Workspace::default();
         let mut rise = p.to_vec();
         derivative.apply(&mut rise, workspace);
@@ -82,7 +50,7 @@ impl Hysteresis {
 }
 
 /// ∂f/∂e at each sample: by the shape of its indenter, or by the waves of a topography.
-fn slopes(surface: &Surface, topography: Option<&Topography>, derivative: &Derivative, [x, y]: [f64; 2]) -> Vec<f64> {
+fn slopes(surface: &Surface, topography: Option<&Topography>, derivative: &WaveOperator, [x, y]: [f64; 2]) -> Vec<f64> {
     let (owners, sites) = (surface.owners(), surface.sites());
     if owners.is_empty() {
         return waves(surface, topography, derivative, [x, y]);
@@ -97,7 +65,7 @@ fn slopes(surface: &Surface, topography: Option<&Topography>, derivative: &Deriv
 }
 
 /// ∂f/∂e of a topography: by its waves, and by the profile of the ball that it stands on.
-fn waves(surface: &Surface, topography: Option<&Topography>, derivative: &Derivative, [x, y]: [f64; 2]) -> Vec<f64> {
+fn waves(surface: &Surface, topography: Option<&Topography>, derivative: &WaveOperator, [x, y]: [f64; 2]) -> Vec<f64> {
     let grid = surface.grid();
     let mut slopes = surface.gaps().to_vec();
     let Some(radius) = topography.and_then(Topography::ball) else {
@@ -132,7 +100,7 @@ pub(super) fn bound(
     let norm = ErrorNorm::of(operator, working, mask, unknowns);
     let (g, f) = (contact.gaps(), contact.surface().gaps());
     let mut slope: Vec<f64> = g.iter().zip(f).map(|(g, f)| g - f).collect();
-    Derivative::new(contact.grid(), contact.problem().direction()).apply(&mut slope, &mut working.transforms);
+    WaveOperator::derivative(contact.grid(), contact.problem().direction()).apply(&mut slope, &mut working.transforms);
     let mut pressure = slope.clone();
     operator.symmetric_pressure(&mut pressure, &mut working.transforms);
     let [square] = sums::of(p.len(), |i| [slope[i] * pressure[i]]);

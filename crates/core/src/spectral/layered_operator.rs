@@ -26,6 +26,8 @@ pub struct LayeredOperator {
     skew: Option<Skew>,
     /// Largest |C⁻¹(A − C)| without a local compliance.
     coupling: f64,
+    /// Least part of the compliance of a wave that swelling by frictional heat leaves; 1 without heat.
+    left: f64,
     /// Transforms and compliance of the window repeated periodically, of which the inverse is taken in free space; `None` on a periodic
     /// cell.
     repeated: Option<(Transforms, Multiplier)>,
@@ -81,7 +83,8 @@ impl LayeredOperator {
     pub(super) fn of(transforms: Transforms, compliance: Multiplier, unit: f64) -> Self {
         let (skew, repeated, softened) = (None, None, Softened::default());
         let (mean, coupling, convolutions, resolvent) = (0.0, 0.0, 0.0, None);
-        Self { transforms, compliance, skew, coupling, repeated, unit, mean, softened, resolvent, convolutions }
+        let left = 1.0;
+        Self { transforms, compliance, skew, coupling, left, repeated, unit, mean, softened, resolvent, convolutions }
     }
 
     /// The operator whose displacement under a uniform pressure is `mean` times that.
@@ -97,6 +100,16 @@ impl LayeredOperator {
     /// The operator under friction that couples, with its skew part and the largest |C⁻¹(A − C)|.
     pub(super) fn coupled(self, skew: Skew, coupling: f64) -> Self {
         Self { skew: Some(skew), coupling, ..self }
+    }
+
+    /// The operator of which swelling by heat leaves a part of the compliance of a wave at least.
+    pub(super) fn with_left(self, left: f64) -> Self {
+        Self { left, ..self }
+    }
+
+    /// Least part of the compliance of a wave that swelling by frictional heat leaves, 1 without heat: no steady state is unique at 0.
+    pub fn left_by_heat(&self) -> f64 {
+        self.left
     }
 
     /// Convolutions so far; one in single precision counts half.

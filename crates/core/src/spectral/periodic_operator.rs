@@ -15,11 +15,12 @@
 //! [`Bodies::mean_compliance`].
 
 use super::layered_operator::{LayeredOperator, Skew, Transforms};
+use super::wave_operator::of_component;
 use crate::body::{Bodies, Compliances};
 use crate::friction::Friction;
 use crate::lattice::Grid;
-use crate::lattice::waves::WAVENUMBER_TOLERANCE;
 use rustfft::num_complex::Complex64;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 impl LayeredOperator {
     /// Operator of the bodies on a periodic grid, without friction.
@@ -56,19 +57,27 @@ impl LayeredOperator {
     }
 
     /// Operator of the bodies on a periodic grid below a load that moves steadily with a `velocity`, with the `traction` over the pressure that
-    /// couples; of infinite coupling where the real part of a wave is not positive, and no steady state is unique.
-    pub(super) fn moving(grid: &Grid, bodies: &Bodies, velocity: [f64; 2], traction: [f64; 2]) -> Self {
+    /// couples, and with the `swelling` by its heat over the pressure; of infinite coupling where the real part of a wave is not positive, and no steady state is unique.
+    pub(super) fn moving(
+        grid: &Grid,
+        bodies: &Bodies,
+        [velocity, traction]: [[f64; 2]; 2],
+        swelling: impl Fn([f64; 2]) -> Complex64 + Sync,
+    ) -> Self {
         let transforms = Transforms::new(grid.points());
         let mean = bodies.mean_compliance();
-        let at = |wavevector| bodies.moving_compliance(wavevector, velocity, traction);
-        let compliance = |component: [usize; 2]| match (component, grid.wavevector_and_ties(component)) {
-            ([0, 0], _) if mean != 0.0 => mean.into(),
-            ([0, 0], _) => bodies.compliance(grid.least_wavenumber()).into(),
-            (_, (wavevector, 1)) => at(wavevector),
-            _ => {
-                let tied = grid.tied_wavevectors(component, WAVENUMBER_TOLERANCE);
-                tied.iter().map(|&(_, wavevector)| at(wavevector)).sum::<Complex64>() / tied.len() as f64
-            }
+        let left = AtomicU64::new(1f64.to_bits());
+        let at = |wavevector| {
+            let elastic = bodies.moving_compliance(wavevector, velocity, traction);
+            let whole = elastic + swelling(wavevector);
+            // Bits of numbers that are not negative are in their order.
+            left.fetch_min((whole.re / elastic.re).clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
+            whole
+        };
+        let compliance = |component: [usize; 2]| match component {
+            [0, 0] if mean != 0.0 => mean.into(),
+            [0, 0] => bodies.compliance(grid.least_wavenumber()).into(),
+            _ => of_component(grid, component, &at),
         };
         let (multiplier, skew) = transforms.double.complex_multiplier(|[k1, k2], values| {
             values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = compliance([k1, k2]));
@@ -76,7 +85,8 @@ impl LayeredOperator {
         let multiplier = if mean != 0.0 { multiplier } else { multiplier.dropping_mean() };
         let largest = if multiplier.is_positive() { skew.largest() } else { f64::INFINITY };
         let unit = bodies.compliance(grid.least_wavenumber());
-        Self::of(transforms, multiplier, unit).with_mean(mean).coupled(Skew::Ratio(skew), largest)
+        let left = f64::from_bits(left.into_inner());
+        Self::of(transforms, multiplier, unit).with_mean(mean).with_left(left).coupled(Skew::Ratio(skew), largest)
     }
 
     /// Σ wᵢ Cᵢ of several compliances.

@@ -6,15 +6,18 @@
 //! works on the finest grid alone, as published.
 
 use super::body_operator::OperatorMemory;
+use super::frictional_heat::FrictionalHeat;
 use super::grid_level::{Coarser, GridLevel};
 use super::iteration::{Method, Progress, Report, Settings, Stop, Unknowns, Working};
 use super::worn::Worn;
-use super::{Contact, FieldError, Step, Tangent};
+use super::{Contact, FieldError, HeatStep, Step, Tangent};
 use crate::counterbody::Surface;
 use crate::friction::Friction;
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::load::Load;
+use crate::numeric::array::field;
 use crate::numeric::fourier::fast_points;
+use crate::numeric::sums;
 use crate::problem::Problem;
 use ndarray::Array2;
 use std::fmt;
@@ -26,6 +29,10 @@ pub(crate) const MIN_POINTS: usize = 24;
 
 /// Coarser grids that a step keeps beside the finest, for the errors of its readings.
 const COARSER_KEPT: usize = 2;
+
+/// Most turns of a contact and the partition of its heat, and the change of the swelling over the penetration at which they end.
+const HEAT_TURNS: usize = 40;
+const HEAT_TOLERANCE: f64 = 1e-8;
 
 /// Weights of the changes of a contact stiffness from the coarser grids, the next coarser first, and that of the samples that join at a time
 /// on coated bodies: read off 250 random contacts, see `tests/library/stated_errors.rs`.
@@ -41,6 +48,8 @@ pub struct Solver {
     pub(super) levels: Vec<GridLevel>,
     /// Depths that sliding has worn off; `None` before any wear.
     pub(super) worn: Option<Worn>,
+    /// Frictional heat on the finest grid and the next coarser one; none where nothing heats.
+    heats: Vec<FrictionalHeat>,
 }
 
 impl Solver {
@@ -57,9 +66,12 @@ impl Solver {
                 None => loaded_by.surface(points)?,
                 Some(finer) => loaded_by.coarser_surface(finer.surface(), points)?,
             };
-            levels.push(GridLevel::new(&problem, surface));
+            let share = FrictionalHeat::first_share(&problem, surface.grid().least_wavenumber());
+            levels.push(GridLevel::new(&problem, surface, share));
         }
-        Ok(Self { problem, settings, levels, worn: None })
+        let heated = levels.iter().take(2).map_while(|level| FrictionalHeat::new(&problem, level.surface().grid()));
+        let heats = heated.collect();
+        Ok(Self { problem, settings, levels, worn: None, heats })
     }
 
     /// Solver with a given initial gap in the place of that of the counterbody: of a worn or deformed surface, or between two
@@ -160,7 +172,10 @@ impl Solver {
         progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
     ) -> Step {
         // Everything on the threads that share the work, where no pass has to wake them.
-        rayon::scope(|_| self.solve_on_levels(load, progress))
+        rayon::scope(|_| match self.heats.first().is_some_and(FrictionalHeat::lifts) {
+            true => self.solve_heated(load, progress),
+            false => self.solve_on_levels(load, progress),
+        })
     }
 
     /// Solves a load on the finest grid alone, from its last pressure, with the gap opened by `lift`, lengths sample by sample: displacements
@@ -178,6 +193,40 @@ impl Solver {
         level.set_surface(surface, indented);
         let samples = level.surface().grid().len() as f64;
         self.step(load, report, work / samples, 0)
+    }
+
+    /// Solves a load with the swelling by heat whose share differs from place to place: in turns of the contact and the partition.
+    fn solve_heated(&mut self, load: Load, progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send)) -> Step {
+        let originals: Vec<Arc<Surface>> = self.levels.iter().map(|level| Arc::clone(level.surface())).collect();
+        let points = self.grid().points();
+        let share = FrictionalHeat::first_share(&self.problem, self.grid().least_wavenumber());
+        let (mut before, mut step) = (vec![0.0; self.grid().len()], self.solve_on_levels(load, progress));
+        let mut is_settled = false;
+        for _ in 0..HEAT_TURNS {
+            if !step.report.stop.solved() {
+                break;
+            }
+            let heat = self.heats[0].under(step.finest.pressures());
+            let lift = self.heats[0].lift(&heat, share);
+            let change = -sums::least(lift.len(), |i| -(lift[i] - before[i]).abs());
+            if change <= HEAT_TOLERANCE * step.penetration().abs() {
+                is_settled = true;
+                break;
+            }
+            let mut finer = field(points, lift.clone());
+            for (level, original) in self.levels.iter_mut().zip(&originals) {
+                finer = level.lift(original, &finer);
+            }
+            before = lift;
+            let convolutions = step.convolutions;
+            step = self.solve_on_levels(load, progress);
+            step.convolutions += convolutions;
+        }
+        for (level, original) in self.levels.iter_mut().zip(originals) {
+            level.set_surface(original, None);
+        }
+        let stop = if is_settled || !step.report.stop.solved() { step.report.stop } else { Stop::Stalled };
+        self.step(load, Report { stop, ..step.report }, step.convolutions, step.coarser.len())
     }
 
     fn solve_on_levels(&mut self, load: Load, progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send)) -> Step {
@@ -231,11 +280,20 @@ impl Solver {
     /// The step just solved, with the contact on the next `coarser` grids.
     pub(super) fn step(&mut self, load: Load, report: Report, convolutions: f64, coarser: usize) -> Step {
         let contact = |level: &GridLevel| level.contact(&self.problem);
-        let finest = contact(&self.levels[0]);
-        let coarser: Vec<Contact> = self.levels[1..=coarser].iter().map(contact).collect();
+        let (mut finest, mut coarser) =
+            (contact(&self.levels[0]), self.levels[1..=coarser].iter().map(contact).collect::<Vec<_>>());
+        let contacts = std::iter::once(&mut finest).chain(&mut coarser);
+        let mut grids = Vec::new();
+        for (heat, contact) in self.heats.iter_mut().zip(contacts) {
+            let found = heat.under(contact.pressures());
+            grids.push(heat.hottest(contact.grid(), &found));
+            *contact = contact.clone().with_heat(found);
+        }
+        let left = self.levels[0].left_by_heat();
+        let heat = (!grids.is_empty()).then_some(HeatStep { grids, left });
         let motion = self.problem.motion().and_then(|_| self.levels[0].motion_loss(&finest, &coarser));
         let certificate = self.levels[0].unknowns().certificate;
-        Step { load, report, certificate, convolutions, motion, finest, coarser }
+        Step { load, report, certificate, convolutions, motion, heat, finest, coarser }
     }
 
     /// Keeps what the last load has pressed in, where its pressure is that of the hardness: the depths −g are in the initial gap of the

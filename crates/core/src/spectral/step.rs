@@ -1,6 +1,7 @@
 //! One load step, solved.
 
 use super::contact::{Contact, Shear};
+use super::frictional_heat::Hottest;
 use super::hysteresis::Hysteresis;
 use super::iteration::{Certificate, Report};
 use crate::counterbody::Surface;
@@ -24,6 +25,15 @@ pub struct MotionLoss {
     pub loss_tangent: f64,
 }
 
+/// Largest temperatures of a load step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeatStep {
+    /// Temperatures of all materials on the finest grid, then on the next coarser one that the step keeps.
+    pub grids: Vec<Vec<Hottest>>,
+    /// Least part of the compliance of a wave that swelling by heat leaves: no steady state is unique at 0.
+    pub left: f64,
+}
+
 /// A solved load step. It shares grid, surface and problem, and its fields never change: it can be kept, sent to another
 /// thread, and read after the solver is gone.
 #[derive(Debug, Clone)]
@@ -38,6 +48,8 @@ pub struct Step {
     pub convolutions: f64,
     /// Friction by hysteresis below a load that moves steadily; `None` at rest, and without contact.
     pub motion: Option<MotionLoss>,
+    /// Largest temperatures by frictional heat; `None` where nothing heats.
+    pub heat: Option<HeatStep>,
     pub(super) finest: Contact,
     pub(super) coarser: Vec<Contact>,
 }

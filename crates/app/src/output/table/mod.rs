@@ -15,6 +15,7 @@ mod plastic;
 mod slip;
 mod strains;
 mod strength;
+mod temperature;
 mod text;
 
 pub use adhesion::{adhesion, adhesion_words, adhesive_loss, adhesive_path};
@@ -32,6 +33,7 @@ pub use plastic::plastic;
 pub use slip::slip;
 pub use strains::largest_strains;
 pub use strength::{limits, utilisations};
+pub use temperature::temperature;
 pub use text::{INTERVALS, Table, Worded};
 pub(super) use text::{indented, lines};
 
@@ -75,6 +77,10 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
         text += &format!("{}\n\n", fitted(&table));
     }
     if let Some((words, table)) = hysteresis(case.problem(), steps, &units) {
+        text += &words.iter().map(|words| lines(words, width)).collect::<String>();
+        text += &format!("{}\n\n", fitted(&table));
+    }
+    if let Some((words, table)) = temperature(case.problem(), steps, &units) {
         text += &words.iter().map(|words| lines(words, width)).collect::<String>();
         text += &format!("{}\n\n", fitted(&table));
     }

@@ -65,7 +65,7 @@ section! {
         /// taper of its border; true is "tukey"
         pub window: Option<Taper> =
             Key::new(&[Form::Boolean, Form::Word(Window::WORDS)], "\"tukey\"").default("false").rule(OF_A_FILE),
-        /// radius of a ball that the heights stand on, its apex in the middle of the window, or at the origin of each periodic cell
+        /// radius of a ball that the heights stand on, its apex in the middle of the window, or of each periodic cell
         pub radius: Option<f64> = Key::new(&[SIZE], "3000.0").unit(Unit::Length).otherwise("a plane"),
         /// a self-affine surface
         pub random: Option<RandomSection> =

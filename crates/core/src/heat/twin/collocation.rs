@@ -10,8 +10,9 @@
 //! exponentials nor the stress function nor reciprocity.
 
 use super::element::{DEGREE, Element};
+use crate::body::Conduction;
 use crate::body::{Amplitudes, Depth, Interface, Material};
-use crate::heat::{Conduction, HeatedBody};
+use crate::heat::HeatedBody;
 use rustfft::num_complex::Complex64;
 
 /// kz at which the substrate ends: e^{−45} = 3·10⁻²⁰.

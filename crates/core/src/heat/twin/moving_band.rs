@@ -1,7 +1,8 @@
 //! Temperature under a moving band of heat in closed form, against the sum of its waves.
 
+use crate::body::Conduction;
 use crate::body::{HalfSpace, Material};
-use crate::heat::{Conduction, HeatedBody};
+use crate::heat::HeatedBody;
 use crate::numeric::quadrature::gauss;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::PI;

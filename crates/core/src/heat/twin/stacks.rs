@@ -1,7 +1,8 @@
 //! Heated stacks on which the fast and the slow twin are compared, and the measure of their difference.
 
+use crate::body::Conduction;
 use crate::body::{HalfSpace, Interface, Layer, Material};
-use crate::heat::{Conduction, HeatedBody};
+use crate::heat::HeatedBody;
 use rustfft::num_complex::Complex64;
 
 /// Stacks of 0 to 3 layers with all kinds of interfaces, on elastic substrates and on rigid bases, with and without thermal resistances.

@@ -405,6 +405,6 @@ impl Track {
         let contact = Contact::new(&self.problem, &self.surface, Arc::new(pressure), Arc::new(gap), penetration);
         let State { report, certificate, .. } = *state;
         let (finest, coarser) = (contact.with_tension(tension), Vec::new());
-        Step { load, report, certificate, convolutions, motion: None, finest, coarser }
+        Step { load, report, certificate, convolutions, motion: None, heat: None, finest, coarser }
     }
 }

@@ -56,10 +56,10 @@ pub(super) struct Coarser {
 }
 
 impl GridLevel {
-    /// The problem on the grid of a surface.
-    pub fn new(problem: &Problem, surface: Surface) -> Self {
+    /// The problem on the grid of a surface; of its frictional heat the body has a `share`.
+    pub fn new(problem: &Problem, surface: Surface, share: f64) -> Self {
         let (grid, bodies) = (surface.grid(), problem.bodies());
-        let operator = LayeredOperator::of_problem(problem, grid);
+        let operator = LayeredOperator::of_problem(problem, grid, share);
         let given = problem.given_pressure().map(|given| {
             let (pressure, mean) = (given.on(grid), given.force() / grid.cell().area());
             pressure.into_iter().map(|p| p / mean).collect()
@@ -131,6 +131,11 @@ impl GridLevel {
         self.surface = Arc::new(original.with_initial_gap(gap));
         self.largest_gap = self.surface.largest();
         self.indented = Some((original, depths));
+    }
+
+    /// Least part of the compliance of a wave that swelling by frictional heat leaves; 1 without heat.
+    pub fn left_by_heat(&self) -> f64 {
+        self.operator.left_by_heat()
     }
 
     /// The operator, which a local compliance may soften for a while.
@@ -219,6 +224,14 @@ impl GridLevel {
     /// The tangent of a contact on this grid; `None` without contact.
     pub fn tangent_of(&mut self, contact: &Contact) -> Option<Tangent> {
         Tangent::new(&mut self.operator, contact)
+    }
+
+    /// Adds to the initial gap of an `original` surface what heat lifts, lengths on the next finer grid or this one; gives what it is on this one.
+    pub fn lift(&mut self, original: &Arc<Surface>, finer: &Array2<f64>) -> Array2<f64> {
+        let lift = original.restricted(finer);
+        let gap = &original.initial_gap() + &lift;
+        self.set_surface(Arc::new(original.with_initial_gap(gap)), None);
+        lift
     }
 
     /// Friction by hysteresis of the last load, on this grid and on `coarser` ones; `None` without contact. The certificate becomes the sharper one

@@ -67,3 +67,4 @@ pub use fields::{Unknowns, Working};
 pub use monotone_bound::ErrorNorm;
 pub use problem::{ContactProblem, Method, Settings};
 pub use report::{Progress, Report, Route, Stop};
+pub(in crate::spectral) use set_system::{Invertible, SampleSet};

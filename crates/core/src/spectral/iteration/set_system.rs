@@ -1,4 +1,4 @@
-//! Linear equations on a set of samples: A x = r + const in the set, x = 0 elsewhere, Σ x = 0, A not symmetric.
+//! Linear equations on a set of samples: A x = r + const in the set, x = 0 elsewhere, Σ x = 0, A not symmetric; or A x = r with any Σ x.
 //!
 //! Generalised conjugate residuals (Eisenstat, Elman & Schultz, SIAM J. Numer. Anal. 20 (1983) 345), preconditioned from the right by P A⁻¹ P,
 //! P the restriction to the set: with the residual r, freed of its mean in the set,
@@ -14,7 +14,7 @@ use crate::numeric::sums;
 const MAX_STEPS: usize = 12;
 
 /// Operators of the equations: A and A⁻¹ on fields of all samples, in place.
-pub(super) trait Invertible {
+pub trait Invertible {
     /// x → A x.
     fn apply(&mut self, field: &mut [f64]);
     /// y → A⁻¹ y, of any mean.
@@ -23,7 +23,7 @@ pub(super) trait Invertible {
 
 /// A set of samples.
 #[derive(Debug)]
-pub(super) struct SampleSet {
+pub struct SampleSet {
     /// Numbers of the samples, ascending.
     samples: Vec<u32>,
     /// Number of all samples.
@@ -32,7 +32,7 @@ pub(super) struct SampleSet {
 
 /// Solution of the equations.
 #[derive(Debug)]
-pub(super) struct SetSolution {
+pub struct SetSolution {
     /// x in the set.
     pub change: Vec<f64>,
     /// Steps taken.
@@ -76,17 +76,37 @@ impl SampleSet {
 
     /// Solves A x = r + const in the set with Σ x = 0 from the values r, until |r| has fallen to a `part`; `None` where a step gains nothing.
     pub fn solve(&self, right: Vec<f64>, part: f64, operator: &mut impl Invertible) -> Option<SetSolution> {
-        let mut residual = without_mean(right);
-        let least = part * norm(&residual);
         let uniform = self.through(&vec![1.0; self.len()], |field| operator.invert(field));
         let sum = total(&uniform);
+        let balanced = |z: &mut Vec<f64>| {
+            let excess = total(z) / sum;
+            sums::update(z, |i, z| z - excess * uniform[i]);
+        };
+        let (found, is_met) = self.residuals(without_mean(right), part, operator, balanced, without_mean);
+        is_met.then_some(found)
+    }
+
+    /// Solves A x = r in the set with any Σ x from the values r, until |r| has fallen to a `part`, or as far as a number of steps goes.
+    pub fn solve_freely(&self, right: Vec<f64>, part: f64, operator: &mut impl Invertible) -> SetSolution {
+        self.residuals(right, part, operator, |_| (), |v| v).0
+    }
+
+    /// Conjugate residuals, with what makes a direction and its image admissible; whether the part was met.
+    fn residuals(
+        &self,
+        mut residual: Vec<f64>,
+        part: f64,
+        operator: &mut impl Invertible,
+        balanced: impl Fn(&mut Vec<f64>),
+        freed: impl Fn(Vec<f64>) -> Vec<f64>,
+    ) -> (SetSolution, bool) {
+        let least = part * norm(&residual);
         let mut change = vec![0.0; self.len()];
         let mut before: Vec<[Vec<f64>; 2]> = Vec::new();
         while norm(&residual) > least {
             let mut z = self.through(&residual, |field| operator.invert(field));
-            let excess = total(&z) / sum;
-            sums::update(&mut z, |i, z| z - excess * uniform[i]);
-            let mut v = without_mean(self.through(&z, |field| operator.apply(field)));
+            balanced(&mut z);
+            let mut v = freed(self.through(&z, |field| operator.apply(field)));
             for [z1, v1] in &before {
                 let overlap = dot(&v, v1);
                 sums::update(&mut v, |i, x| x - overlap * v1[i]);
@@ -95,7 +115,7 @@ impl SampleSet {
             let scale = norm(&v).recip();
             let length = dot(&residual, &v) * scale * scale;
             if !length.is_finite() || before.len() == MAX_STEPS {
-                return None;
+                return (SetSolution { change, steps: before.len() }, false);
             }
             sums::update(&mut change, |i, x| x + length * z[i]);
             sums::update(&mut residual, |i, r| r - length * v[i]);
@@ -104,7 +124,7 @@ impl SampleSet {
             }
             before.push([z, v]);
         }
-        Some(SetSolution { change, steps: before.len() })
+        (SetSolution { change, steps: before.len() }, true)
     }
 }
 

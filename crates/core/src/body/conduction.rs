@@ -9,9 +9,9 @@
 use crate::notation::number;
 use std::fmt;
 
-/// Why a heated body cannot be built from its values.
+/// Why a conduction cannot be built.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum HeatError {
+pub enum ConductionError {
     /// Conductivity not positive and finite.
     #[error("a thermal conductivity must be positive and finite, not {0}")]
     Conductivity(f64),
@@ -24,25 +24,6 @@ pub enum HeatError {
     /// Resistance of an interface negative or not a number.
     #[error("the thermal resistance of an interface must not be negative (infinite: it insulates), not {0}")]
     Resistance(f64),
-    /// Velocity of the source not finite.
-    #[error("the velocity of a heat source must be finite, not {0}")]
-    Velocity(f64),
-    /// Another number of conducting materials than the body has.
-    #[error("heat needs the conduction of each of the {needed} materials of the body, not of {given}")]
-    Materials {
-        /// Materials of which the conduction is given.
-        given: usize,
-        /// Materials of the body.
-        needed: usize,
-    },
-    /// Another number of thermal resistances than the body has interfaces.
-    #[error("heat needs the resistance of each of the {needed} interfaces of the body, not of {given}")]
-    Interfaces {
-        /// Interfaces of which the resistance is given.
-        given: usize,
-        /// Interfaces of the body.
-        needed: usize,
-    },
 }
 
 /// Conduction of heat in a material, and its expansion.
@@ -58,16 +39,16 @@ impl Conduction {
     /// coefficient α ≥ 0 of linear expansion (one over a temperature).
     ///
     /// # Errors
-    /// [`HeatError`] for values out of range.
-    pub fn new(conductivity: f64, diffusivity: f64, expansion: f64) -> Result<Self, HeatError> {
+    /// [`ConductionError`] for values out of range.
+    pub fn new(conductivity: f64, diffusivity: f64, expansion: f64) -> Result<Self, ConductionError> {
         if !(conductivity.is_finite() && conductivity > 0.0) {
-            return Err(HeatError::Conductivity(conductivity));
+            return Err(ConductionError::Conductivity(conductivity));
         }
         if !(diffusivity.is_finite() && diffusivity > 0.0) {
-            return Err(HeatError::Diffusivity(diffusivity));
+            return Err(ConductionError::Diffusivity(diffusivity));
         }
         if !(expansion.is_finite() && expansion >= 0.0) {
-            return Err(HeatError::Expansion(expansion));
+            return Err(ConductionError::Expansion(expansion));
         }
         Ok(Self { conductivity, diffusivity, expansion })
     }
@@ -101,9 +82,9 @@ mod tests {
 
     #[test]
     fn values_out_of_range_are_refused() {
-        assert_eq!(Conduction::new(0.0, 1.0, 0.0), Err(HeatError::Conductivity(0.0)));
-        assert_eq!(Conduction::new(1.0, f64::INFINITY, 0.0), Err(HeatError::Diffusivity(f64::INFINITY)));
-        assert_eq!(Conduction::new(1.0, 1.0, -1e-6), Err(HeatError::Expansion(-1e-6)));
+        assert_eq!(Conduction::new(0.0, 1.0, 0.0), Err(ConductionError::Conductivity(0.0)));
+        assert_eq!(Conduction::new(1.0, f64::INFINITY, 0.0), Err(ConductionError::Diffusivity(f64::INFINITY)));
+        assert_eq!(Conduction::new(1.0, 1.0, -1e-6), Err(ConductionError::Expansion(-1e-6)));
         assert!(Conduction::new(50.0, 1.4e-5, f64::NAN).is_err());
         assert_eq!(Conduction::new(50.0, 1.4e-5, 0.0).map(|steel| steel.expansion()), Ok(0.0));
     }

@@ -1,0 +1,53 @@
+//! Table of temperatures by frictional heat, a row a material, and sentences on how it was shared.
+
+use super::Table;
+use crate::output::number::{in_unit, number, shown};
+use percoat_case::units::Units;
+use percoat_core::measured::Measured;
+use percoat_core::problem::Problem;
+use percoat_core::quantity::Quantity;
+use percoat_core::reading::{TEMPERATURE, TemperatureReading};
+use percoat_core::run::StepRecord;
+
+/// Sentences about the heat of the last step that has any, and the table of its largest temperatures; `None` where nothing heats.
+pub fn temperature(problem: &Problem, steps: &[StepRecord], units: &Units) -> Option<(Vec<String>, Table)> {
+    let (step, heat) =
+        (1..).zip(steps).filter_map(|(number, step)| Some((number, step.temperature.as_ref()?))).last()?;
+    let of = |quantity: &'static Quantity<TemperatureReading>| {
+        quantity.of(heat).map_or(String::new(), |found| shown(&quantity.named, found, units))
+    };
+    let at = if steps.len() > 1 { format!(" in step {step}") } else { String::new() };
+    let mut words = vec![format!(
+        "frictional heat{at}: {} {}; mean temperature in contact {}",
+        TEMPERATURE.counterbody_share.named.name,
+        of(&TEMPERATURE.counterbody_share),
+        of(&TEMPERATURE.mean_in_contact)
+    )];
+    if problem.heating().is_some_and(|heating| heating.expands()) && heat.criticality > 0.0 {
+        words.push(format!(
+            "the surface swells: the velocity is {} of that from which on no steady state in this cell is unique",
+            number(heat.criticality)
+        ));
+    }
+    words.push(
+        "temperatures are those above the mean temperature of each surface, its bulk temperature here: the mean rise of a periodic cell has no \
+         steady value and is left out"
+            .to_owned(),
+    );
+    let temperature = units.temperature().suited(heat.materials.iter().map(|material| material.value));
+    let length = units.length().suited(heat.materials.iter().flat_map(|material| material.place));
+    let header = [
+        format!("{} of", temperature.headed(TEMPERATURE.max.named.name)),
+        String::new(),
+        length.headed("place (x, y, z)"),
+    ];
+    let row = |material: &percoat_core::reading::MaterialTemperature| {
+        let [x, y, z] = material.place.map(|x| number(length.shown(x)));
+        vec![
+            material.material.to_string(),
+            in_unit(&temperature, Measured { value: material.value, error: material.error }),
+            format!("({x}, {y}, {z})"),
+        ]
+    };
+    Some((words, Table::new(&header, heat.materials.iter().map(row).collect(), 1)))
+}
