@@ -26,6 +26,8 @@ mod fretting_wear;
 mod given_load;
 #[path = "library/hardness.rs"]
 mod hardness;
+#[path = "library/heat.rs"]
+mod heat;
 #[path = "library/identification.rs"]
 mod identification;
 #[path = "library/indenters.rs"]

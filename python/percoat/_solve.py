@@ -287,7 +287,10 @@ class Step(Sampled):
 
     @cached_property
     def surface_temperature(self) -> Optional[Array]:
-        """Temperature of the body's surface by frictional heat (n₁, n₂), an array that counts from its mean and its bulk temperature; None where nothing heats."""
+        """Temperature of the body's surface by frictional heat (n₁, n₂): its bulk temperature and what differs from the mean of the surface.
+
+        None where nothing heats.
+        """
         temperature = self._core.surface_temperature()
         if temperature is not None:
             temperature.flags.writeable = False

@@ -3,7 +3,7 @@
 //! Under a load e^{iωt} a viscoelastic material is an elastic one of the complex moduli G(iω) and ν(iω) (correspondence principle):
 //! G = G′ + iG″ with the storage modulus G′ and the loss modulus G″ ≥ 0. With a real bulk modulus K, ν = (3K − 2G)/(6K + 2G).
 
-use super::Material;
+use super::{ConstantModulus, Material, Relaxation};
 use crate::numeric::number::Number;
 
 /// Moduli of a material.
@@ -19,6 +19,42 @@ impl<N: Number> From<Material> for Moduli<N> {
     fn from(material: Material) -> Self {
         Self { shear: material.shear().into(), poisson: material.poisson().into() }
     }
+}
+
+impl<N: Number> Moduli<N> {
+    /// Moduli of a relaxed `material` whose shear modulus is larger by `stiffening`, a pressure, with the constant modulus of its relaxation.
+    fn stiffened(material: Material, relaxation: Relaxation, stiffening: N) -> Self {
+        let shear = N::from(material.shear()) + stiffening;
+        let poisson = match relaxation.constant() {
+            ConstantModulus::Poisson => N::from(material.poisson()),
+            ConstantModulus::Bulk => {
+                // ν = (3 − 2G/K)/(6 + 2G/K); 1/K = 0 of an incompressible material.
+                let ratio = shear * bulk_compliance(material);
+                (N::from(3.0) - ratio * 2.0).over(N::from(6.0) + ratio * 2.0)
+            }
+        };
+        Self { shear, poisson }
+    }
+}
+
+impl Material {
+    /// Moduli at the Laplace variable s, one over a time, s = iω under a load e^{iωt}; the relaxed ones of a material that does not relax.
+    pub fn moduli_at<N: Number>(self, s: N) -> Moduli<N> {
+        let of = |relaxation: Relaxation| Moduli::stiffened(self, relaxation, relaxation.stiffening(s));
+        self.relaxation().map_or_else(|| self.into(), of)
+    }
+
+    /// Moduli at once after a strain, s → ∞; the relaxed ones of a material that does not relax.
+    pub fn glassy(self) -> Moduli {
+        let of = |relaxation: Relaxation| Moduli::stiffened(self, relaxation, relaxation.instantaneous());
+        self.relaxation().map_or_else(|| self.into(), of)
+    }
+}
+
+/// 1/K = 3(1 − 2ν)/(2G(1 + ν)).
+fn bulk_compliance(material: Material) -> f64 {
+    let (shear, nu) = (material.shear(), material.poisson());
+    3.0 * (1.0 - 2.0 * nu) / (2.0 * shear * (1.0 + nu))
 }
 
 #[cfg(test)]

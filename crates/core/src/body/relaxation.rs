@@ -8,7 +8,6 @@
 //! G″. The glassy modulus is G(s → ∞) = G₀ + Σ gₙ. Either the bulk modulus K stays constant, as in most polymers, or Poisson's ratio does.
 //! With K constant ν(s) = (3K − 2G)/(6K + 2G) falls where G rises.
 
-use super::{Material, Moduli};
 use crate::notation::number;
 use crate::numeric::number::Number;
 use std::collections::BTreeMap;
@@ -114,38 +113,6 @@ impl Relaxation {
     pub fn instantaneous(&self) -> f64 {
         self.terms.iter().map(|term| term.shear).sum()
     }
-
-    /// Moduli of a relaxed `material` whose shear modulus is larger by `stiffening`, a pressure.
-    fn moduli<N: Number>(&self, material: Material, stiffening: N) -> Moduli<N> {
-        let shear = N::from(material.shear()) + stiffening;
-        let poisson = match self.constant {
-            ConstantModulus::Poisson => N::from(material.poisson()),
-            ConstantModulus::Bulk => {
-                // ν = (3 − 2G/K)/(6 + 2G/K); 1/K = 0 of an incompressible material.
-                let ratio = shear * bulk_compliance(material);
-                (N::from(3.0) - ratio * 2.0).over(N::from(6.0) + ratio * 2.0)
-            }
-        };
-        Moduli { shear, poisson }
-    }
-}
-
-/// 1/K = 3(1 − 2ν)/(2G(1 + ν)).
-fn bulk_compliance(material: Material) -> f64 {
-    let (shear, nu) = (material.shear(), material.poisson());
-    3.0 * (1.0 - 2.0 * nu) / (2.0 * shear * (1.0 + nu))
-}
-
-impl Material {
-    /// Moduli at the Laplace variable s, one over a time, s = iω under a load e^{iωt}; the relaxed ones of a material that does not relax.
-    pub fn moduli_at<N: Number>(self, s: N) -> Moduli<N> {
-        self.relaxation().map_or_else(|| self.into(), |relaxation| relaxation.moduli(self, relaxation.stiffening(s)))
-    }
-
-    /// Moduli at once after a strain, s → ∞; the relaxed ones of a material that does not relax.
-    pub fn glassy(self) -> Moduli {
-        self.relaxation().map_or_else(|| self.into(), |relaxation| relaxation.moduli(self, relaxation.instantaneous()))
-    }
 }
 
 /// The series with these terms, kept once.
@@ -177,6 +144,7 @@ impl fmt::Display for ConstantModulus {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::{Material, Moduli};
     use rustfft::num_complex::Complex64;
 
     fn rubber(poisson: f64, constant: ConstantModulus) -> Material {

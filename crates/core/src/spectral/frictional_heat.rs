@@ -8,8 +8,9 @@
 //! with the bulk temperatures T₁, T₂: linear equations on a set of samples ([`SampleSet`]). Energy makes the real part of K positive.
 
 use super::iteration::{Invertible, SampleSet};
-use super::layered_operator::{LayeredOperator, Skew, Transforms};
+use super::layered_operator::{LayeredOperator, Skew};
 use super::operator::{ElasticOperator, Workspace};
+use super::transforms::Transforms;
 use super::wave_operator::{WaveOperator, of_component};
 use crate::body::{Depth, MaterialId};
 use crate::heat::HeatedBody;

@@ -6,12 +6,13 @@
 //!
 //! The surfaces themselves may give way too for a while ([`LocalCompliance`]).
 
-use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
-use super::convolution::{Convolution, Convolved};
+use super::by_rows::ByRows;
+use super::convolution::Convolved;
 use super::local_compliance::LocalCompliance;
 use super::multiplier::{Action, Multiplier, SkewPart, SkewRatio};
 use super::operator::{ElasticOperator, TractionUpdate, Workspace};
 use super::resolvent::Resolvent;
+use super::transforms::{Transforms, in_place};
 use crate::lattice::Surroundings;
 use crate::numeric::lanes::Real;
 use crate::numeric::rows::RowBlocks;
@@ -36,27 +37,8 @@ pub struct LayeredOperator {
     mean: f64,
     softened: Softened,
     /// Parts of the operator under a strong skew part, once they were asked for.
-    resolvent: Option<Box<Resolvent>>,
+    resolvent: Option<Box<Resolvent<Self>>>,
     convolutions: f64,
-}
-
-/// Transforms of a field in both precisions.
-#[derive(Debug, Clone)]
-pub(super) struct Transforms {
-    pub double: Convolution<f64>,
-    pub single: Convolution<f32>,
-}
-
-impl Transforms {
-    /// Transforms of `points` = [N₁, N₂].
-    pub fn new(points: [usize; 2]) -> Self {
-        Self { double: Convolution::new(points), single: Convolution::new(points) }
-    }
-
-    /// Transforms of `points` = [N₁, N₂], the samples outside a `window` of the first ones being zero.
-    pub fn padded(window: [usize; 2], points: [usize; 2]) -> Self {
-        Self { double: Convolution::padded(window, points), single: Convolution::padded(window, points) }
-    }
 }
 
 /// Skew part of an operator under coupled friction.
@@ -210,6 +192,7 @@ impl LayeredOperator {
 }
 
 impl ElasticOperator for LayeredOperator {
+    type Parts = Resolvent<Self>;
     type Rows<'a, T: Real> = Convolved<'a, T>;
 
     fn blocks(&self) -> RowBlocks {
@@ -285,11 +268,13 @@ impl ElasticOperator for LayeredOperator {
         self.pressure(field, workspace);
     }
 
-    fn resolvent(&mut self) -> Option<&mut Resolvent> {
+    fn resolvent(&mut self) -> Option<&mut Resolvent<Self>> {
         let Some(Skew::Ratio(skew)) = &self.skew else { return None };
         if self.resolvent.is_none() {
-            let means = [self.unit(), self.mean_compliance()];
-            self.resolvent = Some(Box::new(Resolvent::new(&self.transforms, (&self.compliance, skew), means)));
+            let magnitude = self.compliance.magnitude(skew);
+            let magnitude = Self::of(self.transforms.clone(), magnitude, self.unit()).with_mean(self.mean_compliance());
+            let parts = self.compliance.with_magnitude(skew);
+            self.resolvent = Some(Box::new(Resolvent::new(magnitude, self.transforms.double.clone(), parts)));
         }
         self.resolvent.as_deref_mut()
     }
@@ -300,19 +285,4 @@ fn add(local: &LocalCompliance, lines: Vec<([usize; 2], f64)>, transforms: &Tran
     let index = transforms.double.indices();
     let lines = lines.into_iter().filter_map(|(component, value)| Some((index(component)?, value)));
     compliance.add(local.uniform(), &lines.collect::<Vec<_>>());
-}
-
-/// Convolution of a field, in its place.
-pub(super) fn in_place<T: Real>(
-    convolution: &Convolution<T>,
-    action: Action<'_>,
-    compliance: &Multiplier,
-    field: &mut [T],
-    workspace: &mut Workspace,
-) {
-    let (blocks, memory) = (convolution.blocks(), workspace.of(convolution.memory()));
-    rayon::scope(|_| {
-        let convolved = convolution.convolve(action, compliance, memory, rows_of(blocks, field));
-        convolved.rows(rows_to(blocks, field));
-    });
 }

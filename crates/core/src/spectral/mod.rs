@@ -38,6 +38,7 @@ mod solver;
 mod step;
 mod tangent;
 mod tangential;
+mod transforms;
 mod wave_operator;
 mod wear;
 mod wear_error;

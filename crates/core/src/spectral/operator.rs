@@ -4,7 +4,6 @@
 //! through `ByRows`.
 
 use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
-use super::resolvent::Resolvent;
 use crate::lattice::Surroundings;
 use crate::numeric::aligned::Aligned;
 use crate::numeric::lanes::Real;
@@ -35,6 +34,18 @@ pub enum TractionUpdate {
     Lagged,
 }
 
+/// Parts into which a strongly coupled operator A = C + B is split: its magnitude M = |A|, wave by wave, and the resolvent (A + M)⁻¹.
+pub trait SkewParts {
+    /// Symmetric and positive operator M.
+    type Magnitude: ElasticOperator;
+
+    /// The magnitude M.
+    fn magnitude(&mut self) -> &mut Self::Magnitude;
+
+    /// w → (A + M)⁻¹ w in place. Where displacements have zero mean it is treated like a component of the least wavenumber.
+    fn resolve(&mut self, field: &mut [f64], workspace: &mut Workspace);
+}
+
 /// Linear elastic operator A of a body on a grid: w = A p. C is its symmetric part; without coupled friction A = C.
 ///
 /// In periodic [surroundings](Surroundings) w has zero mean and C is positive on pressures without mean, unless a uniform pressure
@@ -45,6 +56,8 @@ pub enum TractionUpdate {
 /// Pressures and displacements that count are in double precision; what only leads to them is in single precision, in units
 /// in which C at the least wavenumber is one.
 pub trait ElasticOperator {
+    /// Magnitude and resolvent under a skew part.
+    type Parts: SkewParts;
     /// Result in either precision.
     type Rows<'a, T: Real>: ResultRows<T>
     where
@@ -102,7 +115,7 @@ pub trait ElasticOperator {
     }
 
     /// Magnitude and resolvent of an operator with a skew part; `None` without one, and in free space, where nothing is divided by A.
-    fn resolvent(&mut self) -> Option<&mut Resolvent> {
+    fn resolvent(&mut self) -> Option<&mut Self::Parts> {
         None
     }
 
@@ -181,6 +194,7 @@ mod tests {
     }
 
     impl ElasticOperator for Dense {
+        type Parts = crate::spectral::resolvent::Resolvent<LayeredOperator>;
         type Rows<'a, T: Real> = Product<T>;
 
         fn blocks(&self) -> RowBlocks {

@@ -14,7 +14,8 @@
 //! The mean displacement of a half-space is infinite and left out; that of layers on a rigid base is the mean pressure times
 //! [`Bodies::mean_compliance`].
 
-use super::layered_operator::{LayeredOperator, Skew, Transforms};
+use super::layered_operator::{LayeredOperator, Skew};
+use super::transforms::Transforms;
 use super::wave_operator::of_component;
 use crate::body::{Bodies, Compliances};
 use crate::friction::Friction;

@@ -2,46 +2,41 @@
 //! resolvent (A + M)⁻¹.
 
 use super::convolution::Convolution;
-use super::layered_operator::{LayeredOperator, Transforms, in_place};
 use super::multiplier::{Action, Multiplier, SkewRatio};
-use super::operator::Workspace;
+use super::operator::{ElasticOperator, SkewParts, Workspace};
+use super::transforms::in_place;
 
 /// Magnitude and resolvent of an operator.
 #[derive(Debug)]
-pub struct Resolvent {
+pub struct Resolvent<M> {
     /// M: symmetric and positive.
-    magnitude: LayeredOperator,
+    magnitude: M,
     transform: Convolution<f64>,
     sum: Multiplier,
     ratio: SkewRatio,
     applied: usize,
 }
 
-impl Resolvent {
-    /// Parts of the operator with this multiplier and skew part, whose compliance at the least wavenumber is `unit`, and under a uniform
-    /// pressure `mean`.
-    pub(super) fn new(
-        transforms: &Transforms,
-        (compliance, skew): (&Multiplier, &SkewRatio),
-        [unit, mean]: [f64; 2],
-    ) -> Self {
-        let (sum, ratio) = compliance.with_magnitude(skew);
-        let magnitude = LayeredOperator::of(transforms.clone(), compliance.magnitude(skew), unit).with_mean(mean);
-        Self { magnitude, transform: transforms.double.clone(), sum, ratio, applied: 0 }
+impl<M: ElasticOperator> Resolvent<M> {
+    /// Parts of an operator with this magnitude, and with the multiplier and the ratio of A + M.
+    pub(super) fn new(magnitude: M, transform: Convolution<f64>, (sum, ratio): (Multiplier, SkewRatio)) -> Self {
+        Self { magnitude, transform, sum, ratio, applied: 0 }
     }
 
-    /// Convolutions so far, see [`LayeredOperator::convolutions`].
+    /// Convolutions so far; one in single precision counts half.
     pub fn convolutions(&self) -> f64 {
         self.magnitude.convolutions() + self.applied as f64
     }
+}
 
-    /// The magnitude M.
-    pub fn magnitude(&mut self) -> &mut LayeredOperator {
+impl<M: ElasticOperator> SkewParts for Resolvent<M> {
+    type Magnitude = M;
+
+    fn magnitude(&mut self) -> &mut M {
         &mut self.magnitude
     }
 
-    /// w → (A + M)⁻¹ w in place. Where displacements have zero mean it is treated like a component of the least wavenumber.
-    pub fn apply(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+    fn resolve(&mut self, field: &mut [f64], workspace: &mut Workspace) {
         self.applied += 1;
         in_place(&self.transform, Action::DivideSkewed(1.0, &self.ratio), &self.sum, field, workspace);
     }

@@ -1,9 +1,9 @@
 //! Any linear operator that is diagonal in the waves of a periodic grid, on fields in double precision: derivatives, temperatures, swelling.
 
 use super::convolution::Convolution;
-use super::layered_operator::in_place;
 use super::multiplier::{Action, Multiplier, SkewPart};
 use super::operator::Workspace;
+use super::transforms::in_place;
 use crate::lattice::Grid;
 use crate::lattice::waves::WAVENUMBER_TOLERANCE;
 use rustfft::num_complex::Complex64;

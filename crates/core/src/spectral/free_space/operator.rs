@@ -11,7 +11,8 @@ use super::padded_window::{multiplier, padded, repeated, skew_part};
 use crate::body::{Bodies, Compliances};
 use crate::friction::Friction;
 use crate::lattice::Grid;
-use crate::spectral::layered_operator::{LayeredOperator, Skew, Transforms};
+use crate::spectral::layered_operator::{LayeredOperator, Skew};
+use crate::spectral::transforms::Transforms;
 use std::fmt;
 
 /// Least wavenumber, over the largest of the grid, at which the compliance of the layered bodies is evaluated: below, it is that of

@@ -8,8 +8,8 @@ use crate::lattice::{Cell, Grid};
 use crate::numeric::fourier::fast_points;
 use crate::numeric::lanes::Real;
 use crate::spectral::convolution::{Convolution, ShearMultiplier, VectorMultiplier};
-use crate::spectral::layered_operator::Transforms;
 use crate::spectral::multiplier::{Multiplier, SkewPart};
+use crate::spectral::transforms::Transforms;
 use ndarray::Array2;
 
 /// Memory that an operator in free space on a window of `points` keeps, bytes per sample: the transforms of the kernel and, `coupled`, of

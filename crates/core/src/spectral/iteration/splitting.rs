@@ -25,7 +25,7 @@ use super::set_system::{Invertible, SampleSet};
 use super::stopping::StallDetector;
 use crate::load::Control;
 use crate::numeric::sums;
-use crate::spectral::operator::{ElasticOperator, Workspace};
+use crate::spectral::operator::{ElasticOperator, SkewParts, Workspace};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -77,7 +77,7 @@ pub(super) fn solve<O: ElasticOperator>(
     let (tolerance, most) = (problem.settings.tolerance, problem.settings.max_iterations);
     let mut splitting = Splitting { mean, iterations, next_trial: FIRST_TRIAL };
     unknowns.admit(problem.load, problem.admissible);
-    let mut check = ConvergenceCheck::new(problem, unknowns);
+    let mut check = whole_check(problem, unknowns);
     let mut stall = StallDetector::new(FIRST_WINDOW);
     let mut state: Option<Vec<f64>> = None;
     loop {
@@ -92,18 +92,23 @@ pub(super) fn solve<O: ElasticOperator>(
             let stop = if is_stalled { Stop::Stalled } else { Stop::IterationLimit };
             return end(stop, splitting.iterations, check.residual);
         }
-        problem.outer += 1;
         let z = match state.take() {
             None => splitting.start(problem, unknowns),
             Some(z) => splitting.next(problem, z, &unknowns.pressure),
         };
         let stop = splitting.nearest(problem, &z, check, unknowns);
         state = Some(z);
-        check = ConvergenceCheck::new(problem, unknowns);
+        check = whole_check(problem, unknowns);
         if stop == Stop::Interrupted || splitting.is_cut(problem, check) {
             return end(Stop::Interrupted, splitting.iterations, check.residual);
         }
     }
+}
+
+/// Convergence check by the gap of the whole operator, which is counted.
+fn whole_check<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> ConvergenceCheck {
+    problem.outer += 1;
+    ConvergenceCheck::new(problem, unknowns)
 }
 
 /// The pressure of the magnitude M under a given penetration, where there is none to begin from; its iterations.
@@ -155,7 +160,7 @@ impl Splitting {
         if let Some(parts) = problem.operator.resolvent() {
             parts.magnitude().displace(&mut x, workspace);
             sums::update(&mut x, |i, w| w - f[i]);
-            parts.apply(&mut x, workspace);
+            parts.resolve(&mut x, workspace);
         }
         let x = self.of_mean(x);
         sums::update(&mut z, |i, z| z + x[i] - y[i]);
@@ -219,7 +224,7 @@ impl Splitting {
         let mut before = check.measure();
         for set in 0..MAX_SETS {
             self.iterations += on_set(problem, &mut trial)?;
-            let check = ConvergenceCheck::new(problem, &mut trial);
+            let check = whole_check(problem, &mut trial);
             if check.converged(problem.settings.tolerance) {
                 *unknowns = trial;
                 return Some(check);
