@@ -65,3 +65,71 @@ impl MotionSection {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::case::{Case, Source};
+
+    fn read(substrate: &str, more: &str) -> Result<Case, String> {
+        let text = format!(
+            "lattice = {{ kind = \"square\", period = 1.0 }}\nlevels = [{{ shape = \"paraboloid\", radius = 1.0 }}]\n\
+             substrate = {{ young = 1.0, poisson = 0.3, {substrate} }}\nload = {{ mean_pressure = 0.01 }}\n\
+             grid = {{ points = 32 }}\n{more}"
+        );
+        Case::read(&Source { name: "case".to_owned(), text, ..Source::default() }, &[])
+            .map_err(|error| error.to_string())
+    }
+
+    const RELAXES: &str = "relaxation = { shear = [3.0, 6.0], times = [1.0, 0.05] }";
+    const MOVES: &str = "motion = { velocity = 2.0 }\n";
+
+    #[test]
+    fn a_velocity_is_along_the_friction_or_else_along_x() {
+        let case = read(RELAXES, MOVES).unwrap();
+        assert_eq!(case.problem().velocity(), [2.0, 0.0]);
+        let turned = read(RELAXES, &format!("{MOVES}friction = {{ coefficient = 0.0, direction = [0.0, -3.0] }}\n"));
+        assert_eq!(turned.unwrap().problem().velocity(), [0.0, -2.0]);
+        let again = Source { text: case.to_toml(), ..Source::default() };
+        assert!(Case::read(&again, &[]).unwrap() == case);
+        assert!(case.life_task().unwrap_err().contains("motion"));
+    }
+
+    #[test]
+    fn what_does_not_move_steadily_is_refused() {
+        for (substrate, more, why) in [
+            ("wear = 1e-9", MOVES, "no material of the body relaxes"),
+            (RELAXES, &format!("{MOVES}solver = {{ method = \"polonsky-keer\" }}\n")[..], "symmetric operator"),
+            (&format!("{RELAXES}, hardness = 1.0"), MOVES, "hardness"),
+            (RELAXES, &format!("{MOVES}adhesion = {{ work = 1e-3, range = 0.1 }}\n"), "adhere"),
+            (RELAXES, &format!("{MOVES}life = {{ passes = 10 }}\n"), "leave [life] or [motion] out"),
+            (RELAXES, &format!("{MOVES}stress = {{ strain = true }}\n"), "strain"),
+            (RELAXES, "motion = { velocity = -1.0 }\n", "greater than 0"),
+            ("relaxation = { shear = [1.0], times = [1.0, 2.0] }", MOVES, "as many times as shear moduli"),
+        ] {
+            let error = read(substrate, more).unwrap_err();
+            assert!(error.contains(why), "{substrate} {more}: {error}");
+        }
+    }
+
+    #[test]
+    fn heat_needs_what_conducts_and_rubs() {
+        let conducts = "conductivity = 1.0, diffusivity = 2.0, expansion = 1e-3";
+        let rubs = format!("{MOVES}friction = {{ coefficient = 0.1 }}\n");
+        assert!(read(conducts, &rubs).unwrap().problem().heating().is_some());
+        assert!(read(conducts, MOVES).unwrap().problem().heating().is_none());
+        for (substrate, more, why) in [
+            ("conductivity = 1.0", rubs.clone(), "diffusivity"),
+            (conducts, format!("{MOVES}heat = {{}}\n"), "friction"),
+            (conducts, "heat = {}\n".to_owned(), "velocity"),
+            (conducts, format!("{rubs}stress = {{}}\n"), "stresses by heat"),
+            (&format!("{conducts}, yield_strength = 1.0"), rubs.clone(), "stresses by heat"),
+            (conducts, format!("{rubs}heat = {{ partition = 2.0 }}\n"), "between 0 and 1"),
+            (conducts, format!("{rubs}counterbody = {{ young = 1.0, poisson = 0.3 }}\nheat = {{}}\n"), "conduction"),
+        ] {
+            let error = read(substrate, &more).unwrap_err();
+            assert!(error.contains(why), "{substrate} {more}: {error}");
+        }
+        let cold = format!("{rubs}stress = {{}}\nheat = {{ expansion = false }}\n");
+        assert!(read(conducts, &cold).is_ok());
+    }
+}

@@ -83,7 +83,7 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
                      substrate = { young = 1, poisson = 0.3, hardness = 0.1 }\nload = { force = 1e-3 }\n\
                      composite_hardness = { law = \"korsunsky\", constant = 1 }\n";
     let texts = [RICH, &other, isolated, rigid, ball, to_and_fro, composite, TIPS];
-    let more = [&slips()[..], &adheres()].concat();
+    let more = [&slips()[..], &adheres(), &moves()].concat();
     let texts = texts.into_iter().chain(surfaces.iter().chain(&bodies).chain(&more).map(String::as_str));
     for text in embedded::all().iter().map(|(_, text)| *text).chain(texts) {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };
@@ -123,6 +123,20 @@ fn adheres() -> [String; 5] {
         )
     })
 }
+
+/// Contacts that move steadily, with the keys of `[motion]`, `[heat]` and of materials that no embedded case has.
+fn moves() -> [String; 1] {
+    [format!(
+        "lattice = {{ kind = \"square\", period = 2 }}\nlevels = [{{ shape = \"sphere\", radius = 1 }}]\n\
+         layers = [{{ thickness = 0.1, young = 1, poisson = 0.3, {CONDUCTS}, thermal_resistance = 0.1, {RELAXES} }}]\n\
+         substrate = {{ young = 1, poisson = 0.3, {CONDUCTS}, {RELAXES} }}\nload = {{ mean_pressure = 1e-3 }}\n\
+         counterbody = {{ young = 1, poisson = 0.3, {CONDUCTS}, {RELAXES} }}\nfriction = {{ coefficient = 0.1 }}\n\
+         motion = {{ velocity = 2 }}\nheat = {{ partition = 0.5, bulk = [20, 30], expansion = false }}\n"
+    )]
+}
+
+const CONDUCTS: &str = "conductivity = 1, diffusivity = 2, expansion = 1e-3";
+const RELAXES: &str = "relaxation = { shear = [3], times = [1], constant = \"poisson\" }";
 
 /// Paths of all keys inside a value, without the indices of lists.
 fn collect(value: &node::Value, path: &str, found: &mut BTreeSet<String>) {

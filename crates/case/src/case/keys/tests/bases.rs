@@ -76,6 +76,27 @@ fn adhering(head: &str) -> [String; 6] {
     })
 }
 
+/// Cases that move steadily: over materials that relax, and with heat of friction, layers and a counterbody that conduct.
+fn moving(head: &str) -> [String; 2] {
+    let conducts = "conductivity = 45.0, diffusivity = 12.0, expansion = 1.2e-5";
+    let relaxes = "relaxation = { shear = [3.0, 6.0], times = [1.0, 0.05], constant = \"poisson\" }";
+    let body = |keys: &str| BODY.replace("poisson = 0.3", &format!("poisson = 0.3, {keys}"));
+    let layer = |keys: &str| format!("{{ thickness = 1.0, young = 2.0, poisson = 0.2, {keys} }}");
+    let motion = "motion = { velocity = 1.0 }\nunits = { time = \"s\", temperature = \"K\" }\n";
+    let above = |keys: &str, layers: &str| {
+        format!("layers = [{layers}]\ncounterbody = {{ young = 1.0, poisson = 0.3, {keys}, layers = [{layers}] }}\n")
+    };
+    let resists = layer(&format!("{conducts}, thermal_resistance = 0.1"));
+    [
+        format!("{head}{}{}{motion}", body(relaxes), above(relaxes, &layer(relaxes))),
+        format!(
+            "{head}{}{}{motion}friction = {{ coefficient = 0.1 }}\nheat = {{ partition = 0.5, bulk = [20.0, 30.0], expansion = false }}\n",
+            body(conducts),
+            above(conducts, &resists)
+        ),
+    ]
+}
+
 /// A case under a counterbody with layers.
 fn below_layers(case: &Table, layers: Value) -> String {
     let mut counterbody: Table =
@@ -151,7 +172,11 @@ impl Bases {
             ),
             BODY.to_owned(),
         ];
-        let texts = adhering(plain).into_iter().chain(slipping(format!("{plain}{BODY}{uniform}"))).chain(texts);
+        let texts = adhering(plain)
+            .into_iter()
+            .chain(moving(plain))
+            .chain(slipping(format!("{plain}{BODY}{uniform}")))
+            .chain(texts);
         Self { folder: folder(), cases: texts.map(|text| text.parse().unwrap()).collect() }
     }
 
