@@ -3,13 +3,12 @@
 //! A wave of the pressure displaces the surface by ŵ(t) = C_g p̂(t) + Σ Aⱼ ∫ e^{−(t−t′)/θⱼ} p̂(t′) dt′/θⱼ, so that each interval of time is an
 //! elastic contact with another compliance and a known displacement.
 //!
-//! - [`Relaxation`]: moduli of a material at a Laplace variable;
-//! - [`Retardation`]: bodies of such materials; [`RetardationModes`]: the times θ and amplitudes A of one wave;
+//! - [`Retardation`]: bodies of materials with a [relaxation](crate::body::Relaxation); [`RetardationModes`]: the times θ and amplitudes A of one
+//!   wave;
 //! - [`History`]: the pressure of all waves as far as it counts, from [`Interval`] to interval.
 
 mod history;
 mod modes;
-mod relaxation;
 mod retardation;
 mod states;
 
@@ -18,6 +17,5 @@ mod tests;
 
 pub use history::{History, Interval};
 pub use modes::{Mode, RetardationModes};
-pub use relaxation::{Constant, Relaxation, Relaxations};
-pub use retardation::Retardation;
+pub use retardation::{Retardation, times};
 pub use states::Sample;

@@ -9,9 +9,8 @@
 //! Two elastic bodies have the modes of the sum of their compliances.
 
 use super::modes::RetardationModes;
-use super::relaxation::Relaxations;
 use super::states::Sample;
-use crate::body::{Bodies, HalfSpace, Interface, Layer, LayeredResponse, Moduli};
+use crate::body::{Bodies, HalfSpace, Interface, Layer, LayeredResponse, Material, Moduli};
 use crate::numeric::dual::Dual;
 use crate::numeric::number::Number;
 use rayon::prelude::*;
@@ -27,7 +26,6 @@ const GLASSY: f64 = 1e20;
 #[derive(Debug, Clone)]
 pub struct Retardation<'a> {
     bodies: &'a Bodies,
-    relaxations: &'a Relaxations,
     /// Places s = iω, ascending, each with the responses of the bodies; none where all materials are elastic.
     places: Vec<(Dual, Vec<LayeredResponse<Dual>>)>,
     /// Laplace variable of bodies that have not begun to relax, with their responses.
@@ -36,19 +34,18 @@ pub struct Retardation<'a> {
 
 impl<'a> Retardation<'a> {
     /// Retardation of bodies whose materials relax.
-    pub fn new(bodies: &'a Bodies, relaxations: &'a Relaxations) -> Self {
-        let times = relaxations.times(bodies);
+    pub fn new(bodies: &'a Bodies) -> Self {
+        let times = times(bodies);
         let frequencies = times.map_or(Vec::new(), |times| frequencies(times, PER_DECADE, BEYOND));
         let at = |frequency: f64| {
             let place = Dual::variable(Complex64::new(0.0, frequency));
-            (place, relaxations.responses_at(bodies, place))
+            (place, responses(bodies, place))
         };
         let glassy = times.map_or(0.0, |[shortest, _]| GLASSY / shortest);
         Self {
             bodies,
-            relaxations,
             places: frequencies.into_iter().map(at).collect(),
-            glassy: (glassy, relaxations.responses_at(bodies, glassy)),
+            glassy: (glassy, responses(bodies, glassy)),
         }
     }
 
@@ -77,21 +74,45 @@ impl<'a> Retardation<'a> {
 
     /// Mean compliance at the Laplace variable s.
     fn mean<N: Number>(&self, place: N) -> N {
-        let moduli = self.relaxations.moduli_at(self.bodies, place);
-        self.bodies.each().zip(moduli).fold(N::default(), |sum, (body, moduli)| sum + mean(body, &moduli))
+        self.bodies.each().fold(N::default(), |sum, body| {
+            let moduli: Vec<Moduli<N>> = body.materials().map(|material| material.moduli_at(place)).collect();
+            sum + mean(body, &moduli)
+        })
     }
 
     /// Largest relative error of modes of the wavenumber k > 0, one over a length, against the layers themselves: at real s and at iω, ten a
     /// decade from three decades before the shortest to three beyond the longest time.
     pub fn misfit(&self, wavenumber: f64, modes: &RetardationModes) -> f64 {
-        let places = self.relaxations.times(self.bodies).map_or(Vec::new(), |times| frequencies(times, 10.0, 3.0));
+        let places = times(self.bodies).map_or(Vec::new(), |times| frequencies(times, 10.0, 3.0));
         let all = places.into_iter().flat_map(|s| [Complex64::new(s, 0.0), Complex64::new(0.0, s)]);
         let error = |s: Complex64| {
-            let exact = compliance(&self.relaxations.responses_at(self.bodies, s), wavenumber);
+            let exact = compliance(&responses(self.bodies, s), wavenumber);
             (modes.at(s) - exact).norm() / exact.norm()
         };
         all.map(error).fold(0.0, f64::max)
     }
+}
+
+/// Shortest and longest retardation time that bodies can have, times: the least τ of a material, and the largest τ times its G(∞)/G(0); `None`
+/// where all materials are elastic.
+pub fn times(bodies: &Bodies) -> Option<[f64; 2]> {
+    let of = |material: Material| {
+        let relaxation = material.relaxation()?;
+        let ratio = 1.0 + relaxation.instantaneous() / material.shear();
+        let times = relaxation.terms().iter().map(|term| [term.time, term.time * ratio]);
+        times.reduce(widened)
+    };
+    bodies.each().flat_map(HalfSpace::materials).filter_map(of).reduce(widened)
+}
+
+/// The least interval that holds two.
+fn widened([short, long]: [f64; 2], [least, most]: [f64; 2]) -> [f64; 2] {
+    [short.min(least), long.max(most)]
+}
+
+/// Responses of the bodies at the Laplace variable s, one over a time.
+pub(super) fn responses<N: Number>(bodies: &Bodies, s: N) -> Vec<LayeredResponse<N>> {
+    bodies.each().map(|body| body.response_at(s)).collect()
 }
 
 /// Frequencies between one over the longest and one over the shortest time and some decades beyond, ascending.
@@ -129,22 +150,22 @@ fn mean<N: Number>(body: &HalfSpace, moduli: &[Moduli<N>]) -> N {
 
 #[cfg(test)]
 mod tests {
-    use super::super::relaxation::{Constant, Relaxation};
     use super::super::tests::{SPRING, layer, material, one};
     use super::*;
+    use crate::body::ConstantModulus;
 
     /// Two times of C = (1−ν)/(Gk) = [1/G + 3/(3K+G)]/(2k): of 1/G and of 3/(3K+G); one where ν is constant.
     #[test]
     fn a_homogeneous_half_space_has_its_known_times() {
         for (ratio, nu) in [(1.01, 0.3), (2.0, 0.0), (10.0, 0.3), (1e3, 0.45), (10.0, 0.5)] {
             let (shear, k) = (3.0, 0.7);
-            let bodies = Bodies::from(HalfSpace::new(vec![], material(shear, nu)));
+            let bare = |constant| Bodies::from(HalfSpace::new(vec![], one(material(shear, nu), ratio, constant)));
             // Times that are nearly the same are told apart less well.
             let near =
                 |found: f64, expected: f64| (found / expected - 1.0).abs() < if ratio < 1.1 { 1e-7 } else { 1e-11 };
 
-            let relaxations = Relaxations(vec![vec![one(shear, ratio, Constant::Poisson)]]);
-            let retardation = Retardation::new(&bodies, &relaxations);
+            let bodies = bare(ConstantModulus::Poisson);
+            let retardation = Retardation::new(&bodies);
             let found = retardation.modes(k);
             let relaxed = (1.0 - nu) / (shear * k);
             assert!(found.modes.len() == 1 && near(found.modes[0].time, ratio), "{ratio}, ν {nu}: {found:?}");
@@ -153,8 +174,8 @@ mod tests {
             );
             assert!(retardation.misfit(k, &found) < 1e-13);
 
-            let relaxations = Relaxations(vec![vec![one(shear, ratio, Constant::Bulk)]]);
-            let retardation = Retardation::new(&bodies, &relaxations);
+            let bodies = bare(ConstantModulus::Bulk);
+            let retardation = Retardation::new(&bodies);
             let found = retardation.modes(k);
             let bulk = 2.0 * shear * (1.0 + nu) / (1.0 - 2.0 * nu);
             let time = (bulk + ratio * shear) / (bulk + shear);
@@ -179,10 +200,10 @@ mod tests {
     /// M = K + 4G/3 relaxes by (K + 4G(∞)/3)/(K + 4G(0)/3) to 1; springs and elastic layers add to the glassy compliance.
     #[test]
     fn layers_on_a_rigid_base_creep_under_a_uniform_pressure() {
-        let layers = vec![layer(2.0, 0.3, 0.5, SPRING), layer(7.0, 0.2, 0.1, Interface::Bonded)];
+        let soft = one(material(2.0, 0.3), 10.0, ConstantModulus::Bulk);
+        let layers = vec![layer(soft, 0.5, SPRING), layer(material(7.0, 0.2), 0.1, Interface::Bonded)];
         let bodies = Bodies::from(HalfSpace::on_rigid_base(layers).unwrap());
-        let relaxations = Relaxations(vec![vec![one(2.0, 10.0, Constant::Bulk), Relaxation::default()]]);
-        let found = Retardation::new(&bodies, &relaxations).mean_modes();
+        let found = Retardation::new(&bodies).mean_modes();
         let moduli = [2.0, 20.0].map(|shear| 2.0 * 2.0 * 1.3 / (3.0 * 0.4) + 4.0 * shear / 3.0);
         assert!((found.relaxed() / bodies.mean_compliance() - 1.0).abs() < 1e-13);
         assert!(
@@ -190,19 +211,18 @@ mod tests {
             "{found:?}"
         );
         assert!((found.modes[0].amplitude / (0.5 / moduli[0] - 0.5 / moduli[1]) - 1.0).abs() < 1e-11);
-        let elastic = Bodies::from(HalfSpace::new(vec![], material(2.0, 0.3)));
-        let relaxations = Relaxations(vec![vec![one(2.0, 10.0, Constant::Bulk)]]);
-        assert_eq!(Retardation::new(&elastic, &relaxations).mean_modes(), RetardationModes::default());
+        let bare = Bodies::from(HalfSpace::new(vec![], soft));
+        assert_eq!(Retardation::new(&bare).mean_modes(), RetardationModes::default());
     }
 
     /// Waves far shorter than the layer is thick know its material alone, far longer ones the substrate's.
     #[test]
     fn short_and_long_waves_have_the_times_of_one_material() {
         for interface in [Interface::Bonded, Interface::Frictionless, SPRING] {
-            let bodies = Bodies::from(HalfSpace::new(vec![layer(5.0, 0.4, 1.0, interface)], material(1.0, 0.3)));
-            let relaxing = [one(5.0, 4.0, Constant::Poisson), one(1.0, 9.0, Constant::Poisson)];
-            let relaxations = Relaxations(vec![relaxing.to_vec()]);
-            let retardation = Retardation::new(&bodies, &relaxations);
+            let coat = one(material(5.0, 0.4), 4.0, ConstantModulus::Poisson);
+            let below = one(material(1.0, 0.3), 9.0, ConstantModulus::Poisson);
+            let bodies = Bodies::from(HalfSpace::new(vec![layer(coat, 1.0, interface)], below));
+            let retardation = Retardation::new(&bodies);
             let short = retardation.modes(100.0);
             assert!(short.modes.len() == 1 && (short.modes[0].time - 4.0).abs() < 1e-10, "{short:?}");
             let long = retardation.modes(1e-6);

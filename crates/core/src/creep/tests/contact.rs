@@ -2,9 +2,9 @@
 //!
 //! In each interval g = C p + known + f − δ, g ≥ 0, p ≥ 0, gp = 0 with a given load is solved by an active set and elimination.
 
-use super::super::{Constant, History, Relaxation, Relaxations, Retardation, RetardationModes};
+use super::super::{History, Retardation, RetardationModes};
 use super::{layer, material};
-use crate::body::{Bodies, HalfSpace, Interface};
+use crate::body::{Bodies, HalfSpace, Interface, Material, Relaxation};
 use crate::numeric::linear::solve;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -57,8 +57,8 @@ impl Cell {
         Self { gap, shells, wavenumbers }
     }
 
-    fn modes(&self, bodies: &Bodies, relaxations: &Relaxations) -> Vec<RetardationModes> {
-        let retardation = Retardation::new(bodies, relaxations);
+    fn modes(&self, bodies: &Bodies) -> Vec<RetardationModes> {
+        let retardation = Retardation::new(bodies);
         let mut modes = retardation.modes_of(&self.wavenumbers);
         modes.push(retardation.mean_modes());
         modes
@@ -119,19 +119,19 @@ fn uniform(end: f64, steps: usize) -> Vec<f64> {
     [0.0].into_iter().chain(std::iter::repeat_n(step, steps)).collect()
 }
 
-/// Relaxation by two terms to a shear modulus, the bulk modulus constant.
-fn relaxing(shear: f64) -> Relaxation {
-    Relaxation { terms: vec![[2.0 * shear, 0.3], [5.0 * shear, 1.0]], constant: Constant::Bulk }
+/// A material that relaxes by two terms, the bulk modulus constant.
+fn relaxing(material: Material) -> Material {
+    let shear = [2.0, 5.0].map(|part| part * material.shear());
+    material.with_relaxation(Some(Relaxation::new(&shear, &[0.3, 1.0]).unwrap()))
 }
 
 /// A half-space that relaxes, one with a coating that does, and a coating that does on a rigid base.
-fn all_bodies() -> [(Bodies, Relaxations); 3] {
-    let layer = layer(0.3, 0.45, 0.1, Interface::Bonded);
-    let of = |body: HalfSpace, relaxations: Vec<Relaxation>| (body.into(), Relaxations(vec![relaxations]));
+fn all_bodies() -> [Bodies; 3] {
+    let layer = layer(relaxing(material(0.3, 0.45)), 0.1, Interface::Bonded);
     [
-        of(HalfSpace::new(vec![], material(1.0, 0.3)), vec![relaxing(1.0)]),
-        of(HalfSpace::new(vec![layer], material(1.0, 0.3)), vec![relaxing(0.3), Relaxation::default()]),
-        of(HalfSpace::on_rigid_base(vec![layer]).unwrap(), vec![relaxing(0.3)]),
+        HalfSpace::new(vec![], relaxing(material(1.0, 0.3))).into(),
+        HalfSpace::new(vec![layer], material(1.0, 0.3)).into(),
+        HalfSpace::on_rigid_base(vec![layer]).unwrap().into(),
     ]
 }
 
@@ -140,8 +140,8 @@ fn all_bodies() -> [(Bodies, Relaxations); 3] {
 #[test]
 fn a_homogeneous_body_under_a_held_load_is_elastic_at_every_time() {
     let cell = Cell::new();
-    let (bodies, relaxations) = &all_bodies()[0];
-    let modes = cell.modes(bodies, relaxations);
+    let bodies = &all_bodies()[0];
+    let modes = cell.modes(bodies);
     for steps in [5, 20, 80] {
         let durations = uniform(20.0, steps);
         let contacts = cell.path(&modes, &durations, |_| 0.01);
@@ -161,8 +161,8 @@ fn a_homogeneous_body_under_a_held_load_is_elastic_at_every_time() {
 #[test]
 fn steps_are_of_second_order_through_loading_and_unloading() {
     let cell = Cell::new();
-    for (bodies, relaxations) in all_bodies() {
-        let modes = cell.modes(&bodies, &relaxations);
+    for bodies in all_bodies() {
+        let modes = cell.modes(&bodies);
         let penetrations = [10, 20, 80, 160].map(|steps| {
             let contacts =
                 cell.path(&modes, &uniform(1.5, steps), |time| 0.001 + 0.01 * (1.0 - (0.5 * TAU * time).cos()));
@@ -181,8 +181,8 @@ fn steps_are_of_second_order_through_loading_and_unloading() {
 fn a_held_load_begins_glassy_and_ends_relaxed() {
     let cell = Cell::new();
     let durations: Vec<f64> = [0.0].into_iter().chain((0..30).map(|n| 0.01 * 3f64.powi(n))).collect();
-    for (bodies, relaxations) in all_bodies() {
-        let modes = cell.modes(&bodies, &relaxations);
+    for bodies in all_bodies() {
+        let modes = cell.modes(&bodies);
         let contacts = cell.path(&modes, &durations, |_| 0.01);
         let glassy: Vec<f64> = modes.iter().map(|modes| modes.glassy).collect();
         let mut relaxed: Vec<f64> = cell.wavenumbers.iter().map(|&k| bodies.compliance(k)).collect();

@@ -3,8 +3,7 @@
 mod contact;
 mod stacks;
 
-use super::{Constant, Relaxation};
-use crate::body::{Interface, Layer, Material};
+use crate::body::{ConstantModulus, Interface, Layer, Material, Relaxation};
 
 pub const SPRING: Interface = Interface::Spring { tangential: 0.3, normal: 40.0 };
 
@@ -12,11 +11,12 @@ pub fn material(shear: f64, poisson: f64) -> Material {
     Material::from_shear(shear, poisson).unwrap()
 }
 
-pub fn layer(shear: f64, poisson: f64, thickness: f64, interface: Interface) -> Layer {
-    Layer::new(material(shear, poisson), thickness, interface).unwrap()
+pub fn layer(material: Material, thickness: f64, interface: Interface) -> Layer {
+    Layer::new(material, thickness, interface).unwrap()
 }
 
-/// One term τ = 1 by which a shear modulus relaxes to `relaxed` from `ratio` times that.
-pub fn one(relaxed: f64, ratio: f64, constant: Constant) -> Relaxation {
-    Relaxation { terms: vec![[relaxed * (ratio - 1.0), 1.0]], constant }
+/// A material with one term τ = 1 by which its shear modulus relaxes to its present one from `ratio` times that.
+pub fn one(material: Material, ratio: f64, constant: ConstantModulus) -> Material {
+    let relaxation = Relaxation::new(&[material.shear() * (ratio - 1.0)], &[1.0]).unwrap();
+    material.with_relaxation(Some(relaxation.with_constant(constant)))
 }
