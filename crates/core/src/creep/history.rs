@@ -14,21 +14,22 @@
 
 use super::modes::{Mode, RetardationModes};
 use rustfft::num_complex::Complex64;
+use std::sync::Arc;
 
 /// Time over retardation time below which series are summed: differences would cancel.
 const SERIES_BELOW: f64 = 1.0;
 
-/// Memory of the pressure of all waves of a grid.
+/// Memory of the pressure of all waves of a grid. A copy shares the modes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History {
     /// Modes of all shells, one shell after the other.
-    modes: Vec<Mode>,
+    modes: Arc<[Mode]>,
     /// Index of the first mode of each shell, and the number of all.
-    first: Vec<u32>,
+    first: Arc<[u32]>,
     /// Glassy compliance of each shell, a length per pressure.
-    glassy: Vec<f64>,
+    glassy: Arc<[f64]>,
     /// Shell of each wave.
-    shells: Vec<u32>,
+    shells: Arc<[u32]>,
     /// Amplitudes h, pressures, of the modes of all waves, one wave after the other.
     states: Vec<Complex64>,
     /// Pressure of each wave at the present time.
@@ -80,7 +81,8 @@ impl History {
     ///
     /// # Panics
     /// Where a wave has a shell that is not there.
-    pub fn new(modes: &[RetardationModes], shells: Vec<u32>) -> Self {
+    pub fn new(modes: &[RetardationModes], shells: impl Into<Arc<[u32]>>) -> Self {
+        let shells = shells.into();
         let mut first = vec![0];
         let counts = modes.iter().map(|modes| modes.modes.len() as u32);
         first.extend(counts.scan(0, |sum, count| {
@@ -94,7 +96,7 @@ impl History {
             glassy: modes.iter().map(|modes| modes.glassy).collect(),
             states: vec![zero; shells.iter().map(count).sum()],
             pressure: vec![zero; shells.len()],
-            first,
+            first: first.into(),
             shells,
         }
     }
@@ -155,6 +157,19 @@ impl History {
             let own = states.split_off(..range.len()).unwrap_or_default();
             let elastic = pressure * self.glassy[shell as usize];
             self.modes[range].iter().zip(own).fold(elastic, |sum, (mode, state)| sum + state * mode.amplitude)
+        };
+        self.shells.iter().zip(&self.pressure).map(of).collect()
+    }
+
+    /// Work that each wave stores at the present time, over the area: ½ C_g |p̂|² + ½ Σ Aⱼ |hⱼ|², a pressure times a length, in springs and
+    /// Kelvin elements in a row, which respond as the body does.
+    pub fn stored(&self) -> Vec<f64> {
+        let mut states = self.states.as_slice();
+        let of = |(&shell, &pressure): (&u32, &Complex64)| {
+            let range = self.range(shell);
+            let own = states.split_off(..range.len()).unwrap_or_default();
+            let elastic = self.glassy[shell as usize] * pressure.norm_sqr();
+            0.5 * self.modes[range].iter().zip(own).fold(elastic, |sum, (mode, state)| sum + mode.amplitude * state.norm_sqr())
         };
         self.shells.iter().zip(&self.pressure).map(of).collect()
     }
@@ -265,6 +280,22 @@ mod tests {
         // Both → y/2 for small y.
         let small = Weights::new(1e-200);
         assert_eq!((small.before, small.after), (0.5e-200, 0.5e-200));
+    }
+
+    #[test]
+    fn what_is_stored_is_what_a_fast_and_a_slow_load_put_in() {
+        let shells = shells();
+        for (duration, of) in [(0.0, RetardationModes::after as fn(&RetardationModes, f64) -> f64), (1e30, |modes, _| modes.relaxed())] {
+            let mut history = History::new(&shells, vec![2, 0, 1]);
+            let interval = history.interval(duration);
+            let pressures = [pressure(0.0, 2), pressure(0.0, 0), pressure(0.0, 1)];
+            // Twice, so that a slow load has been held.
+            (0..2).for_each(|_| history.advance(&interval, &pressures));
+            for ((stored, p), shell) in history.stored().iter().zip(&pressures).zip([2, 0, 1]) {
+                let work = 0.5 * of(&shells[shell], 0.0) * p.norm_sqr();
+                assert!((stored - work).abs() < 1e-13 * work, "{duration}");
+            }
+        }
     }
 
     #[test]

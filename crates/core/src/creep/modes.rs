@@ -54,6 +54,13 @@ impl RetardationModes {
         Self { glassy, modes: all.modes.iter().copied().filter(counts).collect() }
     }
 
+    /// The modes with `factor` times the compliance.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mode = |mode: &Mode| Mode { amplitude: factor * mode.amplitude, ..*mode };
+        Self { glassy: factor * self.glassy, modes: self.modes.iter().map(mode).collect() }
+    }
+
     /// Compliance at the Laplace variable s, one over a time: a length per pressure.
     pub fn at<N: Number>(&self, s: N) -> N {
         let term = |sum: N, mode: &Mode| sum + N::from(mode.amplitude).over(N::from(1.0) + s * mode.time);

@@ -19,6 +19,8 @@ use rustfft::num_complex::Complex64;
 /// Frequencies a decade, and decades of them beyond the shortest and the longest time.
 const PER_DECADE: f64 = 4.0;
 const BEYOND: f64 = 0.5;
+/// Wavenumber times the thickness of the first layer from which on a wave does not reach below it, by e^{−2kh} in double precision.
+const BARE: f64 = 20.0;
 /// Laplace variable times the shortest time at which no relaxation has begun.
 const GLASSY: f64 = 1e20;
 
@@ -57,9 +59,18 @@ impl<'a> Retardation<'a> {
         RetardationModes::through(compliance(&self.glassy.1, wavenumber), &samples)
     }
 
-    /// Modes of many wavenumbers k > 0, each one over a length.
+    /// Modes of many wavenumbers k > 0, each one over a length. Waves that do not reach below the first layers have those of one of them, with
+    /// amplitudes as 1/k.
     pub fn modes_of(&self, wavenumbers: &[f64]) -> Vec<RetardationModes> {
-        wavenumbers.par_iter().map(|&wavenumber| self.modes(wavenumber)).collect()
+        let thinnest = self.bodies.thinnest_first_layer();
+        let least = wavenumbers.iter().copied().fold(f64::INFINITY, f64::min);
+        let bare = thinnest.map_or(least, |thickness| BARE / thickness);
+        let common = wavenumbers.iter().any(|k| *k >= bare).then(|| self.modes(bare));
+        let modes = |&wavenumber: &f64| match &common {
+            Some(common) if wavenumber >= bare => common.scaled(bare / wavenumber),
+            _ => self.modes(wavenumber),
+        };
+        wavenumbers.par_iter().map(modes).collect()
     }
 
     /// Modes of a uniform pressure without mean lateral strain: Σ h/M(s) of layers on a rigid base. Zero where all substrates are elastic,
@@ -213,6 +224,23 @@ mod tests {
         assert!((found.modes[0].amplitude / (0.5 / moduli[0] - 0.5 / moduli[1]) - 1.0).abs() < 1e-11);
         let bare = Bodies::from(HalfSpace::new(vec![], soft));
         assert_eq!(Retardation::new(&bare).mean_modes(), RetardationModes::default());
+    }
+
+    /// Waves around the wavenumber from which on they do not reach below the layer, and those of a bare body.
+    #[test]
+    fn many_waves_have_the_modes_of_each() {
+        let coat = one(material(5.0, 0.4), 4.0, ConstantModulus::Bulk);
+        let below = one(material(1.0, 0.3), 9.0, ConstantModulus::Bulk);
+        for layers in [vec![], vec![layer(coat, 0.5, SPRING)]] {
+            let bodies = Bodies::from(HalfSpace::new(layers, below));
+            let (retardation, wavenumbers) = (Retardation::new(&bodies), [0.3, 7.0, 39.0, 41.0, 300.0]);
+            for (found, k) in retardation.modes_of(&wavenumbers).iter().zip(wavenumbers) {
+                let exact = retardation.modes(k);
+                for s in [0.0, 0.01, 0.2, 1.0, 30.0] {
+                    assert!((found.at(s) / exact.at(s) - 1.0).abs() < 1e-12, "{bodies}, k {k}, s {s}");
+                }
+            }
+        }
     }
 
     /// Waves far shorter than the layer is thick know its material alone, far longer ones the substrate's.

@@ -52,6 +52,8 @@ pub struct Contact {
     tension: Option<Arc<Vec<f64>>>,
     /// Frictional heat; `None` where nothing heats.
     heat: Option<Arc<SurfaceHeat>>,
+    /// Energy stored in bodies that creep, a pressure times a cubed length; `None` of others.
+    stored: Option<f64>,
     /// Counted at the first call of [`Self::spots`].
     spots: OnceLock<SpotCounts>,
 }
@@ -66,8 +68,9 @@ impl Contact {
         penetration: f64,
     ) -> Self {
         let (problem, surface) = (Arc::clone(problem), Arc::clone(surface));
-        let (indented, shear, tension, heat, spots) = (None, None, None, None, OnceLock::new());
-        Self { problem, surface, pressure, gap, penetration, indented, shear, tension, heat, spots }
+        let (indented, shear, tension, heat, stored) = (None, None, None, None, None);
+        let spots = OnceLock::new();
+        Self { problem, surface, pressure, gap, penetration, indented, shear, tension, heat, stored, spots }
     }
 
     /// The contact after earlier loads that have pressed in these depths, lengths, one per sample.
@@ -98,6 +101,16 @@ impl Contact {
     /// Frictional heat, flux and temperatures of the surfaces; `None` where nothing heats.
     pub fn heat(&self) -> Option<&SurfaceHeat> {
         self.heat.as_deref()
+    }
+
+    /// The contact of bodies that creep, in which this energy is stored, a pressure times a cubed length.
+    pub(super) fn creeping(self, stored: f64) -> Self {
+        Self { stored: Some(stored), ..self }
+    }
+
+    /// Whether the bodies creep: what they displace depends on earlier pressures.
+    pub fn creeps(&self) -> bool {
+        self.stored.is_some()
     }
 
     /// Tension between surfaces that adhere, pressures ≥ 0 sample by sample, a₂ fastest; `None` of others.
@@ -177,8 +190,11 @@ impl Contact {
     ///
     /// The energy is the work ∫ P dδ of the force P on the cell along the load path: w has zero mean and δ is measured from the mean
     /// plane, or both from a rigid base, and of E(p) = ½⟨p, Cp⟩ + ⟨p, f − δ⟩ the minimum over p ≥ 0 is −½⟨p, Cp⟩, whose derivative by δ is −P. Under
-    /// coupled friction it is the energy stored by the pressure, without the work of the traction.
+    /// coupled friction it is the energy stored by the pressure, without the work of the traction. In bodies that creep it is what they store.
     pub fn elastic_energy(&self) -> f64 {
+        if let Some(stored) = self.stored {
+            return stored;
+        }
         // A uniform pressure does work where it displaces.
         let pressure = self.net_pressures();
         let (mean, shift) = match self.problem.datum() {

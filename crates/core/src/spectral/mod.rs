@@ -9,6 +9,7 @@
 //! - [`Solver`]: a problem on all of them, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid;
 //!   [`Checkpoint`]: the state from which an interrupted run continues;
 //! - `resolvent`, [`Hysteresis`]: bodies that relax below a load that moves steadily: the parts of their operator, and the friction;
+//! - `creeping`: bodies that relax under loads in time, an elastic contact each step;
 //! - `adhesive`: surfaces that pull each other, by the gap instead of the pressure;
 //! - [`Wear`]: implicit steps of wear around the operator of each grid, `sliding_mean` of the body that is swept; [`Worn`]: the depths worn off.
 
@@ -18,6 +19,7 @@ mod by_rows;
 mod checkpoint;
 mod contact;
 mod convolution;
+mod creeping;
 mod depth_search;
 mod extension;
 mod field_error;
@@ -51,6 +53,7 @@ pub use adhesive::{
 };
 pub use checkpoint::{Checkpoint, OtherGrids};
 pub use contact::{Contact, Shear};
+pub use creeping::{CreepError, CreepSolver, CreepStep, TIME_TOLERANCE, TimeError};
 pub use field_error::FieldError;
 pub use free_space::{Coupling, OfWavenumber};
 pub use frictional_heat::{Hottest, SurfaceHeat};

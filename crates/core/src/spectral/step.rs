@@ -76,6 +76,13 @@ impl Step {
         Self { coarser: vec![coarser.finest], ..self }
     }
 
+    /// The step in bodies that creep, with the energies that they store on the finest grid and on the coarser ones.
+    pub(super) fn creeping(self, stored: &[f64]) -> Self {
+        let [finest, coarser @ ..] = stored else { return self };
+        let of = |(contact, stored): (Contact, &f64)| contact.creeping(*stored);
+        Self { finest: self.finest.creeping(*finest), coarser: self.coarser.into_iter().zip(coarser).map(of).collect(), ..self }
+    }
+
     /// The step with the mean of the pressures of several moments on the finest grid, sample by sample, a₂ fastest.
     pub(crate) fn with_mean_pressure(&self, pressure: Vec<f64>) -> Self {
         Self { finest: self.finest.with_pressure(pressure), ..self.clone() }
@@ -103,7 +110,7 @@ impl Step {
 
     /// Displacement w into the body, a length, on a periodic cell with zero mean, on a rigid base from that; axes along a₁ and a₂.
     pub fn displacement(&self) -> Array2<f64> {
-        if self.finest.net_pressures().iter().all(|&p| p == 0.0) {
+        if !self.finest.creeps() && self.finest.net_pressures().iter().all(|&p| p == 0.0) {
             return Array2::zeros(self.grid().points());
         }
         &self.gap() - &self.surface().initial_gap() + self.penetration()

@@ -103,10 +103,12 @@ impl GridLevel {
         (report, (operator.convolutions() - before) * samples as f64)
     }
 
-    /// Penetration δ of a surface that earlier loads have pressed in and this one does not reach, a length: without a load that at which
-    /// contact begins. `None` where the surface is as at first, or touches.
+    /// Penetration δ of a surface that earlier loads have pressed in, or that creeps, and this one does not reach, a length: without a load that
+    /// at which contact begins. `None` where the surface is as at first, or touches.
     fn without_contact(&self, load: Control) -> Option<f64> {
-        self.indented.as_ref()?;
+        if self.indented.is_none() && self.flat.is_none() {
+            return None;
+        }
         let (set, gaps) = (AdmissibleSet::new(self.mask.as_deref()), self.surface.gaps());
         let begins = sums::least(gaps.len(), |i| if set.may_touch(i) { gaps[i] } else { f64::INFINITY });
         match load {

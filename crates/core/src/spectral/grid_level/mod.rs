@@ -32,6 +32,8 @@ pub(super) struct GridLevel {
     surface: Arc<Surface>,
     /// The surface before any load has pressed it in, with the depths that earlier loads have; `None` before.
     indented: Option<Indented>,
+    /// The surface without the displacement that opens its gap; `None` where nothing does.
+    flat: Option<Arc<Surface>>,
     largest_gap: f64,
     /// Whether contact may occur, one value per sample; `None`: everywhere.
     mask: Option<Vec<bool>>,
@@ -68,6 +70,7 @@ impl GridLevel {
             unknowns: Unknowns::new(grid.len()),
             largest_gap: surface.largest(),
             indented: None,
+            flat: None,
             mask: None,
             bounds: Bounds::up_to(problem.hardness().map_or(f64::INFINITY, |(hardness, _)| hardness)),
             composite: problem.composite_hardness().copied(),
@@ -136,6 +139,18 @@ impl GridLevel {
     /// Least part of the compliance of a wave that swelling by frictional heat leaves; 1 without heat.
     pub fn left_by_heat(&self) -> f64 {
         self.operator.left_by_heat()
+    }
+
+    /// Opens the gap by displacements that the next pressure does not cause, lengths sample by sample, in the place of those before, and puts
+    /// another operator for that pressure. Contacts keep the surface as it was.
+    pub fn open(&mut self, lift: &[f64], operator: LayeredOperator) {
+        let original = self.flat.take().unwrap_or_else(|| Arc::clone(&self.surface));
+        let mut gap = original.initial_gap().to_owned();
+        gap.iter_mut().zip(lift).for_each(|(gap, lift)| *gap += lift);
+        self.surface = Arc::new(original.with_initial_gap(gap));
+        self.largest_gap = self.surface.largest();
+        self.operator = operator;
+        self.flat = Some(original);
     }
 
     /// The operator, which a local compliance may soften for a while.
@@ -212,7 +227,8 @@ impl GridLevel {
         };
         let Unknowns { pressure, gap, penetration, .. } = &self.unknowns;
         let indented = self.indented.as_ref().map(|(_, depths)| Arc::clone(depths));
-        Contact::new(problem, &self.surface, Arc::clone(pressure), Arc::clone(gap), *penetration).after(indented)
+        let surface = self.flat.as_ref().unwrap_or(&self.surface);
+        Contact::new(problem, surface, Arc::clone(pressure), Arc::clone(gap), *penetration).after(indented)
     }
 
     /// The tangent of the last load, see [`Tangent`]; `None` without contact.
