@@ -46,6 +46,8 @@ pub enum Kind {
     Utilisation,
     /// A strain: a length over a length.
     Strain,
+    /// A time.
+    Time,
 }
 
 impl Kind {
@@ -66,6 +68,7 @@ impl Kind {
             Self::Passes => "passes",
             Self::Utilisation => "utilisation",
             Self::Strain => "strain",
+            Self::Time => "time",
         }
     }
 }

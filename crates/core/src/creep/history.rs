@@ -169,7 +169,10 @@ impl History {
             let range = self.range(shell);
             let own = states.split_off(..range.len()).unwrap_or_default();
             let elastic = self.glassy[shell as usize] * pressure.norm_sqr();
-            0.5 * self.modes[range].iter().zip(own).fold(elastic, |sum, (mode, state)| sum + mode.amplitude * state.norm_sqr())
+            0.5 * self.modes[range]
+                .iter()
+                .zip(own)
+                .fold(elastic, |sum, (mode, state)| sum + mode.amplitude * state.norm_sqr())
         };
         self.shells.iter().zip(&self.pressure).map(of).collect()
     }
@@ -285,7 +288,9 @@ mod tests {
     #[test]
     fn what_is_stored_is_what_a_fast_and_a_slow_load_put_in() {
         let shells = shells();
-        for (duration, of) in [(0.0, RetardationModes::after as fn(&RetardationModes, f64) -> f64), (1e30, |modes, _| modes.relaxed())] {
+        for (duration, of) in
+            [(0.0, RetardationModes::after as fn(&RetardationModes, f64) -> f64), (1e30, |modes, _| modes.relaxed())]
+        {
             let mut history = History::new(&shells, vec![2, 0, 1]);
             let interval = history.interval(duration);
             let pressures = [pressure(0.0, 2), pressure(0.0, 0), pressure(0.0, 1)];

@@ -44,11 +44,7 @@ impl<'a> Retardation<'a> {
             (place, responses(bodies, place))
         };
         let glassy = times.map_or(0.0, |[shortest, _]| GLASSY / shortest);
-        Self {
-            bodies,
-            places: frequencies.into_iter().map(at).collect(),
-            glassy: (glassy, responses(bodies, glassy)),
-        }
+        Self { bodies, places: frequencies.into_iter().map(at).collect(), glassy: (glassy, responses(bodies, glassy)) }
     }
 
     /// Modes of the wavenumber k > 0, one over a length.

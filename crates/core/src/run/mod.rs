@@ -21,6 +21,7 @@ mod accuracy;
 mod adhering;
 mod alone;
 mod checked;
+mod creeping;
 mod earlier_run;
 mod ended;
 mod grid_start;
@@ -41,6 +42,7 @@ pub mod words;
 
 pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change};
 pub use alone::alone;
+pub use creeping::Times;
 pub use earlier_run::{EarlierRun, LastLoad};
 pub use grid_start::GridStart;
 pub use limit::{At, EVENTS, Limit, LimitStep, Limits, SearchEnd, first, rivals};
@@ -103,6 +105,8 @@ pub struct Run {
     pub stress: Option<StressRequest>,
     /// Motion at each load, where friction sticks and slips; `None` where the counterbody slides or is still.
     pub motions: Option<Vec<Motion>>,
+    /// Times of the loads, of bodies that creep; `None` where nothing depends on time.
+    pub times: Option<Times>,
 }
 
 /// Records of all loads on one grid, and the last step.
@@ -111,7 +115,8 @@ type Solved = (Vec<StepRecord>, Option<Step>);
 impl Run {
     /// A run without stresses, with the solver's defaults.
     pub fn new(problem: impl Into<Arc<Problem>>, loads: Vec<Load>, sampling: Sampling) -> Self {
-        Self { problem: problem.into(), loads, sampling, settings: Settings::default(), stress: None, motions: None }
+        let (problem, settings, stress, motions, times) = (problem.into(), Settings::default(), None, None, None);
+        Self { problem, loads, sampling, settings, stress, motions, times }
     }
 
     /// The quantity in which its loads are stated: forces where one is prescribed, and for an isolated contact.
@@ -140,6 +145,7 @@ impl Run {
         }
         let points = self.checked_sampling()?;
         self.check_adhesion()?;
+        self.check_times()?;
         let kind = self.problem.kind();
         let hardness = self.problem.largest_hardness().filter(|_| !kind.is_given).map(|(hardness, _)| hardness);
         for load in &self.loads {
@@ -266,17 +272,19 @@ impl Run {
         self.stress.as_ref().map(|request| request.mean).or_else(|| are_judged().then(MeanStress::default))
     }
 
-    /// Solves all loads on one grid, after those of the earlier run `finished`: with partial slip where there are drives, or with adhesion.
+    /// Solves all loads on one grid, after those of the earlier run `finished`: with partial slip where there are drives, in time, or with
+    /// adhesion.
     fn steps_on<R: Recorder>(
         &self,
         points: [usize; 2],
         finished: Option<EarlierRun>,
         recorder: &mut R,
     ) -> Result<Solved, RunError<R::Error>> {
-        match &self.motions {
-            Some(motions) => self.slip_on_grid(motions, points, finished, recorder),
-            None if self.problem.adhesion().is_some() => self.adhesive_on_grid(points, finished, recorder),
-            None => self.on_grid(points, finished, recorder),
+        match (&self.motions, &self.times) {
+            (Some(motions), _) => self.slip_on_grid(motions, points, finished, recorder),
+            (None, Some(times)) => self.creep_on_grid(times, points, finished, recorder),
+            (None, None) if self.problem.adhesion().is_some() => self.adhesive_on_grid(points, finished, recorder),
+            (None, None) => self.on_grid(points, finished, recorder),
         }
     }
 

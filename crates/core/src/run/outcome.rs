@@ -5,7 +5,7 @@ use super::accuracy::{RefinementEnd, TooOblong};
 use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::notation::number;
-use crate::spectral::{AdhesiveError, OtherGrids, RollError, SlipError, Step};
+use crate::spectral::{AdhesiveError, CreepError, OtherGrids, RollError, SlipError, Step};
 use std::error::Error;
 
 /// The result of a run.
@@ -110,6 +110,9 @@ pub enum RunError<E: Error + 'static> {
     /// Surfaces that adhere cannot be solved for.
     #[error(transparent)]
     Adhesive(#[from] AdhesiveError),
+    /// Loads in time are not followed.
+    #[error(transparent)]
+    Creep(#[from] CreepError),
     /// The cell is too oblong to be refined.
     #[error(transparent)]
     TooOblong(#[from] TooOblong),

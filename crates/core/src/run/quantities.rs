@@ -5,8 +5,9 @@ use super::record::STEP;
 use crate::measured::Measured;
 use crate::quantity::{Named, Quantity};
 use crate::reading::{
-    ADHESION, AdhesionReading, HYSTERESIS, HysteresisReading, LEVEL, LIFE, Life, PLASTIC, PlasticReading, READING,
-    ROUGH, Reading, RoughReading, SLIP, SlipReading, TEMPERATURE, TemperatureReading, UTILISATION,
+    ADHESION, AdhesionReading, CREEP, CreepReading, HYSTERESIS, HysteresisReading, LEVEL, LIFE, Life, PLASTIC,
+    PlasticReading, READING, ROUGH, Reading, RoughReading, SLIP, SlipReading, TEMPERATURE, TemperatureReading,
+    UTILISATION,
 };
 use crate::stress::maxima::{CARRIED, EXTREMES, Extremes};
 
@@ -83,6 +84,14 @@ impl Part<TemperatureReading> for StepRecord {
     }
 }
 
+impl Part<CreepReading> for StepRecord {
+    const PATH: &'static str = "creep.";
+
+    fn part(&self) -> Option<&CreepReading> {
+        self.creep.as_ref()
+    }
+}
+
 impl Part<Extremes> for StepRecord {
     const PATH: &'static str = "stress.";
 
@@ -144,6 +153,7 @@ pub fn of_step() -> Vec<&'static dyn OfStep> {
         .chain(each(ADHESION.each()))
         .chain(each(HYSTERESIS.each()))
         .chain(each(TEMPERATURE.each()))
+        .chain(each(CREEP.each()))
         .chain(each(EXTREMES.each()))
         .chain(each(LIFE.each()))
         .collect()
@@ -170,14 +180,15 @@ pub fn declared() -> Vec<(&'static str, &'static Named)> {
 mod tests {
     use super::*;
     use crate::adhesion::{Adhesion, AdhesionLaw};
-    use crate::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Strength};
+    use crate::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Relaxation, Strength};
     use crate::counterbody::{Indenters, Level, Shape, Topography};
     use crate::friction::Friction;
     use crate::lattice::{Cell, Lattice};
     use crate::load::Load;
     use crate::problem::Problem;
-    use crate::run::{Motion, Run, Sampling, StressRequest};
+    use crate::run::{Motion, Run, Sampling, StressRequest, Times};
     use crate::spectral::{Rolling, RollingDrive};
+    use crate::steady_motion::SteadyMotion;
     use serde::Serialize;
     use serde_json::{Value, json};
     use std::collections::BTreeSet;
@@ -192,8 +203,9 @@ mod tests {
         HalfSpace::new(vec![coating], substrate).with_substrate_strength(strength).unwrap()
     }
 
-    /// The last of two steps that press a ball into a window, of two that press waves, of one that rolls, and of one that adheres.
-    fn steps() -> [StepRecord; 4] {
+    /// The last of two steps that press a ball into a window, of two that press waves, of one that rolls, of one that adheres, of one that moves
+    /// over a body that relaxes, and of one in which that creeps.
+    fn steps() -> [StepRecord; 6] {
         let last = |problem: Problem, loads: [f64; 2]| {
             let mut run = Run::new(problem, loads.map(Load::Force).to_vec(), Sampling::Points([32; 2]));
             run.stress = Some(StressRequest { strain: true, ..StressRequest::default() });
@@ -206,8 +218,8 @@ mod tests {
         let heights = ndarray::Array2::from_shape_fn((32, 32), |(i, j)| height(i) + height(j));
         let waves = Topography::new(Cell::square(1.0).unwrap(), heights).unwrap();
         let pressed = last(Problem::new(ball.clone(), body()), [0.005, 0.01]);
-        let adheres = adhering(ball.clone());
-        [pressed, last(Problem::new(waves, body()), [0.01, 0.02]), rolled(ball), adheres]
+        let (adheres, [moves, creeps]) = (adhering(ball.clone()), relaxing(waves.clone()));
+        [pressed, last(Problem::new(waves, body()), [0.01, 0.02]), rolled(ball), adheres, moves, creeps]
     }
 
     /// A step that adheres, held by a grip.
@@ -218,6 +230,17 @@ mod tests {
         let mut run = Run::new(problem.adhering(adhesion).unwrap(), loads, Sampling::Points([48; 2]));
         run.stress = Some(StressRequest::default());
         run.solve(&mut ()).unwrap().steps.pop().unwrap()
+    }
+
+    /// A step of waves that move over a body that relaxes, and one of waves into which it creeps.
+    fn relaxing(waves: Topography) -> [StepRecord; 2] {
+        let relaxation = Relaxation::new(&[9.0], &[1.0]).unwrap();
+        let rubber = Material::from_young(1.0, 0.3).unwrap().with_relaxation(Some(relaxation));
+        let problem = Problem::new(waves, HalfSpace::new(vec![], rubber));
+        let (load, sampling) = (Load::MeanPressure(0.01), Sampling::Points([48; 2]));
+        let moving = problem.clone().moving(SteadyMotion::new(0.1).unwrap()).unwrap();
+        let creeping = Run { times: Some(Times::new(vec![0.0, 1.0])), ..Run::new(problem, vec![load; 2], sampling) };
+        [Run::new(moving, vec![load], sampling), creeping].map(|run| run.solve(&mut ()).unwrap().steps.pop().unwrap())
     }
 
     /// A step that rolls.

@@ -7,8 +7,9 @@ use crate::numeric::serialised;
 use crate::problem::Problem;
 use crate::quantity::quantities;
 use crate::reading::{
-    AdhesionReading, Beneath, Criterion, FatigueReading, Governing, HysteresisReading, PathReading, PlasticReading,
-    Reading, RoughReading, SlipReading, StressReading, TemperatureReading, Utilisation, stiffness, within_the_errors,
+    AdhesionReading, Beneath, CreepReading, Criterion, FatigueReading, Governing, HysteresisReading, PathReading,
+    PlasticReading, Reading, RoughReading, SlipReading, StressReading, TemperatureReading, Utilisation, stiffness,
+    within_the_errors,
 };
 use crate::spectral::{Certificate, Report, Route, Step, Stop};
 use serde::{Deserialize, Serialize};
@@ -71,6 +72,9 @@ quantities! {
         /// Temperatures by frictional heat; `None` where nothing heats.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub temperature: Option<TemperatureReading>,
+        /// Time of bodies that creep; `None` where nothing depends on time.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub creep: Option<CreepReading>,
         /// Largest stresses; `None` where they are not computed, without contact, and under loads of a search for limits that are not shown.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub stress: Option<StressReading>,
@@ -152,6 +156,7 @@ impl StepRecord {
             adhesion: None,
             hysteresis: HysteresisReading::of(step),
             temperature: TemperatureReading::of(step),
+            creep: None,
             stress: None,
             strength: Vec::new(),
             governing: None,
@@ -182,6 +187,12 @@ impl StepRecord {
         Self { adhesion, ..self }
     }
 
+    /// The record with its time.
+    #[must_use]
+    pub(super) fn with_creep(self, creep: CreepReading) -> Self {
+        Self { creep: Some(creep), ..self }
+    }
+
     /// Whether anything acts on the bodies.
     pub(super) fn is_loaded(&self) -> bool {
         self.reading.max_pressure > 0.0 || self.adhesion.as_ref().is_some_and(|adhesion| adhesion.adhesive_load > 0.0)
@@ -196,8 +207,8 @@ impl StepRecord {
             let load = mean_pressure.unwrap_or(force);
             if step.converged() { [load, penetration] } else { [f64::NAN; 2] }
         };
-        // Of surfaces that adhere a load has several penetrations.
-        if steps.iter().any(|step| step.adhesion.is_some()) {
+        // Of surfaces that adhere, and of bodies that creep, a load has several penetrations.
+        if steps.iter().any(|step| step.adhesion.is_some() || step.creep.is_some()) {
             return;
         }
         let path: Vec<[f64; 2]> = steps.iter().map(place).collect();

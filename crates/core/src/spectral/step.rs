@@ -80,7 +80,11 @@ impl Step {
     pub(super) fn creeping(self, stored: &[f64]) -> Self {
         let [finest, coarser @ ..] = stored else { return self };
         let of = |(contact, stored): (Contact, &f64)| contact.creeping(*stored);
-        Self { finest: self.finest.creeping(*finest), coarser: self.coarser.into_iter().zip(coarser).map(of).collect(), ..self }
+        Self {
+            finest: self.finest.creeping(*finest),
+            coarser: self.coarser.into_iter().zip(coarser).map(of).collect(),
+            ..self
+        }
     }
 
     /// The step with the mean of the pressures of several moments on the finest grid, sample by sample, a₂ fastest.

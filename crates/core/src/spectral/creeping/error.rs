@@ -49,7 +49,9 @@ pub enum CreepError {
         loads: usize,
     },
     /// Loads of more than one kind, or of one that is not followed in time.
-    #[error("a path in time has loads of one kind: mean pressures, forces, or penetrations; under a given pressure no penetrations")]
+    #[error(
+        "a path in time has loads of one kind: mean pressures, forces, or penetrations; under a given pressure no penetrations"
+    )]
     Loads,
     /// A tolerance that is not above 0.
     #[error("the tolerance of a step in time must be greater than 0, not {0}")]

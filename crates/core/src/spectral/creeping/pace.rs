@@ -1,12 +1,11 @@
 //! Pace in time: the lengths of steps by the error of each.
 //!
 //! The pressure is linear in time within a step, an error of second order in its length h in all, of third in one step. One step of h and two
-//! of h/2 differ by 3 times the error of the two.
+//! of h/2 then differ by 3 times the error of the two. Steps long beside retardation times are not of that order: their whole difference is taken
+//! for the error.
 
 use std::ops::Range;
 
-/// Difference of one step from two halves over the error of the halves.
-pub const DIFFERENCE: f64 = 3.0;
 /// Order of the error of one step.
 const ORDER: f64 = 3.0;
 /// Part of the length with which an error is expected to meet the tolerance.

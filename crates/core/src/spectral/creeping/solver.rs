@@ -8,11 +8,11 @@
 //! with the operator A of the [compliances](crate::creep::History::compliances) of the interval, symmetric and positive, and the displacement u
 //! that earlier pressures leave. Each step is solved on all nested grids, each with its own history.
 //!
-//! A step is taken once whole and once by two halves, of which the result counts; its error is a third of the difference. Where that is above
-//! the tolerance the step is divided.
+//! A step is taken once whole and once by two halves, of which the result counts; the difference is stated for its error. Where
+//! that is above the tolerance the step is divided.
 
 use super::CreepError;
-use super::pace::{DIFFERENCE, Pace};
+use super::pace::Pace;
 use super::surface_history::SurfaceHistory;
 use crate::creep::{Retardation, times};
 use crate::lattice::Grid;
@@ -230,8 +230,8 @@ impl CreepSolver {
         let [one, two] = [whole, halves].map(|step| step.finest().pressures());
         let [change] = sums::of(one.len(), |i| [(one[i] - two[i]).abs()]);
         TimeError {
-            penetration: (whole.penetration() - halves.penetration()).abs() / DIFFERENCE,
-            pressure: change / self.largest[1].max(f64::MIN_POSITIVE) / DIFFERENCE,
+            penetration: (whole.penetration() - halves.penetration()).abs(),
+            pressure: change / self.largest[1].max(f64::MIN_POSITIVE),
         }
     }
 
