@@ -10,6 +10,8 @@ mod cases_refused;
 #[cfg(feature = "cli")]
 #[path = "library/checked_states.rs"]
 mod checked_states;
+#[path = "library/creep.rs"]
+mod creep;
 #[path = "library/detachments.rs"]
 mod detachments;
 #[path = "library/energy.rs"]

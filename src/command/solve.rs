@@ -87,7 +87,8 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
     let timing = clock.timing();
     write_scalars(&results.staging(), &case, &outcome, &warnings, timing)?;
     let beside = || {
-        let reading = &outcome.steps.last()?.reading;
+        // An indenter alone is elastic.
+        let reading = &outcome.steps.last().filter(|_| case.time.is_none())?.reading;
         table::alone(&case, reading, &percoat_core::run::alone(case.problem(), reading)?)
     };
     let tables = || {

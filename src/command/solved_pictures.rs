@@ -20,17 +20,24 @@ impl Pictured {
         self.last.reading.touches()
     }
 
+    /// Whether isolated indenters on elastic bodies are compared with.
+    fn is_elastic(&self) -> bool {
+        !self.last.step.finest().creeps()
+    }
+
     fn cut(&self) -> Option<&[VerticalSection]> {
         Some(&self.sections[..]).filter(|sections| self.touches() && !sections.is_empty())
     }
 
     fn contact(&self) -> Option<Canvas> {
         let radii = || isolated::radii(self.last.step.problem(), &self.last.reading);
-        if self.touches() { picture::contact(&self.last, radii().as_deref()) } else { None }
+        let radii = (self.touches() && self.is_elastic()).then(radii).flatten();
+        if self.touches() { picture::contact(&self.last, radii.as_deref()) } else { None }
     }
 
     fn profiles(&self) -> Option<Canvas> {
-        let profiles = isolated::profiles(self.last.step.problem(), &self.last.reading);
+        let profiles = || isolated::profiles(self.last.step.problem(), &self.last.reading);
+        let profiles = self.is_elastic().then(profiles).flatten();
         picture::profiles(&self.last, profiles.as_deref())
     }
 
@@ -42,6 +49,10 @@ impl Pictured {
         picture::approach(&self.last.title, self.last.step.problem(), &self.last.units, &self.steps)
     }
 
+    fn creep(&self) -> Option<Canvas> {
+        picture::creep(&self.last.title, self.last.step.problem(), &self.last.units, &self.steps)
+    }
+
     fn curve(&self) -> Option<Canvas> {
         picture::load_curves(&self.last.title, self.last.step.problem(), &self.last.units, &self.steps)
     }
@@ -51,9 +62,9 @@ impl Pictured {
 pub fn of_case(case: &Case, steps: usize) -> Vec<Declared<Pictured>> {
     let is_cut = case.has_cut();
     let is_indented = case.problem().bodies().hardness().is_some();
-    let (sticks, adheres) = (case.tangential.is_some(), case.adhesion.is_some());
+    let (sticks, adheres, creeps) = (case.tangential.is_some(), case.adhesion.is_some(), case.time.is_some());
     let heats = case.problem().heating().is_some();
-    let pictures: [(bool, Declared<Pictured>); 11] = [
+    let pictures: [(bool, Declared<Pictured>); 12] = [
         (true, Picture("pressure", |solved| solved.touches().then(|| picture::pressure(&solved.last)))),
         (true, Picture("contact", Pictured::contact)),
         (true, Picture("profiles", Pictured::profiles)),
@@ -64,7 +75,8 @@ pub fn of_case(case: &Case, steps: usize) -> Vec<Declared<Pictured>> {
         (sticks && steps > 1, Picture("loop", Pictured::slip_loop)),
         (heats, Picture("temperature", |solved| picture::temperature(&solved.last))),
         (adheres && steps > 1, Picture("approach", Pictured::approach)),
-        (steps > 1 && !sticks && !adheres, Picture("curve", Pictured::curve)),
+        (creeps && steps > 1, Picture("creep", Pictured::creep)),
+        (steps > 1 && !sticks && !adheres && !creeps, Picture("curve", Pictured::curve)),
     ];
     pictures.into_iter().filter_map(|(is_drawn, picture)| is_drawn.then_some(picture)).collect()
 }

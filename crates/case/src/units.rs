@@ -174,6 +174,7 @@ impl Units {
             Kind::Temperature => self.temperature.clone(),
             Kind::Fraction | Kind::Ratio | Kind::Passes | Kind::Utilisation => Unit::None,
             Kind::Strain => Unit::Strain,
+            Kind::Time => self.time.clone(),
         }
     }
 

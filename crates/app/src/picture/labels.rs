@@ -48,6 +48,7 @@ impl Labels for Units {
             Kind::Volume => "unit\u{a0}of\u{a0}volume",
             Kind::Energy => "unit\u{a0}of\u{a0}energy",
             Kind::Stiffness => "unit\u{a0}of\u{a0}force\u{a0}per\u{a0}length",
+            Kind::Time => "unit\u{a0}of\u{a0}time",
             Kind::PressurePerLength => "unit\u{a0}of\u{a0}E\u{a0}per\u{a0}length",
         };
         Label::of(name, symbol, &self.unit(kind), unknown)

@@ -20,6 +20,7 @@
 //! - Its surfaces under frictional heat: [`temperature`](temperature()).
 //! - Its partial slip: [`slip`](slip()), and the loop of all steps: [`slip_loop`].
 //! - Surfaces that adhere: [`approach`], force and area over the penetration.
+//! - Bodies that creep: [`creep`](creep()), load, penetration and contact over time.
 //! - Its stresses under a line ([sections](percoat_core::stress::VerticalSection)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
 //! - Damage below the surface: [`damage`](damage()); what is left of a body pass after pass: [`course`](course()).
@@ -33,6 +34,7 @@ mod adhesion;
 mod between_rows;
 mod comparison;
 mod contact;
+mod creep;
 mod file;
 mod identification;
 mod indentation;
@@ -64,6 +66,7 @@ pub use percoat_draw::{Axis, Canvas, Chart, Curve, Figure, Format, Ink, Label, S
 pub use adhesion::approach;
 pub use comparison::comparison;
 pub use contact::contact;
+pub use creep::creep;
 pub use file::write;
 pub use identification::identification;
 pub use indentation::indentation;

@@ -36,6 +36,11 @@ fn pictures(words: &AroundWords) -> [PictureText; 9] {
             "Curves of force and contact area over the penetration, with jumps and pull-off",
             "Force and contact area as the surfaces come together and part.",
         ),
+        (
+            "creep",
+            "Curves of load, penetration and contact over time",
+            "Load, penetration and contact over time.",
+        ),
         ("curve", "Curves of what the load steps say over the load", "What the load steps say over the load."),
         (
             "section",
@@ -72,6 +77,14 @@ fn hysteresis(case: &Case, steps: &[StepRecord], units: &Units) -> Option<Sectio
     let caption = "Friction by hysteresis; ± is the estimated error";
     let words = words.iter().map(|words| tag("p", upper(words)));
     Some(section("hysteresis", "Friction by hysteresis", words.chain([table(caption, &found)]).collect()))
+}
+
+/// Bodies that creep; `None` where nothing depends on time.
+fn creep(case: &Case, steps: &[StepRecord], units: &Units) -> Option<Section> {
+    let (words, found) = tables::creep(case, steps, units)?;
+    let caption = "Creep and rate; ± is the estimated error of the grid and of steps in time";
+    let words = words.iter().map(|words| tag("p", upper(words)));
+    Some(section("creep", "Creep and rate", words.chain([table(caption, &found)]).collect()))
 }
 
 /// The section of adhesion; `None` where surfaces do not pull each other.
@@ -128,6 +141,7 @@ pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportE
         sections.push(section("slip", "Partial slip", vec![tag("p", upper(&words)), table(caption, &slip)]));
     }
     sections.extend(read.as_ref().and_then(|case| adhesion(case, steps, &units)));
+    sections.extend(read.as_ref().and_then(|case| creep(case, steps, &units)));
     sections.extend(stresses(case, steps, &units));
     if let Some(taken) = &taken {
         let caption = "Utilisations: 1 is where the material or interface fails";

@@ -15,16 +15,16 @@ use percoat_core::counterbody::LoadedBy;
 use percoat_core::load::{Load, LoadQuantity};
 
 /// Most load steps a case can have.
-const STEPS: usize = 10_000;
+pub(super) const STEPS: usize = 10_000;
 
-const SIGNED: Form = Form::Number(Range::Coordinate);
-const LOADS: Form = Form::List { of: &SIGNED, count: [1, STEPS] };
+pub(super) const SIGNED: Form = Form::Number(Range::Coordinate);
+pub(super) const LOADS: Form = Form::List { of: &SIGNED, count: [1, STEPS] };
 /// Which loads may be below 0.
 const NOT_NEGATIVE: &str = "below 0 with [adhesion] alone";
 
 section! {
     /// The section `[load]`: one of the keys, one value a load step.
-    pub struct LoadSection = LOAD, rules one {
+    pub struct LoadSection = LOAD, rules one, absent is_in_time {
         /// the mean pressure p̄
         pub mean_pressure: Option<Steps> =
             Key::new(&[SIGNED, LOADS, Form::Table(&PRESSURES)], "[0.01, 0.06]").unit(Unit::Pressure).rule(NOT_NEGATIVE),
@@ -58,6 +58,8 @@ section! {
     beside {
         /// Load of a pressure that is given: the force on an isolated window, else the mean pressure.
         pub given: Option<Load>,
+        /// Whether the loads are those of `[time]`.
+        pub in_time: bool,
     }
 }
 
@@ -101,6 +103,18 @@ impl Serialize for Steps {
     }
 }
 
+impl Steps {
+    /// Values of load steps, at least one.
+    pub(super) fn of(values: Vec<f64>) -> Self {
+        Self(values)
+    }
+
+    /// The values.
+    pub fn values(&self) -> &[f64] {
+        &self.0
+    }
+}
+
 impl KeyValue for Steps {
     /// Reads a number, a list, or a range.
     fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
@@ -115,6 +129,10 @@ impl KeyValue for Steps {
 
 fn one(_: &LoadSection, section: &TableAt<'_>) -> Result<(), Refusal> {
     section.one_of(["mean_pressure", "force", "penetration", "grip", "pressure"]).map(drop)
+}
+
+fn is_in_time(load: &LoadSection) -> bool {
+    load.in_time
 }
 
 /// Reads `[load]` of a case with what loads its body: a counterbody, whose surface may adhere, or a given pressure, whose load is kept.
@@ -161,6 +179,13 @@ fn range(range: &LoadRange, section: &TableAt<'_>) -> Result<(), Refusal> {
 }
 
 impl LoadSection {
+    /// Loads of `[time]`, still without values.
+    pub(super) fn in_time() -> Self {
+        let (mean_pressure, force, penetration, grip) = (None, None, None, None);
+        let (machine_stiffness, pressure, given) = (None, None, None);
+        Self { mean_pressure, force, penetration, grip, machine_stiffness, pressure, given, in_time: true }
+    }
+
     /// Refuses loads below 0 and a grip of surfaces that do not adhere, and a stiffness without a grip.
     fn of_surfaces(&self, section: &TableAt<'_>, adheres: bool) -> Result<(), Refusal> {
         if self.machine_stiffness.is_some() && self.grip.is_none() {

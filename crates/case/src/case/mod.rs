@@ -4,7 +4,7 @@
 //! and the run that solves it. Faults are refused with their line ([`CaseError`]).
 //!
 //! One file a section: lattice, levels (with `area_function`), surface, layers (with the substrate, `durability`, `interface` and `grading`), elastic counterbody, load (with a `given` pressure), grid, solver,
-//! friction, tangential, adhesion, motion, heat, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
+//! friction, tangential, adhesion, motion, heat, time, units, stress, localized, life; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
 //! makes of them the texts of `percoat explain` and the schema; `identification` lets numbers be free; `materials` is the library. A [`Document`] is parsed to a tree (`node`) once, changed by `overrides`,
 //! and read strictly (`reader`, `value`). [`feasibility`] refuses what cannot be solved and warns of implausible numbers.
 //!
@@ -65,6 +65,7 @@ mod surface;
 mod tangential;
 #[cfg(test)]
 mod tests;
+mod time;
 mod units;
 mod value;
 mod writer;
@@ -109,6 +110,7 @@ pub use relaxation::{ConstantWord, RelaxationSection};
 pub use source::{PhysicalSizes, Source};
 pub use stress::{CutSection, Origin, StressSection, Toward};
 pub use surface::{ORIENTATION, RandomSection, Sides, Stage, SurfaceSection, Taper, Treated, WantedChannel};
+pub use time::TimeSection;
 pub use tangential::{Component, History, PathSection, RollingSection, TangentialSection};
 pub use units::UnitsSection;
 pub use writer::written;

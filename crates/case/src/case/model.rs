@@ -28,6 +28,7 @@ use super::span::Span;
 use super::stress::STRESS;
 use super::surface::SURFACE;
 use super::tangential::TANGENTIAL;
+use super::time::{TIME, TimeSection};
 use super::units::UNITS;
 use super::writer::written;
 use super::{
@@ -83,7 +84,12 @@ section! { whole
         /// the body that the indenters or the topography belong to
         pub counterbody: Option<CounterbodySection> = Key::new(&[Form::Table(&COUNTERBODY)], "{ young = 210.0, poisson = 0.3 }").otherwise("rigid"),
         /// mean pressure, force, penetration or position of a grip, one value a load step, or a given pressure
-        pub load: LoadSection = Key::new(&[Form::Table(&LOAD)], "{ mean_pressure = 0.01 }"),
+        pub load: LoadSection = Key::new(&[Form::Table(&LOAD)], "{ mean_pressure = 0.01 }")
+            .otherwise("required, or `time`"),
+        /// loads that change in time on bodies that creep
+        pub time: Option<TimeSection> =
+            Key::new(&[Form::Table(&TIME)], "{ load = [[0.0, 0.0], [1.0, 0.05], [100.0, 0.05]] }").instead_of("load")
+                .otherwise("required, or `load`: materials that relax are relaxed"),
         /// samples of the cell
         pub grid: Sampling = Key::new(&[Form::Table(&GRID)], "{ points = 256 }").otherwise("its defaults"),
         /// method, tolerance and iterations of the solver
@@ -215,6 +221,9 @@ impl Case {
         if self.adhesion.is_some() {
             return Err("a life has no adhesion: wear and fatigue pass after pass are those of surfaces that do not pull; leave [adhesion] out".to_owned());
         }
+        if self.time.is_some() {
+            return Err("a life has no loads in time: wear and passes of bodies that creep are not followed; give [load] instead of [time]".to_owned());
+        }
         if self.motion.is_some() {
             return Err("a life has no steady motion: wear and passes of bodies that relax are not followed; leave [motion] out".to_owned());
         }
@@ -277,6 +286,7 @@ impl Case {
             problem: Arc::clone(&self.problem),
             loads,
             motions,
+            times: self.time.as_ref().map(TimeSection::times),
             sampling: self.grid,
             settings: self.solver,
             stress: self.stress.as_ref().map(|stress| stress.request(&self.problem)),
@@ -294,9 +304,18 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
     let CounterbodySections { levels, lattice, cell_section, grid_section, surface, doubts: file_doubts, loaded_by } =
         counterbody::read(&root, source)?;
     let (body, above, bodies) = bodies(&root, loaded_by.cell())?;
-    let load_section = root.required_section("load")?;
+    let time_section = root.section("time")?;
+    let time = time_section.as_ref().map(TimeSection::read_table).transpose()?;
+    let load_section = match (&time_section, root.section("load")?) {
+        (Some(time), Some(_)) => return Err(root.both(["load", "time"], time.span)),
+        (Some(time), None) => time.clone(),
+        (None, _) => root.required_section("load")?,
+    };
     let adheres = root.section("adhesion")?.is_some();
-    let load = load::read(&load_section, source, &loaded_by, adheres)?;
+    let load = match &time {
+        Some(time) => time.loads(),
+        None => load::read(&load_section, source, &loaded_by, adheres)?,
+    };
     let file_points = loaded_by.samples().map(|samples| samples.dim().into());
     let (surface, sampling) = match surface {
         Some((section, sampling)) => (Some(section), sampling),
@@ -314,6 +333,9 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         let keys = CompositeHardnessSection::read_table(&section)?;
         problem = keys.harden(&section, &load, problem)?;
         composite_hardness = Some(keys);
+    }
+    if let Some(section) = &time_section {
+        TimeSection::follow(section, &root, &problem)?;
     }
     hardness::bears(&load, &load_section, &problem)?;
     let tangential = TangentialSection::of_case(&root, &problem, friction.as_ref(), &load)?;
@@ -342,6 +364,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         substrate: body.substrate,
         counterbody: above.map(|above| above.section),
         load,
+        time,
         file_doubts,
         problem: Arc::new(problem),
     })

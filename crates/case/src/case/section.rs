@@ -16,6 +16,7 @@
 //!
 //! The comment of a field is the meaning of the key in messages and `percoat explain`. Its type determines how the value is read
 //! ([`KeyValue`]); an `Option` may be absent. `rules` is a function that checks the keys of a table together.
+//! `absent` is a function that says of a section that it is not written, since others say the same.
 //! `misplaced [("key", "why")]` names keys that are often written in the wrong table.
 //! `section! { for Type = KEYS { … } }` declares the keys of a struct that the core defines; `section! { whole … }` has no reader.
 
@@ -138,7 +139,7 @@ pub(in crate::case) trait ReadTable: Sized {
 macro_rules! section {
     (
         $(#[$attribute:meta])*
-        pub struct $name:ident = $keys:ident $(, rules $rules:path)? $(, misplaced [$($misplaced:tt)*])? {
+        pub struct $name:ident = $keys:ident $(, rules $rules:path)? $(, absent $absent:path)? $(, misplaced [$($misplaced:tt)*])? {
             $($(#[doc = $what:literal])+ pub $field:ident: $type:ty = $key:expr,)*
         }
         $(beside { $($(#[$other_attribute:meta])* pub $other:ident: $other_type:ty,)* })?
@@ -149,13 +150,13 @@ macro_rules! section {
         $crate::case::section::section! { @keys $keys [$($($misplaced)*)?] $($($what)+ $field = $key,)* }
         $crate::case::section::section! { @write $name $keys $($field)* }
         $crate::case::section::section! {
-            @read $name [$($rules)?] [$($field)*] [$($($other)*)?]
+            @read $name [$($rules)?] [$($absent)?] [$($field)*] [$($($other)*)?]
         }
     };
     // The keys of a struct of the core, which has its own serialisation.
     (for $name:ident = $keys:ident { $($(#[doc = $what:literal])+ $field:ident = $key:expr,)* }) => {
         $crate::case::section::section! { @keys $keys [] $($($what)+ $field = $key,)* }
-        $crate::case::section::section! { @read $name [] [$($field)*] [] }
+        $crate::case::section::section! { @read $name [] [] [$($field)*] [] }
     };
     // A struct with further fields, read by hand.
     (whole
@@ -202,11 +203,15 @@ macro_rules! section {
             }
         }
     };
-    (@read $name:ident [$($rules:path)?] [$($field:ident)*] [$($other:ident)*]) => {
+    (@read $name:ident [$($rules:path)?] [$($absent:path)?] [$($field:ident)*] [$($other:ident)*]) => {
         impl $crate::case::section::KeyValue for $name {
             fn read(value: &$crate::case::value::ValueAt<'_>) -> Result<Self, $crate::case::error::Refusal> {
                 <Self as $crate::case::section::ReadTable>::read_table(&value.table()?)
             }
+
+            $(fn is_absent(&self) -> bool {
+                $absent(self)
+            })?
         }
         impl $crate::case::section::ReadTable for $name {
             fn read_table(

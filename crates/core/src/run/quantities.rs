@@ -218,7 +218,7 @@ mod tests {
         let heights = ndarray::Array2::from_shape_fn((32, 32), |(i, j)| height(i) + height(j));
         let waves = Topography::new(Cell::square(1.0).unwrap(), heights).unwrap();
         let pressed = last(Problem::new(ball.clone(), body()), [0.005, 0.01]);
-        let (adheres, [moves, creeps]) = (adhering(ball.clone()), relaxing(waves.clone()));
+        let (adheres, [moves, creeps]) = (adhering(ball.clone()), relaxing());
         [pressed, last(Problem::new(waves, body()), [0.01, 0.02]), rolled(ball), adheres, moves, creeps]
     }
 
@@ -232,11 +232,13 @@ mod tests {
         run.solve(&mut ()).unwrap().steps.pop().unwrap()
     }
 
-    /// A step of waves that move over a body that relaxes, and one of waves into which it creeps.
-    fn relaxing(waves: Topography) -> [StepRecord; 2] {
+    /// A step of a ball that moves over a body that relaxes, and one of a ball into which it creeps.
+    fn relaxing() -> [StepRecord; 2] {
+        let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+        let balls = Indenters::new(Lattice::square(1.0, 1).unwrap(), vec![level]).unwrap();
         let relaxation = Relaxation::new(&[9.0], &[1.0]).unwrap();
         let rubber = Material::from_young(1.0, 0.3).unwrap().with_relaxation(Some(relaxation));
-        let problem = Problem::new(waves, HalfSpace::new(vec![], rubber));
+        let problem = Problem::new(balls, HalfSpace::new(vec![], rubber));
         let (load, sampling) = (Load::MeanPressure(0.01), Sampling::Points([48; 2]));
         let moving = problem.clone().moving(SteadyMotion::new(0.1).unwrap()).unwrap();
         let creeping = Run { times: Some(Times::new(vec![0.0, 1.0])), ..Run::new(problem, vec![load; 2], sampling) };

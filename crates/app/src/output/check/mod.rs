@@ -61,6 +61,8 @@ pub struct Check {
     pub slip: Option<Slip>,
     /// Motion over a body that relaxes, a sentence each; empty at rest.
     pub motion: Vec<String>,
+    /// Retardation of bodies under loads in time, a sentence each; empty where nothing depends on time.
+    pub creep: Vec<String>,
     /// Law and regime of adhesion and what closed forms say, a sentence each; empty where surfaces do not pull.
     pub adhesion: Vec<String>,
     /// First touches of the levels; `None` for a topography.
@@ -138,6 +140,7 @@ impl Check {
             loads: case.load.values().to_vec(),
             slip,
             motion: table::motion_words(case.problem(), &case.units()),
+            creep: table::creep_words(case, &case.units()),
             adhesion: table::adhesion_words(case, &case.units()),
             touches,
             surface: Roughness::of(case)?,
@@ -217,7 +220,7 @@ impl fmt::Display for Check {
             let how = if rolls { "rolls at each load" } else { "sticks and slips" };
             writeln!(f, "tangential: the contact {how}, steps: {steps}; surfaces are elastic, a hardness is left out")?;
         }
-        let told = self.motion.iter().chain(&self.adhesion);
+        let told = self.motion.iter().chain(&self.creep).chain(&self.adhesion);
         told.into_iter().try_for_each(|sentence| f.write_str(&table::indented(sentence, WIDTH)))?;
         let none = if self.strengths.is_empty() { " none given, failure is not checked" } else { "" };
         writeln!(f, "strengths:{none}")?;

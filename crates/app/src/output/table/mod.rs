@@ -5,6 +5,7 @@ mod alone;
 mod assumed;
 mod by_step;
 mod comparison;
+mod creep;
 mod fatigue;
 mod hertz;
 mod hysteresis;
@@ -23,6 +24,7 @@ pub use alone::alone;
 pub(super) use assumed::BARS;
 pub use assumed::{Assumptions, library_strengths, scatter};
 pub use comparison::{differences, readings, stresses};
+pub use creep::{creep, creep_words};
 pub use fatigue::lives;
 pub use hertz::hertz;
 pub use hysteresis::{hysteresis, motion_words};
@@ -81,6 +83,10 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
         text += &format!("{}\n\n", fitted(&table));
     }
     if let Some((words, table)) = temperature(case.problem(), steps, &units) {
+        text += &words.iter().map(|words| lines(words, width)).collect::<String>();
+        text += &format!("{}\n\n", fitted(&table));
+    }
+    if let Some((words, table)) = creep(case, steps, &units) {
         text += &words.iter().map(|words| lines(words, width)).collect::<String>();
         text += &format!("{}\n\n", fitted(&table));
     }

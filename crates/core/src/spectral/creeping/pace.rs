@@ -27,8 +27,7 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Steps over a duration with errors below a tolerance, none shorter than `least` but the last; the first one tried is all of
-    /// it.
+    /// Steps over a duration with errors below a tolerance, none shorter than half of `least`; the first one tried is all of it.
     pub fn new(duration: f64, tolerance: f64, least: f64) -> Self {
         Self { tolerance, least, left: duration, length: duration }
     }
@@ -52,7 +51,7 @@ impl Pace {
         let accepted = error <= self.tolerance || length <= self.least;
         let best = SAFETY * (self.tolerance / error.max(f64::MIN_POSITIVE)).powf(1.0 / ORDER);
         let Range { start, end } = if accepted { CHANGE } else { REFUSED };
-        self.length = length * best.clamp(start, end);
+        self.length = (length * best.clamp(start, end)).max(self.least);
         if accepted {
             self.left = if length == self.left { 0.0 } else { self.left - length };
         }
@@ -78,7 +77,7 @@ mod tests {
                 refused += 1;
             }
         }
-        assert!((time - 50.0).abs() < 1e-12 && lengths.len() < 20 && refused < 8, "{lengths:?}, {refused}");
+        assert!((time - 50.0).abs() < 1e-12 && lengths.len() < 30 && refused < 8, "{lengths:?}, {refused}");
         assert!(lengths[lengths.len() - 2] > 5.0 * lengths[0]);
     }
 
@@ -89,7 +88,7 @@ mod tests {
         assert!(pace.accepts(7.0, 0.0) && pace.next().is_none());
         let mut pace = Pace::new(1.0, 1e-3, 0.1);
         while let Some(length) = pace.next() {
-            assert!(length > 0.005);
+            assert!(length >= 0.05);
             pace.accepts(length, 1.0);
         }
     }
