@@ -66,6 +66,7 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: impl Into<O
         adhesion: None,
         hysteresis: None,
         temperature: None,
+        creep: None,
         stress: None,
         strength: Vec::new(),
         governing: None,

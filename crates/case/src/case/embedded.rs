@@ -25,6 +25,7 @@ const CASES: [(&str, &str); 25] = [
     ("rolling", include_str!("../../../../cases/rolling.toml")),
     ("rough", include_str!("../../../../cases/rough.toml")),
     ("rough-metal", include_str!("../../../../cases/rough-metal.toml")),
+    ("rubber-creep", include_str!("../../../../cases/rubber-creep.toml")),
     ("rubber-sliding", include_str!("../../../../cases/rubber-sliding.toml")),
     ("running-in", include_str!("../../../../cases/running-in.toml")),
     ("scratch", include_str!("../../../../cases/scratch.toml")),

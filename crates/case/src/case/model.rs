@@ -86,10 +86,6 @@ section! { whole
         /// mean pressure, force, penetration or position of a grip, one value a load step, or a given pressure
         pub load: LoadSection = Key::new(&[Form::Table(&LOAD)], "{ mean_pressure = 0.01 }")
             .otherwise("required, or `time`"),
-        /// loads that change in time on bodies that creep
-        pub time: Option<TimeSection> =
-            Key::new(&[Form::Table(&TIME)], "{ load = [[0.0, 0.0], [1.0, 0.05], [100.0, 0.05]] }").instead_of("load")
-                .otherwise("required, or `load`: materials that relax are relaxed"),
         /// samples of the cell
         pub grid: Sampling = Key::new(&[Form::Table(&GRID)], "{ points = 256 }").otherwise("its defaults"),
         /// method, tolerance and iterations of the solver
@@ -110,6 +106,10 @@ section! { whole
         /// heat of friction of a counterbody that moves steadily
         pub heat: Option<HeatSection> =
             Key::new(&[Form::Table(&HEAT)], "{ partition = 0.5 }").otherwise("solved, where all materials conduct"),
+        /// loads that change in time on bodies that creep
+        pub time: Option<TimeSection> =
+            Key::new(&[Form::Table(&TIME)], "{ load = [[0.0, 0.0], [1.0, 0.05], [100.0, 0.05]] }").instead_of("load")
+                .otherwise("required, or `load`: materials that relax are relaxed"),
         /// hardness of a coating and its substrate together
         pub composite_hardness: Option<CompositeHardnessSection> =
             Key::new(&[Form::Table(&COMPOSITE_HARDNESS)], "{ law = \"area\", constant = 0.5 }")

@@ -53,11 +53,14 @@ fn one_path(keys: &TimeSection, section: &TableAt<'_>) -> Result<(), Refusal> {
     let [first, last] = [path.first(), path.last()].map(|pair| pair.map_or(0.0, |pair| pair[0]));
     let Some(times) = keys.times.as_ref().map(Steps::values) else { return Ok(()) };
     if times.iter().any(|time| !(first..=last).contains(time)) {
-        let refusal = section.value("times")?.refuse(format!("times from {first} to {last}, those of the path"));
-        return Err(refusal);
+        let value = section.value("times")?;
+        let message = format!("`{}` has times outside of the path, which goes from {first} to {last}", value.path);
+        return Err(Refusal::new(value.node.span, message, "beyond the path").help("give times within the path, or a longer path"));
     }
     if path.len() + times.len() > STEPS {
-        return Err(section.value("times")?.refuse(format!("so many that the path has {STEPS} times at most")));
+        let value = section.value("times")?;
+        let message = format!("`{}`: the path and its further times are more than {STEPS}", value.path);
+        return Err(Refusal::new(value.node.span, message, "too many").help("give fewer times"));
     }
     Ok(())
 }
@@ -182,7 +185,7 @@ mod tests {
             ("load = [[0.0, -0.1]]", "", "not less than 0"),
             ("load = [[0.0, 0.1, 0.2]]", "", "a pair [time, load]"),
             ("tolerance = 0.1", "", "`time.load`, `time.force` or `time.penetration` is missing"),
-            (&format!("{path}, times = 7.0"), "", "times from 0 to 5"),
+            (&format!("{path}, times = 7.0"), "", "outside of the path"),
             (path, "load = { mean_pressure = 0.1 }", "exclude each other"),
             (path, "stress = {}", "[stress]"),
             (path, "friction = { coefficient = 0.1 }", "[friction]"),

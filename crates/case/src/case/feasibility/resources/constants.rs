@@ -20,6 +20,10 @@ pub(super) const PLANE: u64 = 36;
 pub(super) const MOTION: u64 = 260;
 pub(super) const PASSED: u64 = 80;
 pub(super) const LAGS: u64 = 200;
+/// Per sample, in bodies that creep: shells, gaps and the pressures kept; and for each mode of retardation its amplitudes, three times over, and
+/// its share of the shells.
+pub(super) const CREEP: u64 = 200;
+pub(super) const CREEP_MODE: u64 = 64;
 /// Code and buffers of stresses.
 pub(super) const STRESSES: u64 = 2 * MEBIBYTE;
 /// Per sample: memory of the stresses of earlier steps that the allocator keeps, in a path and in a search for a limit; and

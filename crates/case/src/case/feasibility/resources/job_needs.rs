@@ -1,13 +1,14 @@
 //! Memory and disk of each job: the larger of solving and drawing, and the files that it writes.
 
 use super::constants::{
-    ADHESION, AGAIN, CHECKPOINTS, COMPARED, COMPARISON, CURVES, CUTS, DAMAGE, DAMAGE_LINES, DEPTHS, FIELD, KEPT, LAGS,
+    ADHESION, AGAIN, CHECKPOINTS, COMPARED, COMPARISON, CREEP, CREEP_MODE, CURVES, CUTS, DAMAGE, DAMAGE_LINES, DEPTHS, FIELD, KEPT, LAGS,
     MAPS, MOMENT, MOTION, PASSED, PICTURE, PLACES, PROGRAM, READING, SEARCH, SHOWN, SLIP, SLIP_FIELDS, SPOT_FIELDS,
     STATE, STEP, STRESS, STRESSES, TENSION, WORN,
 };
 use super::job::Needs;
 use super::stress_needs::{of_series, of_shells, of_stress};
 use crate::case::Case;
+use percoat_core::body::HalfSpace;
 use percoat_core::localized::Setup;
 use percoat_core::reading::Criterion;
 use percoat_core::run::places::{MOST_ROWS, SECTION};
@@ -53,6 +54,7 @@ pub(super) fn of_solving(
     let depths = if yields(case) { DEPTHS } else { 0 } + if sticks { SLIP_FIELDS } else { 0 } + tension;
     let slip = of_slip(case, samples, series, stress > 0)
         + of_adhesion(case, samples)
+        + of_creep(case, samples)
         + of_motion(case, samples, series, stress > 0);
     let (fields, written, volume) =
         if fields { (steps * (24 + depths) * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
@@ -81,6 +83,16 @@ fn of_adhesion(case: &Case, samples: u64) -> u64 {
     let is_isolated = case.problem().kind().is_indentation();
     let torus = if is_isolated { adhesive_widths(&case.problem().cell()).iter().product::<usize>() as u64 } else { 1 };
     if case.adhesion.is_some() { ADHESION * torus * samples } else { 0 }
+}
+
+/// Bodies that creep: the history of the pressure on all grids, with two modes or so for each term that relaxes; nothing without times.
+fn of_creep(case: &Case, samples: u64) -> u64 {
+    if case.time.is_none() {
+        return 0;
+    }
+    let materials = case.problem().bodies().each().flat_map(HalfSpace::materials);
+    let terms: usize = materials.filter_map(|material| material.relaxation()).map(|series| series.terms().len()).sum();
+    (CREEP + CREEP_MODE * (2 * terms as u64 + 1)) * samples
 }
 
 /// A load that moves over a body that relaxes: its splitting, and the waves inside the body; nothing at rest.

@@ -97,6 +97,22 @@ fn moving(head: &str) -> [String; 2] {
     ]
 }
 
+/// Cases of bodies that relax: one that moves, and some with each key of `[time]`.
+fn relaxing(head: &str) -> impl Iterator<Item = String> {
+    let relaxation = "relaxation = { shear = [3.0, 6.0], times = [1.0, 0.05], constant = \"bulk\" }";
+    let layers = format!("layers = [{{ thickness = 1.0, young = 2.0, poisson = 0.2, {relaxation} }}]");
+    let body = BODY.replace("poisson = 0.3", &format!("poisson = 0.3, {relaxation}"));
+    let counterbody = format!("counterbody = {{ young = 1.0, poisson = 0.3, {relaxation}, {layers} }}\n");
+    let moves = format!("{head}{body}{layers}\n{counterbody}motion = {{ velocity = 2.0 }}\n");
+    let still = format!("{head}{}{layers}\n{counterbody}", body.replace("load = { mean_pressure = 1e-3 }\n", ""));
+    let times = ["times = [0.5, 2.0]", "times = { from = 0.5, to = 2.0, steps = 3 }"];
+    let paths = ["load", "force", "penetration"].map(|key| format!("{key} = [[0.0, 0.0], [1.0, 1e-3], [100.0, 1e-3]]"));
+    let in_time = paths.into_iter().flat_map(move |path| {
+        times.map(|times| format!("{still}time = {{ {path}, {times} }}\n"))
+    });
+    std::iter::once(moves).chain(in_time)
+}
+
 /// A case under a counterbody with layers.
 fn below_layers(case: &Table, layers: Value) -> String {
     let mut counterbody: Table =
@@ -170,13 +186,13 @@ impl Bases {
                  {{ shape = \"measured\", area = {{ coefficients = [24.5, 0.2], depths = [0.05, 1.0], unit = \"nm\" }} }}, \
                  {{ shape = \"sphero-cone\", radius = 1.0, half_angle = 60.0 }}, {{ shape = \"berkovich\", tip_radius = 0.5 }}]\n{BODY}"
             ),
-            BODY.to_owned(),
         ];
         let texts = adhering(plain)
             .into_iter()
             .chain(moving(plain))
             .chain(slipping(format!("{plain}{BODY}{uniform}")))
             .chain(texts);
+        let texts = texts.chain(relaxing(plain)).chain([BODY.to_owned()]);
         Self { folder: folder(), cases: texts.map(|text| text.parse().unwrap()).collect() }
     }
 

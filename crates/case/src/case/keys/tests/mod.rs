@@ -25,7 +25,7 @@ fn the_table_of_all_keys_has_a_row_for_each() {
 
 #[test]
 fn a_key_is_at_home_in_every_table_that_has_it() {
-    assert_eq!(CASE.homes("tolerance"), ["solver", "life"]);
+    assert_eq!(CASE.homes("tolerance"), ["solver", "time", "life"]);
     assert_eq!(CASE.homes("points"), ["grid", "stress", "stress.volume"]);
     assert_eq!(CASE.homes("normal_stiffness"), ["layers.interface", "counterbody.layers.interface"]);
     assert!(CASE.homes("colour").is_empty());
@@ -57,7 +57,7 @@ fn a_key_is_found_by_its_path_or_its_name_and_a_slip_is_told() {
     let above = ["counterbody.layers.poisson", "counterbody.layers.graded.poisson"];
     assert_eq!(near("poison"), [&places[..], &above].concat());
     assert_eq!(near("solver.acuracy"), ["grid.accuracy"]);
-    assert_eq!(near("sovler.tolerance"), ["solver.tolerance", "life.tolerance"]);
+    assert_eq!(near("sovler.tolerance"), ["solver.tolerance", "time.tolerance", "life.tolerance"]);
     assert_eq!(near("sovler"), ["solver"]);
     let strange = UnknownKey { path: "xyzzy".to_owned(), near: vec![] };
     assert_eq!(explain("xyzzy").unwrap_err(), strange);
