@@ -49,9 +49,10 @@ fn coated() -> [Bodies; 4] {
 fn glassy(bodies: &Bodies) -> Bodies {
     let stiff = |material: Material| elastic(material.glassy().shear, material.glassy().poisson);
     let of = |body: &HalfSpace| {
-        let layers = body.layers().iter().map(|layer| {
-            Layer::new(stiff(layer.material()), layer.thickness(), layer.interface()).unwrap()
-        });
+        let layers = body
+            .layers()
+            .iter()
+            .map(|layer| Layer::new(stiff(layer.material()), layer.thickness(), layer.interface()).unwrap());
         match body.substrate().material() {
             Some(material) => HalfSpace::new(layers.collect(), stiff(material)),
             None => HalfSpace::on_rigid_base(layers.collect()).unwrap(),
@@ -104,7 +105,8 @@ fn a_half_space_under_a_held_load_is_elastic_at_every_time() {
     let body = bare(relaxing(1.0, 0.3));
     let bodies = Bodies::from(body.clone());
     let modes = Retardation::new(&bodies).modes(1.0);
-    let cases = [(Problem::new(paraboloids(), body.clone()), [64; 2], 0.02), (Problem::new(rough(), body), [45, 36], 0.01)];
+    let cases =
+        [(Problem::new(paraboloids(), body.clone()), [64; 2], 0.02), (Problem::new(rough(), body), [45, 36], 0.01)];
     for (problem, points, mean) in cases {
         for steps in [5, 20, 80] {
             let mut creeps = solver(&problem, points, f64::INFINITY);

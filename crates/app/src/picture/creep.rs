@@ -35,7 +35,8 @@ fn chart(letter: char, quantity: &Quantity<Reading>, steps: &[&StepRecord], unit
     let is_log = log_spaced(&since);
     let at = |step: &&StepRecord| {
         let found = quantity.of(&step.reading);
-        let place = if is_log { Some(time(step) - begins).filter(|time| *time > 0.0).unwrap_or(f64::NAN) } else { time(step) };
+        let place =
+            if is_log { Some(time(step) - begins).filter(|time| *time > 0.0).unwrap_or(f64::NAN) } else { time(step) };
         let value = found.map_or(f64::NAN, |found| found.value);
         ([place, value], found.and_then(|found| found.error).unwrap_or(f64::NAN))
     };

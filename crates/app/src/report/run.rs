@@ -19,7 +19,7 @@ use percoat_core::run::StepRecord;
 use serde_json::Value;
 
 /// The pictures of a run; those of an isolated contact have no neighbours.
-fn pictures(words: &AroundWords) -> [PictureText; 9] {
+fn pictures(words: &AroundWords) -> [PictureText; 10] {
     let [pressure, contact, profiles] = words.pictures;
     [
         ("pressure", pressure[0], pressure[1]),
@@ -36,11 +36,7 @@ fn pictures(words: &AroundWords) -> [PictureText; 9] {
             "Curves of force and contact area over the penetration, with jumps and pull-off",
             "Force and contact area as the surfaces come together and part.",
         ),
-        (
-            "creep",
-            "Curves of load, penetration and contact over time",
-            "Load, penetration and contact over time.",
-        ),
+        ("creep", "Curves of load, penetration and contact over time", "Load, penetration and contact over time."),
         ("curve", "Curves of what the load steps say over the load", "What the load steps say over the load."),
         (
             "section",

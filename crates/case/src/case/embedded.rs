@@ -5,7 +5,7 @@ use super::Source;
 /// Name of the case that runs when none is given.
 pub const DEFAULT: &str = "fig2";
 
-const CASES: [(&str, &str); 25] = [
+const CASES: [(&str, &str); 26] = [
     ("afm-pull-off", include_str!("../../../../cases/afm-pull-off.toml")),
     ("ball-on-disc", include_str!("../../../../cases/ball-on-disc.toml")),
     ("dlc-on-steel", include_str!("../../../../cases/dlc-on-steel.toml")),

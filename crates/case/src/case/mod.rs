@@ -110,7 +110,7 @@ pub use relaxation::{ConstantWord, RelaxationSection};
 pub use source::{PhysicalSizes, Source};
 pub use stress::{CutSection, Origin, StressSection, Toward};
 pub use surface::{ORIENTATION, RandomSection, Sides, Stage, SurfaceSection, Taper, Treated, WantedChannel};
-pub use time::TimeSection;
 pub use tangential::{Component, History, PathSection, RollingSection, TangentialSection};
+pub use time::TimeSection;
 pub use units::UnitsSection;
 pub use writer::written;

@@ -55,7 +55,8 @@ fn one_path(keys: &TimeSection, section: &TableAt<'_>) -> Result<(), Refusal> {
     if times.iter().any(|time| !(first..=last).contains(time)) {
         let value = section.value("times")?;
         let message = format!("`{}` has times outside of the path, which goes from {first} to {last}", value.path);
-        return Err(Refusal::new(value.node.span, message, "beyond the path").help("give times within the path, or a longer path"));
+        return Err(Refusal::new(value.node.span, message, "beyond the path")
+            .help("give times within the path, or a longer path"));
     }
     if path.len() + times.len() > STEPS {
         let value = section.value("times")?;

@@ -46,7 +46,8 @@ pub fn creep(case: &Case, steps: &[StepRecord], units: &Units) -> Option<(Vec<St
     };
     let rows = all.iter().enumerate().filter(|(index, _)| is_shown(*index)).map(|(_, found)| row(found)).collect();
     let mut words = creep_words(case, units);
-    let most = largest(all.iter().filter_map(|(_, step, reading)| Some(reading.time_error? / step.reading.penetration.abs())));
+    let most =
+        largest(all.iter().filter_map(|(_, step, reading)| Some(reading.time_error? / step.reading.penetration.abs())));
     if let (Some(pressure), true) = (last.pressure_time_error, most.is_finite()) {
         words.push(format!(
             "steps in time, {} in all, leave errors of up to {} of the penetration and {} of the pressure; time.tolerance sets them",

@@ -9,7 +9,7 @@ use crate::lattice::waves::WAVENUMBER_TOLERANCE;
 use crate::numeric::array::view;
 use crate::numeric::fourier::field::{components, field};
 use crate::spectral::LayeredOperator;
-use crate::spectral::layered_operator::Transforms;
+use crate::spectral::transforms::Transforms;
 use ndarray::Array2;
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;

@@ -107,9 +107,8 @@ fn relaxing(head: &str) -> impl Iterator<Item = String> {
     let still = format!("{head}{}{layers}\n{counterbody}", body.replace("load = { mean_pressure = 1e-3 }\n", ""));
     let times = ["times = [0.5, 2.0]", "times = { from = 0.5, to = 2.0, steps = 3 }"];
     let paths = ["load", "force", "penetration"].map(|key| format!("{key} = [[0.0, 0.0], [1.0, 1e-3], [100.0, 1e-3]]"));
-    let in_time = paths.into_iter().flat_map(move |path| {
-        times.map(|times| format!("{still}time = {{ {path}, {times} }}\n"))
-    });
+    let in_time =
+        paths.into_iter().flat_map(move |path| times.map(|times| format!("{still}time = {{ {path}, {times} }}\n")));
     std::iter::once(moves).chain(in_time)
 }
 
