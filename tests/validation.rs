@@ -81,6 +81,7 @@ studies! {
     identification = "identification",
     partial_slip = "partial-slip",
     adhesion = "adhesion",
+    moving = "moving",
     thin_coatings = "thin-coatings",
     rings = "rings",
     hertz_stresses = "hertz-stresses",

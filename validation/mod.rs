@@ -48,6 +48,8 @@ mod lattice_sums;
 mod limit;
 #[path = "localized/study.rs"]
 mod localized;
+#[path = "moving/study.rs"]
+mod moving;
 mod outcome;
 pub mod paper;
 #[path = "partial-slip/study.rs"]
@@ -87,7 +89,7 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, contradictions, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 36] = [
+pub const STUDIES: [Study; 37] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -102,6 +104,7 @@ pub const STUDIES: [Study; 36] = [
     identification::STUDY,
     partial_slip::STUDY,
     adhesion::STUDY,
+    moving::STUDY,
     thin_coatings::STUDY,
     rings::STUDY,
     hertz_stresses::STUDY,

@@ -1,11 +1,11 @@
 //! Hunter's cylinder: his closed form, and percoat's cylinders in cells of growing length.
 
 use super::hunter::Hunter;
-use super::setup::{Stack, Stuff, TOLERANCE, cylinder, friction, moving, solved, ROWS};
+use super::setup::{ROWS, Stack, Stuff, TOLERANCE, cylinder, friction, moving, solved};
 use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use percoat_core::spectral::Step;
 
-const LOAD: f64 = 0.01;
+pub const LOAD: f64 = 0.01;
 /// Cell lengths over the first one.
 const PERIODS: [f64; 3] = [1.0, 2.0, 4.0];
 /// Samples across half of the contact, at least.
@@ -14,16 +14,16 @@ const ACROSS: f64 = 60.0;
 pub fn add(outcome: &mut Outcome, quick: bool) -> Result<(), StudyError> {
     let table = Data::parse("hunter", include_str!("hunter.csv"))?;
     let closed: Vec<Hunter> = table.rows.iter().map(|row| Hunter::new(row[0], row[1], LOAD)).collect();
-    let pairs = closed.iter().zip(&table.rows).flat_map(|(hunter, row)| {
-        [(hunter.half_width, row[2]), (hunter.shift, row[3]), (hunter.friction, row[4])]
-    });
+    let pairs = closed
+        .iter()
+        .zip(&table.rows)
+        .flat_map(|(hunter, row)| [(hunter.half_width, row[2]), (hunter.shift, row[3]), (hunter.friction, row[4])]);
     outcome.checks.push(Check::worst("closed form of a rolling cylinder", pairs, Tolerance::Absolute(1e-9)));
     let columns = ["ratio", "way", "samples", "friction", "half_width", "shift", "mu_exact", "a_exact", "c_exact"];
     let mut data = Data::new("cylinders", &columns);
     for (row, exact) in table.rows.iter().zip(&closed) {
-        // Beyond a wake of a hundred half-widths no cell of uniform samples is long enough.
         let [ratio, way] = [row[0], row[1]];
-        if ratio * way <= if quick { 0.11 } else { 1.1 } {
+        if !quick || ratio * way < 0.11 {
             data.rows.push(extrapolated(ratio, way, exact)?);
         }
     }
@@ -43,7 +43,7 @@ fn unit(ratio: f64) -> Stack {
     Stack { sheets: Vec::new(), substrate: Stuff::relaxing(0.35, 0.3, ratio) }
 }
 
-/// One row: friction, half-width and shift in cells of three lengths, extrapolated to an endless one.
+/// Friction, half-width and shift in cells of three lengths, extrapolated to an endless one.
 fn extrapolated(ratio: f64, way: f64, exact: &Hunter) -> Result<Vec<f64>, StudyError> {
     let relaxed = (4.0 * LOAD / std::f64::consts::PI).sqrt();
     let first = (4.0 * ratio * way).max(8.0 * relaxed);

@@ -94,20 +94,12 @@ pub fn cylinder(period: f64, points: usize, gap: impl Fn(f64) -> f64) -> Result<
     crate::steps::topography(cell, [points, ROWS], |s, _| -gap(period * (s - s.round())))
 }
 
-pub fn moving(
-    loaded_by: impl Into<LoadedBy>,
-    bodies: impl Into<Bodies>,
-    velocity: f64,
-) -> Result<Problem, StudyError> {
+pub fn moving(loaded_by: impl Into<LoadedBy>, bodies: impl Into<Bodies>, velocity: f64) -> Result<Problem, StudyError> {
     Ok(Problem::new(loaded_by, bodies).moving(SteadyMotion::new(velocity)?)?)
 }
 
 /// The step of a mean pressure; an error unless it converged.
-pub fn solved(
-    problem: Problem,
-    points: [usize; 2],
-    [mean, tolerance]: [f64; 2],
-) -> Result<Step, StudyError> {
+pub fn solved(problem: Problem, points: [usize; 2], [mean, tolerance]: [f64; 2]) -> Result<Step, StudyError> {
     let mut solver = Solver::new(problem, points, Settings { tolerance, ..Settings::default() })?;
     let step = solver.solve(Load::MeanPressure(mean));
     if step.report.stop.solved() { Ok(step) } else { Err(format!("{}: {}", step.load, step.report).into()) }

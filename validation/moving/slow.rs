@@ -1,6 +1,6 @@
 //! Slow motion over a half-space at constant ν, μ = vτ′ ⟨∂²f/∂x²⟩ₚ with τ′ = Σ gτ/G₀, and both elastic limits in a cell.
 
-use super::setup::{Stack, TOLERANCE, friction, moving, paraboloids, solved};
+use super::setup::{Stack, friction, moving, paraboloids, solved};
 use crate::random::Random;
 use crate::{Check, Data, Outcome, StudyError, Tolerance};
 use percoat_core::counterbody::{Indenters, Level, Shape, Topography};
@@ -9,10 +9,17 @@ use percoat_core::problem::Problem;
 use percoat_core::spectral::Step;
 use std::f64::consts::TAU;
 
-const VELOCITY: f64 = 1e-4;
+/// The law has a next term near ½ rvτ/a, here 3·10⁻⁵.
+const VELOCITY: f64 = 1e-6;
 const RATIO: f64 = 10.0;
 /// Radius of the ball, beside which the contact is no longer small.
-const BALL: f64 = 0.5;
+const BALL: f64 = 0.75;
+/// Shapes and their mean pressures.
+const NAMES: [&str; 3] = ["a paraboloid", "a ball", "a rough surface"];
+const LOADS: [f64; 3] = [0.02, 0.1, 0.05];
+const ROUGH: usize = 2;
+/// Ratio of the error of the friction to the stated one at most.
+const STATED: f64 = 1.0;
 /// A prototype's penetration and peak on 128² samples: relaxed, and fast, glassy with the track relaxed.
 const RELAXED: [f64; 2] = [0.02168015, 0.318276];
 const FAST: [f64; 2] = [0.01079753, 1.079844];
@@ -24,46 +31,62 @@ type Wave = [f64; 4];
 pub fn add(outcome: &mut Outcome, quick: bool) -> Result<(), StudyError> {
     let sizes: &[usize] = if quick { &[64, 128] } else { &[64, 128, 256, 512] };
     let mut data = Data::new("slow", &["shape", "points", "by_shape", "by_energy", "law", "samples", "error"]);
-    for shape in 0..3 {
+    for shape in 0..NAMES.len() {
         for &points in sizes {
-            data.rows.push(row(shape, points)?);
+            data.rows.push(row(shape, points, [LOADS[shape], VELOCITY])?);
         }
     }
-    let names = ["a paraboloid", "a ball", "a rough surface"];
-    for (shape, name) in (0u8..).zip(names) {
-        let rows: Vec<&Vec<f64>> = data.rows.iter().filter(|row| row[0] == f64::from(shape)).collect();
-        // Less than the law, by at most one sample over the radius of a contact.
-        let short = rows.iter().flat_map(|row| [2, 3].map(|k| ((1.0 - row[k] / row[4]) * row[5], 0.5)));
+    for (shape, name) in NAMES.into_iter().enumerate() {
+        let rows: Vec<&Vec<f64>> = data.rows.iter().filter(|row| row[0] == shape as f64).collect();
+        // Without a symmetry the force by the shape has an error of its own, which does not vanish with the velocity.
+        let columns = if shape == ROUGH { 3..4 } else { 2..4 };
+        let short = rows.iter().flat_map(|row| columns.clone().map(|k| ((1.0 - row[k] / row[4]) * row[5], 0.5)));
         let label = format!("slow law, {name}: shortfall times the samples of a radius");
         outcome.checks.push(Check::worst(label, short, Tolerance::Absolute(0.5)));
-        let ends = rows.windows(2).flat_map(|pair| {
-            [2, 3].map(|k| {
-                let [coarse, fine] = [pair[0], pair[1]].map(|row| row[k] / row[4]);
-                ((2.0 * fine - coarse - 1.0) * pair[1][5], 0.0)
-            })
-        });
-        let label = format!("slow law, {name}: extrapolated at first order, error times the samples of a radius");
-        outcome.checks.push(Check::worst(label, ends, Tolerance::Absolute(0.3)));
-        let stated = rows.iter().filter(|row| row[6].is_finite()).map(|row| ((row[2] - row[4]).abs(), row[6]));
-        let label = format!("slow law, {name}: error of friction below the stated one");
-        outcome.checks.push(Check::worst(label, stated, Tolerance::AtMost));
+        if !quick {
+            let points = rows.iter().map(|row| [row[1].ln(), (1.0 - row[3] / row[4]).ln()]);
+            let label = format!("slow law, {name}: order of the shortfall by energy");
+            outcome.checks.push(Check::order(label, -slope(&points.collect::<Vec<_>>()), 1.0, 0.35));
+        }
     }
+    let rough =
+        data.rows.iter().filter(|row| row[0] == ROUGH as f64).map(|row| ((row[2] - row[4]).abs() / row[6], 1.0));
+    let name = "slow law, a rough surface: error of friction by shape, over the stated one";
+    outcome.checks.push(Check::worst(name, rough, Tolerance::AtMost));
     outcome.data.push(data);
+    stated(outcome, quick)?;
     limits(outcome)
 }
 
-/// μ of both kinds, the law, and the samples along the radius of a contact.
-fn row(shape: usize, points: usize) -> Result<Vec<f64>, StudyError> {
+/// Errors of the paraboloid's friction over those that are stated, at a dozen loads on grids of which none is twice another.
+fn stated(outcome: &mut Outcome, quick: bool) -> Result<(), StudyError> {
+    let mut data = Data::new("stated", &["mean", "points", "by_shape", "law", "error"]);
+    for points in if quick { &[64][..] } else { &[64, 96, 160, 224] } {
+        for k in 0..12 {
+            let mean = 0.004 * 1.25f64.powi(k);
+            let row = row(0, *points, [mean, 10.0 * VELOCITY])?;
+            data.rows.push(vec![mean, row[1], row[2], row[4], row[6]]);
+        }
+    }
+    let pairs = data.rows.iter().map(|row| ((row[2] - row[3]).abs() / row[4], STATED));
+    let name = "slow law: error of friction by shape, over the stated one";
+    outcome.checks.push(Check::worst(name, pairs, Tolerance::AtMost));
+    outcome.data.push(data);
+    Ok(())
+}
+
+/// Coefficients of both kinds, the law, and the samples along the radius of a contact.
+fn row(shape: usize, points: usize, [mean, velocity]: [f64; 2]) -> Result<Vec<f64>, StudyError> {
     let body = Stack::bare(RATIO).half_space()?;
     let waves = waves();
-    let (problem, mean) = match shape {
-        0 => (moving(paraboloids()?, body, VELOCITY)?, 0.02),
-        1 => (moving(ball()?, body, VELOCITY)?, 0.1),
-        _ => (moving(rough(&waves, points)?, body, VELOCITY)?, 0.05),
+    let problem = match shape {
+        0 => moving(paraboloids()?, body, velocity)?,
+        1 => moving(ball()?, body, velocity)?,
+        _ => moving(rough(&waves, points)?, body, velocity)?,
     };
-    let step = solved(problem, [points; 2], [mean, TOLERANCE])?;
+    let step = solved(problem, [points; 2], [mean, 1e-10])?;
     let reading = friction(&step)?;
-    let law = VELOCITY * (RATIO - 1.0) * mean_curvature(&step, shape, &waves);
+    let law = velocity * (RATIO - 1.0) * mean_curvature(&step, shape, &waves);
     let samples = step.reading().spot_resolution;
     let error = reading.error.unwrap_or(f64::NAN);
     let shape = shape as f64;
@@ -84,9 +107,8 @@ fn waves() -> Vec<Wave> {
 }
 
 fn rough(waves: &[Wave], points: usize) -> Result<Topography, StudyError> {
-    let height = |s: f64, t: f64| {
-        waves.iter().map(|[m, n, size, phase]| size * (TAU * (m * s + n * t) + phase).cos()).sum()
-    };
+    let height =
+        |s: f64, t: f64| waves.iter().map(|[m, n, size, phase]| size * (TAU * (m * s + n * t) + phase).cos()).sum();
     crate::steps::topography(Cell::square(1.0)?, [points; 2], height)
 }
 
@@ -101,13 +123,21 @@ fn mean_curvature(step: &Step, shape: usize, waves: &[Wave]) -> f64 {
             0 => 1.0,
             1 => (BALL * BALL - y * y) / (BALL * BALL - x * x - y * y).powf(1.5),
             _ => {
-                let wave = |[m, n, size, phase]: &Wave| size * (TAU * m).powi(2) * (TAU * (m * s + n * t) + phase).cos();
+                let wave =
+                    |[m, n, size, phase]: &Wave| size * (TAU * m).powi(2) * (TAU * (m * s + n * t) + phase).cos();
                 waves.iter().map(wave).sum()
             }
         };
         (force, sum) = (force + p, sum + p * curvature);
     }
     sum / force
+}
+
+/// Slope of a straight line through points.
+pub fn slope(points: &[[f64; 2]]) -> f64 {
+    let middle = [0, 1].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / points.len() as f64);
+    let sum = |a: usize| points.iter().map(|point| (point[0] - middle[0]) * (point[a] - middle[a])).sum::<f64>();
+    sum(1) / sum(0)
 }
 
 /// A paraboloid at rest, slow, fast, and on a glassy body, against a prototype's numbers on the same samples.
@@ -123,7 +153,7 @@ fn limits(outcome: &mut Outcome) -> Result<(), StudyError> {
     let rest = read(Problem::new(paraboloids()?, body()?))?;
     let glassy = read(Problem::new(paraboloids()?, glass.half_space()?))?;
     let pairs = [(rest, RELAXED), (slow, RELAXED), (fast, FAST), (glassy, GLASSY)];
-    for (name, of, digit) in [("penetration", 0, 1e-8), ("peak", 1, 1e-6)] {
+    for (name, of, digit) in [("penetration", 0, 1e-8), ("peak", 1, 2e-6)] {
         let pairs = pairs.iter().map(|(found, known)| (found[of], known[of]));
         outcome.checks.push(Check::worst(format!("limits of the velocity: {name}"), pairs, Tolerance::Absolute(digit)));
     }

@@ -13,7 +13,7 @@ use rustfft::num_complex::Complex64;
 
 const ONE: Complex64 = Complex64::new(1.0, 0.0);
 
-/// One material of a stack at a frequency.
+/// A material of a stack at a frequency.
 #[derive(Debug, Clone)]
 struct Part {
     shear: Complex64,
@@ -59,7 +59,7 @@ impl Part {
         Self { shear, poisson, thickness, slides, amplitudes: [Complex64::default(); 4] }
     }
 
-    /// The four solutions at ζ below the upper face.
+    /// Solutions at ζ below the upper face.
     fn solutions(&self, depth: f64) -> [State; 4] {
         let (g, nu) = (2.0 * self.shear, self.poisson);
         let kappa = 3.0 - 4.0 * nu;
@@ -139,11 +139,11 @@ impl Strip {
 /// ∫ over a piece by ten points of Gauss and Legendre.
 fn gauss(f: impl Fn(f64) -> f64, from: f64, length: f64) -> f64 {
     const POINTS: [[f64; 2]; 5] = [
-        [0.148_874_338_981_631_21, 0.295_524_224_714_752_87],
-        [0.433_395_394_129_247_19, 0.269_266_719_309_996_35],
-        [0.679_409_568_299_024_41, 0.219_086_362_515_982_04],
-        [0.865_063_366_688_984_51, 0.149_451_349_150_580_59],
-        [0.973_906_528_517_171_72, 0.066_671_344_308_688_14],
+        [0.148_874_338_981_631_22, 0.295_524_224_714_752_87],
+        [0.433_395_394_129_247_2, 0.269_266_719_309_996_35],
+        [0.679_409_568_299_024_4, 0.219_086_362_515_982_04],
+        [0.865_063_366_688_984_5, 0.149_451_349_150_580_6],
+        [0.973_906_528_517_171_7, 0.066_671_344_308_688_14],
     ];
     let middle = from + 0.5 * length;
     let both = |[x, weight]: [f64; 2]| weight * (f(middle - 0.5 * length * x) + f(middle + 0.5 * length * x));

@@ -10,7 +10,7 @@ use percoat_core::lattice::Cell;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 
-const POINTS: [usize; 2] = [24, 30];
+pub const POINTS: [usize; 2] = [24, 30];
 /// Amplitude of the wave.
 const HEIGHT: f64 = 1e-3;
 /// Tolerance of the solver: the bound on the error of μ is near its root, and the error near itself.
@@ -65,7 +65,7 @@ fn wave(random: &mut Random, two: bool) -> Result<Vec<f64>, StudyError> {
     Ok([counts.to_vec(), vec![error, reading.friction_coefficient, reading.by_energy, known]].concat())
 }
 
-/// One to three terms over four decades of time, at constant bulk modulus or Poisson's ratio.
+/// A material of one to three terms over four decades of time, at constant bulk modulus or Poisson's ratio.
 fn stuff(random: &mut Random) -> Stuff {
     let shear = random.logarithmic(0.1, 10.0);
     let terms = (0..1 + random.index(3))
@@ -75,11 +75,10 @@ fn stuff(random: &mut Random) -> Stuff {
     Stuff { shear, poisson: random.between(0.0, 0.49), terms, constant }
 }
 
-/// No layer, one or two, of which one at least relaxes, with interfaces that are bonded or slide freely.
-fn stack(random: &mut Random) -> Stack {
-    let sheets = (0..random.index(3))
-        .map(|_| (stuff(random), random.logarithmic(0.05, 0.5), random.index(3) == 0))
-        .collect();
+/// A body of materials that relax, with two layers at most and interfaces that are bonded or slide freely.
+pub fn stack(random: &mut Random) -> Stack {
+    let sheets =
+        (0..random.index(3)).map(|_| (stuff(random), random.logarithmic(0.05, 0.5), random.index(3) == 0)).collect();
     Stack { sheets, substrate: stuff(random) }
 }
 

@@ -1,6 +1,6 @@
 //! Friction by hysteresis of a load step, below a load that moves steadily over a body that relaxes.
 
-use crate::body::MaterialId;
+use crate::body::{Material, MaterialId};
 use crate::numeric::serialised;
 use crate::quantity::quantities;
 use crate::spectral::{Hysteresis, MotionLoss, Step};
@@ -9,8 +9,11 @@ use serde::{Deserialize, Serialize};
 
 /// Weight of the difference of both coefficients on the finest grid in the error: it is that of the grid within a factor 3.
 const DIFFERENCE: f64 = 3.0;
-/// Weight of the change from the next coarser grid, at second order.
-const CHANGE: f64 = 0.5;
+/// Weights of the changes from the next two coarser grids, at second order.
+const CHANGES: [f64; 2] = [0.5, 0.25];
+/// Part of the coefficient that one sample along the radius of a contact misses where the way of a relaxation is short beside the spacing: both
+/// coefficients fall short together there, at the first order, by up to 0.2 over the samples of a radius (study `moving`).
+const SHORTFALL: f64 = 0.35;
 
 quantities! {
     /// Friction by hysteresis of a load step.
@@ -19,7 +22,8 @@ quantities! {
         /// Coefficient of friction by hysteresis, by the shape that is pushed: the force against the motion over the normal one.
         #[serde(deserialize_with = "serialised::number")]
         pub friction_coefficient: f64 = Ratio "friction by hysteresis" "μ_h" error error,
-        /// Error of the coefficient: by the difference of both coefficients, the change from the next coarser grid, and the bound of the solution.
+        /// Error of the coefficient: by the difference of both coefficients, the changes from the coarser grids, what samples miss in slow motion, and the
+        /// bound of the solution.
         pub error: Option<f64>,
         /// Coefficient of friction by the energy that is lost.
         #[serde(deserialize_with = "serialised::number")]
@@ -35,7 +39,24 @@ quantities! {
         /// Dissipated power, the force times the velocity, of one cell.
         #[serde(deserialize_with = "serialised::number")]
         pub power: f64,
-        /// Distance of the middle of the pressure ahead of that of the contact area, over the contact radius; `None` where several indenters touch.
+        /// Part of the coefficient that the samples may miss: over those along the radius of a spot, less where the way in the longest relaxation of the
+/// body is long beside their spacing.
+fn shortfall(step: &Step) -> f64 {
+    let problem = step.problem();
+    let touching = step.finest().pressures().iter().filter(|p| **p > 0.0).count() as f64;
+    let spots = step.finest().spots(None).sizes.len().max(1) as f64;
+    let samples = (touching / (std::f64::consts::PI * spots)).sqrt().max(1.0);
+    let longest = |material: Material| {
+        let relaxation = material.relaxation()?;
+        let ratio = 1.0 + relaxation.instantaneous() / material.shear();
+        relaxation.terms().iter().map(|term| ratio * term.time).reduce(f64::max)
+    };
+    let time = problem.half_space().materials().filter_map(longest).fold(0.0, f64::max);
+    let speed = problem.motion().map_or(0.0, |motion| motion.velocity());
+    SHORTFALL / samples / (1.0 + speed * time / step.grid().spacing())
+}
+
+/// Distance of the middle of the pressure ahead of that of the contact area, over the contact radius; `None` where several indenters touch.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub lean: Option<f64> = Ratio "lean of the pressure" "e/a",
         /// Largest ratio of lost to stored work among the waves of the grid, tan δ.
@@ -68,9 +89,10 @@ impl HysteresisReading {
         let MotionLoss { grids, bound, loss_tangent } = step.motion.as_ref()?;
         let (problem, grid) = (step.problem(), step.grid());
         let Hysteresis { by_shape, by_energy } = *grids.first()?;
-        let coarser = grids.get(1).map(|coarser| (coarser.by_shape - by_shape).abs());
-        let of_grid = coarser.map(|change| (CHANGE * change).max(DIFFERENCE * (by_shape - by_energy).abs()));
-        let error = of_grid.map(|error| error + bound);
+        let change = |(coarser, weight): (&Hysteresis, f64)| weight * (coarser.by_shape - by_shape).abs();
+        let changes = grids.iter().skip(1).zip(CHANGES).map(change).reduce(f64::max);
+        let on_grid = (DIFFERENCE * (by_shape - by_energy).abs()).max(shortfall(step) * by_shape.abs());
+        let error = changes.map(|change| change.max(on_grid) + bound);
         let load = step.pressure().sum() * grid.sample_area();
         let velocity = problem.motion()?.velocity();
         let power = by_shape * load * velocity;

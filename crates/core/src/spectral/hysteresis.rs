@@ -43,23 +43,26 @@ impl Hysteresis {
         if contact.problem().counterbody().is_none() {
             return Some(Self { by_shape: by_energy, by_energy });
         }
-        let slopes = slopes(contact.surface(), contact.problem().topography(), &derivative, direction);
+        let slopes = slopes(contact, &derivative, direction);
         let [pushed] = sums::of(p.len(), |i| [p[i] * slopes[i]]);
         Some(Self { by_shape: pushed / force, by_energy })
     }
 }
 
-/// ∂f/∂e at each sample: by the shape of its indenter, or by the waves of a topography.
-fn slopes(surface: &Surface, topography: Option<&Topography>, derivative: &WaveOperator, [x, y]: [f64; 2]) -> Vec<f64> {
+/// ∂f/∂e at each sample in contact: by the shape of its indenter, or by the waves of a topography; zero elsewhere, where a shape may be steep
+/// without end.
+fn slopes(contact: &Contact, derivative: &WaveOperator, [x, y]: [f64; 2]) -> Vec<f64> {
+    let (surface, p) = (contact.surface(), contact.pressures());
     let (owners, sites) = (surface.owners(), surface.sites());
     if owners.is_empty() {
-        return waves(surface, topography, derivative, [x, y]);
+        return waves(surface, contact.problem().topography(), derivative, [x, y]);
     }
     let (reduced, mut slopes) = (surface.grid().cell().reduced(), vec![0.0; owners.len()]);
     sums::update(&mut slopes, |i, _| {
         let [dx, dy] = surface.offset(&reduced, owners[i], i);
         let r = dx.hypot(dy);
-        if r > 0.0 { sites[owners[i] as usize].shape.slope(r) * (x * dx + y * dy) / r } else { 0.0 }
+        let slopes = p[i] > 0.0 && r > 0.0;
+        if slopes { sites[owners[i] as usize].shape.slope(r) * (x * dx + y * dy) / r } else { 0.0 }
     });
     slopes
 }
@@ -83,7 +86,8 @@ fn waves(surface: &Surface, topography: Option<&Topography>, derivative: &WaveOp
     sums::update(&mut slopes, |i, slope| {
         let [dx, dy] = offset(i);
         let r = dx.hypot(dy);
-        slope + if r > 0.0 { ball.slope(r) * (x * dx + y * dy) / r } else { 0.0 }
+        let steep = ball.slope(r);
+        slope + if r > 0.0 && steep.is_finite() { steep * (x * dx + y * dy) / r } else { 0.0 }
     });
     slopes
 }

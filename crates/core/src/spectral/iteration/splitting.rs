@@ -120,8 +120,8 @@ fn start<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut
     let Some(parts) = problem.operator.resolvent() else { return 0 };
     ContactProblem {
         operator: parts.magnitude(),
-        working: &mut **working,
-        initial_gap: *initial_gap,
+        working,
+        initial_gap,
         largest_gap: *largest_gap,
         admissible: *admissible,
         load: *load,
@@ -190,7 +190,7 @@ impl Splitting {
         sums::update(&mut gap, |_, w| largest - w);
         let report = ContactProblem {
             operator: parts.magnitude(),
-            working: &mut **working,
+            working,
             largest_gap: -sums::least(gap.len(), |i| -gap[i]),
             initial_gap: &gap,
             admissible: *admissible,
