@@ -39,24 +39,7 @@ quantities! {
         /// Dissipated power, the force times the velocity, of one cell.
         #[serde(deserialize_with = "serialised::number")]
         pub power: f64,
-        /// Part of the coefficient that the samples may miss: over those along the radius of a spot, less where the way in the longest relaxation of the
-/// body is long beside their spacing.
-fn shortfall(step: &Step) -> f64 {
-    let problem = step.problem();
-    let touching = step.finest().pressures().iter().filter(|p| **p > 0.0).count() as f64;
-    let spots = step.finest().spots(None).sizes.len().max(1) as f64;
-    let samples = (touching / (std::f64::consts::PI * spots)).sqrt().max(1.0);
-    let longest = |material: Material| {
-        let relaxation = material.relaxation()?;
-        let ratio = 1.0 + relaxation.instantaneous() / material.shear();
-        relaxation.terms().iter().map(|term| ratio * term.time).reduce(f64::max)
-    };
-    let time = problem.half_space().materials().filter_map(longest).fold(0.0, f64::max);
-    let speed = problem.motion().map_or(0.0, |motion| motion.velocity());
-    SHORTFALL / samples / (1.0 + speed * time / step.grid().spacing())
-}
-
-/// Distance of the middle of the pressure ahead of that of the contact area, over the contact radius; `None` where several indenters touch.
+        /// Distance of the middle of the pressure ahead of that of the contact area, over the contact radius; `None` where several indenters touch.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub lean: Option<f64> = Ratio "lean of the pressure" "e/a",
         /// Largest ratio of lost to stored work among the waves of the grid, tan δ.
@@ -112,6 +95,23 @@ impl HysteresisReading {
             materials: shares.into_iter().map(loss).collect(),
         })
     }
+}
+
+/// Part of the coefficient that the samples may miss: over those along the radius of a spot, less where the way in the longest relaxation of the
+/// body is long beside their spacing.
+fn shortfall(step: &Step) -> f64 {
+    let problem = step.problem();
+    let touching = step.finest().pressures().iter().filter(|p| **p > 0.0).count() as f64;
+    let spots = step.finest().spots(None).sizes.len().max(1) as f64;
+    let samples = (touching / (std::f64::consts::PI * spots)).sqrt().max(1.0);
+    let longest = |material: Material| {
+        let relaxation = material.relaxation()?;
+        let ratio = 1.0 + relaxation.instantaneous() / material.shear();
+        relaxation.terms().iter().map(|term| ratio * term.time).reduce(f64::max)
+    };
+    let time = problem.half_space().materials().filter_map(longest).fold(0.0, f64::max);
+    let speed = problem.motion().map_or(0.0, |motion| motion.velocity());
+    SHORTFALL / samples / (1.0 + speed * time / step.grid().spacing())
 }
 
 /// Distance of the middle of the pressure ahead of that of the samples in contact, over √(A/π), of a single indenter.
