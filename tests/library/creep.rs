@@ -38,10 +38,10 @@ fn bare(material: Material) -> HalfSpace {
 
 /// A soft coat that relaxes, a stiff coat on a body that does, one that does on a rigid base, and two bodies.
 fn coated() -> [Bodies; 4] {
-    let soft = HalfSpace::new(vec![bonded(relaxing(1.0, 0.4), 0.05)], elastic(20.0, 0.3));
+    let soft = HalfSpace::new(vec![bonded(relaxing(1.0, 0.45), 0.05)], elastic(20.0, 0.3));
     let stiff = HalfSpace::new(vec![bonded(elastic(20.0, 0.25), 0.02)], relaxing(1.0, 0.45));
-    let base = HalfSpace::on_rigid_base(vec![bonded(relaxing(1.0, 0.4), 0.05)]).unwrap();
-    let above = HalfSpace::new(vec![bonded(elastic(3.0, 0.3), 0.1)], relaxing(2.0, 0.3));
+    let base = HalfSpace::on_rigid_base(vec![bonded(relaxing(1.0, 0.45), 0.05)]).unwrap();
+    let above = HalfSpace::new(vec![bonded(elastic(3.0, 0.3), 0.1)], relaxing(2.0, 0.45));
     [soft.clone().into(), stiff.into(), base.into(), Bodies::elastic(soft, above)]
 }
 

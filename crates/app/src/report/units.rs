@@ -10,7 +10,7 @@ use std::path::Path;
 /// The units of a case, or of `names` where the case cannot be read: `keys` still say whether its loads are forces.
 pub(super) fn units_of(names: &UnitNames, case: Option<&Case>, keys: &Value) -> Units {
     let UnitNames { length, pressure } = names;
-    let by_force = !keys["load"]["force"].is_null();
+    let by_force = ["load", "time"].iter().any(|section| !keys[section]["force"].is_null());
     let quantity = if by_force { LoadQuantity::Force } else { kind_of(keys).load_quantity() };
     let named = || Units::unknown().named(length.as_deref(), pressure.as_deref()).with_loads_in(quantity);
     case.map_or_else(named, Case::units)
