@@ -39,6 +39,7 @@ use super::{
 use crate::units::Units;
 use percoat_core::body::{Bodies, HalfSpace, MeanStress};
 use percoat_core::comparison::ComparisonTask;
+use percoat_core::counterbody::LoadedBy;
 use percoat_core::lattice::Cell;
 use percoat_core::life::LifeTask;
 use percoat_core::load::LoadQuantity;
@@ -304,18 +305,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
     let CounterbodySections { levels, lattice, cell_section, grid_section, surface, doubts: file_doubts, loaded_by } =
         counterbody::read(&root, source)?;
     let (body, above, bodies) = bodies(&root, loaded_by.cell())?;
-    let time_section = root.section("time")?;
-    let time = time_section.as_ref().map(TimeSection::read_table).transpose()?;
-    let load_section = match (&time_section, root.section("load")?) {
-        (Some(time), Some(_)) => return Err(root.both(["load", "time"], time.span)),
-        (Some(time), None) => time.clone(),
-        (None, _) => root.required_section("load")?,
-    };
-    let adheres = root.section("adhesion")?.is_some();
-    let load = match &time {
-        Some(time) => time.loads(),
-        None => load::read(&load_section, source, &loaded_by, adheres)?,
-    };
+    let Loads { load, section: load_section, time } = Loads::read(&root, source, &loaded_by)?;
     let file_points = loaded_by.samples().map(|samples| samples.dim().into());
     let (surface, sampling) = match surface {
         Some((section, sampling)) => (Some(section), sampling),
@@ -334,8 +324,8 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         problem = keys.harden(&section, &load, problem)?;
         composite_hardness = Some(keys);
     }
-    if let Some(section) = &time_section {
-        TimeSection::follow(section, &root, &problem)?;
+    if time.is_some() {
+        TimeSection::follow(&load_section, &root, &problem)?;
     }
     hardness::bears(&load, &load_section, &problem)?;
     let tangential = TangentialSection::of_case(&root, &problem, friction.as_ref(), &load)?;
@@ -368,6 +358,31 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         file_doubts,
         problem: Arc::new(problem),
     })
+}
+
+/// The loads of a case, with the section `[load]` or `[time]` that has them.
+struct Loads<'a> {
+    load: LoadSection,
+    section: TableAt<'a>,
+    time: Option<TimeSection>,
+}
+
+impl<'a> Loads<'a> {
+    /// Reads the one of the sections `[load]` and `[time]` that is there.
+    fn read(root: &TableAt<'a>, source: &Source, loaded_by: &LoadedBy) -> Result<Self, Refusal> {
+        let in_time = root.section("time")?;
+        match (in_time, root.section("load")?) {
+            (Some(time), Some(_)) => Err(root.both(["load", "time"], time.span)),
+            (Some(section), None) => {
+                let time = TimeSection::read_table(&section)?;
+                Ok(Self { load: time.loads(), section, time: Some(time) })
+            }
+            (None, _) => {
+                let (section, adheres) = (root.required_section("load")?, root.section("adhesion")?.is_some());
+                Ok(Self { load: load::read(&section, source, loaded_by, adheres)?, section, time: None })
+            }
+        }
+    }
 }
 
 /// The problem with what its surfaces do to each other beside pressing.

@@ -83,7 +83,7 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
                      substrate = { young = 1, poisson = 0.3, hardness = 0.1 }\nload = { force = 1e-3 }\n\
                      composite_hardness = { law = \"korsunsky\", constant = 1 }\n";
     let texts = [RICH, &other, isolated, rigid, ball, to_and_fro, composite, TIPS];
-    let more = [&slips()[..], &adheres(), &moves()].concat();
+    let more = [&slips()[..], &adheres(), &moves(), &creeps()].concat();
     let texts = texts.into_iter().chain(surfaces.iter().chain(&bodies).chain(&more).map(String::as_str));
     for text in embedded::all().iter().map(|(_, text)| *text).chain(texts) {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };
@@ -97,6 +97,24 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
         keys.all.iter().map(|key| join(path, key.name)).collect::<Vec<_>>()
     };
     assert_eq!(found, tables.iter().flat_map(named).collect());
+}
+
+/// Bodies that creep, with every key of `relaxation` and `[time]`.
+fn creeps() -> [String; 2] {
+    let relaxation = "relaxation = { shear = [3.0], times = [1.0], constant = \"poisson\" }";
+    let layers = format!("layers = [{{ thickness = 1, young = 1, poisson = 0.3, {relaxation} }}]");
+    let times = "{ from = 0.1, to = 5, steps = 3, spacing = \"log\", back = false }";
+    let paths = [
+        format!("load = [[0, 0], [9, 1e-3]], times = {times}"),
+        "penetration = [[0, 0.1]], tolerance = 0.1".to_owned(),
+    ];
+    paths.map(|path| {
+        format!(
+            "lattice = {{ kind = \"square\", period = 5 }}\nlevels = [{{ shape = \"sphere\", radius = 1 }}]\n{layers}\n\
+             substrate = {{ young = 1, poisson = 0.3, {relaxation} }}\ntime = {{ {path} }}\n\
+             counterbody = {{ young = 1, poisson = 0.3, {relaxation}, {layers} }}\n"
+        )
+    })
 }
 
 /// Contacts that stick, slip and roll, with the keys of `[tangential]` that no embedded case has.

@@ -75,7 +75,7 @@ impl SurfaceHistory {
         let (n2, stored) = (self.grid.points()[1], self.history.stored());
         let half = n2 / 2 + 1;
         // Components that are not in the list are conjugates of some that are.
-        let count = |index: usize| if index % half == 0 || 2 * (index % half) == n2 { 1.0 } else { 2.0 };
+        let count = |index: usize| if index.is_multiple_of(half) || 2 * (index % half) == n2 { 1.0 } else { 2.0 };
         let sum: f64 = stored.iter().enumerate().map(|(index, stored)| count(index) * stored).sum();
         sum * self.grid.cell().area()
     }
