@@ -101,8 +101,8 @@ pub use problem::Problem;
 pub use reading::{DamageMap, FatigueReading, LevelReading, Life, Reading, StressReading};
 pub use run::{Run, Sampling};
 pub use spectral::{
-    AdhesiveSolver, AdhesiveStep, Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver,
-    Step, Stop, Tangent, Wear, WearError, Worn,
+    AdhesiveSolver, AdhesiveStep, Certificate, Contact, CreepSolver, CreepStep, FieldError, Method, Progress, Report,
+    Route, Settings, Solver, Step, Stop, Tangent, Wear, WearError, Worn,
 };
 pub use steady_motion::{MotionError, SteadyMotion};
 pub use stress::{

@@ -42,6 +42,7 @@ pub use search::EVENTS;
 
 use super::{Recorder, Run, RunError, Sampling};
 use crate::reading::Criterion;
+use crate::spectral::CreepError;
 use search::LimitSearch;
 use std::convert::Infallible;
 use std::error::Error;
@@ -56,6 +57,9 @@ impl Run {
     }
 
     fn checked_for_limits<E: Error + 'static>(&self) -> Result<(), RunError<E>> {
+        if self.times.is_some() {
+            return Err(CreepError::Stresses.into());
+        }
         if self.motions.is_some() {
             self.history::<E>()?;
         }

@@ -108,3 +108,46 @@ fn shells(grid: &Grid) -> (Vec<u32>, Vec<f64>) {
     shells[0] = wavenumbers.len() as u32;
     (shells, wavenumbers)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{Bodies, HalfSpace, Interface, Layer, Material, Relaxation};
+    use crate::lattice::Cell;
+    use crate::spectral::Workspace;
+
+    /// After a long hold what is known and what the pressure displaces add up to the relaxed displacement, whose work is stored: odd
+    /// and even numbers of samples of oblique and square cells, with and without a rigid base.
+    #[test]
+    fn a_held_pressure_displaces_as_the_relaxed_bodies_in_the_end() {
+        let relaxation = Relaxation::new(&[2.0, 5.0], &[1.0, 30.0]).unwrap();
+        let soft = Material::from_shear(1.0, 0.45).unwrap().with_relaxation(Some(relaxation));
+        let layer = Layer::new(soft, 0.2, Interface::Bonded).unwrap();
+        let half_space = HalfSpace::new(vec![layer], Material::from_shear(3.0, 0.3).unwrap());
+        let bodies = [half_space, HalfSpace::on_rigid_base(vec![layer]).unwrap()].map(Bodies::from);
+        let cells = [Cell::new([1.0, 0.1], [0.3, 0.8]).unwrap(), Cell::square(1.0).unwrap()];
+        for (cell, points) in
+            cells.into_iter().flat_map(|cell| [[15, 9], [12, 10], [7, 8]].map(|points| (cell, points)))
+        {
+            let grid = Arc::new(Grid::new(cell, points).unwrap());
+            let pressure: Vec<f64> = (0..grid.len()).map(|k| ((k * k * 7 + 3 * k) % 11) as f64).collect();
+            for bodies in &bodies {
+                let mut history = SurfaceHistory::new(&grid, &Retardation::new(bodies));
+                let mut relaxed = pressure.clone();
+                LayeredOperator::new(&grid, bodies.clone()).displacement(&mut relaxed, &mut Workspace::default());
+                history.advance(&history.interval(0.0), &pressure);
+                history.advance(&history.interval(1e4), &pressure);
+                let interval = history.interval(2.0);
+                let mut found = pressure.clone();
+                history.operator(&interval).displacement(&mut found, &mut Workspace::default());
+                let known = history.known(&interval);
+                let largest = relaxed.iter().fold(0.0, |most: f64, w| most.max(w.abs()));
+                for ((found, known), relaxed) in found.iter().zip(known).zip(&relaxed) {
+                    assert!((found + known - relaxed).abs() < 1e-9 * largest, "{points:?} {cell}, {bodies}");
+                }
+                let work: f64 = pressure.iter().zip(&relaxed).map(|(p, w)| 0.5 * p * w * grid.sample_area()).sum();
+                assert!((history.stored() / work - 1.0).abs() < 1e-9, "{points:?} {cell}, {bodies}");
+            }
+        }
+    }
+}
