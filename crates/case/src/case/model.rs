@@ -324,9 +324,7 @@ pub(super) fn read(mut root: Table, source: &Source) -> Result<Case, Refusal> {
         problem = keys.harden(&section, &load, problem)?;
         composite_hardness = Some(keys);
     }
-    if time.is_some() {
-        TimeSection::follow(&load_section, &root, &problem)?;
-    }
+    time.as_ref().map(|_| TimeSection::follow(&load_section, &root, &problem)).transpose()?;
     hardness::bears(&load, &load_section, &problem)?;
     let tangential = TangentialSection::of_case(&root, &problem, friction.as_ref(), &load)?;
     Ok(Case {

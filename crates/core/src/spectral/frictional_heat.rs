@@ -123,7 +123,7 @@ impl FrictionalHeat {
     pub fn under(&mut self, pressure: &[f64]) -> SurfaceHeat {
         let workspace = &mut Workspace::default();
         let friction: Vec<f64> = pressure.iter().map(|p| self.over_pressure * p).collect();
-        let (flux, steps) = self.into_body(pressure, &friction, workspace);
+        let (flux, steps) = self.flux_below(pressure, &friction, workspace);
         let [whole, body] = sums::of(flux.len(), |i| [friction[i], flux[i]]);
         let [below, above] = self.heating.bulk();
         let mut temperature = self.temperature.of(&flux, workspace);
@@ -144,7 +144,7 @@ impl FrictionalHeat {
     }
 
     /// Flux into the body, and the steps of its linear solve.
-    fn into_body(&mut self, pressure: &[f64], friction: &[f64], workspace: &mut Workspace) -> (Vec<f64>, usize) {
+    fn flux_below(&mut self, pressure: &[f64], friction: &[f64], workspace: &mut Workspace) -> (Vec<f64>, usize) {
         let Some(above) = &mut self.above else { return (friction.to_vec(), 0) };
         if let Partition::Share(share) = self.heating.partition() {
             return (friction.iter().map(|q| share * q).collect(), 0);

@@ -74,19 +74,13 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     if let Some((words, table)) = slip(steps, &units) {
         text += &format!("{}{}\n\n", lines(&words, width), table.fitted(width));
     }
-    if let Some((words, table)) = adhesion(case, steps, &units) {
-        text += &words.iter().map(|words| lines(words, width)).collect::<String>();
-        text += &format!("{}\n\n", fitted(&table));
-    }
-    if let Some((words, table)) = hysteresis(case.problem(), steps, &units) {
-        text += &words.iter().map(|words| lines(words, width)).collect::<String>();
-        text += &format!("{}\n\n", fitted(&table));
-    }
-    if let Some((words, table)) = temperature(case.problem(), steps, &units) {
-        text += &words.iter().map(|words| lines(words, width)).collect::<String>();
-        text += &format!("{}\n\n", fitted(&table));
-    }
-    if let Some((words, table)) = creep(case, steps, &units) {
+    let told = [
+        adhesion(case, steps, &units),
+        hysteresis(case.problem(), steps, &units),
+        temperature(case.problem(), steps, &units),
+        creep(case, steps, &units),
+    ];
+    for (words, table) in told.into_iter().flatten() {
         text += &words.iter().map(|words| lines(words, width)).collect::<String>();
         text += &format!("{}\n\n", fitted(&table));
     }

@@ -138,7 +138,6 @@ impl Bases {
             "lattice = { kind = \"isolated\", size = 2.0 }\nlevels = [{ shape = \"paraboloid\", radius = 1.0 }]\n";
         // The counterbody has the layers of the rich case, and a graded one.
         let rich: Table = linear.parse().unwrap();
-        let elastic = below_layers(&rich, rich["layers"].clone());
         let graded_above = below_layers(&rich, graded.parse::<Table>().unwrap()["layers"].clone());
         let limits = "endurance = { torsion = 0.4, bending = 0.5 }";
         let spectrum = "hurst = 0.5, shortest = 0.3, longest = 1.0, rolloff = 0.6, rms_slope = 0.2";
@@ -152,7 +151,7 @@ impl Bases {
             format!("surface = {{ heights = \"surface.npy\", pixel = 0.5 }}\n{BODY}"),
             format!("surface = {{ heights = \"lines.npy\", period = 20.0 }}\nstress = {{}}\n{BODY}"),
             format!("surface = {{ period = 1.0, random = {{ {spectrum} }} }}\n{BODY}"),
-            elastic,
+            below_layers(&rich, rich["layers"].clone()),
             graded_above,
             format!("{window}{}", BODY.replace("mean_pressure", "force")),
             format!("{plain}{BODY}counterbody = {{ rigid = true, hardness = 9.0 }}\n"),
@@ -186,12 +185,8 @@ impl Bases {
                  {{ shape = \"sphero-cone\", radius = 1.0, half_angle = 60.0 }}, {{ shape = \"berkovich\", tip_radius = 0.5 }}]\n{BODY}"
             ),
         ];
-        let texts = adhering(plain)
-            .into_iter()
-            .chain(moving(plain))
-            .chain(slipping(format!("{plain}{BODY}{uniform}")))
-            .chain(texts);
-        let texts = texts.chain(relaxing(plain)).chain([BODY.to_owned()]);
+        let more = adhering(plain).into_iter().chain(moving(plain)).chain(relaxing(plain));
+        let texts = more.chain(slipping(format!("{plain}{BODY}{uniform}"))).chain(texts).chain([BODY.to_owned()]);
         Self { folder: folder(), cases: texts.map(|text| text.parse().unwrap()).collect() }
     }
 
