@@ -3,6 +3,7 @@
 use percoat::body::Conduction;
 use percoat::heating::{Heating, HeatingError, Partition};
 use percoat::reading::TemperatureReading;
+use percoat::run::{NoSteadyState, Run, RunError, Sampling};
 use percoat::spectral::{LayeredOperator, Stop, Workspace};
 use percoat::steady_motion::SteadyMotion;
 use percoat::{
@@ -97,15 +98,27 @@ fn beyond_its_threshold_no_steady_state_is_unique() {
     }
 }
 
+/// A run beyond the threshold is refused, with the part of the compliance that swelling takes: V/V_cr of heat at rest.
+#[test]
+fn runs_without_a_steady_state_are_refused() {
+    let problem = sliding(paraboloid(1.0, 1.0), bare(1.0, [1.0, 1e9, 1.0]), 0.5, 1.5 * 17.592919);
+    let problem = problem.heated(Heating::default()).unwrap();
+    let run = Run::new(problem, vec![Load::MeanPressure(0.01)], Sampling::Points([64; 2]));
+    match run.solve(&mut ()) {
+        Err(RunError::NoSteadyState(NoSteadyState { taken })) => assert!((taken - 1.5).abs() < 1e-6, "{taken}"),
+        other => panic!("{other:?}"),
+    }
+}
+
 /// The displacement is that of the pressure and of the heat that is left in the step; a given share is met at once, a solved one in turns.
 #[test]
 fn the_surface_swells_by_the_heat_that_it_takes() {
     let coated = |conduction| {
-        let layer = Layer::new(conducting(3.0, [0.2, 0.4, 0.02]), 0.05, Interface::Bonded).unwrap();
+        let layer = Layer::new(conducting(3.0, [0.2, 0.4, 3.0]), 0.05, Interface::Bonded).unwrap();
         HalfSpace::new(vec![layer.with_thermal_resistance(0.1).unwrap()], conducting(1.0, conduction))
     };
     for partition in [Partition::Solved, Partition::Share(0.3)] {
-        let bodies = Bodies::elastic(coated([1.0, 0.5, 0.02]), bare(2.0, [3.0, 1.0, 0.01]));
+        let bodies = Bodies::elastic(coated([1.0, 0.5, 3.0]), bare(2.0, [3.0, 1.0, 1.5]));
         let problem = sliding(paraboloid(1.0, 1.0), bodies.clone(), 0.3, 2.0);
         let heating = Heating::new(partition, [10.0, 10.0]).unwrap();
         let cold = solved(problem.clone().heated(heating.without_expansion()).unwrap(), 64, Load::MeanPressure(0.02));

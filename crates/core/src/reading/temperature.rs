@@ -40,10 +40,10 @@ quantities! {
         /// Frictional heat of one cell, a power.
         #[serde(deserialize_with = "serialised::number")]
         pub power: f64,
-        /// Velocity over that from which on no steady state is unique, as far as the longest waves across the motion decide it: 1 − the least part
-        /// of a wave's compliance that swelling leaves; 0 without expansion.
+        /// Largest part of the compliance of a wave of the cell that swelling takes: no steady state is unique from 1 on; 0 without expansion.
+        /// Of heat that a counterbody at rest takes in, the part is that of the velocity in the critical one.
         #[serde(deserialize_with = "serialised::number")]
-        pub criticality: f64 = Fraction "velocity over the critical one" "v/V_c",
+        pub criticality: f64 = Fraction "compliance taken by swelling" "1 − C_h/C",
         /// Largest temperature of each material, of the body and then of the counterbody.
         pub materials: Vec<MaterialTemperature>,
     }

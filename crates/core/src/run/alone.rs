@@ -15,9 +15,9 @@ const ROOM: f64 = 1.5;
 const POINTS: usize = 96;
 
 /// The reading of one indenter alone under the force that it bears in a step of a periodic system with this `reading`; `None` unless
-/// the system has one indenter a cell, which covers little of it and does not adhere.
+/// the system has one indenter a cell, which covers little of it, rests and does not adhere.
 pub fn alone(problem: &Problem, reading: &Reading) -> Option<Reading> {
-    let indenters = problem.indenters().filter(|_| problem.adhesion().is_none())?;
+    let indenters = problem.indenters().filter(|_| problem.adhesion().is_none() && problem.motion().is_none())?;
     let [level] = indenters.levels() else { return None };
     let level_reading = reading.levels.first()?;
     let sites: usize = indenters.lattice().sites().iter().map(Vec::len).sum();

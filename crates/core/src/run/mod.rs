@@ -46,7 +46,7 @@ pub use creeping::Times;
 pub use earlier_run::{EarlierRun, LastLoad};
 pub use grid_start::GridStart;
 pub use limit::{At, EVENTS, Limit, LimitStep, Limits, SearchEnd, first, rivals};
-pub use outcome::{AllAtHardness, BeyondFullContact, BeyondHardness, Outcome, RunError};
+pub use outcome::{AllAtHardness, BeyondFullContact, BeyondHardness, NoSteadyState, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
 pub use quantities::{OfStep, Part, declared, of_step};
 pub use record::{STEP, Sliding, StepQuantities, StepRecord};
@@ -296,6 +296,10 @@ impl Run {
         recorder: &mut R,
     ) -> Result<Solved, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&self.problem), points, self.settings)?;
+        let taken = 1.0 - solver.left_by_heat();
+        if taken >= 1.0 {
+            return Err(NoSteadyState { taken }.into());
+        }
         recorder.begin(&GridStart::from(&solver)).map_err(RunError::Recorder)?;
         let (mut records, mut saved) = finished.map_or((Vec::new(), None), |earlier| (earlier.steps, earlier.last));
         let Some(loads) = self.loads.get(records.len()..).filter(|loads| !loads.is_empty()) else {

@@ -83,6 +83,18 @@ pub struct AllAtHardness {
     pub hardness: f64,
 }
 
+/// Frictional heat by which the surface swells as much as the pressure presses it in, or more: no steady state is unique.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "frictional heat swells the surface too much for a steady state: in a wave of this cell swelling takes {:.0} % of the compliance, and from \
+     100 % on hot spots grow instead; lower the velocity, the friction or the period, let more heat flow off, or leave the expansion out",
+    100.0 * .taken
+)]
+pub struct NoSteadyState {
+    /// Largest part of the compliance of a wave that swelling takes, 1 or more.
+    pub taken: f64,
+}
+
 impl<E: Error + 'static> RunError<E> {
     /// The reason in one sentence; of an error of the recorder its own message.
     pub fn told(&self) -> String {
@@ -116,6 +128,9 @@ pub enum RunError<E: Error + 'static> {
     /// The cell is too oblong to be refined.
     #[error(transparent)]
     TooOblong(#[from] TooOblong),
+    /// Frictional heat leaves no unique steady state.
+    #[error(transparent)]
+    NoSteadyState(#[from] NoSteadyState),
     /// A load is beyond the hardness.
     #[error(transparent)]
     BeyondHardness(#[from] BeyondHardness),

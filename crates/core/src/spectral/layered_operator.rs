@@ -89,7 +89,7 @@ impl LayeredOperator {
         Self { left, ..self }
     }
 
-    /// Least part of the compliance of a wave that swelling by frictional heat leaves, 1 without heat: no steady state is unique at 0.
+    /// Least part of the compliance of a wave that swelling by frictional heat leaves, 1 without heat: no steady state is unique from 0 down.
     pub fn left_by_heat(&self) -> f64 {
         self.left
     }

@@ -67,12 +67,12 @@ impl LayeredOperator {
     ) -> Self {
         let transforms = Transforms::new(grid.points());
         let mean = bodies.mean_compliance();
-        let left = AtomicU64::new(1f64.to_bits());
+        let taken = AtomicU64::new(0f64.to_bits());
         let at = |wavevector| {
             let elastic = bodies.moving_compliance(wavevector, velocity, traction);
             let whole = elastic + swelling(wavevector);
             // Bits of numbers that are not negative are in their order.
-            left.fetch_min((whole.re / elastic.re).clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
+            taken.fetch_max((1.0 - whole.re / elastic.re).max(0.0).to_bits(), Ordering::Relaxed);
             whole
         };
         let compliance = |component: [usize; 2]| match component {
@@ -86,7 +86,7 @@ impl LayeredOperator {
         let multiplier = if mean != 0.0 { multiplier } else { multiplier.dropping_mean() };
         let largest = if multiplier.is_positive() { skew.largest() } else { f64::INFINITY };
         let unit = bodies.compliance(grid.least_wavenumber());
-        let left = f64::from_bits(left.into_inner());
+        let left = 1.0 - f64::from_bits(taken.into_inner());
         Self::of(transforms, multiplier, unit).with_mean(mean).with_left(left).coupled(Skew::Ratio(skew), largest)
     }
 

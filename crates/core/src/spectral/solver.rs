@@ -289,11 +289,16 @@ impl Solver {
             grids.push(heat.hottest(contact.grid(), &found));
             *contact = contact.clone().with_heat(found);
         }
-        let left = self.levels[0].left_by_heat();
+        let left = self.left_by_heat();
         let heat = (!grids.is_empty()).then_some(HeatStep { grids, left });
         let motion = self.problem.motion().and_then(|_| self.levels[0].motion_loss(&finest, &coarser));
         let certificate = self.levels[0].unknowns().certificate;
         Step { load, report, certificate, convolutions, motion, heat, finest, coarser }
+    }
+
+    /// Least part of the compliance of a wave that swelling by frictional heat leaves, 1 without heat: no steady state is unique from 0 down.
+    pub fn left_by_heat(&self) -> f64 {
+        self.levels[0].left_by_heat()
     }
 
     /// Keeps what the last load has pressed in, where its pressure is that of the hardness: the depths −g are in the initial gap of the

@@ -30,7 +30,7 @@ pub struct MotionLoss {
 pub struct HeatStep {
     /// Temperatures of all materials on the finest grid, then on the next coarser one that the step keeps.
     pub grids: Vec<Vec<Hottest>>,
-    /// Least part of the compliance of a wave that swelling by heat leaves: no steady state is unique at 0.
+    /// Least part of the compliance of a wave that swelling by heat leaves: no steady state is unique from 0 down.
     pub left: f64,
 }
 

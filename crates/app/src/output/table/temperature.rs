@@ -1,7 +1,7 @@
 //! Table of temperatures by frictional heat, a row a material, and sentences on how it was shared.
 
 use super::Table;
-use crate::output::number::{in_unit, number, shown};
+use crate::output::number::{in_unit, number, percent, shown};
 use percoat_case::units::Units;
 use percoat_core::measured::Measured;
 use percoat_core::problem::Problem;
@@ -25,8 +25,8 @@ pub fn temperature(problem: &Problem, steps: &[StepRecord], units: &Units) -> Op
     )];
     if problem.heating().is_some_and(|heating| heating.expands()) && heat.criticality > 0.0 {
         words.push(format!(
-            "the surface swells: the velocity is {} of that from which on no steady state in this cell is unique",
-            number(heat.criticality)
+            "the surface swells: that takes {} of the compliance of a wave of the cell at most; from 100 % on no steady state is unique",
+            percent(heat.criticality)
         ));
     }
     words.push(
