@@ -1,4 +1,4 @@
-//! Table of bodies that creep, a row a step: time, load, penetration, contact and pressure.
+//! Table of bodies that creep, a row a step: time, load, penetration and contact.
 
 use super::Table;
 use crate::output::number::{number, percent, shown};
@@ -29,7 +29,7 @@ pub fn creep(case: &Case, steps: &[StepRecord], units: &Units) -> Option<(Vec<St
         units.unit(quantity.named.kind).suited(values)
     };
     let time = units.time().suited(all.iter().map(|(.., reading)| reading.time));
-    let columns = [READING.load(units.quantity()), &READING.penetration, &READING.max_pressure];
+    let columns = [READING.load(units.quantity()), &READING.penetration];
     let suited = columns.map(of);
     let mut header = vec!["step".to_owned(), time.headed(CREEP.time.named.name)];
     header.extend(columns.iter().zip(&suited).map(|(quantity, unit)| unit.headed(quantity.named.name)));
@@ -46,8 +46,8 @@ pub fn creep(case: &Case, steps: &[StepRecord], units: &Units) -> Option<(Vec<St
     };
     let rows = all.iter().enumerate().filter(|(index, _)| is_shown(*index)).map(|(_, found)| row(found)).collect();
     let mut words = creep_words(case, units);
-    let most =
-        largest(all.iter().filter_map(|(_, step, reading)| Some(reading.time_error? / step.reading.penetration.abs())));
+    let relative = |(_, step, reading): &Row<'_>| Some(reading.time_error? / step.reading.penetration.abs());
+    let most = largest(all.iter().filter_map(relative).filter(|error| error.is_finite()));
     if let (Some(pressure), true) = (last.pressure_time_error, most.is_finite()) {
         words.push(format!(
             "steps in time, {} in all, leave errors of up to {} of the penetration and {} of the pressure; time.tolerance sets them",
