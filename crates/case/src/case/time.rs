@@ -40,15 +40,18 @@ section! {
 fn one_path(keys: &TimeSection, section: &TableAt<'_>) -> Result<(), Refusal> {
     let (_, value) = section.one_of(["load", "force", "penetration"])?;
     let path = keys.path();
-    let refused = |index: usize, what: &str| {
+    let refused = |index: usize, what: &str, label: &str| {
         let items = value.list().unwrap_or_default();
-        items.get(index).map_or_else(|| value.refuse(what), |item| item.refuse(what))
+        let span = items.get(index).map_or(value.node.span, |item| item.node.span);
+        Refusal::new(span, format!("`{}[{index}]` {what}", value.path), label)
     };
     if let Some(index) = path.windows(2).position(|pair| pair[1][0] < pair[0][0]) {
-        return Err(refused(index + 1, "a time that is not before the last one").help("order the pairs by their times"));
+        let what = format!("has the time {}, before that of the pair in front of it", path[index + 1][0]);
+        return Err(refused(index + 1, &what, "too early").help("order the pairs by their times"));
     }
     if let Some(index) = path.iter().position(|pair| pair[1] < 0.0) {
-        return Err(refused(index, "a load not less than 0"));
+        let refusal = refused(index, &format!("has the load {}, below 0", path[index][1]), "draws apart");
+        return Err(refusal.help("loads in time press"));
     }
     let [first, last] = [path.first(), path.last()].map(|pair| pair.map_or(0.0, |pair| pair[0]));
     let Some(times) = keys.times.as_ref().map(Steps::values) else { return Ok(()) };
@@ -182,8 +185,8 @@ mod tests {
     fn what_is_not_followed_in_time_is_refused() {
         let path = "load = [[0.0, 0.1], [5.0, 0.1]]";
         for (time, more, why) in [
-            ("load = [[0.0, 0.1], [-1.0, 0.1]]", "", "`time.load[1]` must be"),
-            ("load = [[0.0, -0.1]]", "", "not less than 0"),
+            ("load = [[0.0, 0.1], [-1.0, 0.1]]", "", "`time.load[1]` has the time -1, before"),
+            ("load = [[0.0, -0.1]]", "", "has the load -0.1, below 0"),
             ("load = [[0.0, 0.1, 0.2]]", "", "a pair [time, load]"),
             ("tolerance = 0.1", "", "`time.load`, `time.force` or `time.penetration` is missing"),
             (&format!("{path}, times = 7.0"), "", "outside of the path"),
