@@ -12,8 +12,8 @@ const DIFFERENCE: f64 = 3.0;
 /// Weights of the changes from the next two coarser grids, at second order.
 const CHANGES: [f64; 2] = [0.5, 0.25];
 /// Part of the coefficient that one sample along the radius of a contact misses where the way of a relaxation is short beside the spacing: both
-/// coefficients fall short together there, at the first order, by up to 0.2 over the samples of a radius (study `moving`).
-const SHORTFALL: f64 = 0.35;
+/// coefficients fall short together there, at the first order, by up to 0.4 over the samples of a radius (study `moving`): half a sample at the edge.
+const SHORTFALL: f64 = 0.5;
 
 quantities! {
     /// Friction by hysteresis of a load step.
