@@ -4,6 +4,7 @@ use super::pressure::{axes, sliding_arrow, sliding_words, unit_cell};
 use super::snapshot::Snapshot;
 use super::zoom;
 use crate::picture::labels::Labels;
+use percoat_core::quantity::Named;
 use percoat_core::reading::TEMPERATURE;
 use percoat_draw::bar::Bar;
 use percoat_draw::canvas::Canvas;
@@ -25,7 +26,7 @@ pub fn temperature(snapshot: &Snapshot) -> Option<Canvas> {
         .iter()
         .map(|&(_, field)| Box::new(move |place| snapshot.nearest(place).map(|i| field[i] - least)) as Values<'_>)
         .collect();
-    let label = snapshot.units.label(&TEMPERATURE.max.named);
+    let label = snapshot.units.label(&Named { name: "temperature", ..TEMPERATURE.max.named });
     let span = (most - least).max(f64::MIN_POSITIVE);
     let [x, y] = axes(snapshot, view.window);
     let mut maps: Vec<Map<'_>> = Vec::new();
