@@ -148,7 +148,7 @@ fn moves() -> [String; 1] {
         "lattice = {{ kind = \"square\", period = 2 }}\nlevels = [{{ shape = \"sphere\", radius = 1 }}]\n\
          layers = [{{ thickness = 0.1, young = 1, poisson = 0.3, {CONDUCTS}, thermal_resistance = 0.1, {RELAXES} }}]\n\
          substrate = {{ young = 1, poisson = 0.3, {CONDUCTS}, {RELAXES} }}\nload = {{ mean_pressure = 1e-3 }}\n\
-         counterbody = {{ young = 1, poisson = 0.3, {CONDUCTS}, {RELAXES} }}\nfriction = {{ coefficient = 0.1 }}\n\
+         counterbody = {{ young = 1, poisson = 0.3, {CONDUCTS}, {RELAXES}, layers = [{{ thickness = 0.1, young = 1, poisson = 0.3, {CONDUCTS}, thermal_resistance = 0.1 }}] }}\nfriction = {{ coefficient = 0.1 }}\n\
          motion = {{ velocity = 2 }}\nheat = {{ partition = 0.5, bulk = [20, 30], expansion = false }}\n"
     )]
 }

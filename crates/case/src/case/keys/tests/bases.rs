@@ -80,9 +80,10 @@ fn adhering(head: &str) -> [String; 6] {
 fn moving(head: &str) -> [String; 2] {
     let conducts = "conductivity = 45.0, diffusivity = 12.0, expansion = 1.2e-5";
     let relaxes = "relaxation = { shear = [3.0, 6.0], times = [1.0, 0.05], constant = \"poisson\" }";
-    let body = |keys: &str| BODY.replace("poisson = 0.3", &format!("poisson = 0.3, {keys}"));
+    let timed = BODY.replace("\"µm\" }", "\"µm\", time = \"s\", temperature = \"K\" }");
+    let body = |keys: &str| timed.replace("poisson = 0.3", &format!("poisson = 0.3, {keys}"));
     let layer = |keys: &str| format!("{{ thickness = 1.0, young = 2.0, poisson = 0.2, {keys} }}");
-    let motion = "motion = { velocity = 1.0 }\nunits = { time = \"s\", temperature = \"K\" }\n";
+    let motion = "motion = { velocity = 1.0 }\n";
     let above = |keys: &str, layers: &str| {
         format!("layers = [{layers}]\ncounterbody = {{ young = 1.0, poisson = 0.3, {keys}, layers = [{layers}] }}\n")
     };
