@@ -180,9 +180,10 @@ pub fn declared() -> Vec<(&'static str, &'static Named)> {
 mod tests {
     use super::*;
     use crate::adhesion::{Adhesion, AdhesionLaw};
-    use crate::body::{Durability, Fatigue, HalfSpace, Interface, Layer, Material, Relaxation, Strength};
+    use crate::body::{Conduction, Durability, Fatigue, HalfSpace, Interface, Layer, Material, Relaxation, Strength};
     use crate::counterbody::{Indenters, Level, Shape, Topography};
     use crate::friction::Friction;
+    use crate::heating::Heating;
     use crate::lattice::{Cell, Lattice};
     use crate::load::Load;
     use crate::problem::Problem;
@@ -204,8 +205,8 @@ mod tests {
     }
 
     /// The last of two steps that press a ball into a window, of two that press waves, of one that rolls, of one that adheres, of one that moves
-    /// over a body that relaxes, and of one in which that creeps.
-    fn steps() -> [StepRecord; 6] {
+    /// over a body that relaxes, of one in which that creeps, and of one that heats.
+    fn steps() -> [StepRecord; 7] {
         let last = |problem: Problem, loads: [f64; 2]| {
             let mut run = Run::new(problem, loads.map(Load::Force).to_vec(), Sampling::Points([32; 2]));
             run.stress = Some(StressRequest { strain: true, ..StressRequest::default() });
@@ -219,7 +220,7 @@ mod tests {
         let waves = Topography::new(Cell::square(1.0).unwrap(), heights).unwrap();
         let pressed = last(Problem::new(ball.clone(), body()), [0.005, 0.01]);
         let (adheres, [moves, creeps]) = (adhering(ball.clone()), relaxing());
-        [pressed, last(Problem::new(waves, body()), [0.01, 0.02]), rolled(ball), adheres, moves, creeps]
+        [pressed, last(Problem::new(waves, body()), [0.01, 0.02]), rolled(ball), adheres, moves, creeps, heats()]
     }
 
     /// A step that adheres, held by a grip.
@@ -243,6 +244,19 @@ mod tests {
         let moving = problem.clone().moving(SteadyMotion::new(0.1).unwrap()).unwrap();
         let creeping = Run { times: Some(Times::new(vec![0.0, 1.0])), ..Run::new(problem, vec![load; 2], sampling) };
         [Run::new(moving, vec![load], sampling), creeping].map(|run| run.solve(&mut ()).unwrap().steps.pop().unwrap())
+    }
+
+    /// A step of balls that heat the body by friction.
+    fn heats() -> StepRecord {
+        let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+        let balls = Indenters::new(Lattice::square(1.0, 1).unwrap(), vec![level]).unwrap();
+        let steel = Material::from_young(1.0, 0.3).unwrap();
+        let steel = steel.with_conduction(Some(Conduction::new(1.0, 1.0, 0.1).unwrap()));
+        let friction = Friction::new(0.3, [1.0, 0.0]).unwrap().uncoupled();
+        let problem = Problem::new(balls, HalfSpace::new(vec![], steel)).sliding(friction).unwrap();
+        let problem = problem.moving(SteadyMotion::new(0.1).unwrap()).unwrap().heated(Heating::default()).unwrap();
+        let run = Run::new(problem, vec![Load::MeanPressure(0.01)], Sampling::Points([48; 2]));
+        run.solve(&mut ()).unwrap().steps.pop().unwrap()
     }
 
     /// A step that rolls.
