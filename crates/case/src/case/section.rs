@@ -16,7 +16,7 @@
 //!
 //! The comment of a field is the meaning of the key in messages and `percoat explain`. Its type determines how the value is read
 //! ([`KeyValue`]); an `Option` may be absent. `rules` is a function that checks the keys of a table together.
-//! `absent` is a function that says of a section that it is not written, since others say the same.
+//! `absent` names a function: where it holds for a section, the section is left out of the written case, as another section gives the same.
 //! `misplaced [("key", "why")]` names keys that are often written in the wrong table.
 //! `section! { for Type = KEYS { … } }` declares the keys of a struct that the core defines; `section! { whole … }` has no reader.
 

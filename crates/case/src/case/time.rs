@@ -28,7 +28,7 @@ section! {
         /// penetrations in time, likewise: the force relaxes
         pub penetration: Option<Vec<[f64; 2]>> = Key::new(&[PAIRS], "[[0.0, 0.01], [100.0, 0.01]]")
             .unit(Unit::Length).rule("times ascend, loads are not below 0").instead_of("force").and_of(&["load"]),
-        /// further times of the path at which the state is told
+        /// times, beside those of the path, at which a load step is written
         pub times: Option<Steps> =
             Key::new(&[SIGNED, LOADS, Form::Table(&TIMES)], "{ from = 0.01, to = 100.0, steps = 20, spacing = \"log\" }")
                 .unit(Unit::Time).otherwise("those of the path"),

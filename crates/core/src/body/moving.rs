@@ -6,8 +6,8 @@
 //!
 //! K̂(**k**) = C₁(k, ω) + C₂(k) − i (**k**·**t**/k) [K₁(k, ω) − K₂(k)],  K̂(−**k**) = K̂*(**k**),
 //!
-//! C and K of the [`SurfaceResponse`](super::SurfaceResponse). Energy makes Re C > 0 and Im C of the sign of **k**·**v**: what is stored, and
-//! what is lost. Without motion, or along a wave's crests, a body responds with its relaxed moduli.
+//! C and K of the [`SurfaceResponse`](super::SurfaceResponse). A body stores energy where Re C > 0, and loses energy
+//! where Im C has the sign of **k**·**v**; a body that relaxes does both. Without motion, or along a wave's crests, a body responds with its relaxed moduli.
 
 use super::{Bodies, HalfSpace};
 use rustfft::num_complex::Complex64;

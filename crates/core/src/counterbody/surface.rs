@@ -68,6 +68,13 @@ impl Surface {
         Self { initial_gap, ..self.clone() }
     }
 
+    /// The surface with its initial gap opened by `lift`, lengths sample by sample, a₂ fastest.
+    pub(crate) fn opened(&self, lift: &[f64]) -> Self {
+        let mut gap = self.initial_gap.clone();
+        gap.iter_mut().zip(lift).for_each(|(gap, lift)| *gap += lift);
+        self.with_initial_gap(gap)
+    }
+
     /// A gap on a finer grid of the same cell, or on this one, restricted to this grid: as [`Self::coarser`] restricts the
     /// heights of a topography.
     pub(crate) fn restricted(&self, gap: &Array2<f64>) -> Array2<f64> {

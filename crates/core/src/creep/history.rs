@@ -122,8 +122,8 @@ impl History {
         let mut states = self.states.as_slice();
         let of = |(&shell, &pressure): (&u32, &Complex64)| {
             let range = self.range(shell);
-            let own = states.split_off(..range.len()).unwrap_or_default();
-            let modes = self.modes[range.clone()].iter().zip(&interval.weights[range]).zip(own);
+            let of_wave = states.split_off(..range.len()).unwrap_or_default();
+            let modes = self.modes[range.clone()].iter().zip(&interval.weights[range]).zip(of_wave);
             modes.fold(Complex64::default(), |sum, ((mode, weights), state)| {
                 sum + (state * weights.decay + pressure * weights.before) * mode.amplitude
             })
@@ -141,8 +141,8 @@ impl History {
         for ((&shell, before), &after) in self.shells.iter().zip(&mut self.pressure).zip(pressure) {
             let ends = &self.first[shell as usize..];
             let range = ends[0] as usize..ends[1] as usize;
-            let own = states.split_off_mut(..range.len()).unwrap_or_default();
-            for (state, weights) in own.iter_mut().zip(&interval.weights[range]) {
+            let of_wave = states.split_off_mut(..range.len()).unwrap_or_default();
+            for (state, weights) in of_wave.iter_mut().zip(&interval.weights[range]) {
                 *state = *state * weights.decay + *before * weights.before + after * weights.after;
             }
             *before = after;
@@ -154,9 +154,9 @@ impl History {
         let mut states = self.states.as_slice();
         let of = |(&shell, &pressure): (&u32, &Complex64)| {
             let range = self.range(shell);
-            let own = states.split_off(..range.len()).unwrap_or_default();
+            let of_wave = states.split_off(..range.len()).unwrap_or_default();
             let elastic = pressure * self.glassy[shell as usize];
-            self.modes[range].iter().zip(own).fold(elastic, |sum, (mode, state)| sum + state * mode.amplitude)
+            self.modes[range].iter().zip(of_wave).fold(elastic, |sum, (mode, state)| sum + state * mode.amplitude)
         };
         self.shells.iter().zip(&self.pressure).map(of).collect()
     }
@@ -167,11 +167,11 @@ impl History {
         let mut states = self.states.as_slice();
         let of = |(&shell, &pressure): (&u32, &Complex64)| {
             let range = self.range(shell);
-            let own = states.split_off(..range.len()).unwrap_or_default();
+            let of_wave = states.split_off(..range.len()).unwrap_or_default();
             let elastic = self.glassy[shell as usize] * pressure.norm_sqr();
             0.5 * self.modes[range]
                 .iter()
-                .zip(own)
+                .zip(of_wave)
                 .fold(elastic, |sum, (mode, state)| sum + mode.amplitude * state.norm_sqr())
         };
         self.shells.iter().zip(&self.pressure).map(of).collect()

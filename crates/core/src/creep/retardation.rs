@@ -167,7 +167,7 @@ mod tests {
         for (ratio, nu) in [(1.01, 0.3), (2.0, 0.0), (10.0, 0.3), (1e3, 0.45), (10.0, 0.5)] {
             let (shear, k) = (3.0, 0.7);
             let bare = |constant| Bodies::from(HalfSpace::new(vec![], one(material(shear, nu), ratio, constant)));
-            // Times that are nearly the same are told apart less well.
+            // Retardation times that differ by 1 % only are found to 1e-7, others to rounding.
             let near =
                 |found: f64, expected: f64| (found / expected - 1.0).abs() < if ratio < 1.1 { 1e-7 } else { 1e-11 };
 
@@ -192,7 +192,7 @@ mod tests {
             if nu == 0.5 {
                 assert_eq!(found.modes.len(), 1, "incompressible: {found:?}");
             } else {
-                // What little amplitude there is has the rounding of the whole.
+                // Rounding is that of the whole compliance, of which a small amplitude has a large part.
                 let tolerance = if ratio < 1.1 { 1e-6 } else { 1e-11 * found.at(1.0) / amplitude };
                 assert!(
                     (found.modes[1].time / time - 1.0).abs() < tolerance && found.modes.len() == 2,

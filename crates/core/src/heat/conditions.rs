@@ -50,7 +50,7 @@ impl Conditions {
             };
             let above = |row: usize, factor: f64| vec![Term { material: number, row, face: &upper, factor }];
             let below = |row: usize| lower.as_ref().map(|face| Term { material: number + 1, row, face, factor: -1.0 });
-            // What is continuous: nothing is displaced in a rigid base.
+            // Continuity between two faces; a rigid base below has no displacement.
             let both = |row: usize| above(row, 1.0).into_iter().chain(below(row)).collect::<Vec<_>>();
             let jumps = |row: usize, of: usize, factor: f64| [both(row), above(of, factor)].concat();
             system.hold(&jumps(2, 0, -closure));

@@ -19,7 +19,7 @@ pub(super) struct ExpandingMaterial {
 pub(super) struct Face {
     /// Each of them by the four numbers.
     pub rows: [[f64; 4]; 4],
-    /// What Goodier's potential adds to each.
+    /// Parts of Goodier's potential, one a row.
     pub goodier: [Complex64; 4],
 }
 

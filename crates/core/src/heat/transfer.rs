@@ -183,7 +183,7 @@ mod tests {
                 let insulated = [&[upper, lower][..], &[upper]].map(|of| found(of, f64::INFINITY) * tanh - 1.0);
                 let held = found(&[upper], 0.0) / tanh - 1.0;
                 worst = insulated.iter().chain([&held]).fold(worst, |worst, error| worst.max(error.norm()));
-                // What still passes is 1/(R Z) of the whole.
+                // An interface of the resistance R lets 1/(R Z) of the heat pass.
                 for resistance in [1e12, 1e15, 1e305] {
                     let resisting = found(&[upper, lower], resistance) * tanh - 1.0;
                     let passes = 1.0 / (resistance * 2.0 * (s * tanh).norm());

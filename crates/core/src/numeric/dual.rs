@@ -1,4 +1,4 @@
-//! Dual numbers: a complex number with its derivative, so that what is computed by the four operations knows its slope to rounding.
+//! Dual numbers: a complex number with its derivative. A result of the four operations has its derivative to rounding.
 //!
 //! (a, a′)(b, b′) = (ab, a′b + ab′),  (a, a′)/(b, b′) = (a/b, (a′ − (a/b)b′)/b).
 

@@ -203,7 +203,7 @@ impl Contact {
         };
         // w = g − f + δ; a uniform part of the pressure does no work with a displacement without mean, and would add rounding alone.
         let f = self.surface.gaps();
-        // What heat displaces stores nothing.
+        // Swelling by heat stores no elastic energy.
         let swelling = self.heat.as_ref().map_or(&[][..], |heat| &heat.swelling);
         let by_heat = |i: usize| swelling.get(i).copied().unwrap_or(0.0);
         let [sum] = sums::of(f.len(), |i| [(pressure[i] - mean) * (self.gap[i] - f[i] + shift - by_heat(i))]);

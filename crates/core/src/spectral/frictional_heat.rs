@@ -129,7 +129,7 @@ impl FrictionalHeat {
         let mut temperature = self.temperature.of(&flux, workspace);
         sums::update(&mut temperature, |_, t| t + below);
         let counterbody = self.above.as_ref().map(|operators| {
-            let rest: Vec<f64> = friction.iter().zip(&flux).map(|(q, body)| q - body).collect();
+            let rest = flux_above(&friction, &flux);
             let mut temperature = operators.temperature.of(&rest, workspace);
             sums::update(&mut temperature, |_, t| t + above);
             temperature
@@ -180,8 +180,7 @@ impl FrictionalHeat {
         let workspace = &mut Workspace::default();
         let mut displaced = self.swelling.of(&heat.flux, workspace);
         if let Some(above) = &self.above {
-            let rest: Vec<f64> = heat.friction.iter().zip(&heat.flux).map(|(q, body)| q - body).collect();
-            let other = above.swelling.of(&rest, workspace);
+            let other = above.swelling.of(&flux_above(&heat.friction, &heat.flux), workspace);
             sums::update(&mut displaced, |i, w| w + other[i]);
         }
         displaced
@@ -217,7 +216,7 @@ impl FrictionalHeat {
     /// Largest temperature of each material, of the body and then of a counterbody that takes heat: heat enters at the surface, so that it lies on
     /// the upper face.
     pub fn hottest(&self, grid: &Grid, heat: &SurfaceHeat) -> Vec<Hottest> {
-        let rest: Vec<f64> = heat.friction.iter().zip(&heat.flux).map(|(q, body)| q - body).collect();
+        let rest = flux_above(&heat.friction, &heat.flux);
         let [below, above] = self.heating.bulk();
         let below = (&self.bodies.body, &heat.flux, below);
         let above = self.bodies.counterbody.as_ref().map(|body| (body, &rest, above));
@@ -235,6 +234,11 @@ impl FrictionalHeat {
         };
         std::iter::once(below).chain(above).flat_map(of_body).collect()
     }
+}
+
+/// Flux into the counterbody: that of friction less that into the body.
+fn flux_above(friction: &[f64], flux: &[f64]) -> Vec<f64> {
+    friction.iter().zip(flux).map(|(q, body)| q - body).collect()
 }
 
 /// Largest temperature of a material.

@@ -183,9 +183,7 @@ impl Solver {
     pub(super) fn solve_lifted(&mut self, load: Load, lift: &[f64]) -> Step {
         let level = &mut self.levels[0];
         let (surface, indented) = (Arc::clone(level.surface()), level.indented().cloned());
-        let mut gap = surface.initial_gap().to_owned();
-        gap.iter_mut().zip(lift).for_each(|(gap, lift)| *gap += lift);
-        level.set_surface(Arc::new(surface.with_initial_gap(gap)), indented.clone());
+        level.set_surface(Arc::new(surface.opened(lift)), indented.clone());
         let mut working = level.working_memory();
         let progress = &mut |_: Progress| ControlFlow::Continue(());
         let settings = self.settings;
@@ -206,8 +204,9 @@ impl Solver {
             if !step.report.stop.solved() {
                 break;
             }
-            let heat = self.heats[0].under(step.finest.pressures());
-            let lift = self.heats[0].lift(&heat, share);
+            // Each step has the heat of its contact.
+            let Some(heat) = step.finest.heat() else { break };
+            let lift = self.heats[0].lift(heat, share);
             let change = -sums::least(lift.len(), |i| -(lift[i] - before[i]).abs());
             if change <= HEAT_TOLERANCE * step.penetration().abs() {
                 is_settled = true;
@@ -225,7 +224,10 @@ impl Solver {
         for (level, original) in self.levels.iter_mut().zip(originals) {
             level.set_surface(original, None);
         }
-        let stop = if is_settled || !step.report.stop.solved() { step.report.stop } else { Stop::Stalled };
+        if !step.report.stop.solved() {
+            return step;
+        }
+        let stop = if is_settled { step.report.stop } else { Stop::Stalled };
         self.step(load, Report { stop, ..step.report }, step.convolutions, step.coarser.len())
     }
 

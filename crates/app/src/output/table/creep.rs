@@ -59,7 +59,7 @@ pub fn creep(case: &Case, steps: &[StepRecord], units: &Units) -> Option<(Vec<St
     Some((words, Table::new(&header, rows, 1)))
 }
 
-/// What bodies that creep begin and end with, a sentence each; none where nothing depends on time.
+/// Sentences on bodies that creep: their state at a jump and in the end, and their retardation times; none where nothing depends on time.
 pub fn creep_words(case: &Case, units: &Units) -> Vec<String> {
     let (Some(_), Some([shortest, longest])) = (&case.time, creep::times(case.problem().bodies())) else {
         return Vec::new();

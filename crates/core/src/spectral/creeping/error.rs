@@ -16,10 +16,14 @@ pub enum CreepError {
     )]
     Isolated,
     /// A surface has a hardness.
-    #[error("surfaces of bodies that creep have no hardness here: what is pressed in for good would depend on time")]
+    #[error(
+        "`hardness` of bodies that creep is not followed: the depth pressed in for good would depend on the time under load"
+    )]
     Hardness,
     /// The surfaces adhere.
-    #[error("surfaces of bodies that creep do not adhere here: the work of adhesion would depend on time")]
+    #[error(
+        "adhesion of bodies that creep is not followed: the work of adhesion would depend on the speed of separation"
+    )]
     Adhesion,
     /// Surfaces with friction.
     #[error("bodies creep without friction here: what a traction displaces is not followed in time")]

@@ -127,11 +127,9 @@ impl GridLevel {
             Some((original, depths)) => (Arc::clone(original), &depths[..]),
             None => (Arc::clone(&self.surface), &[][..]),
         };
-        let mut gap = original.initial_gap().to_owned();
-        gap.iter_mut().zip(&depths[..]).for_each(|(gap, depth)| *gap += depth);
         let rise = |i: usize| depths[i] - earlier.get(i).copied().unwrap_or(0.0);
         sums::update(&mut Arc::make_mut(&mut self.unknowns.gap)[..], |i, g| g + rise(i));
-        self.surface = Arc::new(original.with_initial_gap(gap));
+        self.surface = Arc::new(original.opened(&depths));
         self.largest_gap = self.surface.largest();
         self.indented = Some((original, depths));
     }
@@ -145,9 +143,7 @@ impl GridLevel {
     /// another operator for that pressure. Contacts keep the surface as it was.
     pub fn open(&mut self, lift: &[f64], operator: LayeredOperator) {
         let original = self.flat.take().unwrap_or_else(|| Arc::clone(&self.surface));
-        let mut gap = original.initial_gap().to_owned();
-        gap.iter_mut().zip(lift).for_each(|(gap, lift)| *gap += lift);
-        self.surface = Arc::new(original.with_initial_gap(gap));
+        self.surface = Arc::new(original.opened(lift));
         self.largest_gap = self.surface.largest();
         self.operator = operator;
         self.flat = Some(original);
