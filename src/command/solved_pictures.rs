@@ -20,9 +20,9 @@ impl Pictured {
         self.last.reading.touches()
     }
 
-    /// Whether isolated indenters on elastic bodies are compared with.
+    /// Whether isolated indenters on elastic bodies are compared with: nothing creeps, moves or heats.
     fn is_elastic(&self) -> bool {
-        !self.last.step.finest().creeps()
+        !self.last.step.finest().creeps() && self.last.step.problem().motion().is_none()
     }
 
     fn cut(&self) -> Option<&[VerticalSection]> {

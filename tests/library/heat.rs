@@ -1,15 +1,18 @@
 //! Frictional heat of contacts that slide steadily: partition, temperatures, swelling, and where no steady state is unique.
 
-use percoat::body::Conduction;
+use percoat::body::{Conduction, Depth};
+use percoat::heat::HeatedBody;
 use percoat::heating::{Heating, HeatingError, Partition};
 use percoat::reading::TemperatureReading;
 use percoat::run::{NoSteadyState, Run, RunError, Sampling};
 use percoat::spectral::{LayeredOperator, Stop, Workspace};
 use percoat::steady_motion::SteadyMotion;
+use percoat::stress::{TemperatureField, Traction};
 use percoat::{
-    Bodies, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, Problem, Settings, Shape,
-    Solver, Step,
+    Bodies, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, MeanStress, Problem,
+    Settings, Shape, Solver, Step, StressField, StressFields, SurfaceLine,
 };
+use rustfft::num_complex::Complex64;
 
 /// A material with λ, κ and α.
 fn conducting(young: f64, [conductivity, diffusivity, expansion]: [f64; 3]) -> Material {
@@ -154,4 +157,191 @@ fn heat_needs_motion_friction_and_conduction() {
         Bodies::elastic(bare(1.0, [1.0, 1.0, 0.0]), HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap()));
     let refused = sliding(paraboloid(1.0, 1.0), cold, 0.3, 1.0).heated(Heating::default()).unwrap_err();
     assert!(refused.to_string().contains("counterbody"), "{refused}");
+}
+
+/// A heated contact that slides obliquely, of two coated bodies that expand, on odd numbers of samples.
+fn heated_and_coated(velocity: f64) -> Step {
+    let coated = |young: f64, thickness: f64, [coat, below]: [[f64; 3]; 2]| {
+        let layer = Layer::new(conducting(young, coat), thickness, Interface::Bonded).unwrap();
+        HalfSpace::new(vec![layer], conducting(1.0, below))
+    };
+    let body = coated(3.0, 0.05, [[0.3, 0.1, 2e-3], [1.0, 0.5, 1e-3]]);
+    let above = coated(0.5, 0.1, [[2.0, 1.0, 1e-3], [0.7, 0.2, 3e-3]]);
+    let friction = Friction::new(0.4, [0.6, -0.8]).unwrap().uncoupled();
+    let problem = Problem::new(paraboloid(1.0, 1.0), Bodies::elastic(body, above)).sliding(friction).unwrap();
+    let problem = problem.moving(SteadyMotion::new(velocity).unwrap()).unwrap().heated(Heating::default()).unwrap();
+    solved(problem, 33, Load::MeanPressure(0.01))
+}
+
+/// Waves of a field on odd numbers of samples, by the sum itself: wavevectors with coefficients, without the mean.
+fn waves(field: &[f64], n: usize) -> Vec<([f64; 2], Complex64)> {
+    let half = (n / 2) as i32;
+    let turn = std::f64::consts::TAU / n as f64;
+    let all = (-half..=half).flat_map(|k| (-half..=half).map(move |l| [k, l])).filter(|k| *k != [0, 0]);
+    let coefficient = |[k, l]: [i32; 2]| {
+        let phase = |i: usize| -turn * f64::from((k * (i / n) as i32 + l * (i % n) as i32) % n as i32);
+        let sum: Complex64 = field.iter().enumerate().map(|(i, value)| Complex64::cis(phase(i)) * value).sum();
+        sum / field.len() as f64
+    };
+    all.map(|k| (k.map(|k| std::f64::consts::TAU * f64::from(k)), coefficient(k))).collect()
+}
+
+/// Stresses by heat in a body with a source along `direction`, wave by wave.
+fn by_heat(
+    body: &HeatedBody,
+    flux: &[([f64; 2], Complex64)],
+    direction: [f64; 2],
+    depth: Depth,
+    x: [f64; 2],
+) -> [f64; 6] {
+    let mut sum = [0.0; 6];
+    for &(k, c) in flux {
+        let turned = [k[0] * direction[0] + k[1] * direction[1], k[1] * direction[0] - k[0] * direction[1]];
+        let a = body.thermal_stress(turned).at(depth);
+        let q = k[0].hypot(k[1]);
+        let (c, [nx, ny]) = (c * Complex64::cis(k[0] * x[0] + k[1] * x[1]), [k[0] / q, k[1] / q]);
+        let late = Complex64::new(0.0, -1.0) * a.sqz;
+        let all = [
+            a.sqq * (nx * nx) + a.stt * (ny * ny),
+            a.sqq * (ny * ny) + a.stt * (nx * nx),
+            a.szz,
+            (a.sqq - a.stt) * (nx * ny),
+            late * nx,
+            late * ny,
+        ];
+        sum.iter_mut().zip(all).for_each(|(sum, a)| *sum += (a * c).re);
+    }
+    sum
+}
+
+/// Stresses of both bodies are those of the traction and those of the flux into each, summed wave by wave.
+#[test]
+fn stresses_of_the_load_and_of_the_heat_add_up() {
+    let velocity = 3.0;
+    let step = heated_and_coated(velocity);
+    let (contact, friction) = (step.finest(), *step.finest().problem().friction().unwrap());
+    let heat = contact.heat().unwrap();
+    let fields = StressFields::new(contact, MeanStress::Confined);
+    let bodies = contact.problem().bodies();
+    let traction = Traction::normal(contact.grid(), contact.pressure()).unwrap().with_friction(&friction, 0.0);
+    let cold = StressFields::under(traction, bodies, MeanStress::Confined);
+    let above: Vec<f64> = heat.friction.iter().zip(&heat.flux).map(|(whole, body)| whole - body).collect();
+    let sides = [(bodies.on(None), &heat.flux, velocity), (bodies.counterbody().unwrap(), &above, 0.0)];
+    for ((half_space, flux, velocity), (hot, cold)) in sides.into_iter().zip(fields.each().zip(cold.each())) {
+        let body = HeatedBody::of(half_space, velocity).unwrap();
+        let waves = waves(flux, 33);
+        for (z, material) in [(0.0, 1), (0.03, 1), (half_space.faces(1).1, 1), (half_space.faces(1).1, 2), (0.2, 2)] {
+            let depth = Depth { z, material };
+            for x in [[0.0, 0.0], [0.13, -0.07], [0.4, 0.45]] {
+                let [hot, cold] = [hot, cold].map(|field| field.points(depth, &[x])[0].components());
+                let heated = by_heat(&body, &waves, [0.6, -0.8], depth, x);
+                let size = heated.iter().fold(0.0f64, |most, s| most.max(s.abs()));
+                let worst = (0..6).map(|k| (hot[k] - cold[k] - heated[k]).abs()).fold(0.0, f64::max);
+                // Both fields are sums of the pressure's own stresses, of which rounding is left.
+                assert!(worst < 1e-11 + 1e-9 * size && size > 1e-8, "{depth:?} {x:?}: {worst:e} of {size:e}");
+            }
+        }
+    }
+}
+
+/// Heat leaves the surface free: σ_zz = −p and the shear of friction; a warm spot is pressed together along the surface, the more
+/// the hotter.
+#[test]
+fn heat_leaves_the_surface_free() {
+    let step = heated_and_coated(3.0);
+    let contact = step.finest();
+    let field = StressField::new(contact, MeanStress::Confined);
+    let plane = field.plane(Depth::SURFACE, [33; 2]);
+    let peak = contact.pressures().iter().copied().fold(0.0, f64::max);
+    for ((i, j), &p) in contact.pressure().indexed_iter() {
+        let state = plane.state([i, j]);
+        assert!((state.zz + p).abs() < 1e-9 * peak);
+        assert!((state.xz + 0.4 * 0.6 * p).abs() < 1e-9 * peak && (state.yz - 0.4 * 0.8 * p).abs() < 1e-9 * peak);
+    }
+    let cold = Heating::default().without_expansion();
+    let problem = Problem::clone(contact.problem()).heated(cold).unwrap();
+    let cold = solved(problem, 33, Load::MeanPressure(0.01));
+    let colder = StressField::new(cold.finest(), MeanStress::Confined).plane(Depth::SURFACE, [33; 2]);
+    let heat = contact.heat().unwrap();
+    let (hottest, _) = heat.body.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).unwrap();
+    let [warm, mild] = [&plane, &colder].map(|plane| plane.state([hottest / 33, hottest % 33]));
+    assert!(warm.xx + warm.yy < mild.xx + mild.yy, "{warm:?} {mild:?}");
+}
+
+/// The largest stresses of a hot body are those of many planes.
+#[test]
+fn the_largest_stresses_of_a_hot_body_are_those_of_many_planes() {
+    let step = heated_and_coated(3.0);
+    let field = StressField::new(step.finest(), MeanStress::Confined);
+    let radius = step.reading().levels[0].contact_radius.unwrap();
+    let maxima = field.maxima([radius; 2]);
+    for material in [1, 2] {
+        let (top, bottom) = field.half_space().faces(material);
+        let bottom = bottom.min(top + 3.0 * radius);
+        let depths = (0..=40).map(|k| Depth { z: top + (bottom - top) * (f64::from(k) / 40.0).powi(2), material });
+        let largest = depths.filter(|depth| depth.z > 0.05 * radius).flat_map(|depth| {
+            let plane = field.plane(depth, [99; 2]);
+            (0..99 * 99).map(|i| plane.state([i / 99, i % 99]).derived()).collect::<Vec<_>>()
+        });
+        let [tau1, mises] = largest.fold([0.0f64; 2], |[a, b], [tau1, mises, _]| [a.max(tau1), b.max(mises)]);
+        let found = &maxima.materials[material - 1];
+        for (found, seen) in [(found.tau1.value, tau1), (found.mises.value, mises)] {
+            assert!(found > seen * (1.0 - 2e-3), "material {material}: {found}, {seen}");
+        }
+    }
+}
+
+/// Temperatures inside are those of the waves of the flux, and on the surface those of the solution.
+#[test]
+fn temperatures_inside_are_sums_over_the_waves_of_the_flux() {
+    let step = heated_and_coated(3.0);
+    let contact = step.finest();
+    let heat = contact.heat().unwrap();
+    let above: Vec<f64> = heat.friction.iter().zip(&heat.flux).map(|(whole, body)| whole - body).collect();
+    let surfaces = [(&heat.body, &heat.flux, 3.0), (heat.counterbody.as_ref().unwrap(), &above, 0.0)];
+    let fields = TemperatureField::of(contact);
+    assert_eq!(fields.len(), 2);
+    for (field, (surface, flux, velocity)) in fields.iter().zip(surfaces) {
+        let size = surface.iter().fold(0.0f64, |most, t| most.max(t.abs()));
+        let place = |sample: usize| contact.grid().cell().point(contact.grid().fractions(sample));
+        for sample in (0..33 * 33).step_by(37) {
+            let found = field.points(Depth::SURFACE, &[place(sample)])[0];
+            assert!((found - surface[sample]).abs() < 1e-9 * size, "{found} {}", surface[sample]);
+        }
+        let body = HeatedBody::of(field.half_space(), velocity).unwrap();
+        let waves = waves(flux, 33);
+        let line = SurfaceLine { origin: [0.1, 0.2], direction: [0.6, -0.8], span: [-0.3, 0.4], points: 8 };
+        let face = field.half_space().faces(1).1;
+        let depths = [(0.0, 1), (0.4 * face, 1), (face, 2), (0.3, 2)].map(|(z, material)| Depth { z, material });
+        let section = field.section(&line, &depths);
+        for ((row, column), found) in section.indexed_iter() {
+            let [x, y] = line.places()[column];
+            let of = |&([kx, ky], c): &([f64; 2], Complex64)| {
+                let turned = [kx * 0.6 - ky * 0.8, ky * 0.6 + kx * 0.8];
+                (c * Complex64::cis(kx * x + ky * y) * body.temperature_wave(turned).at(depths[row])).re
+            };
+            let expected: f64 = waves.iter().map(of).sum();
+            assert!((found - expected).abs() < 1e-9 * size, "{:?}: {found} {expected}", depths[row]);
+        }
+    }
+}
+
+/// A pin on a coated disc, on grids on which a sample of the edge touches in every other turn of contact and heat: held, it lets all others
+/// settle.
+#[test]
+fn a_sample_that_flips_does_not_keep_heat_from_settling() {
+    let steel = || conducting(210e3, [45.0, 12.0, 1.2e-5]);
+    let layer = Layer::new(conducting(200e3, [2.0, 1.0, 2.3e-6]), 0.003, Interface::Bonded).unwrap();
+    let pin = Level::new(Shape::Sphere { radius: 50.0 }, 0.0).unwrap();
+    for (points, force) in [(64, 20.0), (128, 16.0), (64, 11.0), (64, 30.0)] {
+        let bodies = Bodies::elastic(HalfSpace::new(vec![layer.clone()], steel()), HalfSpace::new(vec![], steel()));
+        let indenters = Indenters::new(Lattice::square(2.0, 1).unwrap(), vec![pin.clone()]).unwrap();
+        let problem = sliding(indenters, bodies, 0.1, 1000.0).heated(Heating::default()).unwrap();
+        let step = solved(problem, points, Load::Force(force));
+        let heat = step.finest().heat().unwrap();
+        let (above, p) = (heat.counterbody.as_ref().unwrap(), step.pressure());
+        let shared = p.iter().zip(heat.body.iter().zip(above)).filter(|(p, _)| **p > 0.0);
+        let apart = shared.filter(|(_, (a, b))| (*a - *b).abs() > 1e-6).count();
+        assert!(apart <= 2, "{points}, {force}: {apart} samples");
+    }
 }

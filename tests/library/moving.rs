@@ -2,12 +2,15 @@
 
 use crate::common::Random;
 use ndarray::Array2;
-use percoat::body::{ConstantModulus, Relaxation};
+use percoat::body::{ConstantModulus, Durability, Relaxation};
+use percoat::run::StressRequest;
 use percoat::spectral::MotionLoss;
 use percoat::steady_motion::{MotionError, SteadyMotion};
+use percoat::stress::Compliance;
 use percoat::{
-    Bodies, Cell, Contact, Depth, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material,
-    MeanStress, Problem, Settings, Shape, Solver, Step, StressField, Topography,
+    Bodies, Cell, Contact, Depth, Friction, GivenPressure, HalfSpace, Indenters, Interface, Lattice, Layer, Level,
+    Load, LoadedDisc, Material, MeanStress, Problem, Run, Sampling, Settings, Shape, Solver, Step, StrainDirection,
+    StrainLife, StressField, StressFields, StressReading, Topography,
 };
 use std::f64::consts::TAU;
 
@@ -353,6 +356,95 @@ fn largest_stresses_are_those_of_many_planes() {
             }
         }
     }
+}
+
+/// A wheel on an asphalt that relaxes, at constant bulk modulus, on an elastic base, in a cell of the sides 8 and 6.
+fn wheel(strain_life: Option<StrainLife>) -> Problem {
+    let relaxation = Relaxation::new(&[20.0, 60.0], &[0.5, 0.02]).unwrap();
+    let asphalt = elastic(10.0, 0.4).with_relaxation(Some(relaxation));
+    let lasts = Durability { strain_life, ..Durability::default() };
+    let layer = bonded(asphalt, 0.8).with_durability(lasts, None).unwrap();
+    let body = HalfSpace::new(vec![layer], elastic(1.0, 0.3));
+    let disc = LoadedDisc { centre: [0.0; 2], radius: 0.5, pressure: 0.7 };
+    let given = GivenPressure::discs(Cell::new([8.0, 0.0], [0.0, 6.0]).unwrap(), vec![disc]).unwrap();
+    let friction = Friction::new(0.1, [0.8, 0.6]).unwrap();
+    Problem::new(given, body).sliding(friction).unwrap().moving(SteadyMotion::new(3.0).unwrap()).unwrap()
+}
+
+fn driven(problem: Problem) -> Step {
+    let force = problem.given_pressure().unwrap().force();
+    Solver::new(problem, [128, 96], Settings::default()).unwrap().solve(Load::Force(force))
+}
+
+/// Strains below a moving load are the slopes of its displacements, in the layer that relaxes and below it; the largest ones are those of many
+/// planes.
+#[test]
+fn strains_of_a_moving_load_are_the_slopes_of_displacements() {
+    let step = driven(wheel(None));
+    let field = field(step.finest());
+    let hookean = field.hookean().unwrap();
+    let half = 1e-4;
+    for (z, material) in [(0.3, 1), (0.7, 1), (0.9, 2), (2.0, 2)] {
+        let compliance = Compliance::from(field.half_space().material(material));
+        let u = |[x, y, z]: [f64; 3]| field.points(Depth { z, material }, &[[x, y]])[0].displacement;
+        for [x, y] in [[0.0, 0.0], [0.4, -0.2], [-0.9, 0.3], [2.5, 1.5]] {
+            let slope = |axis: usize| {
+                let [mut ahead, mut behind] = [[x, y, z]; 2];
+                ahead[axis] += half;
+                behind[axis] -= half;
+                let [ahead, behind] = [u(ahead), u(behind)];
+                std::array::from_fn::<f64, 3, _>(|k| (ahead[k] - behind[k]) / (2.0 * half))
+            };
+            let [dx, dy, dz] = [0, 1, 2].map(slope);
+            let expected = [dx[0], dy[1], dz[2], 0.5 * (dx[1] + dy[0]), 0.5 * (dx[2] + dz[0]), 0.5 * (dy[2] + dz[1])];
+            let found = compliance.strain(&hookean.points(Depth { z, material }, &[[x, y]])[0]).components();
+            let size = expected.iter().fold(0.0f64, |most, e| most.max(e.abs()));
+            let worst = (0..6).map(|k| (found[k] - expected[k]).abs()).fold(0.0, f64::max);
+            assert!(worst < 1e-5 * size, "{z}, ({x}, {y}): {found:?} {expected:?}");
+        }
+    }
+    let largest = StressReading::of(
+        &step,
+        &step.reading(),
+        &StressFields::new(step.finest(), MeanStress::Confined).with_strains(true),
+    );
+    for (material, extremes) in (1..).zip(&largest.materials) {
+        let compliance = Compliance::from(field.half_space().material(material));
+        let (top, bottom) = field.half_space().faces(material);
+        let bottom = bottom.min(top + 2.0);
+        let depths = (0..=30).map(|k| Depth { z: top + (bottom - top) * f64::from(k) / 30.0, material });
+        let seen = depths.filter(|depth| depth.z > 0.1).flat_map(|depth| {
+            let plane = hookean.plane(depth, [160, 120]);
+            let strain = |i: usize| compliance.strain(&plane.state([i / 120, i % 120]));
+            (0..160 * 120).map(|i| [strain(i).horizontal(), -strain(i).zz]).collect::<Vec<_>>()
+        });
+        let [along, pressed] = seen.fold([0.0f64; 2], |[a, b], [along, pressed]| [a.max(along), b.max(pressed)]);
+        let found = [extremes.horizontal_strain.unwrap(), extremes.compression.unwrap()];
+        for (peak, seen) in found.into_iter().zip([along, pressed]) {
+            assert!(
+                peak.value > seen * (1.0 - 1e-3) && peak.value < 1.02 * seen + peak.error.unwrap(),
+                "{peak:?} {seen}"
+            );
+        }
+    }
+}
+
+/// A life by strain is judged by these strains, and a limit by them is where it is used up; below a contact it is refused.
+#[test]
+fn a_life_by_strain_is_judged_below_a_moving_load() {
+    let life = StrainLife::new(1e-2, 1e6, 4.0, StrainDirection::Tension).unwrap();
+    let problem = wheel(Some(life));
+    let load = Load::Force(problem.given_pressure().unwrap().force());
+    let run = Run::new(problem, vec![load], Sampling::Points([128, 96]));
+    let run = Run { stress: Some(StressRequest::default()), ..run };
+    let step = &run.solve(&mut ()).unwrap().steps[0];
+    let peak = step.stress.as_ref().unwrap().materials[0].horizontal_strain.unwrap();
+    assert!((step.strength[0].value / (peak.value / 1e-2) - 1.0).abs() < 1e-12, "{:?}", step.strength);
+    let lasts = Durability { strain_life: Some(life), ..Durability::default() };
+    let layer = bonded(relaxing(1.0, 0.4, 10.0), 0.05).with_durability(lasts, None).unwrap();
+    let motion = SteadyMotion::new(0.1).unwrap();
+    let refused = Problem::new(paraboloids(), HalfSpace::new(vec![layer], elastic(1.0, 0.3))).moving(motion);
+    assert_eq!(refused.unwrap_err(), MotionError::Strain);
 }
 
 #[test]

@@ -123,6 +123,11 @@ impl HeatedBodies {
         Ok(Self { body: of(body, speed)?, counterbody, direction })
     }
 
+    /// Unit vector of the motion.
+    pub fn direction(&self) -> [f64; 2] {
+        self.direction
+    }
+
     /// The wavevector **k** in axes along and across the motion.
     pub fn turned(&self, [kx, ky]: [f64; 2]) -> [f64; 2] {
         let [ex, ey] = self.direction;

@@ -72,16 +72,21 @@ impl Problem {
     ///
     /// # Errors
     /// [`MotionError`] where no material of the body relaxes and not all conduct heat, in the window of an isolated contact, and with hardness,
-    /// adhesion or a life by strain.
+    /// adhesion or, below a contact with a body that relaxes, a life by strain.
     pub fn moving(self, motion: SteadyMotion) -> Result<Self, MotionError> {
         match () {
             () if !self.half_space().relaxes() && !self.half_space().conducts() => Err(MotionError::Elastic),
             () if self.cell().surroundings() == Surroundings::FreeSpace => Err(MotionError::Isolated),
             () if self.largest_hardness().is_some() => Err(MotionError::Hardness),
             () if self.adhesion.is_some() => Err(MotionError::Adhesion),
-            () if self.bodies.last_by_strain() => Err(MotionError::Strain),
+            () if self.strains_at_edges() && self.bodies.last_by_strain() => Err(MotionError::Strain),
             () => Ok(Self { motion: Some(motion), ..self }),
         }
+    }
+
+    /// Whether a body that relaxes lies below the edges of a contact: strains there follow from glassy moduli when the contact moves.
+    pub fn strains_at_edges(&self) -> bool {
+        self.half_space().relaxes() && self.given_pressure().is_none()
     }
 
     /// The problem with frictional heat, of a counterbody that slides with friction and moves steadily.

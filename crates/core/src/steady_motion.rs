@@ -23,21 +23,26 @@ pub enum MotionError {
     Elastic,
     /// An isolated contact.
     #[error(
-        "a body that relaxes is passed in a periodic cell here, not in the window of an isolated contact: take a cell that is wide beside the \
-         contact and beside the way that the velocity makes in a relaxation time"
+        "a load that moves steadily passes a body in a periodic cell here, not in the window of an isolated contact: take a cell that is wide \
+         beside the contact, and beside the way that the velocity makes in a relaxation time"
     )]
     Isolated,
     /// A surface has a hardness.
     #[error(
-        "surfaces of bodies that relax have no hardness here: what is pressed in leaves the contact, and the indentation of a moving contact is \
-         not steady"
+        "surfaces under a load that moves steadily have no hardness here: what is pressed in leaves the contact, and the indentation of a moving \
+         contact is not steady"
     )]
     Hardness,
-    /// A material has a life by strain.
-    #[error("strains below a load that moves over a body that relaxes are not computed: leave lives by strain out")]
+    /// A material below a contact has a life by strain.
+    #[error(
+        "strains below a contact that moves over a body that relaxes are not computed, only those below a given pressure: at edges of contact they \
+         follow from glassy moduli"
+    )]
     Strain,
     /// The surfaces adhere.
-    #[error("surfaces of bodies that relax do not adhere here: the work of adhesion would depend on the velocity")]
+    #[error(
+        "surfaces under a load that moves steadily do not adhere here: the work of adhesion would depend on the velocity"
+    )]
     Adhesion,
 }
 

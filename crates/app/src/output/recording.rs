@@ -11,7 +11,7 @@ use percoat_case::case::Case;
 use percoat_core::load::Load;
 use percoat_core::run::{EarlierRun, GridStart, Recorder, Run, StepRecord, StressRequest};
 use percoat_core::spectral::{Checkpoint, Step};
-use percoat_core::stress::{StressField, StressFields, VerticalSection};
+use percoat_core::stress::{StressField, StressFields, TemperatureField, VerticalSection};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -207,7 +207,10 @@ impl Recorder for Recording<'_> {
         }
         let cut = self.stress.as_ref().and_then(|request| request.cut.as_ref());
         match (fields, &mut files.stresses, cut) {
-            (Some(fields), Some(stresses), _) => left.append(stresses.add(fields, &mut self.clock)?),
+            (Some(fields), Some(stresses), _) => {
+                let temperatures = || TemperatureField::of(step.finest());
+                left.append(stresses.add(fields, &temperatures, &mut self.clock)?);
+            }
             (Some(fields), None, Some(cut)) => {
                 self.clock.turn(Phase::Stress);
                 let section = |field: &StressField| field.section(&cut.line, &cut.depths(field.half_space()));

@@ -1,5 +1,5 @@
 //! `stress.npz`: stresses and displacements on planes, on a vertical section and at points, for every load step, with their
-//! strains under `stress.strain = true`; and a VTK file of the volume for each load step.
+//! strains under `stress.strain = true`, and with the temperatures by frictional heat; and a VTK file of the volume for each load step.
 
 use super::clock::{Clock, Phase};
 use super::layout::{STRESS, archive};
@@ -10,7 +10,9 @@ use super::{Files, OutputError};
 use ndarray::{ArrayView3, Axis};
 use percoat_core::body::{Bodies, Depth, HalfSpace, Side};
 use percoat_core::run::StressRequest;
-use percoat_core::stress::{Compliance, StrainState, StressField, StressFields, StressState, VerticalSection};
+use percoat_core::stress::{
+    Compliance, StrainState, StressField, StressFields, StressState, TemperatureField, VerticalSection,
+};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
@@ -51,7 +53,12 @@ impl StressArchive {
 
     /// Writes the stresses of the next step, one plane at a time; the clock separates computing from writing, except for a
     /// volume, which does both at once. Returns the files of the step.
-    pub(super) fn add(&mut self, fields: &StressFields, clock: &mut Clock) -> Result<Files, OutputError> {
+    pub(super) fn add(
+        &mut self,
+        fields: &StressFields,
+        temperatures: &dyn Fn() -> Vec<TemperatureField>,
+        clock: &mut Clock,
+    ) -> Result<Files, OutputError> {
         let (step, mut volumes) = (self.arrays.next_step(), Files::default());
         self.sections.clear();
         for field in fields.each() {
@@ -66,6 +73,9 @@ impl StressArchive {
                 clock.turn(Phase::Output);
             }
         }
+        if self.request.cut.is_some() || !self.request.points.is_empty() {
+            temperatures().iter().try_for_each(|heated| self.add_temperatures(heated, clock))?;
+        }
         volumes.append(self.arrays.left());
         Ok(volumes)
     }
@@ -74,18 +84,24 @@ impl StressArchive {
     fn add_places(&mut self, field: &StressField, clock: &mut Clock) -> Result<(), OutputError> {
         let Self { arrays, request, sections, .. } = self;
         let (half_space, prefix) = (field.half_space(), prefix(field.half_space()));
-        let strained = request.strain.then_some(half_space);
+        let hookean = request.strain.then(|| field.hookean()).flatten();
+        let strained = request.strain.then(|| hookean.as_ref().unwrap_or(field));
         for (number, depth) in (1..).zip(request.plane_depths(half_space)) {
-            add_plane(arrays, number, field, depth, strained, clock)?;
+            add_plane(arrays, number, field, depth, (request.strain, hookean.as_ref()), clock)?;
         }
         if let Some(cut) = &request.cut {
             clock.turn(Phase::Stress);
-            let section = field.section(&cut.line, &cut.depths(half_space));
+            let of = |field: &StressField| field.section(&cut.line, &cut.depths(half_space));
+            let (section, strained) = (of(field), strained.map(|behind| hookean.as_ref().map(|_| of(behind))));
             clock.turn(Phase::Output);
-            let rows = section.states.outer_iter().zip(&section.depths);
-            let states = rows.flat_map(|(row, &depth)| row.to_vec().into_iter().map(move |state| (state, depth)));
-            let states: Vec<(StressState, Depth)> = states.collect();
-            add_states(arrays, &format!("{prefix}section"), section.states.shape(), &states, strained)?;
+            let place = format!("{prefix}section");
+            add_states(arrays, &place, section.states.shape(), section.states.iter())?;
+            if let Some(behind) = strained {
+                let behind = behind.as_ref().unwrap_or(&section);
+                let rows = behind.states.outer_iter().zip(&section.depths);
+                let states = rows.flat_map(|(row, &depth)| row.to_vec().into_iter().map(move |state| (state, depth)));
+                add_strains(arrays, &place, section.states.shape(), half_space, states)?;
+            }
             clock.turn(Phase::Stress);
             let near = field.section_near_edge(&cut.line, &section.depths);
             clock.turn(Phase::Output);
@@ -95,12 +111,40 @@ impl StressArchive {
         let points = request.points_at(half_space);
         if !points.is_empty() {
             clock.turn(Phase::Stress);
-            let states: Vec<(StressState, Depth)> =
-                points.iter().map(|&(place, depth)| (field.points(depth, &[place])[0], depth)).collect();
+            let of = |field: &StressField| {
+                let states = points.iter().map(|&(place, depth)| (field.points(depth, &[place])[0], depth));
+                states.collect::<Vec<(StressState, Depth)>>()
+            };
+            let (states, strained) = (of(field), strained.map(of));
             let near = field.near_edge(&points);
             clock.turn(Phase::Output);
-            add_states(arrays, &format!("{prefix}points"), &[states.len()], &states, strained)?;
-            add_flags(arrays, &format!("{prefix}points"), &[states.len()], near)?;
+            let (place, shape) = (format!("{prefix}points"), [states.len()]);
+            add_states(arrays, &place, &shape, states.iter().map(|(state, _)| state))?;
+            if let Some(states) = strained {
+                add_strains(arrays, &place, &shape, half_space, states.into_iter())?;
+            }
+            add_flags(arrays, &place, &shape, near)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the temperatures of the present step in one body on the section and at points.
+    fn add_temperatures(&mut self, heated: &TemperatureField, clock: &mut Clock) -> Result<(), OutputError> {
+        let Self { arrays, request, .. } = self;
+        let (half_space, prefix) = (heated.half_space(), prefix(heated.half_space()));
+        if let Some(cut) = &request.cut {
+            clock.turn(Phase::Stress);
+            let section = heated.section(&cut.line, &cut.depths(half_space));
+            clock.turn(Phase::Output);
+            arrays.add(&format!("{prefix}section_temperature"), section.shape(), section.iter().copied())?;
+        }
+        let points = request.points_at(half_space);
+        if !points.is_empty() {
+            clock.turn(Phase::Stress);
+            let of = |&(place, depth): &([f64; 2], Depth)| heated.points(depth, &[place])[0];
+            let temperatures: Vec<f64> = points.iter().map(of).collect();
+            clock.turn(Phase::Output);
+            arrays.add(&format!("{prefix}points_temperature"), &[temperatures.len()], temperatures)?;
         }
         Ok(())
     }
@@ -163,13 +207,13 @@ fn add_axes<W: Write + Seek>(
 }
 
 /// Adds the components of a plane to the arrays `planes_<component>`, some rows at a time: first stresses and derived
-/// quantities, with them the strains in a half-space that is `strained`, then displacements.
+/// quantities, with them the strains where they are asked for, by the `hookean` field where there is one, then displacements.
 fn add_plane(
     arrays: &mut StepArrays,
     number: usize,
     field: &StressField,
     depth: Depth,
-    strained: Option<&HalfSpace>,
+    (strains, hookean): (bool, Option<&StressField>),
     clock: &mut Clock,
 ) -> Result<(), OutputError> {
     let (points, prefix) = (field.grid().points(), prefix(field.half_space()));
@@ -178,17 +222,21 @@ fn add_plane(
         components.iter().map(|name| arrays.begin(&format!("{prefix}planes_{name}"), number, &points)).collect()
     };
     let mut entries = begin(arrays, &[stresses, derived].concat())?;
-    let compliance = strained.map(|half_space| Compliance::from(half_space.material(depth.material)));
-    let mut strains = begin(arrays, if compliance.is_some() { &StrainState::NAMES } else { &[] })?;
+    let mut strained = begin(arrays, if strains { &StrainState::NAMES } else { &[] })?;
+    let compliance = Compliance::from(field.half_space().material(depth.material));
     clock.turn(Phase::Stress);
     field.stresses_by_rows(depth, points, |rows| {
-        if let Some(compliance) = compliance {
-            add_rows(&mut strains, compliance.strains(rows).view(), clock)?;
+        if strains && hookean.is_none() {
+            add_rows(&mut strained, compliance.strains(rows).view(), clock)?;
         }
         add_rows(&mut entries, rows, clock)
     })?;
+    if let Some(hookean) = hookean {
+        hookean
+            .stresses_by_rows(depth, points, |rows| add_rows(&mut strained, compliance.strains(rows).view(), clock))?;
+    }
     clock.turn(Phase::Output);
-    entries.into_iter().chain(strains).try_for_each(|entry| arrays.end(entry))?;
+    entries.into_iter().chain(strained).try_for_each(|entry| arrays.end(entry))?;
     let mut entries = begin(arrays, displacements)?;
     clock.turn(Phase::Stress);
     field.displacements_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
@@ -207,21 +255,30 @@ fn add_rows(entries: &mut [GrowingEntry], rows: ArrayView3<'_, f64>, clock: &mut
     Ok(())
 }
 
-/// Adds the components of states of this shape to the arrays `<place>_<component>`, with the strains in a half-space that is `strained`.
-fn add_states(
+/// Adds the components of states of this shape to the arrays `<place>_<component>`.
+fn add_states<'a>(
     arrays: &mut StepArrays,
     place: &str,
     shape: &[usize],
-    states: &[(StressState, Depth)],
-    strained: Option<&HalfSpace>,
+    states: impl Iterator<Item = &'a StressState> + Clone,
 ) -> Result<(), OutputError> {
     for (c, name) in (0..).zip(COMPONENTS) {
-        arrays.add(&format!("{place}_{name}"), shape, states.iter().map(|(state, _)| component(state, c)))?;
+        arrays.add(&format!("{place}_{name}"), shape, states.clone().map(|state| component(state, c)))?;
     }
-    let Some(half_space) = strained else { return Ok(()) };
+    Ok(())
+}
+
+/// Adds the strains of states of this shape, by Hooke's law of the materials of a half-space, to the arrays `<place>_<component>`.
+fn add_strains(
+    arrays: &mut StepArrays,
+    place: &str,
+    shape: &[usize],
+    half_space: &HalfSpace,
+    states: impl Iterator<Item = (StressState, Depth)>,
+) -> Result<(), OutputError> {
     let compliances: Vec<Compliance> = half_space.materials().map(Compliance::from).collect();
-    let strain = |(state, depth): &(StressState, Depth)| compliances[depth.material - 1].strain(state).all();
-    let strains: Vec<[f64; 10]> = states.iter().map(strain).collect();
+    let strains: Vec<[f64; 10]> =
+        states.map(|(state, depth)| compliances[depth.material - 1].strain(&state).all()).collect();
     for (c, name) in (0..).zip(StrainState::NAMES) {
         arrays.add(&format!("{place}_{name}"), shape, strains.iter().map(|all| all[c]))?;
     }

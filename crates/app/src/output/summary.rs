@@ -147,9 +147,8 @@ mod tests {
                 true => &["grid={ points = 48 }", "load.grip=[0.05, -0.05]"],
                 false => &["grid={ points = 32 }"],
             };
-            // Bodies that creep, or that heat expands, have no stresses yet.
-            let expands = whole.problem().heating().is_some_and(|heating| heating.expands());
-            let stresses = (whole.time.is_none() && !expands).then_some("stress={ planes = [0.0] }");
+            // Bodies that creep have no stresses.
+            let stresses = whole.time.is_none().then_some("stress={ planes = [0.0] }");
             // A rigid base has neither a name nor stresses; what lies on it has.
             let named = (whole.half_space().substrate() != Substrate::Rigid).then_some("substrate.name=steel");
             let sets = coarse.iter().copied().chain(stresses).chain(named).map(str::to_owned);

@@ -12,7 +12,7 @@ use percoat_case::units::Units;
 use percoat_core::load::LoadQuantity;
 use percoat_core::measured::Measured;
 use percoat_core::quantity::Kind;
-use percoat_core::reading::{HYSTERESIS, LIFE, READING, UTILISATION};
+use percoat_core::reading::{HYSTERESIS, LIFE, READING, TEMPERATURE, UTILISATION};
 use percoat_core::run::OfStep;
 use percoat_core::stress::maxima::EXTREMES;
 use std::collections::BTreeSet;
@@ -44,7 +44,7 @@ struct Ends<'a> {
 }
 
 /// The results in the order of their weight: what fails, then what strains.
-fn merits(load: LoadQuantity) -> [Merit; 7] {
+fn merits(load: LoadQuantity) -> [Merit; 8] {
     let known = |found: Measured| LimitValue::At(found.value, found.error);
     let merit = |quantity: &'static dyn OfStep, more: bool| {
         let of = move |result: &SweepResult| stated(quantity, result.step()?).map(known);
@@ -63,6 +63,7 @@ fn merits(load: LoadQuantity) -> [Merit; 7] {
             of: Box::new(largest),
         },
         merit(&HYSTERESIS.friction_coefficient, false),
+        merit(&TEMPERATURE.max, false),
         merit(&EXTREMES.tension, false),
         merit(&READING.max_pressure, false),
         merit(&EXTREMES.mises, false),

@@ -5,7 +5,7 @@ use crate::output::{FirstLimit, number, with_error};
 use percoat_core::load::LoadQuantity;
 use percoat_core::measured::Measured;
 use percoat_core::reading::{
-    Criterion, HYSTERESIS, LIFE, READING, UTILISATION, Utilisation, Verdict, within_the_errors,
+    Criterion, HYSTERESIS, LIFE, READING, TEMPERATURE, UTILISATION, Utilisation, Verdict, within_the_errors,
 };
 use percoat_core::run::{At, Limit, OfStep, StepRecord, first, rivals};
 use percoat_core::stress::maxima::EXTREMES;
@@ -49,7 +49,7 @@ pub enum LimitValue {
 }
 
 /// The main quantities of a load step: the load in both of its quantities, and either extent of contact.
-pub static SHOWN: [&dyn OfStep; 11] = [
+pub static SHOWN: [&dyn OfStep; 12] = [
     &READING.mean_pressure,
     &READING.force,
     &READING.penetration,
@@ -57,6 +57,7 @@ pub static SHOWN: [&dyn OfStep; 11] = [
     &READING.contact_area,
     &READING.max_pressure,
     &HYSTERESIS.friction_coefficient,
+    &TEMPERATURE.max,
     &EXTREMES.tau1,
     &EXTREMES.tension,
     &EXTREMES.mises,

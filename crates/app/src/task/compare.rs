@@ -83,6 +83,11 @@ impl<'a> Compare<'a> {
                 "compare has no loads in time: the localized method knows elastic bodies; give [load] instead of [time], or use percoat solve",
             ));
         }
+        if case.motion.is_some() {
+            return Err(Refused::new(
+                "compare has no steady motion: the localized method knows neither bodies that relax nor heat; leave [motion] out, or use percoat solve",
+            ));
+        }
         let task = case.comparison();
         let run = Run { loads: vec![task.load], stress: None, ..case.run() };
         let allowed = Allowed::within(case, room, Job::Compare { pictures }).map_err(Refused::new)?;

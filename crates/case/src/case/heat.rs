@@ -1,7 +1,7 @@
 //! `[heat]`: frictional heat of a counterbody that slides; and conduction of a material.
 
 use super::error::Refusal;
-use super::keys::{Form, Key, Range};
+use super::keys::{Form, Key, Range, Unit};
 use super::node::Value;
 use super::reader::TableAt;
 use super::section::{KeyValue, section};
@@ -16,12 +16,21 @@ const SHARE: Form = Form::Number(Range::between(0.0, 1.0));
 const SOLVED: &[&str] = &["solved"];
 
 // Keys of layers, of the substrate and of the counterbody, in any consistent units of heat: a power is a force times a velocity.
-pub(super) const CONDUCTIVITY: Key = Key::new(&[SIZE], "45.0").otherwise("not known");
-pub(super) const DIFFUSIVITY: Key = Key::new(&[SIZE], "12.0").otherwise("not known").rule("with `conductivity`");
-pub(super) const EXPANSION: Key =
-    Key::new(&[Form::Number(Range::SizeOrZero)], "1.2e-5").otherwise("0").rule("with `conductivity`");
-pub(super) const RESISTANCE: Key =
-    Key::new(&[Form::Number(Range::SizeOrZero)], "0.01").default("0").omitted_as_nothing();
+pub(super) const CONDUCTIVITY: Key = Key::new(&[SIZE], "45.0")
+    .unit(Unit::Other("power per length and temperature; a power is a force times a velocity"))
+    .otherwise("not known");
+pub(super) const DIFFUSIVITY: Key = Key::new(&[SIZE], "12.0")
+    .unit(Unit::Other("length squared per time"))
+    .otherwise("not known")
+    .rule("with `conductivity`");
+pub(super) const EXPANSION: Key = Key::new(&[Form::Number(Range::SizeOrZero)], "1.2e-5")
+    .unit(Unit::Other("one over a temperature"))
+    .otherwise("0")
+    .rule("with `conductivity`");
+pub(super) const RESISTANCE: Key = Key::new(&[Form::Number(Range::SizeOrZero)], "0.01")
+    .unit(Unit::Other("temperature per power and area"))
+    .default("0")
+    .omitted_as_nothing();
 
 section! {
     /// The section `[heat]`.
@@ -33,8 +42,9 @@ section! {
         /// bulk temperatures of the body and of the counterbody
         pub bulk: [f64; 2] =
             Key::new(&[Form::Tuple("two temperatures [body, counterbody]", &[Form::Number(Range::Coordinate); 2])], "[20.0, 20.0]")
+                .unit(Unit::Other("temperature; units.temperature names it"))
                 .default("[0, 0]"),
-        /// whether the bodies expand, so that the contact changes
+        /// whether the bodies expand, so that the contact changes and stresses by heat add to those of the load
         pub expansion: bool = Key::new(&[Form::Boolean], "false").default("true"),
     }
 }
@@ -56,8 +66,9 @@ fn solved<S: serde::Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
 
 impl KeyValue for PartitionValue {
     fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
-        match value.node.value {
-            Value::Text(_) => value.word().map(|_| Self::Solved),
+        match &value.node.value {
+            Value::Text(word) if word == SOLVED[0] => Ok(Self::Solved),
+            Value::Text(_) => Err(value.refuse("\"solved\" or a number between 0 and 1")),
             _ => value.number().map(Self::Share),
         }
     }
@@ -87,32 +98,29 @@ pub(super) fn heated(
     let conducts = problem.bodies().each().all(|body| body.conducts());
     let slides = problem.motion().is_some() && problem.friction().is_some_and(|friction| friction.coefficient() > 0.0);
     let Some((table, keys)) = section else {
-        return if conducts && slides { heat_up(problem, Heating::default(), root, root) } else { Ok(problem) };
+        return if conducts && slides { heat_up(problem, Heating::default(), root) } else { Ok(problem) };
     };
     let heating = keys.heating().map_err(|error| refuse(table, &error))?;
-    heat_up(problem, heating, table, root)
-}
-
-fn heat_up(problem: Problem, heating: Heating, section: &TableAt<'_>, root: &TableAt<'_>) -> Result<Problem, Refusal> {
-    let expands = heating.expands()
-        && problem
-            .bodies()
-            .each()
-            .flat_map(|body| body.materials())
-            .any(|material| material.conduction().is_some_and(|conduction| conduction.expansion() > 0.0));
-    if expands && (root.section("stress")?.is_some() || !problem.bodies().each().all(is_silent)) {
-        let message = "`heat`: stresses by heat are not computed, and strengths would miss them";
-        return Err(Refusal::new(section.span, message, "thermal stresses").help(
-            "leave [stress] and strengths out, set heat.expansion = false, or leave `expansion` of the materials out",
-        ));
+    if problem.bodies().counterbody().is_none() {
+        let alone = |key: &str| {
+            table.optional(key).map(|value| {
+                Refusal::new(
+                    value.node.span,
+                    format!("`heat.{key}` needs an elastic counterbody: a rigid one takes no heat"),
+                    "takes no heat",
+                )
+            })
+        };
+        let bulk = alone("bulk").filter(|_| keys.bulk[1] != 0.0);
+        if let Some(refusal) = alone("partition").or(bulk) {
+            return Err(refusal.help("give [counterbody] with `conductivity` and `diffusivity`, or leave the key out"));
+        }
     }
-    problem.heated(heating).map_err(|error| refuse(section, &error))
+    heat_up(problem, heating, table)
 }
 
-/// Whether a body has no strengths, fatigue or endurance, by which its stresses would be judged.
-fn is_silent(body: &percoat_core::body::HalfSpace) -> bool {
-    let bodies = percoat_core::body::Bodies::from(body);
-    percoat_core::reading::Criterion::all(&bodies).is_empty() && !bodies.tire()
+fn heat_up(problem: Problem, heating: Heating, section: &TableAt<'_>) -> Result<Problem, Refusal> {
+    problem.heated(heating).map_err(|error| refuse(section, &error))
 }
 
 fn refuse(section: &TableAt<'_>, error: &HeatingError) -> Refusal {

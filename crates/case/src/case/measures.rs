@@ -150,6 +150,11 @@ impl CaseUnits {
                 let help = "write the number alone, in the unit that units.time names".to_owned();
                 return Err(fault("times and velocities are not converted".to_owned(), "a unit", help));
             }
+            Unit::Other(_) => {
+                let help = "write the number alone, in the units of the case; [units] time and temperature name them"
+                    .to_owned();
+                return Err(fault("numbers of heat are not converted".to_owned(), "a unit", help));
+            }
             Unit::Length => "units.length",
             Unit::Pressure | Unit::PerPressure => "units.pressure",
             Unit::Force | Unit::PressurePerLength | Unit::PressureTimesLength => "units.length and units.pressure",
@@ -170,7 +175,7 @@ impl CaseUnits {
         let Self { length, pressure } = self;
         match of {
             Unit::Pure | Unit::LengthToOneMinusN | Unit::AreaCoefficient | Unit::Degree => None,
-            Unit::Time | Unit::Velocity => None,
+            Unit::Time | Unit::Velocity | Unit::Other(_) => None,
             Unit::Length => length,
             Unit::Pressure => pressure,
             Unit::Force => Some(pressure?.by(length?, 2)),

@@ -210,6 +210,9 @@ impl Case {
     /// # Errors
     /// A sentence for a case with several loads, a given pressure, or a cell that is too oblong.
     pub fn life_task(&self) -> Result<LifeTask, String> {
+        if self.time.is_some() {
+            return Err("a life has no loads in time: wear and passes of bodies that creep are not followed; give [load] instead of [time]".to_owned());
+        }
         let loads = self.load.loads();
         let [load] = loads[..] else {
             return Err(format!(
@@ -222,11 +225,8 @@ impl Case {
         if self.adhesion.is_some() {
             return Err("a life has no adhesion: wear and fatigue pass after pass are those of surfaces that do not pull; leave [adhesion] out".to_owned());
         }
-        if self.time.is_some() {
-            return Err("a life has no loads in time: wear and passes of bodies that creep are not followed; give [load] instead of [time]".to_owned());
-        }
         if self.motion.is_some() {
-            return Err("a life has no steady motion: wear and passes of bodies that relax are not followed; leave [motion] out".to_owned());
+            return Err("a life has no steady motion: wear and passes of a load that moves steadily are not followed; leave [motion] out".to_owned());
         }
         if self.problem.kind().is_given {
             return Err(

@@ -31,9 +31,9 @@ impl MotionSection {
             return Err(refuse(message, "no method for this case").help("leave solver.method out"));
         }
         for (other, why) in [
-            ("tangential", "a contact that sticks does not move steadily over a body that relaxes"),
-            ("composite_hardness", "surfaces of bodies that relax have no hardness here"),
-            ("life", "wear and passes of bodies that relax are not followed"),
+            ("tangential", "a contact that sticks does not move steadily over a body"),
+            ("composite_hardness", "surfaces under a load that moves steadily have no hardness here"),
+            ("life", "wear and passes of a steady motion are not followed"),
         ] {
             if root.section(other)?.is_some() {
                 return Err(refuse(why, "not together").help(format!("leave [{other}] or [motion] out")));
@@ -43,14 +43,16 @@ impl MotionSection {
         if let Some(strain) = stress
             .as_ref()
             .and_then(|stress| stress.optional("strain"))
-            .filter(|value| matches!(value.boolean(), Ok(true)))
+            .filter(|value| problem.strains_at_edges() && matches!(value.boolean(), Ok(true)))
         {
-            let message = "`stress.strain`: strains below a load that moves over a body that relaxes are not computed";
+            let message = "`stress.strain`: strains below a contact that moves over a body that relaxes are not computed, only those below a given pressure";
             return Err(Refusal::new(strain.node.span, message, "not with [motion]").help("leave stress.strain out"));
         }
         SteadyMotion::new(self.velocity).and_then(|motion| problem.moving(motion)).map_err(|error| {
             let help = match error {
-                MotionError::Elastic => "give a layer or the substrate `relaxation`, or leave [motion] out",
+                MotionError::Elastic => {
+                    "give a layer or the substrate `relaxation`, or all layers, the substrate and the counterbody `conductivity` and `diffusivity`, or leave [motion] out"
+                }
                 MotionError::Isolated => {
                     "set lattice.kind = \"square\" with a period of many contact widths: the answer over two periods shows what is left of the images"
                 }
@@ -58,7 +60,7 @@ impl MotionSection {
                     "leave `hardness` out, also that of a `material`: take its numbers instead of its name"
                 }
                 MotionError::Adhesion => "leave [adhesion] out",
-                MotionError::Strain => "leave `strain_life` out",
+                MotionError::Strain => "leave `strain_life` out, or give load.pressure",
                 MotionError::Velocity(_) => "give a velocity above 0",
             };
             refuse(&error.to_string(), "moves steadily").help(help)
@@ -121,15 +123,12 @@ mod tests {
             ("conductivity = 1.0", rubs.clone(), "diffusivity"),
             (conducts, format!("{MOVES}heat = {{}}\n"), "friction"),
             (conducts, "heat = {}\n".to_owned(), "velocity"),
-            (conducts, format!("{rubs}stress = {{}}\n"), "stresses by heat"),
-            (&format!("{conducts}, yield_strength = 1.0"), rubs.clone(), "stresses by heat"),
             (conducts, format!("{rubs}heat = {{ partition = 2.0 }}\n"), "between 0 and 1"),
             (conducts, format!("{rubs}counterbody = {{ young = 1.0, poisson = 0.3 }}\nheat = {{}}\n"), "conduction"),
         ] {
             let error = read(substrate, &more).unwrap_err();
             assert!(error.contains(why), "{substrate} {more}: {error}");
         }
-        let cold = format!("{rubs}stress = {{}}\nheat = {{ expansion = false }}\n");
-        assert!(read(conducts, &cold).is_ok());
+        assert!(read(&format!("{conducts}, yield_strength = 1.0"), &format!("{rubs}stress = {{}}\n")).is_ok());
     }
 }

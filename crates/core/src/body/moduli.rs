@@ -51,6 +51,19 @@ impl Material {
     }
 }
 
+impl Material {
+    /// G₀/G and K₀/K of the relaxed moduli over those at the Laplace variable s, one over a time.
+    pub(crate) fn relaxed_over<N: Number>(self, s: N) -> [N; 2] {
+        let Some(relaxation) = self.relaxation() else { return [N::from(1.0); 2] };
+        let shear = N::from(self.shear()).over(self.moduli_at(s).shear);
+        let bulk = match relaxation.constant() {
+            ConstantModulus::Bulk => N::from(1.0),
+            ConstantModulus::Poisson => shear,
+        };
+        [shear, bulk]
+    }
+}
+
 /// 1/K = 3(1 − 2ν)/(2G(1 + ν)).
 fn bulk_compliance(material: Material) -> f64 {
     let (shear, nu) = (material.shear(), material.poisson());

@@ -94,6 +94,38 @@ impl PassedTable {
         parallel::map_by(MIN_PARALLEL, count, of)
     }
 
+    /// Turns amplitudes of [`Self::amplitudes`] into those of stresses that have the same strains by Hooke's law of the relaxed moduli.
+    ///
+    /// # Panics
+    /// When there is no such material.
+    pub fn hookean(&self, amplitudes: &mut [Amplitudes<Complex64>], depth: Depth) {
+        for (amplitudes, [shear, bulk]) in amplitudes.iter_mut().zip(self.relaxed_over(depth)) {
+            let Amplitudes { szz, sqz, sqq, stt, .. } = amplitudes;
+            let mean = (*szz + *sqq + *stt) / 3.0;
+            for normal in [szz, sqq, stt] {
+                *normal = (*normal - mean) * shear + mean * bulk;
+            }
+            *sqz *= shear;
+        }
+    }
+
+    /// Turns amplitudes of [`Self::antiplane`] as [`Self::hookean`] does.
+    ///
+    /// # Panics
+    /// When there is no such material.
+    pub fn hookean_across(&self, amplitudes: &mut [Antiplane<Complex64>], depth: Depth) {
+        for (amplitudes, [shear, _]) in amplitudes.iter_mut().zip(self.relaxed_over(depth)) {
+            amplitudes.stz *= shear;
+            amplitudes.sqt *= shear;
+        }
+    }
+
+    /// G₀/G and K₀/K of each wave in the material of a depth.
+    fn relaxed_over(&self, depth: Depth) -> impl Iterator<Item = [Complex64; 2]> + '_ {
+        let material = self.materials[depth.material - 1].material;
+        self.waves.iter().map(move |[_, frequency]| material.relaxed_over(Complex64::new(0.0, *frequency)))
+    }
+
     /// Amplitudes at a depth under a shear traction across the wavevector, of the first `count` waves.
     ///
     /// # Panics

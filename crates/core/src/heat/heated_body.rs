@@ -102,6 +102,11 @@ impl HeatedBody {
         self.velocity
     }
 
+    /// Whether any of its materials expands.
+    pub fn expands(&self) -> bool {
+        self.conductions.iter().any(|conduction| conduction.expansion() > 0.0)
+    }
+
     /// Stress σ_xx = σ_yy = −EαT/(1−ν) of a material, from 1 at the surface down, that is warmer by a uniform `rise` T than it was when free
     /// of stress, and is held laterally; a pressure, positive in tension. This is the part k = 0 of the thermal stress.
     ///

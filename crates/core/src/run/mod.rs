@@ -296,10 +296,7 @@ impl Run {
         recorder: &mut R,
     ) -> Result<Solved, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&self.problem), points, self.settings)?;
-        let taken = 1.0 - solver.left_by_heat();
-        if taken >= 1.0 {
-            return Err(NoSteadyState { taken }.into());
-        }
+        NoSteadyState::of(&solver).map_or(Ok(()), Err)?;
         recorder.begin(&GridStart::from(&solver)).map_err(RunError::Recorder)?;
         let (mut records, mut saved) = finished.map_or((Vec::new(), None), |earlier| (earlier.steps, earlier.last));
         let Some(loads) = self.loads.get(records.len()..).filter(|loads| !loads.is_empty()) else {

@@ -5,7 +5,7 @@ use super::accuracy::{RefinementEnd, TooOblong};
 use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::notation::number;
-use crate::spectral::{AdhesiveError, CreepError, OtherGrids, RollError, SlipError, Step};
+use crate::spectral::{AdhesiveError, CreepError, OtherGrids, RollError, SlipError, Solver, Step};
 use std::error::Error;
 
 /// The result of a run.
@@ -93,6 +93,14 @@ pub struct AllAtHardness {
 pub struct NoSteadyState {
     /// Largest part of the compliance of a wave that swelling takes, 1 or more.
     pub taken: f64,
+}
+
+impl NoSteadyState {
+    /// Whether frictional heat leaves no steady state in the loads of a solver.
+    pub(super) fn of(solver: &Solver) -> Option<Self> {
+        let taken = 1.0 - solver.left_by_heat();
+        (taken >= 1.0).then_some(Self { taken })
+    }
 }
 
 impl<E: Error + 'static> RunError<E> {

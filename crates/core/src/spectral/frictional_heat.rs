@@ -45,6 +45,13 @@ pub struct SurfaceHeat {
     pub steps: usize,
 }
 
+impl SurfaceHeat {
+    /// Flux into the counterbody, a power per area: that of friction less that into the body.
+    pub fn flux_above(&self) -> Vec<f64> {
+        self.friction.iter().zip(&self.flux).map(|(q, body)| q - body).collect()
+    }
+}
+
 /// Operators of frictional heat on a grid.
 #[derive(Debug)]
 pub(super) struct FrictionalHeat {
@@ -55,6 +62,8 @@ pub(super) struct FrictionalHeat {
     temperature: WaveOperator,
     above: Option<Above>,
     swelling: WaveOperator,
+    /// Samples in which heat is shared whatever touches; `None` where it is shared in contact.
+    held: Option<SampleSet>,
 }
 
 /// Operators of a counterbody that takes heat.
@@ -116,7 +125,16 @@ impl FrictionalHeat {
             swelling: WaveOperator::new(grid, |k| bodies.body.swelling(bodies.turned(k))),
             above,
             bodies,
+            held: None,
         })
+    }
+
+    /// Holds the samples in which heat is shared at those that touch under a pressure, or shares it in contact again.
+    ///
+    /// A sample at the edge that touches in one turn and not in the next has swelling follow pressure without end: it is within the error of
+    /// the grid.
+    pub fn hold(&mut self, pressure: Option<&[f64]>) {
+        self.held = pressure.map(touching);
     }
 
     /// Flux and temperatures under a pressure, sample by sample.
@@ -128,15 +146,14 @@ impl FrictionalHeat {
         let [below, above] = self.heating.bulk();
         let mut temperature = self.temperature.of(&flux, workspace);
         sums::update(&mut temperature, |_, t| t + below);
-        let counterbody = self.above.as_ref().map(|operators| {
-            let rest = flux_above(&friction, &flux);
-            let mut temperature = operators.temperature.of(&rest, workspace);
+        let share = if whole > 0.0 { body / whole } else { 1.0 };
+        let (counterbody, swelling) = (None, Vec::new());
+        let mut heat = SurfaceHeat { flux, friction, body: temperature, counterbody, swelling, share, steps };
+        heat.counterbody = self.above.as_ref().map(|operators| {
+            let mut temperature = operators.temperature.of(&heat.flux_above(), workspace);
             sums::update(&mut temperature, |_, t| t + above);
             temperature
         });
-        let share = if whole > 0.0 { body / whole } else { 1.0 };
-        let mut heat =
-            SurfaceHeat { flux, friction, body: temperature, counterbody, swelling: Vec::new(), share, steps };
         if self.heating.expands() {
             heat.swelling = self.swelling_by(&heat);
         }
@@ -149,7 +166,7 @@ impl FrictionalHeat {
         if let Partition::Share(share) = self.heating.partition() {
             return (friction.iter().map(|q| share * q).collect(), 0);
         }
-        let set = SampleSet::of(pressure.len(), |i| pressure[i] > 0.0);
+        let set = self.held.clone().unwrap_or_else(|| touching(pressure));
         if set.len() == 0 {
             return (friction.to_vec(), 0);
         }
@@ -180,7 +197,7 @@ impl FrictionalHeat {
         let workspace = &mut Workspace::default();
         let mut displaced = self.swelling.of(&heat.flux, workspace);
         if let Some(above) = &self.above {
-            let other = above.swelling.of(&flux_above(&heat.friction, &heat.flux), workspace);
+            let other = above.swelling.of(&heat.flux_above(), workspace);
             sums::update(&mut displaced, |i, w| w + other[i]);
         }
         displaced
@@ -216,7 +233,7 @@ impl FrictionalHeat {
     /// Largest temperature of each material, of the body and then of a counterbody that takes heat: heat enters at the surface, so that it lies on
     /// the upper face.
     pub fn hottest(&self, grid: &Grid, heat: &SurfaceHeat) -> Vec<Hottest> {
-        let rest = flux_above(&heat.friction, &heat.flux);
+        let rest = heat.flux_above();
         let [below, above] = self.heating.bulk();
         let below = (&self.bodies.body, &heat.flux, below);
         let above = self.bodies.counterbody.as_ref().map(|body| (body, &rest, above));
@@ -236,9 +253,9 @@ impl FrictionalHeat {
     }
 }
 
-/// Flux into the counterbody: that of friction less that into the body.
-fn flux_above(friction: &[f64], flux: &[f64]) -> Vec<f64> {
-    friction.iter().zip(flux).map(|(q, body)| q - body).collect()
+/// The samples that touch.
+fn touching(pressure: &[f64]) -> SampleSet {
+    SampleSet::of(pressure.len(), |i| pressure[i] > 0.0)
 }
 
 /// Largest temperature of a material.

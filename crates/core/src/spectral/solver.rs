@@ -32,6 +32,8 @@ const COARSER_KEPT: usize = 2;
 
 /// Most turns of a contact and the partition of its heat, and the change of the swelling over the penetration at which they end.
 const HEAT_TURNS: usize = 40;
+/// Turns after which the samples in which heat is shared are held: one that touches in every other turn keeps all others from settling.
+const FREE_TURNS: usize = 16;
 const HEAT_TOLERANCE: f64 = 1e-8;
 
 /// Weights of the changes of a contact stiffness from the coarser grids, the next coarser first, and that of the samples that join at a time
@@ -200,9 +202,12 @@ impl Solver {
         let share = FrictionalHeat::first_share(&self.problem, self.grid().least_wavenumber());
         let (mut before, mut step) = (vec![0.0; self.grid().len()], self.solve_on_levels(load, progress));
         let mut is_settled = false;
-        for _ in 0..HEAT_TURNS {
+        for turn in 0..HEAT_TURNS {
             if !step.report.stop.solved() {
                 break;
+            }
+            if turn == FREE_TURNS {
+                self.heats[0].hold(Some(step.finest.pressures()));
             }
             // Each step has the heat of its contact.
             let Some(heat) = step.finest.heat() else { break };
@@ -221,6 +226,7 @@ impl Solver {
             step = self.solve_on_levels(load, progress);
             step.convolutions += convolutions;
         }
+        self.heats[0].hold(None);
         for (level, original) in self.levels.iter_mut().zip(originals) {
             level.set_surface(original, None);
         }
@@ -299,8 +305,10 @@ impl Solver {
     }
 
     /// Least part of the compliance of a wave that swelling by frictional heat leaves, 1 without heat: no steady state is unique from 0 down.
+    ///
+    /// A given pressure stays as it is.
     pub fn left_by_heat(&self) -> f64 {
-        self.levels[0].left_by_heat()
+        if self.problem.given_pressure().is_some() { 1.0 } else { self.levels[0].left_by_heat() }
     }
 
     /// Keeps what the last load has pressed in, where its pressure is that of the hardness: the depths −g are in the initial gap of the

@@ -1,13 +1,16 @@
 //! Stresses and displacements at one depth by the waves of a traction.
 
 use super::far_plane::FarPlane;
-use super::passed::Passed;
+use super::passed::{Meaning, Passed};
+use super::passed_shells::PassedShells;
 use super::series::Response;
 use super::tensor::StressState;
+use super::thermal::ThermalAmplitudes;
 use super::traction::ShearForm;
 use super::traction_waves::Wave;
 use crate::body::{Amplitudes, Antiplane, Depth, InPlane, InteriorTable};
 use rustfft::num_complex::Complex64;
+use std::sync::Arc;
 
 /// Whether each of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z is odd in the wavevector under a pressure; under a shear traction the
 /// others are.
@@ -18,6 +21,8 @@ const ODD: [bool; 9] = [false, false, false, false, true, true, true, true, fals
 pub(super) struct DepthResponse {
     pub normal: Vec<Amplitudes>,
     pub tangential: Option<Tangential>,
+    /// Amplitudes of the stresses by heat; `None` without heat.
+    thermal: Option<ThermalAmplitudes>,
     /// Wavelengths of the shells over 2π.
     pub lengths: Vec<f64>,
     pub mean: StressState,
@@ -32,8 +37,7 @@ pub(super) struct DepthResponse {
 /// Imaginary parts of the amplitudes of waves whose component along the motion is positive; the other waves have the opposite ones.
 #[derive(Debug)]
 struct Lost {
-    /// Unit vector of the motion.
-    direction: [f64; 2],
+    shells: Arc<PassedShells>,
     normal: Vec<Amplitudes>,
     tangential: Option<Tangential>,
 }
@@ -78,6 +82,7 @@ impl DepthResponse {
         Self {
             normal: interiors.amplitudes(InPlane::Normal, wavenumbers, depth),
             tangential,
+            thermal: None,
             lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(),
             mean,
             is_deep: false,
@@ -86,31 +91,43 @@ impl DepthResponse {
         }
     }
 
-    /// Response of a body that a load passes.
-    pub fn passed(passed: &Passed, depth: Depth, wavenumbers: &[f64], form: ShearForm, mean: StressState) -> Self {
-        let [normal, lost] = passed.amplitudes(InPlane::Normal, wavenumbers.len(), depth);
+    /// Response of a body that relaxes and that a load passes.
+    pub fn passed(
+        (passed, of): (&Passed, Meaning),
+        depth: Depth,
+        wavenumbers: &[f64],
+        form: ShearForm,
+        mean: StressState,
+    ) -> Self {
+        let [normal, lost] = passed.amplitudes(InPlane::Normal, wavenumbers.len(), depth, of);
         let sheared = (form != ShearForm::None).then(|| {
-            let along = passed.amplitudes(InPlane::Along, wavenumbers.len(), depth);
-            let across = passed.antiplane(wavenumbers.len(), depth);
-            let of = |(along, across)| Tangential {
+            let along = passed.amplitudes(InPlane::Along, wavenumbers.len(), depth, of);
+            let across = passed.antiplane(wavenumbers.len(), depth, of);
+            let parts_of = |(along, across)| Tangential {
                 ratio: form.ratio().unwrap_or_default(),
                 is_field: form.ratio().is_none(),
                 along,
                 across,
             };
-            let mut parts = along.into_iter().zip(across).map(of);
+            let mut parts = along.into_iter().zip(across).map(parts_of);
             (parts.next(), parts.next())
         });
         let (stored, late) = sheared.unwrap_or_default();
         Self {
             normal,
             tangential: stored,
+            thermal: None,
             lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(),
             mean,
             is_deep: false,
             far: None,
-            lost: Some(Lost { direction: passed.direction(), normal: lost, tangential: late }),
+            lost: Some(Lost { shells: Arc::clone(passed.shells()), normal: lost, tangential: late }),
         }
+    }
+
+    /// The response with the stresses by heat.
+    pub fn heated(self, thermal: Option<ThermalAmplitudes>) -> Self {
+        Self { thermal, ..self }
     }
 
     /// The response of the series of a field, deep or near the surface, with what a free field has beside the periodic one.
@@ -158,6 +175,19 @@ fn antiplane([nx, ny]: [f64; 2], amplitudes: &Antiplane) -> [f64; 9] {
     ]
 }
 
+/// −ic.
+#[inline(always)]
+fn turn(c: Complex64) -> Complex64 {
+    Complex64::new(c.im, -c.re)
+}
+
+/// The nine components of a wave c along **n** of a pressure, or of a flux of heat, by its amplitudes.
+#[inline(always)]
+fn under(n: [f64; 2], c: Complex64, amplitudes: &Amplitudes) -> [Complex64; 9] {
+    let (factors, turned) = (in_plane(n, amplitudes), turn(c));
+    std::array::from_fn(|k| factors[k] * if ODD[k] { turned } else { c })
+}
+
 /// The nine components of a wave along the unit vector **n** by the amplitudes of its shell.
 #[inline(always)]
 fn components<W: Wave>(
@@ -168,14 +198,10 @@ fn components<W: Wave>(
     tangential: Option<&Tangential>,
 ) -> [Complex64; 9] {
     let c = wave.pressure();
-    // −ic.
-    let turn = |c: Complex64| Complex64::new(c.im, -c.re);
-    let turned = turn(c);
-    let normal = in_plane(n, &normal[shell]);
-    let waves = std::array::from_fn(|k| normal[k] * if ODD[k] { turned } else { c });
+    let waves = under(n, c, &normal[shell]);
     let Some(tangential) = tangential else { return waves };
     if !W::HAS_SHEAR {
-        let factors = tangential.factors(n, shell);
+        let (factors, turned) = (tangential.factors(n, shell), turn(c));
         return std::array::from_fn(|k| waves[k] + factors[k] * if ODD[k] { c } else { turned });
     }
     let shear = tangential.waves(wave.shear(), n, shell);
@@ -212,12 +238,18 @@ impl Response<9> for DepthResponse {
     fn times<W: Wave>(&self, q @ [x, y]: [f64; 2], shell: usize, wave: W) -> [Complex64; 9] {
         let length = self.lengths[shell];
         let n = [x * length, y * length];
-        let stored = components(n, shell, wave, &self.normal, self.tangential.as_ref());
-        let Some(Lost { direction, normal, tangential }) = &self.lost else { return stored };
-        // i for a positive component along the motion, −i for a negative one.
-        let turn = Complex64::new(0.0, (q[0] * direction[0] + q[1] * direction[1]).signum());
-        let lost = components(n, shell, wave * turn, normal, tangential.as_ref());
-        std::array::from_fn(|k| stored[k] + lost[k])
+        let mut sum = components(n, shell, wave, &self.normal, self.tangential.as_ref());
+        if let Some(Lost { shells, normal, tangential }) = &self.lost {
+            // i for a positive component along the motion, −i for a negative one.
+            let lost = components(n, shell, wave * Complex64::new(0.0, shells.sign(q)), normal, tangential.as_ref());
+            sum = std::array::from_fn(|k| sum[k] + lost[k]);
+        }
+        if let Some(thermal) = &self.thermal {
+            let ([stored, lost], heat) = (thermal.of(q, shell), wave.heat());
+            let [warm, lagging] = [under(n, heat, &stored), under(n, heat * Complex64::I, &lost)];
+            sum = std::array::from_fn(|k| sum[k] + (warm[k] + lagging[k]));
+        }
+        sum
     }
 
     fn mean(&self) -> [f64; 9] {

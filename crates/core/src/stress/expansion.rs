@@ -65,7 +65,10 @@ impl StressField {
     }
 
     fn expand(&self, depth: Depth, place: [f64; 2]) -> Expansion {
-        let Interiors::Resting(interiors) = self.interiors() else { return self.expand_by_sums(depth, place) };
+        let interiors = match self.interiors() {
+            Interiors::Resting(interiors) if !self.is_heated() => interiors,
+            Interiors::Resting(_) | Interiors::Passed(..) => return self.expand_by_sums(depth, place),
+        };
         let waves = &self.series.waves;
         let wavenumbers = self.wavenumbers_within(depth, SEARCH_REACH);
         let tangential = if self.slides() {

@@ -6,13 +6,15 @@ use super::far_field::FarField;
 use super::far_plane::FarPlane;
 use super::loaded_window::{LoadedWindow, MOST_WINDOWS};
 use super::mean_states::{across, mean_states};
-use super::passed::Passed;
+use super::measure::StressMeasure;
+use super::passed::{Meaning, Passed};
 use super::regions::Regions;
 use super::series::{Response, Series};
 use super::series_grid::spread;
 use super::tables::Tables;
 use super::taylor::Expansion;
 use super::tensor::StressState;
+use super::thermal::Thermal;
 use super::traction::{ShearForm, Traction};
 use crate::body::{Bodies, Depth, HalfSpace, InteriorTable, MeanStress};
 use crate::counterbody::LoadedDisc;
@@ -35,7 +37,7 @@ pub(super) enum Interiors {
     /// Amplitudes of a body at rest below its load, or elastic.
     Resting(Arc<InteriorTable>),
     /// Amplitudes of a body that relaxes below a load that moves.
-    Passed(Arc<Passed>),
+    Passed(Arc<Passed>, Meaning),
 }
 
 /// The stress field of one body in a load step.
@@ -59,6 +61,8 @@ pub struct StressField {
     hole: Option<Cell>,
     half_space: HalfSpace,
     interiors: Interiors,
+    /// Stresses by heat that enters the body; `None` of a cold one.
+    thermal: Option<Arc<Thermal>>,
     tables: Arc<Tables>,
     /// State under the mean pressure at the upper face of each material, and the derivative of its displacement by depth.
     mean: Vec<(StressState, [f64; 3])>,
@@ -122,13 +126,15 @@ impl StressField {
         let series_grid = tables.series_grid(grid);
         let spread = spread(grid, traction.pressure());
         let (mut series, mean_shear) = Series::under(&series_grid, grid, traction, &spread);
-        let (velocity, slides) = (traction.velocity(), form != ShearForm::None);
-        let interiors = if velocity != [0.0; 2] && half_space.relaxes() {
-            let passed = tables.passed(&series_grid, half_space, (velocity, slides));
-            series = series.in_shells_of(passed.waves());
-            Interiors::Passed(passed)
-        } else {
-            Interiors::Resting(tables.interiors(&series_grid, half_space, slides))
+        let ([vx, vy], slides) = (traction.velocity(), form != ShearForm::None);
+        let speed = vx.hypot(vy);
+        let (lags, heat) = (speed > 0.0 && half_space.relaxes(), traction.heat());
+        let is_passed = speed > 0.0 && (lags || heat.is_some());
+        let shells = tables.shells(&series_grid, is_passed.then(|| [vx / speed, vy / speed]));
+        series = series.in_shells_of(shells.waves());
+        let interiors = match lags {
+            true => Interiors::Passed(tables.passed(&shells, half_space, (speed, slides)), Meaning::Stresses),
+            false => Interiors::Resting(tables.interiors_of(&shells, half_space, slides)),
         };
         let (load, far, loaded) = match grid.cell().surroundings() {
             Surroundings::Periodic => (Load::MeanPressure(series.mean), None, None),
@@ -155,6 +161,7 @@ impl StressField {
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
             interiors,
+            thermal: heat.map(|heat| tables.thermal(&shells, &heat.body)),
             far,
             mean: mean_states(half_space, (mean, across(grid, line)), series.mean, mean_traction),
             mean_stress: mean,
@@ -199,6 +206,7 @@ impl StressField {
             hole: Some(hole),
             half_space: self.half_space.clone(),
             interiors: Interiors::Resting(tables.interiors(&series_grid, &self.half_space, self.slides())),
+            thermal: None,
             far: Some(far),
             mean: self.mean.clone(),
             regions: Regions::new(&series_grid, &vec![0.0; series_grid.len()], None),
@@ -209,6 +217,42 @@ impl StressField {
             series: series.counted_by(tables.work()),
             tables,
             ..*self
+        }
+    }
+
+    /// Field of the stresses that have the strains of this one by Hooke's law of the relaxed moduli, below a load that moves over a body that
+    /// relaxes; `None` where the stresses themselves have them.
+    ///
+    /// By it strains are read and searched as in any other body. Below edges of a contact, where strains follow from glassy moduli, its
+    /// surface is not sharpened as it should be.
+    #[must_use]
+    pub fn hookean(&self) -> Option<Self> {
+        let Interiors::Passed(passed, Meaning::Stresses) = &self.interiors else { return None };
+        Some(Self {
+            series: self.series.clone(),
+            grid: Arc::clone(&self.grid),
+            series_grid: Arc::clone(&self.series_grid),
+            far: None,
+            loaded: None,
+            around: Default::default(),
+            expansions: Mutex::default(),
+            hole: None,
+            half_space: self.half_space.clone(),
+            interiors: Interiors::Passed(Arc::clone(passed), Meaning::Strains),
+            thermal: self.thermal.clone(),
+            tables: Arc::clone(&self.tables),
+            mean: self.mean.clone(),
+            regions: self.regions.clone(),
+            discs: self.discs.clone(),
+            ..*self
+        })
+    }
+
+    /// Whether a measure is one of the stresses of the field, and not of those of [`Self::hookean`], or the other way round.
+    pub(super) fn has(&self, measure: StressMeasure) -> bool {
+        match &self.interiors {
+            Interiors::Passed(_, of) => measure.is_strain() == (*of == Meaning::Strains),
+            Interiors::Resting(_) => true,
         }
     }
 
@@ -233,7 +277,7 @@ impl StressField {
         let material = self.half_space.surface_material();
         match &self.interiors {
             Interiors::Resting(_) => material.poisson(),
-            Interiors::Passed(passed) => {
+            Interiors::Passed(passed, _) => {
                 let frequency = 0.5 * self.least_aliased() * passed.speed();
                 material.moduli_at(Complex64::new(0.0, frequency)).poisson.re
             }
@@ -283,6 +327,16 @@ impl StressField {
     /// Amplitudes of the grid's waves in the half-space.
     pub(super) fn interiors(&self) -> &Interiors {
         &self.interiors
+    }
+
+    /// Whether heat enters the body.
+    pub(super) fn is_heated(&self) -> bool {
+        self.thermal.is_some()
+    }
+
+    /// Whether its stresses stand for the strains, see [`Self::hookean`].
+    pub(super) fn stands_for_strains(&self) -> bool {
+        matches!(self.interiors, Interiors::Passed(_, Meaning::Strains))
     }
 
     /// Contact spots and the open regions between them.
@@ -353,9 +407,10 @@ impl StressField {
         let (wavenumbers, mean) = (self.wavenumbers_within(depth, reach), self.mean(depth));
         let response = match &self.interiors {
             Interiors::Resting(table) => DepthResponse::new(table, depth, wavenumbers, self.form, mean),
-            Interiors::Passed(passed) => DepthResponse::passed(passed, depth, wavenumbers, self.form, mean),
+            Interiors::Passed(passed, of) => DepthResponse::passed((passed, *of), depth, wavenumbers, self.form, mean),
         };
-        response.in_field(self.is_deep(depth), self.far.as_ref().map(|far| far.plane(depth)))
+        let thermal = self.thermal.as_ref().map(|thermal| thermal.at(wavenumbers.len(), depth));
+        response.heated(thermal).in_field(self.is_deep(depth), self.far.as_ref().map(|far| far.plane(depth)))
     }
 
     /// State under the mean pressure at a depth.

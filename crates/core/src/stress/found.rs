@@ -34,7 +34,7 @@ impl ContenderLists {
     }
 
     /// Adds the contenders for the same maxima elsewhere.
-    fn extend(&mut self, others: &Self) {
+    pub fn extend(&mut self, others: &Self) {
         let pairs = |lists: &mut Vec<Contenders>, others: &[Contenders]| {
             lists.iter_mut().zip(others).for_each(|(list, other)| list.extend(other));
         };
@@ -180,6 +180,9 @@ impl FoundStresses {
             }
         }
         let beside = CoarserField::new(coarser, &of_crests);
+        let has_strains = self.contenders.each().any(|(measure, _)| !coarser.has(*measure));
+        let hookean = has_strains.then(|| coarser.hookean()).flatten();
+        let beside_strains = hookean.as_ref().map(|field| CoarserField::new(field, &[]));
         let surface =
             NearSurface { depth: self.shallow_depth, ringing: self.ringing, is_exact_below: self.is_exact_below };
         let (resolution, left_out) = (self.resolution, self.left_out);
@@ -195,7 +198,8 @@ impl FoundStresses {
                 None if !goes_on() => return None,
                 None => {
                     let left_out = measure.rise(&contender.state, left_out * contender.size);
-                    Some(contender.error(*measure, &beside, resolution, surface) + left_out)
+                    let beside = beside_strains.as_ref().filter(|_| !coarser.has(*measure)).unwrap_or(&beside);
+                    Some(contender.error(*measure, beside, resolution, surface) + left_out)
                 }
             };
             known.push((*measure, *contender));

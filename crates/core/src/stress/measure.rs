@@ -2,7 +2,7 @@
 
 use super::strain::Compliance;
 use super::tensor::StressState;
-use crate::body::{InterfaceStrength, StrainDirection, StrainLife, Strength};
+use crate::body::{HalfSpace, InterfaceStrength, StrainDirection, StrainLife, Strength};
 use crate::numeric::search::first_largest;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -46,6 +46,14 @@ pub(super) enum Sought {
 }
 
 impl Sought {
+    /// Whether strains of a body are sought.
+    pub fn strains(self, half_space: &HalfSpace) -> bool {
+        match self {
+            Self::All { strains } => strains,
+            Self::Strengths => half_space.durabilities().any(|durability| durability.strain_life.is_some()),
+        }
+    }
+
     /// Measures of a material of this strength and life by strain, and of this compliance.
     pub fn in_material(
         self,
@@ -93,6 +101,11 @@ impl StressMeasure {
     /// Whether the measure is a tension or an extension, which is small where a material is incompressible.
     pub fn is_tensile(&self) -> bool {
         matches!(self, Self::Tension | Self::Strain(_) | Self::HorizontalStrain(_))
+    }
+
+    /// Whether the measure is a strain.
+    pub fn is_strain(&self) -> bool {
+        matches!(self, Self::Strain(_) | Self::HorizontalStrain(_) | Self::Compression(_))
     }
 
     /// Whether the measure is the strain of a law of life.

@@ -144,7 +144,8 @@ impl StressField {
         };
         let (response, found) = (self.depth_response(depth, PLANE_REACH), RunningMaxima::new(measures));
         let searched = SearchedColumns { count: columns, beside_hole: self.beside_hole(transform, start) };
-        if let Some(traction) = self.traction_over_pressure().filter(|_| depth == Depth::SURFACE) {
+        let is_surface = depth == Depth::SURFACE && !self.stands_for_strains();
+        if let Some(traction) = self.traction_over_pressure().filter(|_| is_surface) {
             let surface = SurfaceStresses::new(&Arc::new(response), |_| 1.0);
             let fields = self.series.on_plane_from(start, transform, Vec::new(), &surface);
             return fields.map_first(rows, |i, row| {

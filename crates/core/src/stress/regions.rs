@@ -5,7 +5,7 @@ use crate::lattice::components::{contact_spots, open_regions};
 use std::f64::consts::PI;
 
 /// Contact spots of a pressure and the open regions around and inside them.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Regions {
     /// Index of the spot or open region of each sample; spots come first.
     pub of: Vec<u32>,

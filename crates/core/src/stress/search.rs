@@ -62,8 +62,7 @@ impl StressField {
     /// Maxima over all materials, faces and interfaces; `None` when `goes_on`, called between planes and between searches,
     /// returns false. `radii` as in [`Self::maxima`].
     pub fn maxima_while(&self, radii: [f64; 2], goes_on: &dyn Fn() -> bool) -> Option<Maxima> {
-        let strains =
-            self.strains || self.half_space().durabilities().any(|durability| durability.strain_life.is_some());
+        let strains = self.strains || Sought::Strengths.strains(self.half_space());
         self.found_everywhere(radii, Sought::All { strains }, goes_on).map(Maxima::new)
     }
 
@@ -79,10 +78,13 @@ impl StressField {
         let compliances = self.half_space().materials().map(Compliance::from);
         let lives = self.half_space().durabilities().map(|durability| durability.strain_life);
         let measures = self.half_space().strengths().zip(lives).zip(compliances);
-        let measures: Vec<Vec<StressMeasure>> =
+        let mut measures: Vec<Vec<StressMeasure>> =
             measures.map(|(judged, compliance)| sought.in_material(judged, compliance)).collect();
+        measures.iter_mut().for_each(|measures| measures.retain(|measure| self.has(*measure)));
         let of_surface = &measures[0];
-        let crests = if of_surface.is_empty() || self.has_hole() { Vec::new() } else { self.crests_of(of_surface) };
+        // The jump of a pressure is that of stresses, not of what stands for strains.
+        let is_plain = of_surface.is_empty() || self.has_hole() || self.stands_for_strains();
+        let crests = if is_plain { Vec::new() } else { self.crests_of(of_surface) };
         let (search, mut contenders) = (Search { radii, sought, crests: &crests, goes_on }, ContenderLists::default());
         for ((material, measures), wanted) in (1..).zip(&measures).zip(wanted) {
             match wanted {
@@ -92,7 +94,12 @@ impl StressField {
                     // The upper face of the layer.
                     contenders.faces.push(Vec::new());
                 }
-                [true, _] => self.add_contenders(material, measures, &search, &mut contenders)?,
+                [true, _] => {
+                    let faces = contenders.faces.len() + 1 + usize::from(material <= self.half_space().layers().len());
+                    self.add_contenders(material, measures, &search, &mut contenders)?;
+                    // Where nothing is sought in the material its faces have no contenders.
+                    contenders.faces.resize(faces, Vec::new());
+                }
             }
         }
         Some(FoundStresses {
@@ -117,7 +124,8 @@ impl StressField {
     ) -> Option<()> {
         let Search { radii, sought, crests, goes_on } = *search;
         let strength = self.half_space().layers().get(material - 1).map(Layer::interface_strength);
-        let tractions = strength.map_or(Vec::new(), |strength| sought.on_interface(strength));
+        let mut tractions = strength.map_or(Vec::new(), |strength| sought.on_interface(strength));
+        tractions.retain(|measure| self.has(*measure));
         let mut depths = self.search_depths(material, radii);
         if measures.is_empty() {
             // Nothing is sought but on the interface.

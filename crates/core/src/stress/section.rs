@@ -50,7 +50,7 @@ impl SurfaceLine {
         self.span.map(|s| [0, 1].map(|k| self.origin[k] + s * self.unit()[k]))
     }
 
-    fn step(&self) -> f64 {
+    pub(super) fn step(&self) -> f64 {
         (self.span[1] - self.span[0]) / (self.points.max(2) - 1) as f64
     }
 

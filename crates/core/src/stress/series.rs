@@ -1,7 +1,7 @@
 //! The traction on a surface as a sum of plane waves, and linear responses to it.
 //!
 //! p(**x**) = p̄ + Re Σ c e^{i**q**·**x**} over the [`Waves`] of the grid, and q_x and q_y alike where they do not
-//! follow from p. A component of stress or displacement at a depth is the same sum with c times a complex factor of **q**: a [`Response`]. It is summed over the points of a plane by transforms,
+//! follow from p, and the flux of heat. A component of stress or displacement at a depth is the same sum with c times a complex factor of **q**: a [`Response`]. It is summed over the points of a plane by transforms,
 //! and at single points term by term.
 
 use super::disc_waves::waves_of_discs;
@@ -15,7 +15,7 @@ use super::work::WorkCounter;
 use crate::lattice::Grid;
 use crate::lattice::waves::{WaveRow, Waves};
 use crate::numeric::lanes::{LANES, vectorised};
-use crate::numeric::parallel;
+use crate::numeric::{parallel, sums};
 use rustfft::num_complex::Complex64;
 use std::ops::Range;
 use std::sync::Arc;
@@ -39,7 +39,7 @@ pub(super) trait Response<const K: usize>: Sync {
 }
 
 /// Plane waves of a periodic traction.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Series {
     /// Mean pressure p̄.
     pub mean: f64,
@@ -70,7 +70,7 @@ impl Series {
                 2.0 * columns[(n2 - k2) * n1 + (n1 - k1) % n1].conj()
             }
         });
-        let sampled = TractionWaves { pressure: sampled, shear: None };
+        let sampled = TractionWaves { pressure: sampled, shear: None, heat: None };
         Self { mean: columns[0].re, waves, sampled, exact: None, work: Arc::default() }
     }
 
@@ -83,10 +83,24 @@ impl Series {
             mean_shear = [x.mean, y.mean];
             series.sampled.shear = Some([x, y].map(|field| field.sampled.pressure));
         }
-        let discs = traction.discs();
+        if let Some(heat) = traction.heat() {
+            let flux = Self::new(grid, &spread(own_grid, &heat.flux)).sampled.pressure;
+            series.sampled = series.sampled.heated(flux, traction.form().ratio());
+        }
+        let (discs, pressed) = (traction.discs(), traction.pressure());
         if !discs.is_empty() {
             let pressure = waves_of_discs(&series.waves, grid.cell(), discs);
-            series.exact = Some(TractionWaves { pressure, shear: series.sampled.shear.clone() });
+            let shear = series.sampled.shear.clone().filter(|_| traction.fields().is_some());
+            let exact = TractionWaves { pressure, shear, heat: None };
+            series.exact = Some(match traction.heat() {
+                // Below a given pressure the flux is a multiple of it.
+                Some(heat) => {
+                    let [flux, whole] = sums::of(pressed.len(), |i| [heat.flux[i], pressed[i]]);
+                    let warm = exact.pressure.iter().map(|p| flux / whole * p).collect();
+                    exact.heated(warm, traction.form().ratio())
+                }
+                None => exact,
+            });
         }
         (series, mean_shear)
     }
@@ -119,12 +133,14 @@ impl Series {
         is_deep: bool,
     ) -> impl Iterator<Item = ([f64; 2], usize, W)> + 'a {
         let range = row.start..row.start + row.len;
-        let TractionWaves { pressure, shear } = self.coefficients(is_deep);
+        let TractionWaves { pressure, shear, heat } = self.coefficients(is_deep);
         let pairs = self.waves.shells()[range.clone()].iter().zip(&pressure[range.clone()]);
         let shear = shear.as_ref().map(|fields| fields.each_ref().map(|field| &field[range.clone()]));
+        let heat = heat.as_ref().map(|flux| &flux[range.clone()]);
         let step = self.waves.step();
         pairs.enumerate().map(move |(k, (&shell, &pressure))| {
-            let wave = W::new(pressure, || shear.map_or_else(Default::default, |[x, y]| [x[k], y[k]]));
+            let shear = || shear.map_or_else(Default::default, |[x, y]| [x[k], y[k]]);
+            let wave = W::new(pressure, shear, || heat.map_or_else(Default::default, |flux| flux[k]));
             (row.at(k, step), shell as usize, wave)
         })
     }

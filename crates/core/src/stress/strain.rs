@@ -4,7 +4,7 @@
 //!
 //! positive in extension, as σ is in tension; ε_xy, ε_xz and ε_yz are components of the tensor, half the shear angles γ. The stresses are
 //! those stated, residual ones included, so that ε is the elastic strain, from the state without stress. Across a bonded interface ε_xx,
-//! ε_yy and ε_xy are continuous, but for the misfit (1 − ν)σ_r/E of a residual stress σ_r.
+//! ε_yy and ε_xy are continuous, but for the misfit (1 − ν)σ_r/E of a residual stress σ_r and that of an expansion αT by heat, which is no part of ε.
 
 use super::tensor::StressState;
 use crate::body::Material;

@@ -67,6 +67,10 @@ impl StressField {
     ) -> Option<FoundStresses> {
         let all = vec![[true; 2]; self.materials()];
         let mut found = self.found(radii, sought, &all, goes_on)?;
+        let strains = sought.strains(self.half_space()) && !self.regions().have_edges();
+        if let Some(hookean) = strains.then(|| self.hookean()).flatten() {
+            found.contenders.extend(&hookean.found(radii, sought, &all, goes_on)?.contenders);
+        }
         let Some(loaded) = &self.loaded else { return Some(found) };
         found.at_rest = (1..=self.materials()).map(|material| self.at_rest(material)).collect();
         let (extent, reach) = (&loaded.extent, loaded.reach);

@@ -2,11 +2,14 @@
 
 use super::far_tables::FarTables;
 use super::passed::Passed;
+use super::passed_shells::PassedShells;
 use super::series_grid::series_grid;
 use super::smoothed_edge::SmoothedEdge;
+use super::thermal::Thermal;
 use super::traction::ShearForm;
 use super::work::WorkCounter;
 use crate::body::{HalfSpace, InteriorTable, LayeredResponse};
+use crate::heat::HeatedBody;
 use crate::lattice::{Cell, Grid};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -24,7 +27,9 @@ pub(crate) struct Tables {
     /// Tables of the windows around that of an isolated contact.
     around: OnceLock<Arc<Tables>>,
     interiors: Mutex<Vec<Entry>>,
+    shells: Mutex<Vec<Arc<PassedShells>>>,
     passed: Mutex<Vec<Arc<Passed>>>,
+    thermal: Mutex<Vec<Arc<Thermal>>>,
     far: Mutex<Vec<Arc<FarTables>>>,
     /// Tables of smoothed edges by η of their exponents.
     edges: Mutex<Vec<(f64, Arc<SmoothedEdge>)>>,
@@ -36,7 +41,7 @@ pub(crate) struct Tables {
 
 #[derive(Debug)]
 struct Entry {
-    grid: Arc<Grid>,
+    shells: Arc<PassedShells>,
     response: Arc<LayeredResponse>,
     slides: bool,
     table: Arc<InteriorTable>,
@@ -50,8 +55,9 @@ impl Default for Tables {
 
 impl Tables {
     fn keeping(kept: usize, work: Arc<WorkCounter>) -> Self {
-        let (around, interiors, passed, far, edges, grids) = Default::default();
-        Self { kept, around, interiors, passed, far, edges, grids, work }
+        let (around, interiors, shells, passed) = Default::default();
+        let (thermal, far, edges, grids) = Default::default();
+        Self { kept, around, interiors, shells, passed, thermal, far, edges, grids, work }
     }
 
     /// Counters of the work of all fields that share the tables.
@@ -66,34 +72,61 @@ impl Tables {
 
     /// Table of a half-space for the wavenumbers of a grid, set up unless there is one already.
     pub fn interiors(&self, grid: &Arc<Grid>, half_space: &HalfSpace, slides: bool) -> Arc<InteriorTable> {
+        self.interiors_of(&self.shells(grid, None), half_space, slides)
+    }
+
+    /// Table of a half-space for the wavenumbers of `shells`, set up unless there is one already.
+    pub(super) fn interiors_of(
+        &self,
+        shells: &Arc<PassedShells>,
+        half_space: &HalfSpace,
+        slides: bool,
+    ) -> Arc<InteriorTable> {
         let mut entries = self.interiors.lock().unwrap_or_else(PoisonError::into_inner);
         let response = half_space.response();
         let is_known =
-            |entry: &&Entry| is_same(&entry.grid, grid) && entry.slides == slides && entry.response == *response;
+            |entry: &&Entry| entry.shells.are(shells) && entry.slides == slides && entry.response == *response;
         if let Some(entry) = entries.iter().find(is_known) {
             return Arc::clone(&entry.table);
         }
-        let (grid, response) = (Arc::clone(grid), Arc::clone(response));
-        let table = Arc::new(InteriorTable::new(Arc::clone(&response), grid.waves().wavenumbers(), slides));
-        keep(self.kept, &mut entries, Entry { grid, response, slides, table: Arc::clone(&table) });
+        let (shells, response) = (Arc::clone(shells), Arc::clone(response));
+        let table = Arc::new(InteriorTable::new(Arc::clone(&response), shells.waves().wavenumbers(), slides));
+        keep(self.kept, &mut entries, Entry { shells, response, slides, table: Arc::clone(&table) });
         table
     }
 
-    /// Table of a half-space that a load passes with a velocity, for the waves of a grid, set up unless there is one already.
-    pub(super) fn passed(
+    /// Shells of the waves of a grid below a load that moves in a direction, or rests, set up unless there are some already.
+    pub(super) fn shells(&self, grid: &Arc<Grid>, direction: Option<[f64; 2]>) -> Arc<PassedShells> {
+        let is_known = |entry: &Arc<PassedShells>| entry.are_of(grid, direction);
+        self.known_or(&self.shells, is_known, || PassedShells::new(grid, direction))
+    }
+
+    /// Table of a half-space that a load passes with a speed, for the waves in `shells`, set up unless there is one already.
+    pub(super) fn passed(&self, shells: &Arc<PassedShells>, half_space: &HalfSpace, below: (f64, bool)) -> Arc<Passed> {
+        let is_known = |entry: &Arc<Passed>| entry.is_of(shells, half_space, below);
+        self.known_or(&self.passed, is_known, || Passed::new(shells, half_space, below))
+    }
+
+    /// Thermal stresses of a body, for the waves in `shells`, set up unless there are some already.
+    pub(super) fn thermal(&self, shells: &Arc<PassedShells>, body: &HeatedBody) -> Arc<Thermal> {
+        let is_known = |entry: &Arc<Thermal>| entry.is_of(shells, body);
+        self.known_or(&self.thermal, is_known, || Thermal::new(shells, body))
+    }
+
+    /// The entry that `is_known`, or a new one.
+    fn known_or<T>(
         &self,
-        grid: &Arc<Grid>,
-        half_space: &HalfSpace,
-        (velocity, slides): ([f64; 2], bool),
-    ) -> Arc<Passed> {
-        let mut entries = self.passed.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_known = |entry: &&Arc<Passed>| is_same(entry.grid(), grid) && entry.is_of(half_space, velocity, slides);
-        if let Some(entry) = entries.iter().find(is_known) {
+        entries: &Mutex<Vec<Arc<T>>>,
+        is_known: impl Fn(&Arc<T>) -> bool,
+        make: impl FnOnce() -> T,
+    ) -> Arc<T> {
+        let mut entries = entries.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(entry) = entries.iter().find(|entry| is_known(entry)) {
             return Arc::clone(entry);
         }
-        let passed = Arc::new(Passed::new(grid, half_space, (velocity, slides)));
-        keep(self.kept, &mut entries, Arc::clone(&passed));
-        passed
+        let made = Arc::new(make());
+        keep(self.kept, &mut entries, Arc::clone(&made));
+        made
     }
 
     /// The grid of the series of a pressure on `grid`, see [`series_grid`], set up unless there is one already.

@@ -19,7 +19,8 @@ pub(super) fn window_waves(waves: &Waves, cell: Cell, traction: &Traction<'_>) -
         [] => of(traction.pressure()),
         discs => waves_of_discs(waves, cell, discs),
     };
-    TractionWaves { pressure, shear: traction.fields().map(|fields| fields.map(of)) }
+    // Around an isolated contact nothing heats.
+    TractionWaves { pressure, shear: traction.fields().map(|fields| fields.map(of)), heat: None }
 }
 
 /// Coefficients of the waves of a `field` with one value per sample of the `grid` of the window, a₂ fastest.

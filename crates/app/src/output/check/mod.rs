@@ -139,7 +139,7 @@ impl Check {
             quantity: case.load.quantity(),
             loads: case.load.values().to_vec(),
             slip,
-            motion: table::motion_words(case.problem(), &case.units()),
+            motion: [table::motion_words(case.problem(), &case.units()), table::heat_words(case.problem())].concat(),
             creep: table::creep_words(case, &case.units()),
             adhesion: table::adhesion_words(case, &case.units()),
             touches,
@@ -210,7 +210,11 @@ impl fmt::Display for Check {
             _ => self.units.pressure().clone(),
         };
         let unit = unit.suited(self.loads.iter().copied());
-        let [first, last] = [self.loads[0], self.loads[self.loads.len() - 1]];
+        let [first, mut last] = [self.loads[0], self.loads[self.loads.len() - 1]];
+        if !self.creep.is_empty() {
+            // A path in time may come back.
+            last = self.loads.iter().copied().fold(last, f64::max);
+        }
         let last = unit.with_unit(last, number);
         match self.loads.len() {
             1 => writeln!(f, "load: {} {last}", self.quantity)?,

@@ -54,12 +54,17 @@ pub fn motion_words(problem: &Problem, units: &Units) -> Vec<String> {
     let times = problem.half_space().materials().filter_map(|material| material.relaxation());
     let times: Vec<f64> = times.flat_map(|relaxation| relaxation.terms()).map(|term| term.time).collect();
     let (least, most) = times.iter().fold((f64::INFINITY, 0.0f64), |(a, b), time| (a.min(*time), b.max(*time)));
+    let moves = format!("the load moves steadily with the velocity {}", units.velocity().with_unit(velocity, number));
+    let images = "each point is passed again and again in the cell; errors are those of the grid, and a cell twice as wide shows that of the cell";
+    if times.is_empty() {
+        return vec![moves, images.to_owned()];
+    }
     let way = |time: f64| units.length().with_unit(velocity * time, number);
     let ways = if least < most { format!("{} to {}", way(least), way(most)) } else { way(most) };
-    let velocity = units.velocity().with_unit(velocity, number);
     vec![
-        format!("the load moves steadily with the velocity {velocity}, in a relaxation time by {ways}; a counterbody is relaxed, at rest in its frame"),
-        "each point is passed again and again in the cell: waves along the track stay relaxed at any velocity, and the fastest motion is not the glassy contact"
-            .to_owned(),
+        format!("{moves}, in a relaxation time by {ways}; a counterbody is relaxed, at rest in its frame"),
+        format!(
+            "{images}; waves along the track stay relaxed at any velocity, and the fastest motion is not the glassy contact"
+        ),
     ]
 }

@@ -35,7 +35,7 @@ pub use plastic::plastic;
 pub use slip::slip;
 pub use strains::largest_strains;
 pub use strength::{limits, utilisations};
-pub use temperature::temperature;
+pub use temperature::{heat_words, temperature};
 pub use text::{INTERVALS, Table, Worded};
 pub(super) use text::{indented, lines};
 

@@ -5,7 +5,7 @@ use crate::sweep::{LimitValue, Row, SweepResult, stated};
 use percoat_case::units::Units;
 use percoat_core::measured::Measured;
 use percoat_core::quantity::Kind;
-use percoat_core::reading::{Criterion, HYSTERESIS, LIFE, READING, UTILISATION, Verdict};
+use percoat_core::reading::{Criterion, HYSTERESIS, LIFE, READING, TEMPERATURE, UTILISATION, Verdict};
 use percoat_core::run::OfStep;
 use percoat_core::stress::maxima::EXTREMES;
 use percoat_draw::label::Label;
@@ -106,6 +106,7 @@ pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
         of_step(&READING.contact_area),
         Number { quantity: format!("largest {}", UTILISATION.value.named.name).into(), of: Of::Utilisation },
         of_step(&HYSTERESIS.friction_coefficient),
+        of_step(&TEMPERATURE.max),
         of_step(&EXTREMES.tau1),
     ];
     let criteria = SweepResult::criteria(rows.iter().flat_map(|row| &row.results));

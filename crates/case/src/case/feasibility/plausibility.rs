@@ -1,6 +1,6 @@
 //! Warnings about a case that can be solved but is implausible: units mixed up, strains that are not small.
 
-use super::{adhesion, ball, durability, si_sizes, springs, sublayers};
+use super::{adhesion, ball, durability, si_sizes, silent, springs, sublayers};
 use crate::case::{Case, LayerSection, LevelSection};
 use percoat_core::body::{HalfSpace, Material, MeanStress};
 use percoat_core::counterbody::{Level, Shape, Topography, half_angle};
@@ -39,6 +39,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
     let levels = case.levels.iter().zip(problem.levels()).enumerate();
     doubts.extend(levels.filter_map(|(index, (section, level))| steep_cone(index, section, level)));
     doubts.extend(problem.topography().and_then(topography));
+    doubts.extend(silent::doubts(case));
     doubts.extend_from_slice(case.file_doubts());
     if case.stress.as_ref().is_some_and(|stress| stress.mean == MeanStress::HalfSpace) {
         doubts.extend(springs::slipping(case, cell));
@@ -67,10 +68,13 @@ fn pressures(case: &Case) -> Option<String> {
     } else {
         let loads = case.problem().cell().surroundings().per_cell(case.mean_pressures()?)?;
         let (pressure, value) = (highest(&loads), number(highest(case.load.values())));
+        let in_time = case.time.is_some();
         match case.load.quantity() {
             "force" => {
-                (pressure, format!("load.force = {value}, a mean pressure of {} on the cell,", number(pressure)))
+                let key = if in_time { "time.force" } else { "load.force" };
+                (pressure, format!("{key} = {value}, a mean pressure of {} on the cell,", number(pressure)))
             }
+            _ if in_time => (pressure, format!("time.load = {value}")),
             quantity => (pressure, format!("load.{quantity} = {value}")),
         }
     };
@@ -86,7 +90,7 @@ fn pressures(case: &Case) -> Option<String> {
 }
 
 /// Every material of both bodies with its name.
-fn materials(case: &Case) -> impl Iterator<Item = (Material, String)> {
+pub(super) fn materials(case: &Case) -> impl Iterator<Item = (Material, String)> {
     let below = names(&case.layers, "").chain((!case.substrate.rigid.0).then(|| SUBSTRATE.to_owned()));
     let above = case.counterbody.iter().flat_map(|above| names(&above.layers.0, "counterbody."));
     let is_elastic = case.counterbody.as_ref().is_some_and(|above| !above.rigid.0);
@@ -306,6 +310,7 @@ mod tests {
                 "load.force=200",
                 "load.force = 200.00, a mean pressure of 76.980 on the cell, is 76.98 of Young's modulus 1.0000 of the substrate",
             ),
+            ("rubber-creep", "time.force=[[0.0, 0.0], [200.0, 9e5]]", "time.force = "),
             (
                 "pavement",
                 "load.pressure.value=60",

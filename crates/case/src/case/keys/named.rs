@@ -33,7 +33,7 @@ impl NamedKey {
             unit.name().map_or(units::Unit::None, |name| units::Unit::Named(text(name)))
         };
         match self.unit {
-            Unit::Pure | Unit::LengthToOneMinusN | Unit::AreaCoefficient => units::Unit::None,
+            Unit::Pure | Unit::LengthToOneMinusN | Unit::AreaCoefficient | Unit::Other(_) => units::Unit::None,
             Unit::Degree => units::Unit::Named("°".to_owned()),
             Unit::Length => units.length().clone(),
             Unit::Time => units.time().clone(),

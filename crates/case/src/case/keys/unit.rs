@@ -24,6 +24,8 @@ pub(in crate::case) enum Unit {
     Time,
     /// Length per time.
     Velocity,
+    /// Another unit, in words.
+    Other(&'static str),
 }
 
 impl Unit {
@@ -31,7 +33,13 @@ impl Unit {
     pub(in crate::case) fn is_converted(self) -> bool {
         !matches!(
             self,
-            Self::Pure | Self::LengthToOneMinusN | Self::AreaCoefficient | Self::Degree | Self::Time | Self::Velocity
+            Self::Pure
+                | Self::LengthToOneMinusN
+                | Self::AreaCoefficient
+                | Self::Degree
+                | Self::Time
+                | Self::Velocity
+                | Self::Other(_)
         )
     }
 
@@ -51,13 +59,14 @@ impl Unit {
             Self::Degree => "degrees",
             Self::Time => "time, the same in the whole case; units.time names it",
             Self::Velocity => "length per time",
+            Self::Other(words) => words,
         }
     }
 
     /// The quantity, in a word.
     pub(in crate::case) fn quantity(self) -> &'static str {
         match self {
-            Self::Pure | Self::LengthToOneMinusN | Self::AreaCoefficient => "number",
+            Self::Pure | Self::LengthToOneMinusN | Self::AreaCoefficient | Self::Other(_) => "number",
             Self::Degree => "angle",
             Self::Time => "time",
             Self::Velocity => "velocity",

@@ -22,7 +22,7 @@ pub trait Invertible {
 }
 
 /// A set of samples.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SampleSet {
     /// Numbers of the samples, ascending.
     samples: Vec<u32>,

@@ -4,9 +4,13 @@
 //!   exponents ½ ± η of coupled friction ([`Friction::edge_exponent`]).
 //! - **Fields**: any q_x and q_y on the samples of p, with waves of their own. At an edge of contact p and **q** end like the square
 //!   root of the distance, in any proportion to each other.
+//!
+//! Heat of friction that enters a body which expands is one more field, a flux.
 
 use crate::counterbody::{LoadedDisc, constant_axis};
 use crate::friction::Friction;
+use crate::heat::HeatedBody;
+use crate::heating::Heating;
 use crate::lattice::{Grid, NotOnGrid};
 use crate::numeric::array::view;
 use crate::numeric::sums;
@@ -30,6 +34,17 @@ pub struct Traction<'a> {
     line: Option<usize>,
     /// Velocity with which the traction moves over the body, lengths per time; zero at rest.
     velocity: [f64; 2],
+    /// Heat that enters this body, and the other one; `None` where nothing expands.
+    heat: [Option<EnteringHeat<'a>>; 2],
+}
+
+/// Heat that enters a body, which expands.
+#[derive(Debug, Clone)]
+pub(super) struct EnteringHeat<'a> {
+    /// The body, with the velocity of the source over it.
+    pub body: HeatedBody,
+    /// Flux, a power per area, one value per sample, a₂ fastest.
+    pub flux: Cow<'a, [f64]>,
 }
 
 /// Tangential traction on a body.
@@ -94,6 +109,7 @@ impl<'a> Traction<'a> {
             is_contact: problem.counterbody().is_some() && problem.adhesion().is_none(),
             line: problem.loaded_by().line(),
             velocity: problem.velocity(),
+            heat: entering(contact),
         }
     }
 
@@ -105,7 +121,8 @@ impl<'a> Traction<'a> {
         let line = constant_axis(pressure);
         let pressure = on_grid(grid, pressure)?;
         let (tangential, discs) = (Tangential::None, Vec::new());
-        Ok(Self { grid: Arc::clone(grid), pressure, tangential, discs, is_contact: true, line, velocity: [0.0; 2] })
+        let (grid, velocity, heat) = (Arc::clone(grid), [0.0; 2], [None, None]);
+        Ok(Self { grid, pressure, tangential, discs, is_contact: true, line, velocity, heat })
     }
 
     /// The pressure with μ p **e** on a body that meets the counterbody with Dundurs'
@@ -139,8 +156,9 @@ impl<'a> Traction<'a> {
                 Tangential::Fields(fields.map(|field| field.iter().map(|q| -q).collect::<Vec<f64>>().into()))
             }
         };
-        // A counterbody rests in the frame of the traction.
-        Self { tangential, velocity: [0.0; 2], ..self }
+        // A counterbody rests in the frame of the traction, and what heat it takes enters it.
+        let [own, other] = self.heat;
+        Self { tangential, velocity: [0.0; 2], heat: [other, own], ..self }
     }
 
     /// Velocity with which the traction moves over the body, lengths per time; zero at rest.
@@ -150,14 +168,20 @@ impl<'a> Traction<'a> {
 
     /// The traction with samples of its own.
     pub(super) fn into_owned(self) -> Traction<'static> {
-        let Self { grid, pressure, tangential, discs, is_contact, line, velocity } = self;
+        let Self { grid, pressure, tangential, discs, is_contact, line, velocity, heat } = self;
         let owned = |field: Cow<'a, [f64]>| Cow::Owned(field.into_owned());
+        let heat = heat.map(|heat| heat.map(|EnteringHeat { body, flux }| EnteringHeat { body, flux: owned(flux) }));
         let tangential = match tangential {
             Tangential::None => Tangential::None,
             Tangential::Coulomb { friction, beta } => Tangential::Coulomb { friction, beta },
             Tangential::Fields(fields) => Tangential::Fields(fields.map(owned)),
         };
-        Traction { grid, pressure: owned(pressure), tangential, discs, is_contact, line, velocity }
+        Traction { grid, pressure: owned(pressure), tangential, discs, is_contact, line, velocity, heat }
+    }
+
+    /// Heat that enters the body, which expands; `None` where nothing does.
+    pub(super) fn heat(&self) -> Option<&EnteringHeat<'a>> {
+        self.heat[0].as_ref()
     }
 
     /// The grid.
@@ -216,6 +240,21 @@ impl<'a> Traction<'a> {
         let of = |i: usize| fields.map_or(size(i), |[x, y]| size(i).max(x[i].hypot(y[i])));
         -sums::least(self.pressure.len(), |i| -of(i))
     }
+}
+
+/// Heat that enters the body under a contact, and the counterbody; `None` of what does not expand.
+fn entering<'a>(contact: &'a Contact) -> [Option<EnteringHeat<'a>>; 2] {
+    let problem = contact.problem();
+    let (Some(heat), Ok(bodies)) = (contact.heat(), problem.heated_bodies()) else { return [None, None] };
+    if !problem.heating().is_some_and(Heating::expands) {
+        return [None, None];
+    }
+    let of = |body: HeatedBody, flux: Cow<'a, [f64]>| {
+        let warms = body.expands() && flux.iter().any(|q| *q != 0.0);
+        warms.then_some(EnteringHeat { body, flux })
+    };
+    let above = bodies.counterbody.and_then(|above| of(above, heat.flux_above().into()));
+    [of(bodies.body, (&heat.flux[..]).into()), above]
 }
 
 /// μ p **e** of a counterbody that slides with friction.

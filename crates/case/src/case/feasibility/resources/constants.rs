@@ -20,6 +20,8 @@ pub(super) const PLANE: u64 = 36;
 pub(super) const MOTION: u64 = 260;
 pub(super) const PASSED: u64 = 80;
 pub(super) const LAGS: u64 = 200;
+/// Per sample and material, with stresses in a body that heat enters and expands: thermal stresses of its shells.
+pub(super) const HEATED: u64 = 190;
 /// Per sample, in bodies that creep: shells, gaps and the pressures kept; and for each mode of retardation its amplitudes, three times over, and
 /// its share of the shells.
 pub(super) const CREEP: u64 = 200;

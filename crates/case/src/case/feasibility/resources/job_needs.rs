@@ -2,7 +2,7 @@
 
 use super::constants::{
     ADHESION, AGAIN, CHECKPOINTS, COMPARED, COMPARISON, CREEP, CREEP_MODE, CURVES, CUTS, DAMAGE, DAMAGE_LINES, DEPTHS,
-    FIELD, KEPT, LAGS, MAPS, MOMENT, MOTION, PASSED, PICTURE, PLACES, PROGRAM, READING, SEARCH, SHOWN, SLIP,
+    FIELD, HEATED, KEPT, LAGS, MAPS, MOMENT, MOTION, PASSED, PICTURE, PLACES, PROGRAM, READING, SEARCH, SHOWN, SLIP,
     SLIP_FIELDS, SPOT_FIELDS, STATE, STEP, STRESS, STRESSES, TENSION, WORN,
 };
 use super::job::Needs;
@@ -101,7 +101,11 @@ fn of_motion(case: &Case, samples: u64, series: u64, stressed: bool) -> u64 {
         return 0;
     }
     let inside = PASSED * case.half_space().material_count() as u64 + LAGS;
-    MOTION * samples + if stressed { inside * series } else { 0 }
+    let heated: usize = match case.problem().heating() {
+        Some(heating) if heating.expands() => case.problem().bodies().each().map(HalfSpace::material_count).sum(),
+        _ => 0,
+    };
+    MOTION * samples + if stressed { (inside + HEATED * heated as u64) * series } else { 0 }
 }
 
 /// Steps that stay in memory, without files.

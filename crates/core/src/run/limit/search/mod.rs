@@ -12,7 +12,7 @@ use super::{At, Limit, LimitStep, Limits, SearchEnd};
 use crate::load::LoadQuantity;
 use crate::problem::Problem;
 use crate::reading::{Criterion, Utilisation};
-use crate::run::{GridStart, Loading, Recorder, Run, RunError, StepRecord};
+use crate::run::{GridStart, Loading, NoSteadyState, Recorder, Run, RunError, StepRecord};
 use crate::spectral::{AdhesiveSolver, SlipSolver, Solver, Step};
 use crate::stress::Tables;
 use std::error::Error;
@@ -96,6 +96,7 @@ impl<'a, R: Recorder> LimitSearch<'a, R> {
     /// A search for the limits of a run up to the load `most` on a grid of `points`, before its first load.
     fn new(run: &'a Run, (points, most): ([usize; 2], f64), recorder: &'a mut R) -> Result<Self, RunError<R::Error>> {
         let mut solver = Loaded::new(run, &run.problem, points)?;
+        NoSteadyState::of(solver.normal()).map_or(Ok(()), Err)?;
         recorder.begin(&GridStart::from(solver.normal())).map_err(RunError::Recorder)?;
         // A flat surface is in complete contact at zero pressure, which does not end the search: its stresses grow with the load.
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
