@@ -20,6 +20,8 @@ mod cells;
 mod check;
 #[path = "convergence/study.rs"]
 mod convergence;
+#[path = "creep/study.rs"]
+mod creep;
 #[path = "disc/study.rs"]
 mod disc;
 #[path = "discretisation/study.rs"]
@@ -30,6 +32,8 @@ pub mod exact;
 mod fatigue;
 #[path = "free-space/study.rs"]
 mod free_space;
+#[path = "heat/study.rs"]
+mod heat;
 #[path = "hertz/study.rs"]
 mod hertz;
 #[path = "hertz-stresses/study.rs"]
@@ -61,6 +65,8 @@ mod periodic_hertz;
 #[path = "plasticity/study.rs"]
 mod plasticity;
 mod random;
+#[path = "relaxing-layers/study.rs"]
+mod relaxing_layers;
 mod report;
 #[path = "rings/study.rs"]
 mod rings;
@@ -89,7 +95,7 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, contradictions, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 37] = [
+pub const STUDIES: [Study; 40] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -105,6 +111,9 @@ pub const STUDIES: [Study; 37] = [
     partial_slip::STUDY,
     adhesion::STUDY,
     moving::STUDY,
+    relaxing_layers::STUDY,
+    heat::STUDY,
+    creep::STUDY,
     thin_coatings::STUDY,
     rings::STUDY,
     hertz_stresses::STUDY,

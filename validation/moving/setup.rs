@@ -42,7 +42,7 @@ impl Stuff {
         Self { terms: vec![[(ratio - 1.0) * shear, 1.0]], ..Self::elastic(shear, poisson) }
     }
 
-    fn material(&self) -> Result<Material, StudyError> {
+    pub fn material(&self) -> Result<Material, StudyError> {
         let material = Material::from_shear(self.shear, self.poisson)?;
         if self.terms.is_empty() {
             return Ok(material);

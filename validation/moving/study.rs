@@ -6,7 +6,7 @@ mod energy;
 mod hunter;
 mod plane;
 mod rolling;
-mod setup;
+pub(crate) mod setup;
 mod slow;
 mod spectrum;
 mod square;
