@@ -172,3 +172,14 @@ fn the_number_of_threads_does_not_change_a_bit() {
     let [one, two] = ["1", "2"].map(|threads| compare(&desk, threads, &ONE, &["--no-pictures", "--threads", threads]));
     assert!(one.bytes("compare.json") == two.bytes("compare.json"));
 }
+
+#[test]
+fn what_the_localized_method_does_not_know_is_refused() {
+    let desk = Desk::new();
+    for (case, word) in
+        [("pin-on-disc-hot", "steady motion"), ("rubber-creep", "loads in time"), ("rubber-sliding", "[[levels]]")]
+    {
+        let answer = desk.percoat(&["compare", case]);
+        assert!(answer.code == 2 && answer.err.contains(word), "{case}: {}", answer.err);
+    }
+}

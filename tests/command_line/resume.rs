@@ -46,6 +46,15 @@ grid = { points = 32 }
 solver = { max_iterations = 9 }
 "#;
 
+/// Bodies that creep under loads up and down in time.
+const IN_TIME: &str = r#"
+lattice = { kind = "square", period = 1.0 }
+levels = [{ shape = "sphere", radius = 0.8 }]
+substrate = { young = 1.0, poisson = 0.3, relaxation = { shear = [2.0, 1.0], times = [0.1, 3.0] } }
+time = { load = [[0.0, 0.0], [1.0, 0.02], [2.0, 0.02], [3.0, 0.01]] }
+grid = { points = 24 }
+"#;
+
 /// Kills a run after every call, its successor some calls later, and compares what the third leaves.
 fn survives_every_call(text: &str, fields: bool) {
     let (desk, case) = (Desk::new(), case(text));
@@ -72,6 +81,11 @@ fn survives_every_call(text: &str, fields: bool) {
         }
         fs::remove_dir_all(folder).unwrap();
     }
+}
+
+#[test]
+fn a_run_in_time_killed_after_any_call_ends_bit_for_bit_as_if_it_had_not_been() {
+    survives_every_call(IN_TIME, true);
 }
 
 #[test]

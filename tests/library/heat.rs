@@ -334,7 +334,7 @@ fn a_sample_that_flips_does_not_keep_heat_from_settling() {
     let layer = Layer::new(conducting(200e3, [2.0, 1.0, 2.3e-6]), 0.003, Interface::Bonded).unwrap();
     let pin = Level::new(Shape::Sphere { radius: 50.0 }, 0.0).unwrap();
     for (points, force) in [(64, 20.0), (128, 16.0), (64, 11.0), (64, 30.0)] {
-        let bodies = Bodies::elastic(HalfSpace::new(vec![layer.clone()], steel()), HalfSpace::new(vec![], steel()));
+        let bodies = Bodies::elastic(HalfSpace::new(vec![layer], steel()), HalfSpace::new(vec![], steel()));
         let indenters = Indenters::new(Lattice::square(2.0, 1).unwrap(), vec![pin.clone()]).unwrap();
         let problem = sliding(indenters, bodies, 0.1, 1000.0).heated(Heating::default()).unwrap();
         let step = solved(problem, points, Load::Force(force));

@@ -124,6 +124,8 @@ mod tests {
             (conducts, format!("{MOVES}heat = {{}}\n"), "friction"),
             (conducts, "heat = {}\n".to_owned(), "velocity"),
             (conducts, format!("{rubs}heat = {{ partition = 2.0 }}\n"), "between 0 and 1"),
+            (conducts, format!("{rubs}heat = {{ partition = 0.5 }}\n"), "a rigid one takes no heat"),
+            (conducts, format!("{rubs}heat = {{ partition = \"some\" }}\n"), "\"solved\" or a number"),
             (conducts, format!("{rubs}counterbody = {{ young = 1.0, poisson = 0.3 }}\nheat = {{}}\n"), "conduction"),
         ] {
             let error = read(substrate, &more).unwrap_err();

@@ -25,8 +25,8 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// Least relative error of the penetration in a step over that of the pressure: the study `creep` has the largest part that chance hides.
-const BY_PRESSURE: f64 = 0.02;
+/// Least relative error of the penetration in a step over that of the pressure: twice the largest that chance hides in the study `creep`.
+const BY_PRESSURE: f64 = 0.04;
 /// Largest error of one step in time that is used where none is prescribed.
 pub const TIME_TOLERANCE: f64 = 1e-3;
 /// Length of a step, over the shortest retardation time, below which it is not divided.
