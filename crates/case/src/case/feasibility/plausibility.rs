@@ -39,7 +39,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
     let levels = case.levels.iter().zip(problem.levels()).enumerate();
     doubts.extend(levels.filter_map(|(index, (section, level))| steep_cone(index, section, level)));
     doubts.extend(problem.topography().and_then(topography));
-    doubts.extend(silent::doubts(case));
+    doubts.extend(silent::doubts(case, &named));
     doubts.extend_from_slice(case.file_doubts());
     if case.stress.as_ref().is_some_and(|stress| stress.mean == MeanStress::HalfSpace) {
         doubts.extend(springs::slipping(case, cell));
@@ -90,7 +90,7 @@ fn pressures(case: &Case) -> Option<String> {
 }
 
 /// Every material of both bodies with its name.
-pub(super) fn materials(case: &Case) -> impl Iterator<Item = (Material, String)> {
+fn materials(case: &Case) -> impl Iterator<Item = (Material, String)> {
     let below = names(&case.layers, "").chain((!case.substrate.rigid.0).then(|| SUBSTRATE.to_owned()));
     let above = case.counterbody.iter().flat_map(|above| names(&above.layers.0, "counterbody."));
     let is_elastic = case.counterbody.as_ref().is_some_and(|above| !above.rigid.0);
