@@ -1,4 +1,4 @@
-//! Bodies that creep, what is pressed into them, and the steps of these.
+//! Bodies that creep, surfaces pressed into them, and the steps in time of these contacts.
 
 use crate::StudyError;
 use percoat_core::body::{Bodies, ConstantModulus, HalfSpace, Interface, Layer, Material, Relaxation};

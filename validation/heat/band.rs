@@ -64,7 +64,7 @@ fn rows(half: f64, points: usize) -> Result<Vec<Vec<f64>>, StudyError> {
     Ok(samples.into_iter().map(row).collect())
 }
 
-/// Order in the length at which the change of T(0.9) − T(−0.9) from length to length falls: the grid is the same.
+/// Exponent of the length of the cell with which T(0.9) − T(−0.9) changes between two lengths; the spacing of the samples is the same in all.
 fn order(data: &Data, half: f64, lengths: &[usize]) -> f64 {
     let difference = |points: usize| {
         let of = |ahead: bool| {

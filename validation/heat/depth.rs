@@ -266,7 +266,7 @@ impl System {
         }
     }
 
-    /// What grows in a substrate is not there: three independent rows of 1 + sign M.
+    /// Conditions that no solution grows with depth in a substrate: three independent rows of 1 + sign M.
     fn bound(&mut self, number: usize, piece: &Piece, k: f64) {
         let scale = scales(&piece.stuff, k);
         let sign = sign(&balanced(&piece.matrix, &piece.stuff, k));

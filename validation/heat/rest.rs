@@ -18,7 +18,7 @@ const GRIDS: [(f64, usize); 4] = [(8.0, 128), (8.0, 243), (8.0, 512), (12.0, 405
 /// −∇²T over T of a source of the radius 1 in its middle, and of its mean over the source, where it counts twice: of Hertz and of the disc, whose
 /// slope at the edge is that of a spacing before it.
 const CURVED: [[f64; 2]; 2] = [[2.0, 5.0], [1.0, 6.4]];
-/// What the images leave: S₅⟨r⁴⟩.
+/// Temperature of the images beyond the terms that are subtracted: S₅⟨r⁴⟩.
 const IMAGES: f64 = 5e-6;
 
 pub fn add(outcome: &mut Outcome, quick: bool) -> Result<(), StudyError> {

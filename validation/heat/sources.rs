@@ -8,6 +8,7 @@
 //! A row of points across the motion, W apart, is a series: (Q/πλW) e^{−βξ} Σⱼ cos(kⱼy) K₀(|ξ|√(β² + kⱼ²)), kⱼ = 2πj/W with j = 0 half as much as
 //! the pairs ±j.
 
+use crate::moving::strip::gauss;
 use std::f64::consts::{PI, TAU};
 
 /// ζ(½) and ζ(3/2).
@@ -17,7 +18,7 @@ pub const LATTICE: [f64; 2] = [-3.900_264_920_001_956, 9.033_621_683_100_95];
 
 /// e^{y} K_n(y), n = 0 and 1: trapezoids of ∫ e^{−y(cosh t − 1)} cosh nt dt, which falls doubly exponentially.
 pub fn bessel_k(y: f64) -> [f64; 2] {
-    // Fine against the width 1/√y of what is summed.
+    // Steps are fine against the width 1/√y of the integrand.
     let step = (1.0 / 64.0f64).min(0.5 / y.sqrt());
     let (mut sums, mut t) = ([0.5; 2], step);
     loop {
@@ -43,7 +44,7 @@ pub fn band(half: f64, x: f64) -> f64 {
     (f(half * (x + 1.0)) - f(half * (x - 1.0))) / (PI * half)
 }
 
-/// What the images of a band of the flux 1, half-width 1, add at x in a cell of a length, the mean left out: ζ(½) of the wakes.
+/// Temperature that the images of a band of the flux 1, half-width 1, add at x in a cell of a length, the mean left out: ζ(½) of the wakes.
 pub fn band_images(half: f64, period: f64) -> f64 {
     2.0 * (1.0 / (TAU * half * period)).sqrt() * ZETA[0]
 }
@@ -83,21 +84,7 @@ fn graded(from: f64, to: f64) -> Vec<[f64; 2]> {
     all.windows(2).map(|pair| [at(pair[0]).min(at(pair[1])), (at(pair[1]) - at(pair[0])).abs()]).collect()
 }
 
-/// ∫ over a piece by ten points of Gauss and Legendre.
-pub fn gauss(f: impl Fn(f64) -> f64, from: f64, length: f64) -> f64 {
-    const POINTS: [[f64; 2]; 5] = [
-        [0.148_874_338_981_631_22, 0.295_524_224_714_752_87],
-        [0.433_395_394_129_247_2, 0.269_266_719_309_996_35],
-        [0.679_409_568_299_024_4, 0.219_086_362_515_982_04],
-        [0.865_063_366_688_984_5, 0.149_451_349_150_580_6],
-        [0.973_906_528_517_171_7, 0.066_671_344_308_688_14],
-    ];
-    let middle = from + 0.5 * length;
-    let both = |[x, weight]: [f64; 2]| weight * (f(middle - 0.5 * length * x) + f(middle + 0.5 * length * x));
-    0.5 * length * POINTS.into_iter().map(both).sum::<f64>()
-}
-
-/// What the images of a source of the power 1, |y| < 1, in a square cell add at x behind (below 0) or ahead of it, on its track, λ = 1, the mean
+/// Temperature that the images of a source of the power 1, |y| < 1, in a square cell add at x behind (below 0) or ahead of it, on its track, λ = 1, the mean
 /// left out.
 ///
 /// Rows across the motion at the distances nL by their series, the own row point by point, and the mean by the integral over the uniform part

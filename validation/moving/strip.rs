@@ -137,7 +137,7 @@ impl Strip {
 }
 
 /// ∫ over a piece by ten points of Gauss and Legendre.
-fn gauss(f: impl Fn(f64) -> f64, from: f64, length: f64) -> f64 {
+pub fn gauss(f: impl Fn(f64) -> f64, from: f64, length: f64) -> f64 {
     const POINTS: [[f64; 2]; 5] = [
         [0.148_874_338_981_631_22, 0.295_524_224_714_752_87],
         [0.433_395_394_129_247_2, 0.269_266_719_309_996_35],

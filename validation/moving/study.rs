@@ -10,7 +10,7 @@ pub(crate) mod setup;
 mod slow;
 mod spectrum;
 mod square;
-mod strip;
+pub(crate) mod strip;
 mod waves;
 
 use super::draw::{self, curve};

@@ -11,7 +11,7 @@ use percoat_core::stress::{Peak, StressField};
 
 /// Radius of a paraboloid; the unit of lengths. That of moduli is the relaxed shear modulus, that of times the relaxation time.
 pub const RADIUS: f64 = 1.0;
-/// Hertz' radius a₀ of the load on the relaxed half-space of ν = 0.3: the length that thicknesses and ways are told in.
+/// Hertz' radius a₀ under the load on the relaxed half-space of ν = 0.3, a length: the unit of thicknesses and of ways in a relaxation time.
 pub const HERTZ: f64 = 0.1;
 /// Glassy over relaxed modulus.
 pub const RATIO: f64 = 10.0;
@@ -45,7 +45,7 @@ pub struct Slide {
     pub load: f64,
 }
 
-/// What is read off a contact: values, each with its error. That of the peak is its change from half the samples a side: what is stated is far
+/// Readings of a contact: values, each with its error. That of the peak is its change from half the samples a side: what is stated is far
 /// larger, as the peak lies a few samples beside the edge.
 #[derive(Debug, Clone)]
 pub struct Slid {

@@ -85,18 +85,17 @@ impl StressArchive {
         let Self { arrays, request, sections, .. } = self;
         let (half_space, prefix) = (field.half_space(), prefix(field.half_space()));
         let hookean = request.strain.then(|| field.hookean()).flatten();
-        let strained = request.strain.then(|| hookean.as_ref().unwrap_or(field));
         for (number, depth) in (1..).zip(request.plane_depths(half_space)) {
             add_plane(arrays, number, field, depth, (request.strain, hookean.as_ref()), clock)?;
         }
         if let Some(cut) = &request.cut {
             clock.turn(Phase::Stress);
             let of = |field: &StressField| field.section(&cut.line, &cut.depths(half_space));
-            let (section, strained) = (of(field), strained.map(|behind| hookean.as_ref().map(|_| of(behind))));
+            let (section, behind) = (of(field), hookean.as_ref().map(of));
             clock.turn(Phase::Output);
             let place = format!("{prefix}section");
             add_states(arrays, &place, section.states.shape(), section.states.iter())?;
-            if let Some(behind) = strained {
+            if request.strain {
                 let behind = behind.as_ref().unwrap_or(&section);
                 let rows = behind.states.outer_iter().zip(&section.depths);
                 let states = rows.flat_map(|(row, &depth)| row.to_vec().into_iter().map(move |state| (state, depth)));
@@ -115,13 +114,13 @@ impl StressArchive {
                 let states = points.iter().map(|&(place, depth)| (field.points(depth, &[place])[0], depth));
                 states.collect::<Vec<(StressState, Depth)>>()
             };
-            let (states, strained) = (of(field), strained.map(of));
+            let (states, behind) = (of(field), hookean.as_ref().map(of));
             let near = field.near_edge(&points);
             clock.turn(Phase::Output);
             let (place, shape) = (format!("{prefix}points"), [states.len()]);
             add_states(arrays, &place, &shape, states.iter().map(|(state, _)| state))?;
-            if let Some(states) = strained {
-                add_strains(arrays, &place, &shape, half_space, states.into_iter())?;
+            if request.strain {
+                add_strains(arrays, &place, &shape, half_space, behind.unwrap_or(states).into_iter())?;
             }
             add_flags(arrays, &place, &shape, near)?;
         }
@@ -207,7 +206,8 @@ fn add_axes<W: Write + Seek>(
 }
 
 /// Adds the components of a plane to the arrays `planes_<component>`, some rows at a time: first stresses and derived
-/// quantities, with them the strains where they are asked for, by the `hookean` field where there is one, then displacements.
+/// quantities, beside them the strains where `strains` is set, then displacements. Strains follow from the stresses of the `hookean` field of a
+/// body that relaxes below a moving load, from those of `field` itself in any other body.
 fn add_plane(
     arrays: &mut StepArrays,
     number: usize,

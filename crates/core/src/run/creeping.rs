@@ -71,7 +71,7 @@ impl Run {
             })?;
             iterated.map_err(RunError::Recorder)?;
             if number >= known {
-                // It tells that the load is solved: a run that goes on solves all loads again.
+                // The checkpoint tells that the load is solved: a run that goes on solves all loads again.
                 recorder.solved(&solver.elastic().checkpoint(&step.contact)).map_err(RunError::Recorder)?;
                 let reading = step.contact.reading().with_time_error(step.error, load.is_load_control());
                 let record = StepRecord::new(&step.contact, reading).with_creep(CreepReading::of(&step));

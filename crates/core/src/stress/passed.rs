@@ -5,7 +5,7 @@ use crate::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, PassedTable}
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
 
-/// What stresses of a body that relaxes stand for.
+/// Meaning of the stresses of a body that relaxes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Meaning {
     /// Themselves.
